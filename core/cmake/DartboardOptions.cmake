@@ -1,0 +1,30 @@
+# Flags every target of ours is built with. They live on a target, never in CMAKE_CXX_FLAGS, so that nobody who adds
+# the project as a subdirectory inherits them.
+add_library(dartboard_options INTERFACE)
+target_compile_features(dartboard_options INTERFACE cxx_std_20)
+target_include_directories(dartboard_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(dartboard_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
+  # The walks promise equal bits. Fusing a*b+c changes bits, and is the one such transform on by default ...
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
+  target_compile_options(dartboard_options INTERFACE -fno-tree-slp-vectorize)
+endif()
+
+if(DARTBOARD_SANITIZE)
+  target_compile_options(dartboard_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(dartboard_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(DARTBOARD_COVERAGE)
+  target_compile_options(dartboard_options INTERFACE --coverage)
+  target_link_options(dartboard_options INTERFACE --coverage)
+endif()
+
+# dartboard_library(NAME SOURCES... [LINK LIBS...]): a static library of ours.
+function(dartboard_library name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PUBLIC dartboard_options ${ARG_LINK})
+endfunction()

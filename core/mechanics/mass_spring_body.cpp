@@ -1,0 +1,141 @@
+#include "core/mechanics/mass_spring_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/plain/error.h"
+#include "core/topology/build.h"
+#include "core/topology/hash.h"
+
+namespace dartboard {
+namespace {
+
+void require(bool ok, const char* what, double value, const char* expected) {
+  if (!ok) throw InputError(fmt::format("{} is {}, expected {}", what, value, expected));
+}
+
+void require_sane(const Problem& problem) {
+  const Material& m = problem.material;
+  require(std::isfinite(m.density) && m.density > 0.0, "density", m.density, "a positive number of kg/m^3");
+  require(std::isfinite(m.stiffness) && m.stiffness >= 0.0, "stiffness", m.stiffness, "at least 0 N/m");
+  require(std::isfinite(m.damping) && m.damping >= 0.0, "damping", m.damping, "at least 0 N s/m");
+  require(std::isfinite(m.viscosity) && m.viscosity >= 0.0, "viscosity", m.viscosity, "at least 0 1/s");
+  for (int k = 0; k < 3; ++k)
+    require(std::isfinite(problem.surroundings.gravity[k]), "gravity", problem.surroundings.gravity[k], "finite");
+  const std::size_t points = problem.mesh.points.size();
+  for (std::size_t p = 0; p < points; ++p)
+    if (!problem.mesh.points[p].allFinite()) throw InputError(fmt::format("point {} is not finite", p));
+  for (const std::uint32_t p : problem.fixed)
+    if (p >= points) throw InputError(fmt::format("fixed point {} does not exist, expected less than {}", p, points));
+  if (!problem.initial_velocity.empty() && problem.initial_velocity.size() != points)
+    throw InputError(fmt::format("{} initial velocities for {} points", problem.initial_velocity.size(), points));
+  for (const auto& v : problem.initial_velocity)
+    if (!v.allFinite()) throw InputError("an initial velocity is not finite");
+}
+
+void require_one_vertex_per_point(const VertexColumns& vertices, std::size_t points) {
+  std::vector<int> met(points, 0);
+  for (const std::uint32_t p : vertices.point)
+    if (++met[p] > 1)
+      throw InputError(fmt::format("point {} is more than one vertex of the map: the cells around it are not joined by faces", p));
+  for (std::size_t p = 0; p < points; ++p)
+    if (met[p] == 0) throw InputError(fmt::format("point {} belongs to no cell", p));
+}
+
+}  // namespace
+
+template <class Map, Held held>
+MassSpringBody<Map, held> build_body(const Problem& problem) {
+  constexpr int n = Map::dimension;
+  require_sane(problem);
+  const Mesh& mesh = problem.mesh;
+  const Material& material = problem.material;
+  auto built = build_map<Map>(mesh);
+
+  MassSpringBody<Map, held> body;
+  body.material = material;
+  body.surroundings = problem.surroundings;
+  body.map = std::move(built.map);
+  const Map& map = body.map;
+  const auto point_of = [&](Dart d) { return built.point[Map::template slot<0>(d)]; };
+
+  // volumes: mass, and the share of it that each of their nodes gets
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    body.cell.attach(map, {Dart{built.first_dart[c]}}, static_cast<std::uint32_t>(c));
+    body.cell_mass.push_back(material.density * std::abs(signed_measure(mesh, c)));
+    require(body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(), body.cell_mass[c], "more than 0 kg");
+  }
+
+  std::vector<std::uint32_t> around;
+  for_each_cell<0>(map, [&](Vertex v) {
+    // eq. (1), on the rest shape; summed by cell number, so that the walk's order leaves no trace in the bits
+    around.clear();
+    for (const auto cell : incident_cells<n>(map, v)) around.push_back(body.cell(map, cell.dart));
+    std::sort(around.begin(), around.end());
+    double mass = 0.0;
+    for (const std::uint32_t c : around) mass += body.cell_mass[c] / static_cast<double>(mesh.cell(c).size());
+    VertexColumns& columns = body.vertices;
+    const std::uint32_t p = point_of(v.dart);
+    body.vertex.attach(map, v, static_cast<std::uint32_t>(columns.size()));
+    columns.mass.push_back(mass);
+    columns.viscosity.push_back(material.viscosity * mass);
+    columns.position.push_back(mesh.points[p]);
+    columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0) : problem.initial_velocity[p]);
+    columns.force.emplace_back(0, 0, 0);
+    columns.fixed.push_back(0);
+    columns.point.push_back(p);
+  });
+  require_one_vertex_per_point(body.vertices, mesh.points.size());
+  std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
+  for (const std::uint32_t p : problem.fixed) fixed[p] = 1;
+  for (std::size_t k = 0; k < body.vertices.size(); ++k) {
+    body.vertices.fixed[k] = fixed[body.vertices.point[k]];
+    if (body.vertices.fixed[k]) body.vertices.velocity[k].setZero();
+  }
+
+  for_each_cell<1>(map, [&](Edge e) {
+    const auto cells = static_cast<double>(incident_cells<n>(map, e).size());
+    const double length = (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
+    body.edge.attach(map, e, static_cast<std::uint32_t>(body.springs.size()));
+    body.springs.push_back({length, cells * material.stiffness, cells * material.damping});
+  });
+  return body;
+}
+
+template <class Map, Held held>
+PointState MassSpringBody<Map, held>::state() const {
+  PointState s;
+  s.x.resize(vertices.size());
+  s.v.resize(vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    s.x[vertices.point[k]] = vertices.position[k];
+    s.v[vertices.point[k]] = vertices.velocity[k];
+  }
+  return s;
+}
+
+template <class Map, Held held>
+void MassSpringBody<Map, held>::set_state(const PointState& s) {
+  if (s.x.size() != vertices.size() || s.v.size() != vertices.size())
+    throw InputError(fmt::format("a state of {} positions and {} velocities for {} vertices", s.x.size(), s.v.size(),
+                                 vertices.size()));
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    vertices.position[k] = s.x[vertices.point[k]];
+    vertices.velocity[k] = s.v[vertices.point[k]];
+  }
+}
+
+template <class Map, Held held>
+std::uint64_t MassSpringBody<Map, held>::state_hash() const {
+  const PointState s = state();
+  Hash h;
+  h.add(s.x);
+  h.add(s.v);
+  return h.value();
+}
+
+DARTBOARD_BODIES()
+
+}  // namespace dartboard

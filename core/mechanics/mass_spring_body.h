@@ -1,0 +1,79 @@
+#pragma once
+// The mass/spring body of section 4.1: a map whose cells carry the mechanics.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/mechanics/embedding.h"
+#include "core/plain/problem.h"
+#include "core/topology/generalized_map.h"
+
+namespace dartboard {
+
+/// What vertices embed. Columns share one numbering, that of the vertex embeddings.
+struct VertexColumns {
+  std::vector<double> mass;                // [kg]  eq. (1)
+  std::vector<double> viscosity;           // [kg/s], proportional to the mass
+  std::vector<Eigen::Vector3d> position;   // [m]
+  std::vector<Eigen::Vector3d> velocity;   // [m/s]
+  std::vector<Eigen::Vector3d> force;      // [N] sum of the springs; zero between steps
+  std::vector<std::uint8_t> fixed;         // 1: held still
+  std::vector<std::uint32_t> point;        // the mesh point it came from
+
+  std::size_t size() const { return mass.size(); }
+};
+
+/// What an edge embeds: one spring.
+struct Spring {
+  double rest_length;  // [m]
+  double stiffness;    // [N/m], the sum of what the incident cells contribute
+  double damping;      // [N s/m], likewise
+};
+
+/// A body on a map of type Map, its embeddings held by one dart of each orbit or by every dart.
+template <class Map, Held held>
+struct MassSpringBody {
+  static constexpr int dimension = Map::dimension;
+
+  Map map;
+  CellEmbedding<0, Map, held> vertex;
+  CellEmbedding<1, Map, held> edge;
+  CellEmbedding<dimension, Map, held> cell;  // the volumes of a solid, the faces of a surface
+
+  VertexColumns vertices;
+  std::vector<Spring> springs;
+  std::vector<double> cell_mass;  // [kg]
+
+  Material material;
+  Surroundings surroundings;
+
+  /// Positions and velocities by mesh point.
+  PointState state() const;
+  void set_state(const PointState& state);
+  /// Of positions and velocities, in the order of the mesh's points.
+  std::uint64_t state_hash() const;
+  std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + cell.bytes(); }
+};
+
+/// Build the body of a problem. Embeddings are numbered in the order in which a coverage meets their cells.
+///
+/// throws  InputError if the mesh does not fit the map (build_map), a point belongs to no cell, a fixed point does not
+///         exist, a number is not finite or a density is not positive, or one mesh point is several vertices of the map
+///         (cells that touch in a point or an edge only are not connected in a quasi-manifold)
+template <class Map, Held held>
+MassSpringBody<Map, held> build_body(const Problem& problem);
+
+#define DARTBOARD_BODY(prefix, Map, held)              \
+  prefix template struct MassSpringBody<Map, held>;    \
+  prefix template MassSpringBody<Map, held> build_body(const Problem&);
+#define DARTBOARD_BODIES(prefix)                       \
+  DARTBOARD_BODY(prefix, Map2, Held::by_one_dart)      \
+  DARTBOARD_BODY(prefix, Map2, Held::by_every_dart)    \
+  DARTBOARD_BODY(prefix, Map3, Held::by_one_dart)      \
+  DARTBOARD_BODY(prefix, Map3, Held::by_every_dart)    \
+  DARTBOARD_BODY(prefix, TetMap, Held::by_one_dart)    \
+  DARTBOARD_BODY(prefix, TetMap, Held::by_every_dart)
+DARTBOARD_BODIES(extern)
+
+}  // namespace dartboard

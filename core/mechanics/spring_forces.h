@@ -1,0 +1,43 @@
+#pragma once
+// The forces of a mass/spring body, written once for every way of walking it (section 4.2).
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "core/mechanics/mass_spring_body.h"
+
+namespace dartboard {
+
+/// Force [N] that a spring exerts on its first end; the second end gets the opposite.
+///
+/// k (l - L) + c (dv . u) along u, the direction from the first end to the second; zero for zero length, where there
+/// is no direction. Exchanging the ends changes the sign of every intermediate exactly, so either end may come first.
+inline Eigen::Vector3d spring_force(const Spring& spring, const Eigen::Vector3d& dx, const Eigen::Vector3d& dv) {
+  const double length = std::sqrt(dx.squaredNorm());
+  if (length == 0.0) return Eigen::Vector3d::Zero();
+  const double inverse = 1.0 / length;
+  const double tension = spring.stiffness * (length - spring.rest_length) + spring.damping * (dv.dot(dx) * inverse);
+  return (tension * inverse) * dx;
+}
+
+/// Add the forces of all springs [N] into `vertices.force`.
+///
+/// Edges are visited in the order of the walk, so equal orders give equal bits.
+template <class Walk, class Body>
+void add_spring_forces(const Walk& walk, Body& body) {
+  VertexColumns& v = body.vertices;
+  walk.for_each_edge(body, [&](std::uint32_t edge, std::uint32_t a, std::uint32_t b) {
+    const Eigen::Vector3d f =
+        spring_force(body.springs[edge], v.position[b] - v.position[a], v.velocity[b] - v.velocity[a]);
+    v.force[a] += f;
+    v.force[b] -= f;
+  });
+}
+
+/// Acceleration [m/s^2] of a vertex from its accumulated force, ambient viscosity and gravity; zero when fixed.
+inline Eigen::Vector3d acceleration(const VertexColumns& v, const Eigen::Vector3d& gravity, std::uint32_t i) {
+  if (v.fixed[i]) return Eigen::Vector3d::Zero();
+  return (v.force[i] - v.viscosity[i] * v.velocity[i]) / v.mass[i] + gravity;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,22 @@
+#pragma once
+// What the bodies are made of and what acts on them; shared by core and reference, SI units.
+
+#include <Eigen/Core>
+
+namespace dartboard {
+
+/// A homogeneous mass/spring material (section 4.1). Every cell contributes `stiffness` and `damping` to each of its
+/// edges, so springs of shared edges add up like springs in parallel.
+struct Material {
+  double density = 1000.0;  // kg/m^3 (kg/m^2 for a surface)
+  double stiffness = 50.0;  // N/m, per incident cell
+  double damping = 0.01;    // N s/m along the spring, per incident cell
+  double viscosity = 0.1;   // 1/s: the ambient drag on a vertex is viscosity * mass * velocity
+};
+
+/// What acts on the whole body.
+struct Surroundings {
+  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  // m/s^2
+};
+
+}  // namespace dartboard

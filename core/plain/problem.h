@@ -1,0 +1,38 @@
+#pragma once
+// One mass/spring problem: everything that a contender is given, and what all of them must agree on.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/plain/material.h"
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+/// A body at rest in `mesh`, with initial velocities, some vertices held still.
+///
+/// The mechanics, for point i with position x_i, velocity v_i and mass m_i (section 4.1):
+///
+///     m_i = sum over the cells c around i of density * measure(c) / node_count(c)                      eq. (1)
+///     k_ij = stiffness * (number of cells around edge ij),  c_ij = damping * (the same number),  L_ij = rest length
+///     u_ij = (x_j - x_i) / |x_j - x_i|, and no force where the length is zero
+///     f_i = sum over the edges ij of ( k_ij (|x_j - x_i| - L_ij) + c_ij (v_j - v_i).u_ij ) u_ij
+///     a_i = (f_i - viscosity * m_i * v_i) / m_i + gravity,  and a_i = 0, v_i = 0 for the points in `fixed`
+///
+/// The edges are the edges of the cells' faces (`faces_of`).
+struct Problem {
+  Mesh mesh;
+  Material material;
+  Surroundings surroundings;
+  std::vector<std::uint32_t> fixed;               // point numbers, ascending
+  std::vector<Eigen::Vector3d> initial_velocity;  // [m/s] per point; empty for rest
+  double h = 1e-3;                                // time step [s]
+};
+
+/// Positions [m] and velocities [m/s] in the order of the mesh's points.
+struct PointState {
+  std::vector<Eigen::Vector3d> x, v;
+};
+
+}  // namespace dartboard

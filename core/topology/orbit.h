@@ -1,0 +1,135 @@
+#pragma once
+// Orbits: all darts that a set of involutions reaches from one (section 2.1), and coverages of all orbits (section 4.2).
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include "core/topology/generalized_map.h"
+
+namespace dartboard {
+
+namespace detail {
+
+// A visitor may return nothing, or true to stop the walk.
+template <class F>
+bool visit(F& f, Dart d) {
+  if constexpr (std::is_void_v<std::invoke_result_t<F&, Dart>>) {
+    f(d);
+    return false;
+  } else {
+    return f(d);
+  }
+}
+
+// The dart that stands for d in the `visited` mark of a walk. General storage marks every dart; tetrahedral storage
+// marks one dart per block, so a vertex orbit costs one mark per corner and not six.
+template <class Map>
+Dart representative(Involutions set, Dart d) {
+  if constexpr (Map::tetrahedral) {
+    const std::uint32_t p = d.index % 24;
+    return {d.index - p + tet_darts.lowest(set.bits & 7u, p)};
+  } else {
+    return d;
+  }
+}
+
+/// Visit the orbit of d depth first. pre  `visited` holds representatives; that of d is among them already.
+template <class Map, class F>
+bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
+  auto& stack = visited.stack();
+  const std::size_t bottom = stack.size();
+  stack.push_back(representative<Map>(set, d));
+  bool stopped = false;
+  while (stack.size() > bottom && !stopped) {
+    const Dart at = stack.back();
+    stack.pop_back();
+    if constexpr (Map::tetrahedral) {
+      const std::uint32_t p = at.index % 24, first = at.index - p, within = set.bits & 7u;
+      for (std::uint32_t rest = tet_darts.block[within][p]; rest != 0 && !stopped; rest &= rest - 1)
+        stopped = visit(f, Dart{first + static_cast<std::uint32_t>(std::countr_zero(rest))});
+      if (!set.contains(3)) continue;
+      const auto& exits = tet_darts.exits[within][p];
+      for (std::size_t k = 0; k < exits.count; ++k) {
+        const std::uint32_t q = exits.dart[k];
+        const std::uint32_t o = map.storage().opposite((first + q) / 6);
+        const std::uint32_t slot = o >> 3;
+        const std::uint32_t local = (slot % 4) * 6 + TetTable::turned[q % 6][o & 7];
+        const Dart next{slot / 4 * 24 + tet_darts.lowest(within, local)};
+        if (visited.set_if_new(next)) stack.push_back(next);
+      }
+    } else {
+      stopped = visit(f, at);
+      for (int i = 0; i <= Map::dimension; ++i) {
+        if (!set.contains(i)) continue;
+        const Dart next = map.alpha(i, at);
+        if (visited.set_if_new(next)) stack.push_back(next);
+      }
+    }
+  }
+  stack.resize(bottom);
+  return stopped;
+}
+
+}  // namespace detail
+
+/// Call f(dart) for every dart of the orbit <set>(d), each once; f may return true to stop. Returns whether it did.
+///
+/// cost    O(darts of the orbit); no allocation once the map's marks are warm
+template <class Map, class F>
+bool for_each_dart_of(const Map& map, Involutions set, Dart d, F&& f) {
+  Mark visited(map);
+  visited.set(detail::representative<Map>(set, d));
+  return detail::walk(map, set, d, visited, f);
+}
+
+/// The darts of the orbit <set>(d), in the order of the walk.
+template <class Map>
+std::vector<Dart> orbit(const Map& map, Involutions set, Dart d) {
+  std::vector<Dart> darts;
+  for_each_dart_of(map, set, d, [&](Dart e) { darts.push_back(e); });
+  return darts;
+}
+/// orbit<0, 1>(map, d) is <alpha_0, alpha_1>(d).
+template <int... i, class Map>
+std::vector<Dart> orbit(const Map& map, Dart d) {
+  return orbit(map, Involutions{i...}, d);
+}
+
+/// Whether a walk along the orbit of `a` meets `b`: the paper's isSameOrbit (appendix A).
+template <class Map>
+bool same_orbit(const Map& map, Involutions set, Dart a, Dart b) {
+  return for_each_dart_of(map, set, a, [&](Dart d) { return d == b; });
+}
+
+/// A coverage: call f(dart) once for each orbit <set>, with its dart of lowest number, in ascending order.
+///
+/// cost    O(darts of the map)
+template <class Map, class F>
+void for_each_orbit(const Map& map, Involutions set, F&& f) {
+  Mark covered(map);
+  const auto cover = [&](Dart d) {
+    if (!covered.set_if_new(d)) return;
+    f(d);
+    detail::walk(map, set, d, covered, [](Dart) {});
+  };
+  if constexpr (Map::tetrahedral) {
+    const auto end = static_cast<std::uint32_t>(map.capacity());
+    for (std::uint32_t first = 0; first < end; first += 24) {
+      if (!map.is_live({first})) continue;
+      for (std::uint32_t p = 0; p < 24; ++p)
+        if (tet_darts.lowest(set.bits & 7u, p) == p) cover({first + p});
+    }
+  } else {
+    map.for_each_dart(cover);
+  }
+}
+
+template <class Map>
+std::size_t count_orbits(const Map& map, Involutions set) {
+  std::size_t n = 0;
+  for_each_orbit(map, set, [&](Dart) { ++n; });
+  return n;
+}
+
+}  // namespace dartboard

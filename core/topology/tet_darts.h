@@ -1,0 +1,90 @@
+#pragma once
+// The 24 darts of a tetrahedron: a constant table, because they are the 24 permutations of its nodes.
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace dartboard {
+
+/// Local dart p = 6 f + r lies on the face f opposite node f; around the face, r = 2k and 2k + 1 are the two darts of
+/// its k-th edge. So alpha_0 pairs (0,1)(2,3)(4,5), alpha_1 pairs (1,2)(3,4)(5,0), and alpha_2 swaps the two faces of
+/// the edge. `add_cell` makes the darts of any cell in this order, so both storages number darts alike.
+struct TetDarts {
+  std::array<std::array<std::uint8_t, 24>, 3> alpha{};
+  std::array<std::uint8_t, 24> node{};  // 0..3
+  std::array<std::uint8_t, 24> edge{};  // 0..5: 01 02 03 12 13 23
+
+  // Each set of involutions within the tetrahedron (bits 0..2) parts its darts into orbits, called blocks here.
+  std::array<std::array<std::uint32_t, 24>, 8> block{};  // the darts of the block of p, as bits
+  // One dart of the block for each way out by alpha_3; the other darts leave to the same blocks, because alpha_0 and
+  // alpha_1 commute with alpha_3.
+  struct Exits {
+    std::uint8_t count = 0;
+    std::array<std::uint8_t, 4> dart{};
+  };
+  std::array<std::array<Exits, 24>, 8> exits{};
+
+  constexpr std::uint8_t lowest(unsigned set, unsigned p) const {
+    return static_cast<std::uint8_t>(std::countr_zero(block[set][p]));
+  }
+};
+
+namespace detail {
+
+constexpr std::uint32_t orbit_bits(const TetDarts& t, unsigned set, unsigned p) {
+  std::uint32_t reached = 1u << p, frontier = reached;
+  while (frontier != 0) {
+    const auto q = static_cast<unsigned>(std::countr_zero(frontier));
+    frontier &= frontier - 1;
+    for (unsigned i = 0; i < 3; ++i) {
+      const std::uint32_t next = 1u << t.alpha[i][q];
+      if ((set >> i & 1u) != 0 && (reached & next) == 0) {
+        reached |= next;
+        frontier |= next;
+      }
+    }
+  }
+  return reached;
+}
+
+constexpr TetDarts make_tet_darts() {
+  TetDarts t;
+  constexpr int cycle[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // faces_of(tetrahedron)
+  constexpr int edge_of[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+  int other_end[24] = {};
+  for (int f = 0; f < 4; ++f)
+    for (int r = 0; r < 6; ++r) {
+      const auto p = static_cast<std::size_t>(6 * f + r);
+      const int here = cycle[f][(r / 2 + r % 2) % 3];
+      const int there = cycle[f][(r / 2 + 1 - r % 2) % 3];
+      t.node[p] = static_cast<std::uint8_t>(here);
+      t.edge[p] = static_cast<std::uint8_t>(edge_of[here][there]);
+      other_end[p] = there;
+      t.alpha[0][p] = static_cast<std::uint8_t>(6 * f + (r ^ 1));
+      t.alpha[1][p] = static_cast<std::uint8_t>(6 * f + (r % 2 == 1 ? (r + 1) % 6 : (r + 5) % 6));
+    }
+  for (std::size_t p = 0; p < 24; ++p)
+    for (std::size_t q = 0; q < 24; ++q)
+      if (p / 6 != q / 6 && t.node[p] == t.node[q] && other_end[p] == other_end[q])
+        t.alpha[2][p] = static_cast<std::uint8_t>(q);
+
+  for (unsigned set = 0; set < 8; ++set)
+    for (unsigned p = 0; p < 24; ++p) {
+      t.block[set][p] = orbit_bits(t, set, p);
+      std::uint32_t open = t.block[set][p];
+      auto& exits = t.exits[set][p];
+      while (open != 0) {
+        const auto q = static_cast<unsigned>(std::countr_zero(open));
+        exits.dart[exits.count++] = static_cast<std::uint8_t>(q);
+        open &= ~orbit_bits(t, set & 3u, q);
+      }
+    }
+  return t;
+}
+
+}  // namespace detail
+
+inline constexpr TetDarts tet_darts = detail::make_tet_darts();
+
+}  // namespace dartboard
