@@ -10,6 +10,8 @@ target_compile_options(dartboard_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
   target_compile_options(dartboard_options INTERFACE -fno-tree-slp-vectorize)
+  # false alarms on "literal" + std::string at -O3 (GCC bug 105651)
+  target_compile_options(dartboard_options INTERFACE -Wno-restrict)
 endif()
 
 if(DARTBOARD_SANITIZE)

@@ -24,21 +24,21 @@ class CellEmbedding {
   /// Make `number` the embedding of `cell`.
   void attach(const Map& map, Cell<i> cell, std::uint32_t number) {
     at_.resize(map.template slot_count<i>(), no_embedding);
-    if constexpr (held == Held::by_one_dart)
-      at_[Map::template slot<i>(cell.dart)] = number;
-    else
-      for_each_dart_of(map, cell, [&](Dart d) { at_[Map::template slot<i>(d)] = number; });
+    // held by one dart, the others forget what the cell had before
+    const std::uint32_t others = held == Held::by_every_dart ? number : no_embedding;
+    for_each_dart_of(map, cell, [&](Dart d) { at_[Map::template slot<i>(d)] = others; });
+    at_[Map::template slot<i>(cell.dart)] = number;
   }
 
   /// The embedding of the i-cell of d; no_embedding if it has none.
   std::uint32_t operator()(const Map& map, Dart d) const {
     if constexpr (held == Held::by_every_dart) {
-      return at_[Map::template slot<i>(d)];
+      return number_at(d);
     } else {
-      std::uint32_t number = at_[Map::template slot<i>(d)];
+      std::uint32_t number = number_at(d);
       if (number != no_embedding) return number;
       for_each_dart_of(map, Cell<i>{d}, [&](Dart e) {
-        number = at_[Map::template slot<i>(e)];
+        number = number_at(e);
         return number != no_embedding;
       });
       return number;
@@ -48,6 +48,12 @@ class CellEmbedding {
   std::size_t bytes() const { return at_.capacity() * sizeof(std::uint32_t); }
 
  private:
+  // Darts born after the last `attach` have no place yet.
+  std::uint32_t number_at(Dart d) const {
+    const std::uint32_t slot = Map::template slot<i>(d);
+    return slot < at_.size() ? at_[slot] : no_embedding;
+  }
+
   std::vector<std::uint32_t> at_;  // by slot<i>
 };
 

@@ -65,7 +65,8 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     body.cell.attach(map, {Dart{built.first_dart[c]}}, static_cast<std::uint32_t>(c));
     body.cell_mass.push_back(material.density * std::abs(signed_measure(mesh, c)));
-    require(body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(), body.cell_mass[c], "more than 0 kg");
+    require(std::isfinite(body.cell_mass[c]) && body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(),
+            body.cell_mass[c], "more than 0 kg and finite");
   }
 
   std::vector<std::uint32_t> around;
@@ -80,6 +81,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     const std::uint32_t p = point_of(v.dart);
     body.vertex.attach(map, v, static_cast<std::uint32_t>(columns.size()));
     columns.mass.push_back(mass);
+    columns.inverse_mass.push_back(1.0 / mass);
     columns.viscosity.push_back(material.viscosity * mass);
     columns.position.push_back(mesh.points[p]);
     columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0) : problem.initial_velocity[p]);
@@ -123,7 +125,7 @@ void MassSpringBody<Map, held>::set_state(const PointState& s) {
                                  vertices.size()));
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     vertices.position[k] = s.x[vertices.point[k]];
-    vertices.velocity[k] = s.v[vertices.point[k]];
+    vertices.velocity[k] = vertices.fixed[k] ? Eigen::Vector3d(0, 0, 0) : s.v[vertices.point[k]];
   }
 }
 

@@ -14,6 +14,7 @@ namespace dartboard {
 /// What vertices embed. Columns share one numbering, that of the vertex embeddings.
 struct VertexColumns {
   std::vector<double> mass;                // [kg]  eq. (1)
+  std::vector<double> inverse_mass;        // [1/kg]; a product is cheaper than a quotient in the loop
   std::vector<double> viscosity;           // [kg/s], proportional to the mass
   std::vector<Eigen::Vector3d> position;   // [m]
   std::vector<Eigen::Vector3d> velocity;   // [m/s]
@@ -50,6 +51,7 @@ struct MassSpringBody {
 
   /// Positions and velocities by mesh point.
   PointState state() const;
+  /// Fixed vertices take the position and stay at rest.
   void set_state(const PointState& state);
   /// Of positions and velocities, in the order of the mesh's points.
   std::uint64_t state_hash() const;

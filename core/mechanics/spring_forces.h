@@ -37,7 +37,7 @@ void add_spring_forces(const Walk& walk, Body& body) {
 /// Acceleration [m/s^2] of a vertex from its accumulated force, ambient viscosity and gravity; zero when fixed.
 inline Eigen::Vector3d acceleration(const VertexColumns& v, const Eigen::Vector3d& gravity, std::uint32_t i) {
   if (v.fixed[i]) return Eigen::Vector3d::Zero();
-  return (v.force[i] - v.viscosity[i] * v.velocity[i]) / v.mass[i] + gravity;
+  return (v.force[i] - v.viscosity[i] * v.velocity[i]) * v.inverse_mass[i] + gravity;
 }
 
 }  // namespace dartboard

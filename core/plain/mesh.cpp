@@ -69,15 +69,17 @@ double signed_measure(const Mesh& mesh, std::size_t c) {
     for (int k = 2; k < node_count(kind); ++k) twice += (p(k - 1) - p(0)).cross(p(k) - p(0));
     return twice.norm() / 2.0;
   }
-  // The cone over each triangle (edge, centroid of the face), seen from the centroid of the cell.
+  // The cone over each triangle (edge, centroid of the face), seen from the centroid of the cell. Both centroids are
+  // taken relative to the first node, or their rounding would grow with the distance of the cell from the origin.
+  const auto q = [&](int local) -> Eigen::Vector3d { return p(local) - p(0); };
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (int k = 0; k < node_count(kind); ++k) centre += p(k) / node_count(kind);
+  for (int k = 0; k < node_count(kind); ++k) centre += q(k) / node_count(kind);
   double volume = 0.0;
   for (const auto& face : faces_of(kind)) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (int k : face) middle += p(k) / static_cast<double>(face.size());
+    for (int k : face) middle += q(k) / static_cast<double>(face.size());
     for (std::size_t k = 0; k < face.size(); ++k)
-      volume += tetrahedron_volume(middle, p(face[k]), p(face[(k + 1) % face.size()]), centre) * -1.0;
+      volume += tetrahedron_volume(middle, q(face[k]), q(face[(k + 1) % face.size()]), centre) * -1.0;
   }
   return volume;
 }

@@ -19,7 +19,8 @@ std::string check_dart(const Map& map, Dart d) {
   for (int i = 0; i <= n; ++i)
     for (int j = i + 2; j <= n; ++j) {
       const Dart e = map.alpha(j, map.alpha(i, d));
-      const Dart back = map.is_live(e) ? map.alpha(j, map.alpha(i, e)) : no_dart;
+      const Dart middle = map.is_live(e) ? map.alpha(i, e) : no_dart;  // not looked at yet: may be no live dart
+      const Dart back = map.is_live(middle) ? map.alpha(j, middle) : no_dart;
       if (back != d)
         return fmt::format("alpha{0} alpha{1} takes {2} to {3} and {3} to {4}: it is not an involution", i, j,
                            to_string(d), to_string(e), to_string(back));

@@ -95,7 +95,7 @@ class GeneralizedMap {
   // ---- mutation, two darts at a time
 
   /// alpha_i(a) = b. In a tetrahedral map i is 3, and the whole face follows.
-  /// throws  TopologyError if a or b is dead or not i-free, or a == b
+  /// throws  TopologyError if a or b is dead or not i-free, or a == b; or if a face would be turned onto itself
   template <int i>
   void link(Dart a, Dart b) {
     static_assert(0 <= i && i <= N && (!tetrahedral || i == 3));
@@ -104,6 +104,8 @@ class GeneralizedMap {
     if (a == b) throw_link_to_itself(i, a);
     if (!is_free<i>(a)) throw_not_free(i, a, b, a, alpha<i>(a));
     if (!is_free<i>(b)) throw_not_free(i, a, b, b, alpha<i>(b));
+    if constexpr (tetrahedral)
+      if (a.index / 6 == b.index / 6 && (a.index + b.index) % 2 == 0) throw_turned_face(a, b);
     storage_.link(i, a, b);
   }
   /// Make `a` and alpha_i(a) i-free.   throws  TopologyError if a is dead

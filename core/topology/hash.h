@@ -8,7 +8,7 @@
 
 namespace dartboard {
 
-/// FNV-1a over 8-byte words (the last one padded with zeros), 64 bits. Not for adversaries.
+/// FNV-1a over 8-byte words (the last one padded with zeros), folded after each, 64 bits. Not for adversaries.
 class Hash {
  public:
   /// pre  T is plain numbers without padding
@@ -23,6 +23,7 @@ class Hash {
       const std::size_t n = size < 8 ? size : 8;
       std::memcpy(&word, p, n);
       value_ = (value_ ^ word) * 0x100000001b3u;
+      value_ ^= value_ >> 32;  // a product carries upwards only: without this, two flipped signs cancel
       p += n;
       size -= n;
     }

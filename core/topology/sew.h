@@ -28,6 +28,23 @@ struct SewLine {
   }
 };
 
+/// Call f(dart) for every dart of the line of d, d first; f may change alpha_i.
+template <int i, class Map, class F>
+void for_each_on_line(const Map& map, Dart d, F&& f) {
+  f(d);
+  bool closed = false;
+  for (const bool start : {false, true}) {
+    Dart x = d;
+    for (bool step = start; !closed; step = !step) {
+      const Dart next = SewLine<i, Map>::next(map, x, step);
+      if (next == x) break;  // the end of a path, which may be d itself
+      closed = next == d;
+      if (closed) break;
+      f(x = next);
+    }
+  }
+}
+
 /// Pair the darts of the two lines through a and b; an explanation if they do not correspond.
 template <int i, class Map>
 std::string pair_lines(const Map& map, Dart a, Dart b, std::vector<std::pair<Dart, Dart>>& pairs) {
@@ -97,22 +114,12 @@ void sew(Map& map, Dart a, Dart b) {
 /// cost    O(darts of the cell)
 template <int i, class Map>
 void unsew(Map& map, Dart d) {
-  using Line = detail::SewLine<i, Map>;
   map.require_live(d);
   if (map.template is_free<i>(d)) return;
-  map.template unlink<i>(d);
-  if constexpr (Map::tetrahedral) return;  // the whole face went with it
-  bool closed = false;
-  for (const bool start : {false, true}) {
-    Dart x = d;
-    for (bool step = start; !closed; step = !step) {
-      const Dart next = Line::next(map, x, step);
-      closed = next == d;
-      if (next == x || closed) break;
-      x = next;
-      map.template unlink<i>(x);
-    }
-  }
+  if constexpr (Map::tetrahedral)
+    map.template unlink<i>(d);  // the whole face goes with it
+  else
+    detail::for_each_on_line<i>(map, d, [&](Dart x) { map.template unlink<i>(x); });
 }
 
 }  // namespace dartboard

@@ -18,13 +18,13 @@ Components components(const Map& map) {
 }
 
 template <class Map>
-bool is_orientable(const Map& map) {
-  std::vector<signed char> colour(map.capacity(), 0);
+std::optional<std::vector<signed char>> orientation(const Map& map) {
+  std::vector<signed char> sign(map.capacity(), 0);
   std::vector<Dart> stack;
-  bool orientable = true;
+  bool consistent = true;
   map.for_each_dart([&](Dart seed) {
-    if (!orientable || colour[seed.index] != 0) return;
-    colour[seed.index] = 1;
+    if (sign[seed.index] != 0) return;
+    sign[seed.index] = 1;
     stack.assign(1, seed);
     while (!stack.empty()) {
       const Dart d = stack.back();
@@ -32,16 +32,16 @@ bool is_orientable(const Map& map) {
       for (int i = 0; i <= Map::dimension; ++i) {
         const Dart e = map.alpha(i, d);
         if (e == d) continue;
-        if (colour[e.index] == 0) {
-          colour[e.index] = static_cast<signed char>(-colour[d.index]);
+        if (sign[e.index] == 0) {
+          sign[e.index] = static_cast<signed char>(-sign[d.index]);
           stack.push_back(e);
-        } else if (colour[e.index] == colour[d.index]) {
-          orientable = false;
         }
+        consistent = consistent && sign[e.index] == -sign[d.index];
       }
     }
   });
-  return orientable;
+  if (!consistent) return std::nullopt;
+  return sign;
 }
 
 template <class Map>
@@ -58,16 +58,16 @@ MapSummary summarize(const Map& map) {
   }
   s.components = count_orbits(map, all_involutions(n));
   for_each_cell<n - 1>(map, [&](auto facet) { s.boundary_facets += map.template is_free<n>(facet.dart) ? 1u : 0u; });
-  s.orientable = is_orientable(map);
+  s.orientable = orientation(map).has_value();
   return s;
 }
 
 template Components components(const Map2&);
 template Components components(const Map3&);
 template Components components(const TetMap&);
-template bool is_orientable(const Map2&);
-template bool is_orientable(const Map3&);
-template bool is_orientable(const TetMap&);
+template std::optional<std::vector<signed char>> orientation(const Map2&);
+template std::optional<std::vector<signed char>> orientation(const Map3&);
+template std::optional<std::vector<signed char>> orientation(const TetMap&);
 template MapSummary summarize(const Map2&);
 template MapSummary summarize(const Map3&);
 template MapSummary summarize(const TetMap&);

@@ -2,6 +2,7 @@
 // Numbers that describe a map: cells, components, boundary, Euler characteristic, orientability, validity.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,9 @@ struct Components {
 template <class Map>
 Components components(const Map& map);
 
-/// Whether the darts can be coloured in two colours that every alpha_i(d) != d changes, component by component.
+/// A sign per dart slot, +1 or -1, that every alpha_i(d) != d changes; nothing if the map has no such orientation.
 template <class Map>
-bool is_orientable(const Map& map);
+std::optional<std::vector<signed char>> orientation(const Map& map);
 
 /// What `mesh info` prints; `cells[i]` counts the i-cells.
 struct MapSummary {
@@ -38,9 +39,9 @@ MapSummary summarize(const Map& map);
 extern template Components components(const Map2&);
 extern template Components components(const Map3&);
 extern template Components components(const TetMap&);
-extern template bool is_orientable(const Map2&);
-extern template bool is_orientable(const Map3&);
-extern template bool is_orientable(const TetMap&);
+extern template std::optional<std::vector<signed char>> orientation(const Map2&);
+extern template std::optional<std::vector<signed char>> orientation(const Map3&);
+extern template std::optional<std::vector<signed char>> orientation(const TetMap&);
 extern template MapSummary summarize(const Map2&);
 extern template MapSummary summarize(const Map3&);
 extern template MapSummary summarize(const TetMap&);

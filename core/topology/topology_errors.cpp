@@ -18,6 +18,11 @@ void throw_link_to_itself(int i, Dart d) {
   throw TopologyError(fmt::format("cannot {}-link {} to itself: an {}-free dart is its own alpha{}", i, to_string(d), i, i));
 }
 
+void throw_turned_face(Dart a, Dart b) {
+  throw TopologyError(fmt::format("cannot 3-link {} to {}: a turn of a triangle onto itself is not an involution",
+                                  to_string(a), to_string(b)));
+}
+
 void throw_not_free(int i, Dart a, Dart b, Dart which, Dart alpha) {
   throw TopologyError(fmt::format("cannot {}-link {} to {}: alpha{}({}) = {}, expected free", i, to_string(a),
                                   to_string(b), i, to_string(which), to_string(alpha)));
@@ -30,6 +35,10 @@ void throw_cannot_remove(int i, Dart d, Dart alpha) {
 
 void throw_not_sewable(int i, Dart a, Dart b, const std::string& why) {
   throw TopologyError(fmt::format("cannot {}-sew {} and {}: {}", i, to_string(a), to_string(b), why));
+}
+
+void throw_invalid(const char* after, const std::string& violation) {
+  throw TopologyError(fmt::format("the map is invalid after {}: {}", after, violation));
 }
 
 }  // namespace dartboard

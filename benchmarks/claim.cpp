@@ -1,0 +1,54 @@
+#include "benchmarks/claim.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace dartboard {
+
+std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds: return "holds";
+    case Verdict::falls_short: return "falls short";
+    case Verdict::not_tested: return "not tested";
+  }
+  return "unknown verdict";
+}
+
+void to_json(nlohmann::json& json, const Claim& claim) {
+  json = {{"id", claim.id},
+          {"claim", claim.text},
+          {"section", claim.section},
+          {"paper", claim.paper_value},
+          {"measured", claim.measured},
+          {"bound_or_interval", claim.bound_or_interval},
+          {"verdict", name(claim.verdict)}};
+  if (!claim.reason.empty()) json["reason"] = claim.reason;
+}
+
+int exit_code(std::span<const Claim> claims) {
+  const bool all_hold = std::none_of(claims.begin(), claims.end(),
+                                     [](const Claim& claim) { return claim.verdict == Verdict::falls_short; });
+  return all_hold ? 0 : 1;
+}
+
+Table table_of(std::span<const Claim> claims) {
+  const bool reasons =
+      std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return !claim.reason.empty(); });
+  std::vector<Column> columns{{"claim"},
+                              {"section"},
+                              {"paper", Align::right},
+                              {"measured", Align::right},
+                              {"interval or bound"},
+                              {"verdict"}};
+  if (reasons) columns.push_back({"reason"});
+  Table table(std::move(columns));
+  for (const Claim& claim : claims) {
+    std::vector<std::string> row{claim.text,     claim.section,           claim.paper_value,
+                                 claim.measured, claim.bound_or_interval, std::string(name(claim.verdict))};
+    if (reasons) row.push_back(claim.reason);
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,28 @@
+#pragma once
+// What the verbs of the command line share.
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <string>
+
+namespace dartboard {
+
+// Exit codes: the run agrees, it disagrees, the command line is wrong, reading or writing failed.
+inline constexpr int exit_agrees = 0;
+inline constexpr int exit_disagrees = 1;
+inline constexpr int exit_usage = 2;
+inline constexpr int exit_io = 3;
+
+/// The outcome of the verb that ran; main returns it.
+struct Outcome {
+  int exit_code = exit_agrees;
+  std::string command_line;
+};
+
+// Each adds a verb whose callback does the work and leaves its exit code in `outcome`, which must outlive the parse.
+void add_reproduce(CLI::App& app, Outcome& outcome);
+void add_measure(CLI::App& app, Outcome& outcome);
+void add_mesh(CLI::App& app, Outcome& outcome);
+void add_list(CLI::App& app, Outcome& outcome);
+
+}  // namespace dartboard

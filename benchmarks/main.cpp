@@ -1,0 +1,59 @@
+// dartboard VERB: the one command line.
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "benchmarks/cli.h"
+#include "core/plain/error.h"
+
+using namespace dartboard;
+
+namespace {
+
+// CLI11 would answer "a subcommand is required" to a misspelt one.
+void require_known_verb(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) {
+    if (verb->get_name() == argv[1]) return;
+    if (!verb->get_group().empty()) verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  }
+  throw InputError(fmt::format("there is no verb '{}'; the verbs are {}", argv[1], verbs));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Outcome outcome;
+  for (int k = 0; k < argc; ++k) outcome.command_line += (k == 0 ? "dartboard" : " " + std::string(argv[k]));
+
+  CLI::App app("Scores a topology-based mechanical simulator on truth, speed and stability.", "dartboard");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", DARTBOARD_VERSION);
+  app.footer("Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed.");
+  add_reproduce(app, outcome);
+  add_mesh(app, outcome);
+  add_list(app, outcome);
+  add_measure(app, outcome);
+
+  try {
+    require_known_verb(app, argc, argv);
+    app.parse(argc, argv);
+    return outcome.exit_code;
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return exit_usage;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "dartboard: {}\n", error.what());
+    return exit_usage;
+  } catch (const std::exception& error) {  // IoError, and what the system throws when a disk or a process fails
+    fmt::print(stderr, "dartboard: {}\n", error.what());
+    return exit_io;
+  }
+}

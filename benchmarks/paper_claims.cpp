@@ -1,0 +1,37 @@
+#include "benchmarks/paper_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+std::span<const PaperClaim> paper_claims() {
+  static const std::array<PaperClaim, 12> table{{
+      {"map-valid", "the body's map satisfies the three conditions of a 3-g-map", "2.1", "valid"},
+      {"cells-partition", "the i-cells partition the darts, for each i", "2.1", "each dart in 1 cell per i"},
+      {"mass-sum", "the masses of the vertices, eq. (1), sum up to the masses of the tetrahedra", "4.3", "equal"},
+      {"stiffness-sum", "the stiffness of the edges is what their tetrahedra contribute, 6 k each", "4.3", "equal"},
+      {"body-size", "the body has 564 nodes, 2850 springs and 1856 tetrahedra", "5.1", "564 / 2850 / 1856"},
+      {"dart-count", "its map has 44544 darts, 24 per tetrahedron", "5.1", "44544"},
+      {"coverage-slower", "full dart coverage costs more than the adjacency graph", "5.1", "6 (12 ms / 2 ms)"},
+      {"lists-faster", "lists of embeddings cost less than full dart coverage", "5.2", "0.67 (8 ms / 12 ms)"},
+      {"arrays-overhead", "cell arrays cost at most 10 % more than the adjacency graph", "5.2", "<= 1.10"},
+      {"arrays-step", "a step over cell arrays takes no more than the paper's 2 ms", "5.2", "2 ms"},
+      {"paper-ladder", "coverage : lists : arrays : graph cost 6 : 4 : 1 : 1", "5", "6 : 4 : 1 : 1"},
+      {"rebuild-negligible", "rebuilding the arrays is negligible beside the topological changes", "5.2", "negligible"},
+  }};
+  return table;
+}
+
+Claim claim_of(std::string_view id) {
+  const auto all = paper_claims();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const PaperClaim& c) { return c.id == id; });
+  if (found == all.end()) throw InputError(fmt::format("no claim is called '{}'", id));
+  return {found->id, found->text, found->section, found->paper_value, "", "", Verdict::not_tested, ""};
+}
+
+}  // namespace dartboard

@@ -1,0 +1,39 @@
+#pragma once
+// Child processes, run one after the other, their standard output read line by line.
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dartboard {
+
+/// A child process could not be started, ended with another status than 0, or was killed; the message names the command
+/// and the status.
+struct ProcessError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Takes one line of output, without its newline.
+using LineSink = std::function<void(std::string_view line)>;
+
+enum class Stderr { shown, discarded };
+
+/// Run a program, searched in PATH unless it holds a slash, and wait for its end. No shell comes in between, so nothing
+/// in an argument needs quoting. Standard input is empty.
+///
+/// throws  ProcessError; whatever `on_line` throws, after the child has been killed
+void run_program(const std::string& program, const std::vector<std::string>& arguments, const LineSink& on_line,
+                 Stderr errors = Stderr::shown);
+
+/// Run the executable that is now running, again. It is reached through /proc/self/exe: still the same one when a build
+/// has replaced the file meanwhile, so a study never mixes two builds.
+void run_self(const std::vector<std::string>& arguments, const LineSink& on_line);
+
+/// The same `times` times, one after the other, each time in a new process with the arguments for its number (from 0).
+/// Stops at the first failure.
+void repeat_self(int times, const std::function<std::vector<std::string>(int process)>& arguments,
+                 const LineSink& on_line);
+
+}  // namespace dartboard

@@ -1,0 +1,33 @@
+#pragma once
+// Progress on standard error: one line rewritten in place on a terminal, a plain line now and then elsewhere.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace dartboard {
+
+/// Counts steps up to `total`. A log gets at most one line every two seconds, a terminal ten updates a second; the last
+/// step is always shown.
+class Progress {
+ public:
+  Progress(std::string label, std::size_t total, bool quiet = false);
+  /// Ends the line that was being rewritten, so that what is printed next starts on its own.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// One more step is done; `detail` says in a few words which.
+  void advance(std::string_view detail = "");
+
+ private:
+  void print(std::string_view detail);
+
+  std::string label_;
+  std::size_t total_, done_ = 0;
+  bool quiet_, terminal_, line_open_ = false;
+  std::int64_t next_print_ns_ = 0;
+};
+
+}  // namespace dartboard

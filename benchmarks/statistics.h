@@ -1,0 +1,44 @@
+#pragma once
+// The statistics of the reports: order statistics only, since times are skewed and no distribution is known for them.
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dartboard {
+
+/// throws  InputError for an empty sample or one that holds a NaN (all functions of this file)
+double median(std::span<const double> sample);
+
+/// The p-quantile, interpolated linearly between the order statistics around position p (n - 1).
+///
+/// throws  InputError unless 0 <= p <= 1
+double quantile(std::span<const double> sample, double p);
+
+/// An interval for a population median, and how often such an interval covers it.
+struct Interval {
+  double low = 0.0, high = 0.0;
+  double coverage = 0.0;  // exact for a continuous distribution, a lower bound when values can tie
+  bool reached = false;   // coverage >= the confidence asked for
+};
+
+/// The narrowest symmetric interval of order statistics that covers the median with the confidence asked for.
+///
+/// The number of values below the median is Binomial(n, 1/2) whatever the distribution, so the k-th smallest and the
+/// k-th largest enclose it with probability 1 - 2 P(B < k). Too few values (fewer than 6 for 95 %) cannot reach the
+/// confidence: the answer is then min..max with the coverage that it does have, and `reached` is false.
+///
+/// throws  InputError unless 0 < confidence < 1
+Interval median_interval(std::span<const double> sample, double confidence = 0.95);
+
+/// "[1.02, 1.07] at 96.9 %", with "only" before the percentage when the confidence was not reached.
+std::string to_string(const Interval& interval);
+
+/// Flags the values that lie further than `threshold` scaled median absolute deviations from the median.
+///
+/// Flags are for the reader: no figure leaves a flagged value out. The scale 1.4826 makes the deviation that of a
+/// normal distribution. When more than half of the values are equal, the deviation is zero and every other value is
+/// flagged.
+std::vector<bool> outliers(std::span<const double> sample, double threshold = 3.5);
+
+}  // namespace dartboard

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/cli.h"
+#include "benchmarks/manifest.h"
+#include "benchmarks/measure.h"
+#include "benchmarks/reproduce_report.h"
+#include "benchmarks/run_folder.h"
+#include "benchmarks/scenes.h"
+#include "reference/cgal_body.h"
+
+namespace dartboard {
+namespace {
+
+struct Options {
+  bool json = false, quick = false;
+  std::string out;
+  std::uint64_t seed = 1;
+};
+
+constexpr int agreement_steps = 10;
+
+void reproduce(const Options& options, Outcome& outcome) {
+  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
+  const Scene& liver = scene("liver");
+  const Problem problem = liver.make();
+
+  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
+  const RunFolder folder(options.out.empty() ? new_run_path(results_root, options.quick ? "quick" : "reproduce")
+                                             : std::filesystem::path(options.out));
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  facts.seeds = {{"order of tasks", options.seed}};
+  facts.libraries = {{"CGAL", reference::cgal_version()}};
+  facts.input_files = {liver.mesh};
+  auto manifest = begin_manifest(facts);
+  manifest["quick"] = options.quick;
+  folder.write_manifest(manifest);
+
+  ReproduceResults results;
+  say(fmt::format("Topology-based Physical Simulation, section 5, on a body of the paper's size{}\n",
+                  options.quick ? " (a quick run: few rounds, wide intervals)" : ""));
+  results.counts = compare_counts(problem);
+  say("1. Topology, against CGAL\n\n" + to_text(counts_table(results)));
+  results.motion = compare_motion(problem, agreement_steps);
+  say(fmt::format("2. Forces, and states after {} steps, against the first contender\n\n", agreement_steps) +
+      to_text(agreement_table(results)));
+
+  // No timing without agreement.
+  const bool topology_agrees =
+      std::all_of(results.counts.begin(), results.counts.end(), [](const auto& c) { return c.agrees(); });
+  std::vector<std::string> agreed;
+  for (const auto& m : results.motion)
+    if (topology_agrees && m.agrees) agreed.push_back(m.id);
+  if (!agreed.empty()) {
+    const MeasurePlan plan = plan_measurement(liver.name, problem, agreed, options.quick, options.seed);
+    auto lines = folder.json_lines("samples.jsonl");
+    say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each", plan.processes, plan.rounds));
+    results.per_step = per_step(measure(plan, [&](const StepSample& s) { lines.append(s); }));
+  }
+  results.rebuild_ms = measure_rebuild_ms(problem);
+  const std::string note = timing_note(results, problem);
+  say("\n" + to_text(timing_table(results)) + "\n" + note + "\n");
+
+  const auto claims = answer_claims(results, problem);
+  say("4. The paper's claims\n\n" + to_text(table_of(claims)));
+  folder.write_claims(claims);
+  folder.write_table("counts", "Topology, against CGAL", counts_table(results));
+  folder.write_table("agreement", "Forces and states, against the first contender", agreement_table(results));
+  folder.write_table("timing", "Time per RK4 step", timing_table(results), note);
+  finish_manifest(manifest);
+  folder.write_manifest(manifest);
+
+  const bool gates_passed = topology_agrees && agreed.size() == results.motion.size();
+  outcome.exit_code = gates_passed ? exit_code(claims) : exit_disagrees;
+  if (options.json)
+    fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}, {"gates_passed", gates_passed}}.dump(2));
+  say(fmt::format("{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
+                  outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
+                  folder.path().string()));
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("reproduce", "Gate and time the paper's walks on a body of its size; answer its claims.");
+  verb->add_flag("--quick", options->quick, "fewer processes and rounds; under a minute");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
+  verb->add_option("--seed", options->seed, "of the order in which contenders take turns [1]");
+  verb->add_flag("--json", options->json, "print claims and manifest as JSON on standard output, the rest on standard error");
+  verb->callback([options, &outcome] { reproduce(*options, outcome); });
+}
+
+}  // namespace dartboard

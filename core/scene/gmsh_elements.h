@@ -1,0 +1,23 @@
+#pragma once
+// The element types of Gmsh, the same in all versions of its format.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+struct GmshElement {
+  std::uint64_t type;
+  int dimension;
+  int nodes;
+  std::string_view name;
+  std::optional<CellKind> kind;  // none for points, edges and elements of higher order
+};
+
+/// The element of this type number, or nullptr for the rarer ones that no mesh of ours can hold.
+const GmshElement* gmsh_element(std::uint64_t type);
+
+}  // namespace dartboard

@@ -1,0 +1,109 @@
+#pragma once
+// The meshes that scenes, tests, validation and benchmarks share. Lengths in metres.
+//
+// Coordinates come from +, -, *, / and sqrt alone, all rounded correctly by IEEE 754, and random numbers from
+// whole-number arithmetic: a mesh has the same bits on every platform (as long as nothing fuses a*b+c,
+// core/cmake/DartboardOptions.cmake). Volumes are right-handed; surfaces that can be oriented are, and closed ones
+// outwards.
+//
+// Every generator throws InputError for a number below the least that its line names.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+/// Pseudo-random numbers, equal everywhere: the generator splitmix64 of Steele, Lea and Flood (OOPSLA 2014).
+class SplitMix64 {
+ public:
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  /// A multiple of 2^-52 in [-1, 1), each as likely.
+  double next_signed();
+  /// A point of the open unit ball, uniform by volume: points of the cube are drawn until one is inside.
+  Eigen::Vector3d next_in_ball();
+
+ private:
+  std::uint64_t state_;
+};
+
+// ---- boxes: nx x ny x nz cubes of edge `spacing`, corner at the origin; nx, ny, nz >= 1, 0 < spacing < infinity
+
+/// Six tetrahedra per cube around its diagonal in direction (1, 1, 1); a cube's are neighbours in `cells`.
+///
+/// Points inside the box are moved at random by at most jitter * spacing; those of its surface stay. One after another,
+/// a move is halved until every tetrahedron around the point has at least a tenth of its first volume, so nothing
+/// inverts for any jitter >= 0. Few moves need it below 1/(2 sqrt(3)) = 0.288...: two opposite edges of each
+/// tetrahedron, a face diagonal each, are 1/sqrt(3) spacings apart, no altitude is shorter, and so no four moves below
+/// half of that can flatten one.
+Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter = 0, std::uint64_t seed = 0);
+
+Mesh hexahedron_box(int nx, int ny, int nz, double spacing);
+
+/// Hexahedra, prisms, pyramids and tetrahedra, face to face; all four kinds when nx * ny >= 2 and nz >= 2.
+///
+/// Where x + y is even the layers alternate between one hexahedron and six pyramids around the centre of the cube.
+/// Where it is odd the horizontal faces are cut along a diagonal, and the layers alternate between two prisms and four
+/// pyramids with two tetrahedra below and two above.
+Mesh mixed_box(int nx, int ny, int nz, double spacing);
+
+// ---- surfaces
+
+/// nx x ny squares in the plane z = 0, each cut into two triangles; nx, ny >= 1.
+Mesh triangle_sheet(int nx, int ny, double spacing);
+Mesh quad_sheet(int nx, int ny, double spacing);
+
+/// nu x nv quadrilaterals around a torus of radii 2 and 1; nu, nv >= 3.
+Mesh torus_surface(int nu, int nv);
+
+/// n quadrilaterals around a circle of radius 2, half a turn in all; n >= 3.
+Mesh moebius_strip(int n);
+
+/// nu x nv quadrilaterals, nu around and nv across a figure of eight that makes half a turn; nu, nv >= 3. The surface
+/// passes through itself, as it must in space; no two of its points coincide.
+Mesh klein_bottle(int nu, int nv);
+
+/// The unit sphere: an octahedron whose triangles are quartered `subdivisions` times, 0 <= subdivisions <= 12.
+Mesh octasphere(int subdivisions);
+
+// ---- solids of tetrahedra
+
+Mesh empty_mesh();
+Mesh one_tetrahedron();
+/// Sharing a face.
+Mesh two_tetrahedra();
+/// Sharing one edge, or one point, of the mesh and no face: in the map they are two components without a common cell.
+Mesh touching_at_edge();
+Mesh touching_at_vertex();
+
+/// A ring of n blocks of six tetrahedra; n >= 3.
+Mesh solid_torus(int n);
+
+/// Fig. 3b: a drum around point 0, a ring of 2 * sides tetrahedra joined by faces, without the cones above and below;
+/// sides >= 3. With three sides it is an octahedron that has lost two opposite octants.
+///
+/// The other pinch, two solids that meet in a point only, is none for a map: it has two vertices there. Here the
+/// tetrahedra around point 0 hang together by faces, so it is one vertex, whose link is a ring (Euler characteristic 0)
+/// and neither a sphere (2) nor a disc (1).
+Mesh pinched_body(int sides = 3);
+
+/// Component i = 0 .. k-1 is a kuhn_box of 1 x 1 x (i + 1) unit cubes; k >= 0.
+Mesh several_components(int k);
+
+// ---- all of them
+
+struct NamedMesh {
+  std::string name;  // as in a file name
+  std::string what;  // one line for a reader
+  std::function<Mesh()> make;
+};
+
+/// One or more of each of the above, of 0 to 2,000 cells.
+std::span<const NamedMesh> test_meshes();
+
+}  // namespace dartboard

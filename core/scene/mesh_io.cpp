@@ -1,0 +1,129 @@
+#include "core/scene/mesh_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <utility>
+
+#include "core/scene/mesh_builder.h"
+#include "core/scene/mesh_check.h"
+#include "core/scene/mesh_formats.h"
+#include "core/scene/text_scanner.h"
+
+namespace dartboard {
+namespace fs = std::filesystem;
+namespace {
+
+struct Extension {
+  std::string_view text;
+  MeshFormat format;
+};
+
+constexpr Extension extensions[] = {
+    {".mesh", MeshFormat::medit},  {".node", MeshFormat::tetgen},    {".ele", MeshFormat::tetgen},
+    {".msh", MeshFormat::gmsh},    {".vtk", MeshFormat::vtk_legacy}, {".vtu", MeshFormat::vtu},
+};
+
+constexpr std::string_view known_extensions =
+    ".mesh (Medit), .node or .ele (TetGen), .msh (Gmsh), .vtk (legacy VTK) or .vtu (VTK XML)";
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::optional<MeshFormat> format_of(const fs::path& path) {
+  const std::string extension = lower(path.extension().string());
+  for (const auto& known : extensions)
+    if (extension == known.text) return known.format;
+  return std::nullopt;
+}
+
+fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
+
+// a path that cannot be examined is not there
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::string read_file(const fs::path& path, std::string_view wanted) {
+  const std::string file = path.string();
+  std::error_code error;
+  if (!is_there(path)) fail_at(file, 0, "there is no such file", wanted);
+  if (is_folder(path)) fail_at(file, 0, "this is a directory", wanted);
+  if (!fs::is_regular_file(path, error)) fail_at(file, 0, "this is not a regular file", wanted);
+  std::ifstream in(path, std::ios::binary);
+  const auto size = fs::file_size(path, error);
+  if (!in || error) fail_at(file, 0, "the file cannot be opened", "a file that may be read");
+  std::string text(size, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(in.gcount()) != size) fail_at(file, 0, "reading stopped early", "a readable file");
+  if (text.empty()) fail_at(file, 1, "the file is empty", wanted);
+  return text;
+}
+
+LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  const bool ends_with_line = text.empty() || text.back() == '\n';
+  LoadedMesh loaded = builder.finish(std::move(format), std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1)));
+  check_and_repair(loaded, builder.cell_file(), builder.cell_lines());
+  return loaded;
+}
+
+LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path) {
+  const std::string node_text = read_file(node_path, "the TetGen points that belong to the .ele file");
+  const std::string ele_text = read_file(ele_path, "the TetGen cells that belong to the .node file");
+  TextScanner node(node_text, node_path.string(), '#');
+  TextScanner ele(ele_text, ele_path.string(), '#');
+  MeshBuilder builder(node.file(), ele.file());
+  std::string format = read_tetgen(node, ele, builder);
+  return finish(builder, std::move(format), ele_text);
+}
+
+}  // namespace
+
+LoadedMesh read_mesh(const fs::path& path) {
+  if (!is_there(path) && is_there(with(path, ".node")))
+    return read_tetgen_files(with(path, ".node"), with(path, ".ele"));
+  const auto format = format_of(path);
+  const bool is_file = is_there(path) && !is_folder(path);
+  if (is_file && !format)
+    fail_at(path.string(), 0, fmt::format("the extension {} is unknown", in_quotes(path.extension().string())),
+            known_extensions);
+  if (is_file && format == MeshFormat::tetgen) {
+    const fs::path stem = fs::path(path).replace_extension();
+    return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"))
+                                                       : read_tetgen_files(with(stem, ".node"), path);
+  }
+  const std::string text = read_file(path, fmt::format("a mesh file: {}", known_extensions));
+  return parse_mesh(text, *format, path.string());
+}
+
+LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name) {
+  MeshBuilder builder(name, name);
+  if (text.find_first_not_of(" \t\r\n\v\f") == text.npos) fail_at(name, 1, "the file is empty", "a mesh");
+  std::string exact;
+  switch (format) {
+    case MeshFormat::medit: exact = read_medit(text, builder); break;
+    case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
+    case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
+    case MeshFormat::vtu: exact = read_vtu(text, builder); break;
+    case MeshFormat::tetgen: {
+      TextScanner both(text, name, '#');
+      exact = read_tetgen(both, both, builder);
+      break;
+    }
+  }
+  return finish(builder, std::move(exact), text);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,41 @@
+#pragma once
+// Meshes from and to files: Medit, TetGen, Gmsh, legacy VTK and VTU. Every error names file, line and expectation.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu };
+
+/// A checked mesh of one dimension, and in plain sentences whatever was skipped, dropped or repaired on the way.
+struct LoadedMesh {
+  Mesh mesh;
+  std::string format;  // as read: "Gmsh MSH 2.2"
+  std::vector<std::string> notices;
+};
+
+/// Read and check the mesh in a file whose format is told by its extension: .mesh, .node or .ele, .msh, .vtk, .vtu.
+/// For TetGen either file, or the stem of both, will do.
+///
+/// The cells are the volumes of the file, or its polygons where it has no volumes; all that has a lower dimension is
+/// skipped, points of no cell are dropped, and inverted volumes are reordered, each with a notice. Cells are numbered
+/// from 0 in the order of the file.
+///
+/// throws  IoError when the file cannot be read, is malformed, or is not a mesh by the rules of check_and_repair
+LoadedMesh read_mesh(const std::filesystem::path& path);
+
+/// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
+/// the .ele file.
+LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name);
+
+/// Write a mesh as Medit ASCII with 17 significant digits, so that reading it gives the same bits.
+///
+/// throws  IoError when the file exists already or cannot be written; InputError for an index out of range
+void write_medit(const std::filesystem::path& path, const Mesh& mesh);
+
+}  // namespace dartboard

@@ -1,0 +1,79 @@
+#pragma once
+// Reading text by tokens and lines, with errors that say where, what was found, and what was expected.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace dartboard {
+
+/// Throw IoError "FILE:LINE: found; expected expected"; a line of 0 is left out.
+[[noreturn]] void fail_at(const std::string& file, std::size_t line, std::string_view found, std::string_view expected);
+
+/// A token as messages print it: in quotes, shortened, with unprintable bytes as \xNN.
+std::string in_quotes(std::string_view token);
+
+/// What a reader looks for next, put together only when it has to be printed: "a coordinate of vertex 12".
+struct Wanted {
+  static constexpr std::uint64_t no_number = std::numeric_limits<std::uint64_t>::max();
+  std::string_view what;
+  std::uint64_t number = no_number;
+
+  Wanted(const char* text) : what(text) {}  // implicit, so that calls read like the message
+  Wanted(std::string_view text, std::uint64_t n) : what(text), number(n) {}
+  std::string text() const;
+};
+
+/// A text as a sequence of tokens separated by white space; a comment runs from `comment` to the end of its line.
+/// Views that it returns point into the text, which must outlive them.
+///
+/// throws  IoError from every function that takes something, when it is not there
+class TextScanner {
+ public:
+  static constexpr char no_comment = '\0';
+
+  TextScanner(std::string_view text, std::string file, char comment = no_comment, std::size_t first_line = 1);
+
+  /// Only white space and comments are left.
+  bool at_end();
+  /// Something is left before the end of the line that the last token stands on.
+  bool more_on_line();
+  /// The next token, which stays where it is; empty at the end.
+  std::string_view peek();
+
+  std::string_view token(Wanted wanted);
+  /// The rest of the current line, without its end and the white space around it; then moves to the next line.
+  std::string_view rest_of_line();
+  /// A finite number. One that is too small for a double is zero; one that is too large is an error.
+  double real(Wanted wanted);
+  std::int64_t integer(Wanted wanted);
+  /// A number of things, or the number of a thing: an integer that is not negative.
+  std::uint64_t count(Wanted wanted);
+  /// Exactly this word.
+  void keyword(std::string_view word);
+
+  /// How much to reserve for `declared` things of at least `characters` each: never more than the text can hold,
+  /// so that a small file cannot ask for a large amount of memory.
+  std::size_t plausible(std::uint64_t declared, std::size_t characters) const;
+
+  const std::string& file() const { return file_; }
+  /// The line of the token taken last.
+  std::size_t line() const { return token_line_; }
+
+  [[noreturn]] void fail(std::string_view found, std::string_view expected) const;
+
+ private:
+  void skip_blank();
+  std::size_t token_end() const;
+
+  std::string_view text_;
+  std::string file_;
+  char comment_;
+  std::size_t at_ = 0;
+  std::size_t line_;
+  std::size_t token_line_;
+};
+
+}  // namespace dartboard

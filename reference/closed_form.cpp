@@ -1,0 +1,96 @@
+#include "reference/closed_form.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dartboard::reference {
+namespace {
+
+// (1 - exp(-z)) / z, and (z - 1 + exp(-z)) / z^2: the weights of velocity and gravity in a fall with drag.
+double first_weight(double z) { return z == 0.0 ? 1.0 : -std::expm1(-z) / z; }
+
+double second_weight(double z) {
+  if (std::abs(z) > 0.5) return (z + std::expm1(-z)) / (z * z);
+  // the difference cancels; its series is 1/2 - z/6 + z^2/24 - ..., and 0.5^15 / 17! is far below rounding
+  double sum = 0.0, term = 0.5;
+  for (int k = 3; k < 18; ++k) {
+    sum += term;
+    term *= -z / k;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Flight free_fall(const Flight& start, const Eigen::Vector3d& gravity, double viscosity, double t) {
+  const double z = viscosity * t;
+  const double w1 = first_weight(z);
+  return {start.x + t * w1 * start.v + t * t * second_weight(z) * gravity, std::exp(-z) * start.v + t * w1 * gravity};
+}
+
+Swing oscillate(double omega2, double drag, Swing start, double t) {
+  const double beta = drag / 2.0;
+  const double below = omega2 - beta * beta;
+  // q = even(t) q0 + odd(t) (v0 + beta q0), where even and odd are exp(-beta t) times cos and sin/omega, 1 and t, or
+  // cosh and sinh/omega. The last are written with the two real roots, so that no large exponentials meet.
+  double even, odd, rate;  // rate: the derivative of odd, plus beta odd
+  if (below > 0.0) {
+    const double w = std::sqrt(below), decay = std::exp(-beta * t);
+    even = rate = decay * std::cos(w * t);
+    odd = decay * std::sin(w * t) / w;
+  } else if (below == 0.0) {
+    even = rate = std::exp(-beta * t);
+    odd = even * t;
+  } else {
+    const double w = std::sqrt(-below);
+    const double slow = beta + w > 0.0 ? -omega2 / (beta + w) : 0.0, fast = -(beta + w);
+    even = rate = (std::exp(slow * t) + std::exp(fast * t)) / 2.0;
+    odd = std::exp(slow * t) * -std::expm1(-2.0 * w * t) / (2.0 * w);
+  }
+  const double q = even * start.q + odd * (start.v + beta * start.q);
+  // from q'' + 2 beta q' + omega2 q = 0: q' = rate v0 - odd (beta v0 + omega2 q0)
+  const double v = rate * start.v - odd * (beta * start.v + omega2 * start.q);
+  return {q, v};
+}
+
+DumbbellState swing(const Dumbbell& body, const DumbbellState& start, double t) {
+  const double m = body.m1 + body.m2;
+  const double reduced = body.m1 * body.m2 / m;
+
+  // the centre of mass flies on, the distance swings about the rest length
+  const double x = (body.m1 * start.x1 + body.m2 * start.x2) / m;
+  const double v = (body.m1 * start.v1 + body.m2 * start.v2) / m;
+  const double z = body.viscosity * t;
+  const double centre = x + t * first_weight(z) * v;
+  const double drift = std::exp(-z) * v;
+  const Swing gap = oscillate(body.stiffness / reduced, body.damping / reduced + body.viscosity,
+                              {start.x2 - start.x1 - body.rest_length, start.v2 - start.v1}, t);
+
+  const double distance = body.rest_length + gap.q;
+  return {centre - body.m2 / m * distance, centre + body.m1 / m * distance, drift - body.m2 / m * gap.v,
+          drift + body.m1 / m * gap.v};
+}
+
+double chain_omega_fixed(int n, double stiffness, double mass, int j) {
+  return 2.0 * std::sqrt(stiffness / mass) * std::sin(j * std::numbers::pi / (2.0 * (n + 1)));
+}
+
+double chain_omega_free(int n, double stiffness, double mass, int j) {
+  return 2.0 * std::sqrt(stiffness / mass) * std::sin(j * std::numbers::pi / (2.0 * n));
+}
+
+std::complex<double> rk4_amplification(std::complex<double> z) {
+  return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
+}
+
+Swing rk4_oscillate(double omega2, double drag, Swing start, double h, int n) {
+  Eigen::Matrix2d z;
+  z << 0.0, h, -h * omega2, -h * drag;
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d step = one + z * (one + z / 2.0 * (one + z / 3.0 * (one + z / 4.0)));
+  Eigen::Vector2d y(start.q, start.v);
+  for (; n > 0; --n) y = step * y;
+  return {y[0], y[1]};
+}
+
+}  // namespace dartboard::reference

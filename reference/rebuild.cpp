@@ -1,0 +1,73 @@
+#include "reference/rebuild.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/plain/error.h"
+
+namespace dartboard::reference {
+namespace {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+// The edges of one cell, each once. In a volume every edge lies on two faces, so duplicates have to go.
+void edges_of_cell(const Mesh& mesh, std::size_t c, std::vector<Pair>& edges) {
+  const auto cell = mesh.cell(c);
+  edges.clear();
+  for (const auto& face : faces_of(mesh.kinds[c]))
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const std::uint32_t p = cell[static_cast<std::size_t>(face[k])];
+      const std::uint32_t q = cell[static_cast<std::size_t>(face[(k + 1) % face.size()])];
+      edges.push_back(std::minmax(p, q));
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+void check_cell(const Mesh& mesh, std::size_t c) {
+  const auto cell = mesh.cell(c);
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    if (cell[k] >= mesh.points.size())
+      throw InputError(fmt::format("cell {} names point {}, and there are {}", c, cell[k], mesh.points.size()));
+    if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(k), cell[k]) !=
+        cell.begin() + static_cast<std::ptrdiff_t>(k))
+      throw InputError(fmt::format("cell {} names point {} twice", c, cell[k]));
+  }
+}
+
+}  // namespace
+
+Rebuilt rebuild(const Mesh& mesh, const Material& material) {
+  Rebuilt out;
+  out.mass.assign(mesh.points.size(), 0.0);
+
+  std::vector<Pair> soup, edges;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    check_cell(mesh, c);
+    const auto cell = mesh.cell(c);
+
+    // eq. (1): an equal share of the mass of the cell to each of its points; handedness is no matter of mass
+    const double share = material.density * std::abs(signed_measure(mesh, c)) / static_cast<double>(cell.size());
+    for (std::uint32_t p : cell) out.mass[p] += share;
+
+    edges_of_cell(mesh, c, edges);
+    soup.insert(soup.end(), edges.begin(), edges.end());
+  }
+
+  // a run of equal pairs is one edge; its length is the number of cells around it
+  std::sort(soup.begin(), soup.end());
+  for (std::size_t first = 0, last = 0; first < soup.size(); first = last) {
+    while (last < soup.size() && soup[last] == soup[first]) ++last;
+    const auto around = static_cast<std::uint32_t>(last - first);
+    const auto [a, b] = soup[first];
+    out.springs.push_back({a, b, material.stiffness * around, material.damping * around,
+                           (mesh.points[b] - mesh.points[a]).norm()});
+    out.cells.push_back(around);
+  }
+  return out;
+}
+
+}  // namespace dartboard::reference

@@ -1,0 +1,121 @@
+// The command line as a user meets it: what it prints and how it exits.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+const std::string binary = DARTBOARD_BINARY;
+const std::string liver = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/meshes/liver564.mesh";
+
+struct Answer {
+  int status;
+  std::string out;  // standard output and error together
+};
+
+Answer run(const std::string& arguments, const char* redirect = "2>&1") {
+  const std::string command = binary + " " + arguments + " " + redirect;
+  FILE* pipe = popen(command.c_str(), "r");
+  Answer answer{-1, ""};
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.out.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return answer;
+}
+
+// A file that is gone when the test is over.
+struct TemporaryFile {
+  fs::path path;
+  TemporaryFile(const std::string& name, const std::string& text)
+      : path(fs::temp_directory_path() / (std::to_string(getpid()) + "-" + name)) {
+    std::ofstream(path) << text;
+  }
+  ~TemporaryFile() { fs::remove_all(path); }
+};
+
+TEST(CommandLine, WithoutAVerbIsAUsageError) { EXPECT_EQ(run("").status, 2); }
+
+TEST(CommandLine, WithAnUnknownVerbIsAUsageErrorThatNamesIt) {
+  const Answer answer = run("simulcate");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_NE(answer.out.find("simulcate"), std::string::npos) << answer.out;
+}
+
+TEST(CommandLine, HelpOfEveryVerbSucceeds) {
+  for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list"}) {
+    const Answer answer = run(std::string(verb) + " --help");
+    EXPECT_EQ(answer.status, 0) << verb;
+    EXPECT_NE(answer.out.find("Usage"), std::string::npos) << answer.out;
+  }
+}
+
+TEST(MeshInfo, CountsTheCellsOfThePapersBody) {
+  const Answer answer = run("mesh info --json " + liver, "");
+  ASSERT_EQ(answer.status, 0);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("darts"), 44544);
+  EXPECT_EQ(json.at("vertices"), 564);
+  EXPECT_EQ(json.at("edges"), 2850);
+  EXPECT_EQ(json.at("faces"), 4143);
+  EXPECT_EQ(json.at("volumes"), 1856);
+  EXPECT_EQ(json.at("components"), 1);
+  EXPECT_EQ(json.at("boundary_faces"), 862);
+  EXPECT_EQ(json.at("euler"), 1);
+  EXPECT_EQ(json.at("orientable"), true);
+  EXPECT_EQ(json.at("valid"), true);
+}
+
+TEST(MeshInfo, OfAMissingFileNamesItAndExitsWithThree) {
+  const Answer answer = run("mesh info no-such.mesh");
+  EXPECT_EQ(answer.status, 3);
+  EXPECT_NE(answer.out.find("no-such.mesh"), std::string::npos) << answer.out;
+}
+
+TEST(MeshInfo, OfATruncatedFileNamesTheLine) {
+  const TemporaryFile file("cut.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0");
+  const Answer answer = run("mesh info " + file.path.string());
+  EXPECT_EQ(answer.status, 3);
+  EXPECT_NE(answer.out.find("cut.mesh:6"), std::string::npos) << answer.out;
+}
+
+TEST(MeshInfo, OfAFaceSharedByThreeTetrahedraIsRefused) {
+  const TemporaryFile file("three.mesh",
+                           "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                           "0 0 -1 0\n1 1 1 0\nTetrahedra\n3\n1 2 3 4 0\n1 3 2 5 0\n1 2 3 6 0\nEnd\n");
+  const Answer answer = run("mesh info " + file.path.string());
+  EXPECT_EQ(answer.status, 3);
+  EXPECT_NE(answer.out.find("share"), std::string::npos) << answer.out;
+}
+
+TEST(List, NamesTheWalksOfThePaper) {
+  const auto json = nlohmann::json::parse(run("list contenders --json", "").out);
+  std::vector<std::string> ids;
+  for (const auto& entry : json.at("contenders")) ids.push_back(entry.at("id"));
+  for (const char* id : {"coverage", "lists", "arrays", "graph", "cgal-attributes"})
+    EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
+}
+
+TEST(List, OfSomethingUnknownIsAUsageError) { EXPECT_EQ(run("list potatoes").status, 2); }
+
+TEST(Reproduce, RefusesToWriteIntoAFolderThatHoldsFiles) {
+  const TemporaryFile file("keep", "precious");
+  const fs::path folder = file.path.string() + ".d";
+  fs::create_directory(folder);
+  fs::copy(file.path, folder / "keep");
+  const Answer answer = run("reproduce --quick --out " + folder.string());
+  EXPECT_EQ(answer.status, 3);
+  EXPECT_NE(answer.out.find("not empty"), std::string::npos) << answer.out;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
+  fs::remove_all(folder);
+}
+
+}  // namespace

@@ -1,0 +1,125 @@
+#include "reference/closed_form.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+namespace dartboard::reference {
+namespace {
+
+constexpr double u = 0x1p-53;
+
+TEST(FreeFall, IsAParabolaWithoutDrag) {
+  const Flight end = free_fall({{1, 2, 3}, {4, 0, -2}}, {0, 0, -10}, 0.0, 0.5);
+  EXPECT_EQ(end.x, Eigen::Vector3d(3, 2, 0.75));  // all terms are short binary fractions
+  EXPECT_EQ(end.v, Eigen::Vector3d(4, 0, -7));
+}
+
+TEST(FreeFall, ReachesGravityOverViscosityInTheEnd) {
+  const Flight end = free_fall({{0, 0, 0}, {3, 0, 0}}, {0, 0, -10}, 2.0, 50.0);
+  EXPECT_LT(end.v[0], 1e-40);  // 3 exp(-100)
+  EXPECT_DOUBLE_EQ(end.v[2], -5.0);
+}
+
+TEST(FreeFall, ContinuesFromWhereItWas) {
+  // z is below and above the switch to the series; every factor has a few roundings, 40 in all on sizes below 100
+  const Flight start{{1, 2, 3}, {4, -5, 6}};
+  for (double viscosity : {1e-9, 0.1, 0.7, 4.0}) {
+    const Flight half = free_fall(start, {0, 1, -10}, viscosity, 0.5);
+    const Flight twice = free_fall(half, {0, 1, -10}, viscosity, 0.75);
+    const Flight once = free_fall(start, {0, 1, -10}, viscosity, 1.25);
+    EXPECT_LT((twice.x - once.x).norm(), 40 * u * 100) << viscosity;
+    EXPECT_LT((twice.v - once.v).norm(), 40 * u * 100) << viscosity;
+  }
+}
+
+TEST(Oscillate, AgreesWithManySmallRungeKuttaStepsForEveryDamping) {
+  // omega = 2, t = 1 in 2000 steps of h. With the larger root r = max(omega, drag) of the motion each step has the
+  // error (r h)^5 / 120 < 1e-14 / 120 and, in the 2 x 2 product, some 10 roundings; neither grows by more than
+  // max(1, omega) = 2, since the motion is damped. The sizes are below 3.
+  const double h = 1.0 / 2048.0;
+  for (double drag : {0.0, 0.5, 3.0, 4.0, 4.0 + 1e-7, 5.0}) {
+    const Swing exact = oscillate(4.0, drag, {1.0, -0.5}, 1.0);
+    const Swing small = rk4_oscillate(4.0, drag, {1.0, -0.5}, h, 2048);
+    const double root = std::max(2.0, drag);
+    const double tolerance = 2048 * 3.0 * 2.0 * (std::pow(root * h, 5) / 120 + 10 * u);
+    EXPECT_NEAR(exact.q, small.q, tolerance) << drag;
+    EXPECT_NEAR(exact.v, small.v, 2.0 * tolerance) << drag;
+  }
+}
+
+TEST(Oscillate, SlowsDownByDragAlone) {
+  const Swing end = oscillate(0.0, 2.0, {1.0, 4.0}, 3.0);
+  EXPECT_NEAR(end.q, 1.0 + 2.0 * (1.0 - std::exp(-6.0)), 16 * u * 3.0);
+  EXPECT_NEAR(end.v, 4.0 * std::exp(-6.0), 64 * u * 4.0);  // a difference of numbers below 4
+  const Swing drift = oscillate(0.0, 0.0, {1.0, 4.0}, 3.0);
+  EXPECT_EQ(drift.q, 13.0);
+  EXPECT_EQ(drift.v, 4.0);
+}
+
+TEST(Oscillate, StaysFiniteWhenHeavilyOverdamped) {
+  // the slow root is omega2 / drag (1 + 1e-12): q decays by exp(-1e-3)
+  const Swing end = oscillate(1.0, 1e6, {1.0, 0.0}, 1e3);
+  EXPECT_NEAR(end.q, std::exp(-1e-3), 1e-11);
+}
+
+TEST(Dumbbell, MirrorsItsDistanceAfterHalfAPeriodAndFliesOn) {
+  const Dumbbell body{.m1 = 1.0, .m2 = 3.0, .stiffness = 12.0, .rest_length = 2.0};  // reduced mass 3/4, omega 4
+  const DumbbellState start{0.0, 2.5, 1.0, 1.0};
+  const double t = std::numbers::pi / 4.0;
+  const DumbbellState end = swing(body, start, t);
+  EXPECT_NEAR(end.x2 - end.x1, 1.5, 32 * u * 4);
+  EXPECT_NEAR((end.x1 + 3.0 * end.x2) / 4.0, 1.875 + t, 32 * u * 4);
+  EXPECT_NEAR(end.v1, 1.0, 32 * u * 4);
+  EXPECT_NEAR(end.v2, 1.0, 32 * u * 4);
+}
+
+TEST(Dumbbell, LosesMomentumToTheMediumAndNotToItsSpring) {
+  const Dumbbell body{1.0, 3.0, 12.0, 5.0, 2.0, 0.5};
+  const DumbbellState end = swing(body, {0.0, 3.0, 2.0, -1.0}, 1.5);
+  EXPECT_NEAR(end.v1 + 3.0 * end.v2, -std::exp(-0.75), 64 * u * 4);
+}
+
+// The frequencies of K = k / m (2 -1; -1 2 -1; ...), by an eigenvalue solver.
+Eigen::VectorXd chain_squares(int n, double k, double m, double end_diagonal) {
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    K(i, i) = i == 0 || i == n - 1 ? end_diagonal : 2.0;
+    if (i > 0) K(i, i - 1) = K(i - 1, i) = -1.0;
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k / m * K).eigenvalues();
+}
+
+TEST(Chain, HasTheFrequenciesOfItsStiffnessMatrix) {
+  // the solver is backward stable: eigenvalues within a modest multiple of n u |K|, |K| <= 4 k / m
+  const int n = 9;
+  const double k = 30.0, m = 0.2, tolerance = 10 * n * u * 4 * k / m;
+  const Eigen::VectorXd fixed = chain_squares(n, k, m, 2.0), free = chain_squares(n, k, m, 1.0);
+  for (int j = 0; j < n; ++j) {
+    EXPECT_NEAR(std::pow(chain_omega_fixed(n, k, m, j + 1), 2), fixed[j], tolerance);
+    EXPECT_NEAR(std::pow(chain_omega_free(n, k, m, j), 2), free[j], tolerance);
+  }
+}
+
+TEST(Rk4, IsNeutralAtItsStabilityLimitOnTheImaginaryAxis) {
+  // |R(iy)|^2 = 1 - y^6/72 + y^8/576, which is 1 at y^2 = 8
+  EXPECT_NEAR(std::abs(rk4_amplification({0.0, std::sqrt(8.0)})), 1.0, 64 * u);
+  EXPECT_LT(std::abs(rk4_amplification({0.0, 2.82})), 1.0);
+  EXPECT_GT(std::abs(rk4_amplification({0.0, 2.83})), 1.0);
+}
+
+TEST(Rk4, MapsAnOscillatorAsItsAmplificationSays) {
+  // with omega = 1, q + i v turns by exp(-i t): z = -i h
+  const double h = 0.3;
+  const std::complex<double> once = rk4_amplification({0.0, -h});
+  std::complex<double> y(0.25, 0.5);
+  for (int i = 0; i < 20; ++i) y *= once;
+  const Swing end = rk4_oscillate(1.0, 0.0, {0.25, 0.5}, h, 20);
+  EXPECT_NEAR(end.q, y.real(), 20 * 16 * u);
+  EXPECT_NEAR(end.v, y.imag(), 20 * 16 * u);
+}
+
+}  // namespace
+}  // namespace dartboard::reference

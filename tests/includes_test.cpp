@@ -1,0 +1,76 @@
+// The direction of the architecture, read from the sources: who may include whom.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  std::string from, to;  // file relative to the root; the text between quotes or angle brackets
+};
+
+std::vector<Include> includes_of_project() {
+  static const std::regex line(R"re(^\s*#include\s*[<"]([^>"]+)[>"])re");
+  const fs::path root = DARTBOARD_SOURCE_DIR;
+  std::vector<Include> found;
+  for (const char* room : {"core", "reference", "validation", "benchmarks"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") continue;
+      std::ifstream file(entry.path());
+      for (std::string text; std::getline(file, text);)
+        if (std::smatch match; std::regex_search(text, match, line))
+          found.push_back({fs::relative(entry.path(), root).generic_string(), match[1]});
+    }
+  return found;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  for (const auto& prefix : prefixes)
+    if (text.starts_with(prefix)) return true;
+  return false;
+}
+
+// Ours that files below `room` include, but those that start with one of `allowed`.
+std::vector<std::string> forbidden(const std::string& room, const std::vector<std::string>& allowed) {
+  static const auto all = includes_of_project();
+  std::vector<std::string> wrong;
+  for (const auto& [from, to] : all)
+    if (from.starts_with(room) &&
+        starts_with_any(to, {"core/", "reference/", "validation/", "benchmarks/", "tests/", "CGAL/"}) &&
+        !starts_with_any(to, allowed))
+      wrong.push_back(from + " includes " + to);
+  return wrong;
+}
+
+using Files = std::vector<std::string>;
+
+TEST(Includes, AreFoundAtAll) { EXPECT_GT(includes_of_project().size(), 100u); }
+TEST(Includes, OfThePlainTypesStayAmongThem) { EXPECT_EQ(forbidden("core/plain/", {"core/plain/"}), Files{}); }
+TEST(Includes, OfTopologyKnowNoMechanics) {
+  EXPECT_EQ(forbidden("core/topology/", {"core/plain/", "core/topology/"}), Files{});
+}
+TEST(Includes, OfOperationsSeeTopologyOnly) {
+  EXPECT_EQ(forbidden("core/operations/", {"core/plain/", "core/topology/", "core/operations/"}), Files{});
+}
+TEST(Includes, OfCoreNeverReachReferenceOrCgal) { EXPECT_EQ(forbidden("core/", {"core/"}), Files{}); }
+TEST(Includes, OfReferenceShareOnlyPlainTypesWithCore) {
+  EXPECT_EQ(forbidden("reference/", {"core/plain/", "reference/", "CGAL/"}), Files{});
+}
+TEST(Includes, OfValidationDoNotReachTheCommandLine) {
+  EXPECT_EQ(forbidden("validation/", {"core/", "reference/", "validation/", "CGAL/"}), Files{});
+}
+TEST(Includes, OfBenchmarksLeaveCgalToTheOthers) {
+  EXPECT_EQ(forbidden("benchmarks/", {"core/", "reference/", "validation/", "benchmarks/"}), Files{});
+}
+
+}  // namespace

@@ -1,0 +1,133 @@
+#include "benchmarks/manifest.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/processes.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ManifestTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    root_ = fs::path(testing::TempDir()) / ("dartboard-" + std::to_string(getpid()) + "-" + test);
+    fs::create_directories(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  fs::path file_with(const std::string& name, const std::string& text) const {
+    std::ofstream(root_ / name) << text;
+    return root_ / name;
+  }
+  void git(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), {"-C", root_.string(), "-c", "user.name=T", "-c", "user.email=t@example.org"});
+    run_program("git", arguments, [](std::string_view) {}, Stderr::discarded);
+  }
+
+  fs::path root_;
+};
+
+/// The first string anywhere in `json` that is, or contains as a word, an absolute path; empty if there is none.
+std::string absolute_path_in(const nlohmann::json& json) {
+  if (json.is_string()) {
+    const std::string text = " " + json.get<std::string>();
+    const bool found = text.find(" /") != text.npos || text.find("=/") != text.npos || text.find("-I/") != text.npos;
+    return found ? text : "";
+  }
+  if (json.is_structured())
+    for (const auto& part : json)
+      if (std::string found = absolute_path_in(part); !found.empty()) return found;
+  return "";
+}
+
+// The reference values of the published FNV-1a test suite for "" and "a".
+TEST_F(ManifestTest, HashesTheBytesOfAFile) {
+  EXPECT_EQ(file_hash(file_with("empty", "")), "fnv1a64:cbf29ce484222325");
+  EXPECT_EQ(file_hash(file_with("letter", "a")), "fnv1a64:af63dc4c8601ec8c");
+}
+
+TEST_F(ManifestTest, HashesFilesLongerThanOneBlock) {
+  const std::string block(70000, 'x');
+  EXPECT_NE(file_hash(file_with("one", block + "1")), file_hash(file_with("other", block + "2")));
+}
+
+TEST_F(ManifestTest, RefusesToHashWhatCannotBeRead) {
+  EXPECT_THROW(file_hash(root_ / "missing"), IoError);
+  EXPECT_THROW(file_hash(root_), IoError);
+}
+
+TEST_F(ManifestTest, KnowsItsRun) {
+  const fs::path mesh = file_with("body.mesh", "a");
+  const auto manifest = begin_manifest({.command_line = {"/opt/bin/dartboard", "reproduce", "--out=/srv/private/run"},
+                                        .seeds = {{"order", 42}},
+                                        .libraries = {{"CGAL", "5.5.1"}},
+                                        .input_files = {mesh}});
+  EXPECT_EQ(manifest.at("command_line"), (nlohmann::json{"dartboard", "reproduce", "--out=run"}));
+  EXPECT_EQ(manifest.at("seeds").at("order"), 42);
+  EXPECT_EQ(manifest.at("libraries").at("CGAL"), "5.5.1");
+  EXPECT_TRUE(manifest.at("libraries").contains("Eigen"));
+  EXPECT_EQ(manifest.at("inputs").at(0).at("file"), "body.mesh");
+  EXPECT_EQ(manifest.at("inputs").at(0).at("hash"), "fnv1a64:af63dc4c8601ec8c");
+}
+
+TEST_F(ManifestTest, NamesNoAbsolutePath) {
+  auto manifest = begin_manifest({.command_line = {"/opt/bin/dartboard", root_.string()},
+                                  .input_files = {file_with("body.mesh", "a")}});
+  finish_manifest(manifest);
+  EXPECT_EQ(absolute_path_in(manifest), "");
+}
+
+TEST_F(ManifestTest, HasEveryFactEvenWhereItIsUnknown) {
+  auto manifest = begin_manifest({});
+  finish_manifest(manifest);
+  for (const char* pointer :
+       {"/dartboard", "/git/commit", "/git/dirty", "/build/compiler", "/build/flags", "/build/type", "/blas/name",
+        "/blas/threads", "/machine/cpu", "/machine/cores", "/machine/caches", "/machine/governor", "/machine/kernel",
+        "/started/utc", "/started/load_average", "/finished/utc", "/finished/load_average"})
+    EXPECT_TRUE(manifest.contains(nlohmann::json::json_pointer(pointer))) << pointer;
+}
+
+TEST_F(ManifestTest, PublishesCommandsWithoutPathsOfTheMachine) {
+  EXPECT_EQ(published_command("-O3 -I/opt/include -isystem /usr/include/eigen3 --out=/srv/run"),
+            "-O3 -Iinclude -isystem eigen3 --out=run");
+  EXPECT_EQ(published_command("km/h a/b -DX=1/2"), "km/h a/b -DX=1/2");
+  EXPECT_EQ(published_path(fs::current_path() / "meshes" / "body.mesh"), published_path("meshes/body.mesh"));
+  EXPECT_EQ(published_path("/srv/private/folder/"), "folder");
+}
+
+TEST_F(ManifestTest, ReportsNoCommitOutsideARepository) {
+  EXPECT_TRUE(git_state(root_ / "missing").at("commit").is_null());
+}
+
+TEST_F(ManifestTest, ReportsCommitAndChangesButNotResults) {
+  try {
+    git({"init", "--quiet"});
+  } catch (const ProcessError&) {
+    GTEST_SKIP() << "git is not installed";
+  }
+  file_with("source.cpp", "int x;");
+  git({"add", "."});
+  git({"commit", "--quiet", "-m", "first"});
+  fs::create_directories(root_ / "results" / "run");
+  file_with("results/run/manifest.json", "{}");
+  const auto clean = git_state(root_);
+  EXPECT_EQ(clean.at("commit").get<std::string>().size(), 40u);
+  EXPECT_EQ(clean.at("dirty"), false);
+
+  file_with("source.cpp", "int y;");
+  EXPECT_EQ(git_state(root_).at("dirty"), true);
+
+  // sources unpacked within someone else's repository have no commit of their own
+  EXPECT_TRUE(git_state(root_ / "results").at("commit").is_null());
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,27 @@
+#pragma once
+// What every contender offers, whoever carries its body.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/plain/problem.h"
+
+namespace dartboard {
+
+/// A body in motion, spoken to in the order of the mesh's points.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  /// Advance by n steps of the problem's h with the classical Runge-Kutta method.
+  virtual void step(int n) = 0;
+  virtual PointState state() const = 0;
+  virtual void set_state(const PointState& state) = 0;
+  /// Springs and ambient drag on each point [N], in the present state.
+  virtual std::vector<Eigen::Vector3d> forces() = 0;
+};
+
+/// Of positions and velocities: equal bits, equal hash.
+std::uint64_t state_hash(const PointState& state);
+
+}  // namespace dartboard
