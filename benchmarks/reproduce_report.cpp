@@ -10,6 +10,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/topology/check.h"
 #include "core/views/cell_arrays.h"
+#include "validation/topology_claims.h"
 
 namespace dartboard {
 namespace {
@@ -45,6 +46,12 @@ Claim untested(std::string_view id, std::string measured, std::string reason) {
 
 void answer_topology(std::vector<Claim>& claims, const MassSpringBody<Map3, Held::by_every_dart>& body,
                      const ReproduceResults& results, const Problem& problem) {
+  const auto answer = [&](std::string_view id, const ClaimAnswer& a) { claims.push_back(tested(id, a.holds, a.measured, "exact")); };
+  answer("graphs-ambiguous", try_same_graph_twice(problem.mesh));
+  answer("non-manifold-refused", try_non_manifold_inputs());
+  answer("class-closed", try_to_leave_the_class(problem.mesh, 500, 1));
+  answer("combinatorial-export", try_combinatorial_round_trip(problem.mesh));
+
   const Map3& map = body.map;
   const std::string violation = check(map);
   claims.push_back(tested("map-valid", violation.empty(), violation.empty() ? "valid" : violation, "exact"));

@@ -72,7 +72,7 @@ TEST(GeneralizedMap, LinkingADartThatIsNotFreeNamesBothDartsAndTheObstacle) {
 TEST(GeneralizedMap, LinkingADartToItselfIsRefused) {
   Map3 map;
   const Dart a = map.add_dart();
-  EXPECT_EQ(message_of([&] { map.link<2>(a, a); }), "cannot 2-link d0 to itself: an 2-free dart is its own alpha2");
+  EXPECT_EQ(message_of([&] { map.link<2>(a, a); }), "cannot 2-link d0 to itself: alpha2(d0) = d0 is what 2-free means");
 }
 
 TEST(GeneralizedMap, LinkingADeadDartIsRefusedOnEitherSide) {

@@ -1,5 +1,5 @@
 #pragma once
-// The small meshes of the tests of reference/, written where they can be seen.
+// The small meshes of the tests, written where they can be seen.
 
 #include <array>
 #include <cstdint>

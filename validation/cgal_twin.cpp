@@ -47,7 +47,8 @@ AlphaList alphas_of(const Mesh& mesh) {
   AlphaList list;
   list.dimension = mesh.cell_count() == 0 ? 3 : mesh.dimension();
   const auto n = static_cast<std::size_t>(list.dimension);
-  // a dart by the nodes of its facet, ascending, then its own node and the other one of its edge: two alike are n-linked
+  // a dart by the nodes of its facet, ascending, then its own node and the other one of its edge: two alike are
+  // n-linked
   struct Named {
     std::array<std::uint32_t, 6> key;
     std::uint32_t dart;
@@ -183,7 +184,8 @@ auto orbit_iterator(CGAL::Combinatorial_map<N, Items>& map, auto d, auto mark) {
 }
 
 template <class Map>
-using Walk = void (*)(Map&, typename Map::Dart_handle, typename Map::size_type, std::vector<typename Map::Dart_handle>&);
+using Walk = void (*)(Map&, typename Map::Dart_handle, typename Map::size_type,
+                      std::vector<typename Map::Dart_handle>&);
 
 template <class Map, unsigned bits, unsigned i, unsigned... chosen>
 void walk_orbit(Map& map, typename Map::Dart_handle d, typename Map::size_type mark,
@@ -250,7 +252,7 @@ class CgalTwin : public MapTwin {
     return met_;
   }
 
-  mutable Map map_;  // marks are in the map
+  mutable Map map_;             // marks are in the map
   std::vector<Handle> handle_;  // by name; null for no dart
 
  private:
@@ -293,9 +295,11 @@ class CgalGmapTwin final : public CgalTwin<CGAL::Generalized_map<N, Items>> {
   Dart alpha(int i, Dart d) const override { return name(map_.alpha(handle_[d.index], i)); }
   void orbit(Involutions set, Dart d, std::vector<Dart>& darts) const override {
     darts.clear();
-    for (const Handle h : Base::walked([&](auto mark, auto& out) { walks<Map, 0>[set.bits](map_, handle_[d.index], mark, out); }))
+    for (const Handle h :
+         Base::walked([&](auto mark, auto&out) { walks<Map, 0>[set.bits](map_, handle_[d.index], mark, out); }))
       darts.push_back(name(h));
-    // CGAL walks two commuting involutions without marks, and meets a dart twice where both lead to the same one (a fold)
+    // CGAL walks two commuting involutions without marks, and meets a dart twice where both lead to the same one (a
+    // fold)
     if (set.size() == 2 && darts.size() <= 4) {
       std::sort(darts.begin(), darts.end());
       darts.erase(std::unique(darts.begin(), darts.end()), darts.end());
@@ -308,9 +312,8 @@ class CgalGmapTwin final : public CgalTwin<CGAL::Generalized_map<N, Items>> {
   bool can_carry(CellKind kind) const override { return dartboard::dimension(kind) == N; }
   bool refuses_folds() const override { return true; }
   bool can_sew(int i, Dart a, Dart b) const override {
-    return with_dimension<N>(i, [&](auto k) {
-      return map_.template is_sewable<decltype(k)::value>(handle_[a.index], handle_[b.index]);
-    });
+    return with_dimension<N>(
+        i, [&](auto k) { return map_.template is_sewable<decltype(k)::value>(handle_[a.index], handle_[b.index]); });
   }
   void sew(int i, Dart a, Dart b) override {
     with_dimension<N>(i, [&](auto k) {
@@ -405,13 +408,13 @@ class CgalCmapTwin final : public CgalTwin<CGAL::Combinatorial_map<N, Items>> {
     darts.clear();
     if (set.contains(0)) {
       const Handle h = handle_[positive_of(d).index];
-      for (const Handle g : Base::walked([&](auto mark, auto& out) { walks<Map, 1>[set.bits](map_, h, mark, out); })) {
+      for (const Handle g : Base::walked([&](auto mark, auto&out) { walks<Map, 1>[set.bits](map_, h, mark, out); })) {
         darts.push_back(name(g));
         darts.push_back(across_[name(g).index]);
       }
     } else {  // the vertex, walked from a positive dart; alpha_1 brings the negative ones
       const Handle h = handle_[is_positive(d) ? d.index : alpha(1, d).index];
-      for (const Handle g : Base::walked([&](auto mark, auto& out) {
+      for (const Handle g : Base::walked([&](auto mark, auto&out) {
              auto range = map_.template darts_of_cell_basic<0, N>(h, mark);
              for (auto it = range.begin(); it.cont(); ++it) out.push_back(it);
            })) {
@@ -440,15 +443,9 @@ class CgalCmapTwin final : public CgalTwin<CGAL::Combinatorial_map<N, Items>> {
       return true;
     });
   }
-  // topo_unsew<i> unlinks a dart of a closed line twice when i is N: collect first, as for generalized maps
   void unsew(int i, Dart d) override {
     with_involution(i, [&](auto k) {
-      constexpr unsigned dim = decltype(k)::value;
-      std::vector<Handle> line;
-      auto range = map_.template darts_of_involution<dim>(handle_[positive_of(d).index]);
-      for (auto it = range.begin(); it.cont(); ++it) line.push_back(it);
-      for (const Handle h : line)
-        if (!map_.template is_free<dim>(h)) map_.template unlink_beta<dim>(h);
+      map_.template topo_unsew<decltype(k)::value>(handle_[positive_of(d).index]);
       return true;
     });
   }

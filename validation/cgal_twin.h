@@ -18,10 +18,11 @@
 namespace dartboard {
 
 /// The darts of one cell: node and alphas by position in the cell, face by face and edge by edge as `faces_of` lists
-/// them, two darts per edge. alpha_n, n the dimension of the kind, is free. Derived here once more, not taken from core.
+/// them, two darts per edge. alpha_n, n the dimension of the kind, is free. Derived here once more, not taken from
+/// core.
 struct CellShape {
   int dimension = 0;
-  std::vector<std::uint8_t> node;                   // local node
+  std::vector<std::uint8_t> node;                  // local node
   std::vector<std::array<std::uint8_t, 3>> alpha;  // position of alpha_0, alpha_1, alpha_2; itself where free
 };
 const CellShape& shape_of(CellKind kind);
@@ -107,9 +108,9 @@ std::unique_ptr<MapTwin> make_cgal_gmap_twin(const AlphaList& alphas);
 /// carried: any but i-sews, 2 <= i, of darts of opposite colours.
 std::unique_ptr<MapTwin> make_cgal_cmap_twin(const AlphaList& alphas, std::string* why_not);
 
-/// Whether a twin made by one of the two functions above, after all it lived through, is isomorphic to the fresh one that
-/// CGAL makes of `alphas`: by are_cc_isomorphic, component by component, from equally named darts. (is_isomorphic_to looks
-/// at one component only and would accept any relabelling.)
+/// Whether a twin made by one of the two functions above, after all it lived through, is isomorphic to the fresh one
+/// that CGAL makes of `alphas`: by are_cc_isomorphic, component by component, from equally named darts.
+/// (is_isomorphic_to looks at one component only and would accept any relabelling.)
 bool are_isomorphic(const MapTwin& cgal_twin, const AlphaList& alphas);
 
 }  // namespace dartboard

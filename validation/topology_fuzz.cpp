@@ -96,7 +96,8 @@ std::optional<Disagreement> Lockstep::apply_checked(Operation& op) {
     if (d == no_dart) continue;  // not an operand
     for (const auto& twin : twins_)
       if (twin->is_live(d) != twins_[0]->is_live(d))
-        return differ(to_string(d) + " is live", twins_[0]->is_live(d) ? "yes" : "no", *twin, twin->is_live(d) ? "yes" : "no");
+        return differ(to_string(d) + " is live", twins_[0]->is_live(d) ? "yes" : "no", *twin,
+                      twin->is_live(d) ? "yes" : "no");
     if (!twins_[0]->is_live(d)) {
       outcome_ = Outcome::illegal;
       return std::nullopt;
@@ -157,7 +158,9 @@ std::optional<Disagreement> Lockstep::do_unsew(const Operation& op, int i) {
   const auto before = count_cells_around(*twins_[0], touched);
   if (op.kind == Operation::Kind::dissociate) {
     SplitCounts ours{};
-    const auto say = [](const SplitCounts& s) { return fmt::format("{} vertices, {} edges, {} faces", s[0], s[1], s[2]); };
+    const auto say = [](const SplitCounts& s) {
+      return fmt::format("{} vertices, {} edges, {} faces", s[0], s[1], s[2]);
+    };
     for (const auto& twin : twins_) {
       const SplitCounts split = twin->dissociate(op.a);
       if (twin == twins_[0]) ours = split;
@@ -250,17 +253,22 @@ std::optional<Disagreement> Lockstep::compare_cell(int i, Dart d) {
   const Involutions set = cell_involutions(n_, i);
   twins_[0]->orbit(set, d, orbit_);
   ++epoch_;
+  const auto unknown = [&](Dart e) { return e.index >= next_name_; };
   for (const Dart e : orbit_) {
+    if (unknown(e))
+      return differ(fmt::format("the {}-cell of {}", i, to_string(d)), "live darts expected", *twins_[0], "another");
     covered_[e.index] = covered_epoch_;
     stamp_[e.index] = epoch_;
   }
   for (std::size_t k = 1; k < twins_.size(); ++k) {
     twins_[k]->orbit(set, d, other_);
-    const auto stranger = std::find_if(other_.begin(), other_.end(),
-                                       [&](Dart e) { return std::exchange(stamp_[e.index], epoch_ + 1) != epoch_; });
+    const auto stranger = std::find_if(other_.begin(), other_.end(), [&](Dart e) {
+      return unknown(e) || std::exchange(stamp_[e.index], epoch_ + 1) != epoch_;
+    });
     ++epoch_;
     if (stranger != other_.end() || other_.size() != orbit_.size())
-      return differ(fmt::format("the {}-cell of {}", i, to_string(d)), fmt::format("{} darts", orbit_.size()), *twins_[k],
+      return differ(fmt::format("the {}-cell of {}", i, to_string(d)), fmt::format("{} darts", orbit_.size()),
+                    *twins_[k],
                     fmt::format("{} darts{}", other_.size(),
                                 stranger == other_.end() ? "" : fmt::format(", {} among them", to_string(*stranger))));
   }
@@ -279,7 +287,8 @@ std::optional<Disagreement> Lockstep::count_change(std::span<const Dart> touched
     if (unsewn.empty()) continue;
     const long least = i == n_ - 1 ? 1 : 0;
     long most = least;
-    if (i < n_ - 1)  // the facet meets an i-cell at two darts, or at one: the ends of an edge; corners and sides of a face
+    if (i <
+        n_ - 1)  // the facet meets an i-cell at two darts, or at one: the ends of an edge; corners and sides of a face
       for (const Dart d : unsewn) most += n_ == 2 || twins_[0]->alpha(1 - i, d) >= d ? 1 : 0;
     if (change < least || change > most)
       return differ(fmt::format("{}-cells more", i), std::to_string(change), *twins_[0],
@@ -317,8 +326,9 @@ std::optional<Disagreement> Lockstep::compare_everything() const {
 
 namespace {
 
-/// Proposes operations that keep a body a body: most of what is unsewn is sewn again later where it was, and its size
-/// stays within a factor of about two.
+/// Proposes operations that keep a body a body: most of what is unsewn is sewn again later where it was, its size stays
+/// within a factor of about two, and few facets at a time are sewn to what they never touched. (Many such sews would
+/// make one vertex of all the vertices, and then every operation walks the whole body.)
 class Proposals {
  public:
   Proposals(std::uint64_t seed, const Lockstep& lockstep)
@@ -331,28 +341,31 @@ class Proposals {
   Operation next() {
     const std::size_t darts = lockstep_.live().size();
     if (darts == 0 || (darts < 2 * start_size_ + 96 && random_.percent(5)))
-      return {Operation::Kind::add, 0, kinds_[random_.below(kinds_.size())], no_dart, no_dart};
-    if (darts > start_size_ / 2 && random_.percent(5)) return {Operation::Kind::remove, 0, {}, any(), no_dart};
+      return {.kind = Operation::Kind::add, .cell = kinds_[random_.below(kinds_.size())]};
+    if (darts > start_size_ / 2 && random_.percent(5)) return {.kind = Operation::Kind::remove, .a = any()};
     const std::uint32_t dice = random_.below(100);
     if (dice < 36) return take_apart(n_);
     if (dice < 64 && !memory_.empty()) return sew_again();
-    if (dice < 78) return sew_facets();
+    if (dice < 78) return sew_strangers();
     const auto i = static_cast<int>(random_.below(static_cast<std::size_t>(n_) + 1));
     if (dice < 90 && i < n_ && lockstep_.carries_unsew(i)) return take_apart(i);
-    return {Operation::Kind::sew, static_cast<std::int8_t>(dice < 94 ? n_ : i), {}, any(), any()};  // mostly illegal
+    const Dart a = any(), b = any();       // one after the other: the order of arguments is the compiler's
+    return sew(dice < 94 ? n_ : i, a, b);  // mostly illegal
   }
 
  private:
+  static Operation sew(int i, Dart a, Dart b) {
+    return {.kind = Operation::Kind::sew, .i = static_cast<std::int8_t>(i), .a = a, .b = b};
+  }
   Dart any() { return lockstep_.live()[random_.below(lockstep_.live().size())]; }
 
   Operation take_apart(int i) {
     Dart d = any();
     for (int attempt = 0; attempt < 8 && lockstep_.ours().alpha(i, d) == d; ++attempt) d = any();
     const Dart opposite = lockstep_.ours().alpha(i, d);
-    if (opposite != d) memory_.push_back({Operation::Kind::sew, static_cast<std::int8_t>(i), {}, d, opposite});
-    const bool dissociate = i == n_ && random_.percent(50);
-    return {dissociate ? Operation::Kind::dissociate : Operation::Kind::unsew, static_cast<std::int8_t>(dissociate ? 0 : i),
-            {}, d, no_dart};
+    if (opposite != d) memory_.push_back(sew(i, d, opposite));
+    if (i == n_ && random_.percent(50)) return {.kind = Operation::Kind::dissociate, .a = d};
+    return {.kind = Operation::Kind::unsew, .i = static_cast<std::int8_t>(i), .a = d};
   }
   Operation sew_again() {
     const std::uint32_t k = random_.below(memory_.size());
@@ -361,13 +374,24 @@ class Proposals {
     memory_.pop_back();
     return again;
   }
-  Operation sew_facets() {
+  Operation sew_strangers() {
+    const MapTwin& map = lockstep_.ours();
+    constexpr std::size_t most = 24;
+    if (strangers_.size() >= most) {
+      Operation& pair = strangers_[random_.below(strangers_.size())];
+      const Operation old = pair;
+      const bool live = map.is_live(old.a) && map.is_live(old.b);
+      if (live && map.alpha(n_, old.a) == old.b) return {.kind = Operation::Kind::dissociate, .a = old.a};
+      pair = strangers_.back();
+      strangers_.pop_back();
+    }
     Dart a = any(), b = any();
-    for (int attempt = 0; attempt < 8 && lockstep_.ours().alpha(n_, a) != a; ++attempt) a = any();
-    for (int attempt = 0; attempt < 8 && lockstep_.ours().alpha(n_, b) != b; ++attempt) b = any();
+    for (int attempt = 0; attempt < 8 && map.alpha(n_, a) != a; ++attempt) a = any();
+    for (int attempt = 0; attempt < 8 && map.alpha(n_, b) != b; ++attempt) b = any();
     // the other way round when this one does not suit everybody
-    if (!lockstep_.carries_sew(n_, a, b)) b = lockstep_.ours().alpha(0, b);
-    return {Operation::Kind::sew, static_cast<std::int8_t>(n_), {}, a, b};
+    if (!lockstep_.carries_sew(n_, a, b)) b = map.alpha(0, b);
+    strangers_.push_back(sew(n_, a, b));
+    return strangers_.back();
   }
 
   RandomNumbers random_;
@@ -375,7 +399,8 @@ class Proposals {
   int n_;
   std::size_t start_size_;
   std::vector<CellKind> kinds_;
-  std::vector<Operation> memory_;  // sews that would undo what was taken apart
+  std::vector<Operation> memory_;     // sews that would undo what was taken apart
+  std::vector<Operation> strangers_;  // the latest sews of facets that never touched
 };
 
 void count(FuzzResult& result, Lockstep::Outcome outcome) {

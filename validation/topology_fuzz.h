@@ -1,5 +1,6 @@
 #pragma once
-// Operations in lockstep on our maps and on CGAL's: random ones until something differs, then the shortest script of it.
+// Operations in lockstep on our maps and on CGAL's: random ones until something differs, then the shortest script of
+// it.
 
 #include <cstddef>
 #include <cstdint>
@@ -55,12 +56,13 @@ class Lockstep {
 
   Lockstep(const Mesh& mesh, ScriptStorage storage, ScriptOracles oracles, const MakeTwins& ours = core_twins);
 
-  /// Do it, unless it is illegal or one of the twins cannot carry it: then nobody does. The first name of an added cell is
-  /// filled in when it is missing. Whatever a twin throws is a disagreement.
+  /// Do it, unless it is illegal or one of the twins cannot carry it: then nobody does. The first name of an added cell
+  /// is filled in when it is missing. Whatever a twin throws is a disagreement.
   std::optional<Disagreement> apply(Operation& operation);
   Outcome outcome() const { return outcome_; }  // of the last operation
 
-  /// Everything of compare_twins, the cells counted so far, and CGAL's isomorphism test against fresh maps of our alphas.
+  /// Everything of compare_twins, the cells counted so far, and CGAL's isomorphism test against fresh maps of our
+  /// alphas.
   std::optional<Disagreement> compare_everything() const;
 
   const MapTwin& ours() const { return *twins_[0]; }

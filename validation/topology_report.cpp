@@ -32,9 +32,9 @@ auto with_sewable(int i, F&& f) {
   }
 }
 
-/// How many cells more there are by what an operation reports: as many as there are reported pairs, less those that close
-/// a cycle. (A cell that a face meets at several corners may come apart into three, and its parts are reported in pairs.)
-/// A pair within one cell is a false report, and then the number of pairs is the answer.
+/// How many cells more there are by what an operation reports: as many as there are reported pairs, less those that
+/// close a cycle. (A cell that a face meets at several corners may come apart into three, and its parts are reported in
+/// pairs.) A pair within one cell is a false report, and then the number of pairs is the answer.
 template <int i, class Map>
 long cells_added(const Map& map, const std::vector<DissociatedCell>& pairs) {
   std::vector<Dart> cells;  // one dart per cell, and to which of them it is joined
@@ -121,9 +121,8 @@ class CoreTwin final : public MapTwin {
   }
   void sew(int i, Dart a, Dart b) override {
     if (operations_.sew) return operations_.sew(map_, i, dart_of_[a.index], dart_of_[b.index]);
-    with_sewable<Map>(i, [&](auto k) {
-      dartboard::sew<decltype(k)::value>(map_, dart_of_[a.index], dart_of_[b.index]);
-    });
+    with_sewable<Map>(i,
+                      [&](auto k) { dartboard::sew<decltype(k)::value>(map_, dart_of_[a.index], dart_of_[b.index]); });
   }
   void unsew(int i, Dart d) override { unsew_own(i, dart_of_[d.index]); }
   SplitCounts dissociate(Dart d) override {
@@ -134,10 +133,12 @@ class CoreTwin final : public MapTwin {
       change = dissociate_face(map_, own);
     else
       change = dissociate_edge(map_, own);
-    return {cells_added<0>(map_, change.vertices), cells_added<1>(map_, change.edges), cells_added<2>(map_, change.faces)};
+    return {cells_added<0>(map_, change.vertices), cells_added<1>(map_, change.edges),
+            cells_added<2>(map_, change.faces)};
   }
   void add(CellKind kind, Dart first) override {
-    // which dart is at which position of the cell: slots are used again in any order, so follow the alphas from the first
+    // which dart is at which position of the cell: slots are used again in any order, so follow the alphas from the
+    // first
     const CellShape& shape = shape_of(kind);
     std::vector<Dart> at(shape.node.size(), no_dart);
     at[0] = add_cell(map_, kind);
@@ -260,7 +261,8 @@ std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins) {
   const auto number = [](auto value) { return fmt::format("{}", value); };
   const auto yes = [](bool value) -> std::string { return value ? "yes" : "no"; };
   Rows rows(twins);
-  rows.ask("darts", [](const MapTwin& t) { return std::optional(t.dart_count()); }, number);
+  rows.ask(
+      "darts", [](const MapTwin& t) { return std::optional(t.dart_count()); }, number);
   std::vector<std::vector<std::size_t>> counts;
   for (const MapTwin* twin : twins) counts.push_back(twin->count_cells());
   const auto index = [&](const MapTwin& t) {
@@ -268,17 +270,20 @@ std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins) {
   };
   constexpr const char* cell_names[] = {"vertices", "edges", "faces", "volumes"};
   for (std::size_t i = 0; i <= static_cast<std::size_t>(n) + 1; ++i)
-    rows.ask(i <= static_cast<std::size_t>(n) ? cell_names[i] : "components",
-             [&](const MapTwin& t) { return std::optional(counts[index(t)][i]); }, number);
+    rows.ask(
+        i <= static_cast<std::size_t>(n) ? cell_names[i] : "components",
+        [&](const MapTwin& t) { return std::optional(counts[index(t)][i]); }, number);
 
   // nothing that follows has a meaning unless all have the same darts
   const auto darts = twins[0]->darts();
-  rows.ask("names of darts", [](const MapTwin& t) { return std::optional(t.darts()); },
-           [&](const auto& names) -> std::string { return names == darts ? "same" : "different"; });
+  rows.ask(
+      "names of darts", [](const MapTwin& t) { return std::optional(t.darts()); },
+      [&](const auto& names) -> std::string { return names == darts ? "same" : "different"; });
   for (const MapTwin* twin : twins)
     if (twin->darts() != darts) return rows.take();
-  rows.ask("valid", [](const MapTwin& t) { return std::optional(t.violation()); },
-           [](const std::string& violation) { return violation.empty() ? "yes" : violation; });
+  rows.ask(
+      "valid", [](const MapTwin& t) { return std::optional(t.violation()); },
+      [](const std::string& violation) { return violation.empty() ? "yes" : violation; });
   for (const MapTwin* twin : twins)
     if (!twin->violation().empty()) {
       auto result = rows.take();
@@ -286,25 +291,30 @@ std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins) {
       return result;
     }
   const auto alphas = twins[0]->alphas().alphas;
-  rows.ask("every alpha", [](const MapTwin& t) { return std::optional(t.alphas().alphas); },
-           [&](const auto& list) -> std::string { return list == alphas ? "same" : "different"; });
+  rows.ask(
+      "every alpha", [](const MapTwin& t) { return std::optional(t.alphas().alphas); },
+      [&](const auto& list) -> std::string { return list == alphas ? "same" : "different"; });
   for (unsigned bits = 0; bits < (2u << n); ++bits) {
     const Involutions set = Involutions::from_bits(bits);
-    rows.ask("orbits " + set_name(set),
-             [&](const MapTwin& t) { return t.can_walk(set) ? std::optional(t.labels(set)) : std::nullopt; },
-             [&](const auto& labels) { return fmt::format("{}", count_labels(labels, darts)); });
+    rows.ask(
+        "orbits " + set_name(set),
+        [&](const MapTwin& t) { return t.can_walk(set) ? std::optional(t.labels(set)) : std::nullopt; },
+        [&](const auto& labels) { return fmt::format("{}", count_labels(labels, darts)); });
   }
-  rows.ask("orientable", [](const MapTwin& t) { return t.is_orientable(); }, yes);
-  rows.ask(n == 3 ? "boundary faces" : "boundary edges",
-           [&](const MapTwin& t) {
-             const auto facets = t.labels(cell_involutions(n, n - 1));
-             std::size_t free = 0;
-             for (std::size_t k = 0; k < darts.size(); ++k)
-               free += facets[k] == darts[k] && t.alpha(n, darts[k]) == darts[k] ? 1u : 0u;
-             return std::optional(free);
-           },
-           number);
-  rows.ask("Euler characteristics", [&](const MapTwin& t) { return euler_by_component(t, darts); }, list_of);
+  rows.ask(
+      "orientable", [](const MapTwin& t) { return t.is_orientable(); }, yes);
+  rows.ask(
+      n == 3 ? "boundary faces" : "boundary edges",
+      [&](const MapTwin& t) {
+        const auto facets = t.labels(cell_involutions(n, n - 1));
+        std::size_t free = 0;
+        for (std::size_t k = 0; k < darts.size(); ++k)
+          free += facets[k] == darts[k] && t.alpha(n, darts[k]) == darts[k] ? 1u : 0u;
+        return std::optional(free);
+      },
+      number);
+  rows.ask(
+      "Euler characteristics", [&](const MapTwin& t) { return euler_by_component(t, darts); }, list_of);
   return rows.take();
 }
 

@@ -39,14 +39,14 @@ struct AgreementRow {
 };
 
 /// Every question, in this order: darts; i-cells and components by the carrier's own counting; names and alphas; the
-/// partition into orbits for every subset of {alpha_0 .. alpha_n}; orientability; boundary; Euler characteristic of each
-/// component, by smallest dart; validity. The first twin's answer is the one to agree with.
+/// partition into orbits for every subset of {alpha_0 .. alpha_n}; orientability; boundary; Euler characteristic of
+/// each component, by smallest dart; validity. The first twin's answer is the one to agree with.
 ///
 /// cost    O(2^(n+1) darts) per twin
 std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins);
 
-/// The comparison of a mesh at rest: ours (Map2 or Map3, and TetMap where it can) against CGAL's maps of the mesh, which
-/// are built without core; and CGAL's verdict on whether its maps are isomorphic to those it makes of our alphas.
+/// The comparison of a mesh at rest: ours (Map2 or Map3, and TetMap where it can) against CGAL's maps of the mesh,
+/// which are built without core; and CGAL's verdict on whether its maps are isomorphic to those it makes of our alphas.
 struct TopologyComparison {
   std::vector<std::string> carriers;  // titles of the answers
   std::vector<AgreementRow> rows;

@@ -159,7 +159,8 @@ std::string to_string(const Operation& op) {
     case Operation::Kind::remove: return fmt::format("remove {}", to_string(op.a));
     case Operation::Kind::add: break;
   }
-  return op.a == no_dart ? fmt::format("add {}", name(op.cell)) : fmt::format("add {} {}", name(op.cell), to_string(op.a));
+  return op.a == no_dart ? fmt::format("add {}", name(op.cell))
+                         : fmt::format("add {} {}", name(op.cell), to_string(op.a));
 }
 
 std::string to_string(const TopologyScript& script) {
@@ -171,7 +172,8 @@ std::string to_string(const TopologyScript& script) {
 
 TopologyScript parse_topology_script(std::string_view text, const std::string& file) {
   Lines lines(text, file);
-  if (const auto line = lines.next(); line != first_line) lines.expected(fmt::format("\"{}\"", first_line), line.value_or(""));
+  if (const auto line = lines.next(); line != first_line)
+    lines.expected(fmt::format("\"{}\"", first_line), line.value_or(""));
   TopologyScript script;
   script.mesh = header(lines, "mesh", "NAME");
   script.storage = one_of(lines, header(lines, "storage", "general|tetrahedral"),

@@ -13,12 +13,13 @@
 
 namespace dartboard {
 
-/// One line of a script. Darts are named by number: those of the mesh from 0 in the order of its cells, those of an added
-/// cell from `a` on; a name is given once. An operation that is illegal when its turn comes is skipped by everybody.
+/// One line of a script. Darts are named by number: those of the mesh from 0 in the order of its cells, those of an
+/// added cell from `a` on; a name is given once. An operation that is illegal when its turn comes is skipped by
+/// everybody.
 struct Operation {
   enum class Kind : std::uint8_t { sew, unsew, dissociate, remove, add };
   Kind kind = Kind::sew;
-  std::int8_t i = 0;                       // of sew and unsew
+  std::int8_t i = 0;                      // of sew and unsew
   CellKind cell = CellKind::tetrahedron;  // of add
   Dart a{};                               // the dart, or the first name of an added cell (none: the next)
   Dart b{};                               // the second dart of sew
@@ -44,8 +45,8 @@ struct TopologyScript {
   std::vector<Operation> operations;
 };
 
-/// The first four lines are: dartboard-topology-script 1, mesh NAME, storage general|tetrahedral, oracles none|gmap|both.
-/// Then one operation a line; # starts a comment.
+/// The first four lines are: dartboard-topology-script 1, mesh NAME, storage general|tetrahedral, oracles
+/// none|gmap|both. Then one operation a line; # starts a comment.
 std::string to_string(const TopologyScript& script);
 
 /// `add` may leave out its first name: the darts are then named from the smallest number above all names so far.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 
 #include "core/plain/error.h"
@@ -48,7 +49,6 @@ void require_one_vertex_per_point(const VertexColumns& vertices, std::size_t poi
 
 template <class Map, Held held>
 MassSpringBody<Map, held> build_body(const Problem& problem) {
-  constexpr int n = Map::dimension;
   require_sane(problem);
   const Mesh& mesh = problem.mesh;
   const Material& material = problem.material;
@@ -67,27 +67,22 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     body.cell_mass.push_back(material.density * std::abs(signed_measure(mesh, c)));
     require(std::isfinite(body.cell_mass[c]) && body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(),
             body.cell_mass[c], "more than 0 kg and finite");
+    body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
+    body.cell_dart.push_back({built.first_dart[c]});
   }
 
-  std::vector<std::uint32_t> around;
   for_each_cell<0>(map, [&](Vertex v) {
-    // eq. (1), on the rest shape; summed by cell number, so that the walk's order leaves no trace in the bits
-    around.clear();
-    for (const auto cell : incident_cells<n>(map, v)) around.push_back(body.cell(map, cell.dart));
-    std::sort(around.begin(), around.end());
-    double mass = 0.0;
-    for (const std::uint32_t c : around) mass += body.cell_mass[c] / static_cast<double>(mesh.cell(c).size());
     VertexColumns& columns = body.vertices;
     const std::uint32_t p = point_of(v.dart);
     body.vertex.attach(map, v, static_cast<std::uint32_t>(columns.size()));
-    columns.mass.push_back(mass);
-    columns.inverse_mass.push_back(1.0 / mass);
-    columns.viscosity.push_back(material.viscosity * mass);
+    for (auto* column : {&columns.mass, &columns.inverse_mass, &columns.viscosity}) column->push_back(0.0);
+    body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(v));
     columns.position.push_back(mesh.points[p]);
     columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0) : problem.initial_velocity[p]);
     columns.force.emplace_back(0, 0, 0);
     columns.fixed.push_back(0);
     columns.point.push_back(p);
+    columns.dart.push_back(v.dart);
   });
   require_one_vertex_per_point(body.vertices, mesh.points.size());
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
@@ -98,12 +93,33 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   }
 
   for_each_cell<1>(map, [&](Edge e) {
-    const auto cells = static_cast<double>(incident_cells<n>(map, e).size());
     const double length = (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
     body.edge.attach(map, e, static_cast<std::uint32_t>(body.springs.size()));
-    body.springs.push_back({length, cells * material.stiffness, cells * material.damping});
+    body.springs.push_back(body.spring_of(e, length));
+    body.edge_dart.push_back(e.dart);
   });
+  if constexpr (Map::dimension == 3)
+    for_each_cell<2>(map, [&](Face f) {
+      body.face.attach(map, f, static_cast<std::uint32_t>(body.face_dart.size()));
+      body.face_dart.push_back(f.dart);
+    });
   return body;
+}
+
+template <class Map, Held held>
+double MassSpringBody<Map, held>::mass_of(Vertex v) const {
+  boost::container::small_vector<std::uint32_t, 64> around;
+  for (const auto c : incident_cells<dimension>(map, v)) around.push_back(cell(map, c.dart));
+  std::sort(around.begin(), around.end());
+  double mass = 0.0;
+  for (const std::uint32_t c : around) mass += node_share[c];
+  return mass;
+}
+
+template <class Map, Held held>
+Spring MassSpringBody<Map, held>::spring_of(Edge e, double rest_length) const {
+  const auto cells = static_cast<double>(incident_cells<dimension>(map, e).size());
+  return {rest_length, cells * material.stiffness, cells * material.damping};
 }
 
 template <class Map, Held held>

@@ -20,7 +20,8 @@ struct VertexColumns {
   std::vector<Eigen::Vector3d> velocity;   // [m/s]
   std::vector<Eigen::Vector3d> force;      // [N] sum of the springs; zero between steps
   std::vector<std::uint8_t> fixed;         // 1: held still
-  std::vector<std::uint32_t> point;        // the mesh point it came from
+  std::vector<std::uint32_t> point;        // the mesh point it came from; shared by the parts of a dissociated vertex
+  std::vector<Dart> dart;                  // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
 };
@@ -40,14 +41,31 @@ struct MassSpringBody {
   Map map;
   CellEmbedding<0, Map, held> vertex;
   CellEmbedding<1, Map, held> edge;
+  CellEmbedding<2, Map, held> face;          // of a solid; the faces of a surface are its cells
   CellEmbedding<dimension, Map, held> cell;  // the volumes of a solid, the faces of a surface
 
   VertexColumns vertices;
   std::vector<Spring> springs;
-  std::vector<double> cell_mass;  // [kg]
+  std::vector<Dart> edge_dart;     // of each spring: the lowest dart of its edge
+  std::vector<Dart> face_dart;     // of a solid: the lowest dart of each face
+  std::vector<double> cell_mass;   // [kg]
+  std::vector<double> node_share;  // [kg] of each cell: its mass over its number of nodes
+  std::vector<Dart> cell_dart;     // the lowest dart of each cell
 
   Material material;
   Surroundings surroundings;
+
+  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by cell number, so that the
+  /// order of the walk leaves no trace in the bits.
+  double mass_of(Vertex v) const;
+  /// The mass of vertex embedding k, and what is proportional to it.
+  void set_mass(std::uint32_t k, double mass) {
+    vertices.mass[k] = mass;
+    vertices.inverse_mass[k] = 1.0 / mass;
+    vertices.viscosity[k] = material.viscosity * mass;
+  }
+  /// Stiffness and damping of an edge: what its incident cells contribute, as springs in parallel.
+  Spring spring_of(Edge e, double rest_length) const;
 
   /// Positions and velocities by mesh point.
   PointState state() const;
@@ -55,7 +73,7 @@ struct MassSpringBody {
   void set_state(const PointState& state);
   /// Of positions and velocities, in the order of the mesh's points.
   std::uint64_t state_hash() const;
-  std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + cell.bytes(); }
+  std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + face.bytes() + cell.bytes(); }
 };
 
 /// Build the body of a problem. Embeddings are numbered in the order in which a coverage meets their cells.

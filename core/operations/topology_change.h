@@ -13,11 +13,21 @@ struct DissociatedCell {
   Dart kept, split;
 };
 
-/// The cells that one operation split, by dimension. The operation itself knows no physics.
+/// The cells that an operation split or removed, by dimension. The operation itself knows no physics.
+///
+/// After a series of operations the parts of a pair may have come apart further, or be gone; their darts still tell
+/// which cells were touched.
 struct TopologyChange {
   std::vector<DissociatedCell> vertices, edges, faces;
 
-  bool empty() const { return vertices.empty() && edges.empty() && faces.empty(); }
+  // A dart, dead now, of every cell that went away with a removed volume.
+  std::vector<Dart> removed_vertices, removed_edges, removed_faces, removed_volumes;
+
+  bool empty() const {
+    return vertices.empty() && edges.empty() && faces.empty() && removed_volumes.empty();
+  }
+  /// The changes of an operation that came after this one.
+  void append(const TopologyChange& later);
 };
 
 }  // namespace dartboard

@@ -8,29 +8,15 @@
 //
 // Every generator throws InputError for a number below the least that its line names.
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 
 #include "core/plain/mesh.h"
+#include "core/plain/random.h"
 
 namespace dartboard {
-
-/// Pseudo-random numbers, equal everywhere: the generator splitmix64 of Steele, Lea and Flood (OOPSLA 2014).
-class SplitMix64 {
- public:
-  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next();
-  /// A multiple of 2^-52 in [-1, 1), each as likely.
-  double next_signed();
-  /// A point of the open unit ball, uniform by volume: points of the cube are drawn until one is inside.
-  Eigen::Vector3d next_in_ball();
-
- private:
-  std::uint64_t state_;
-};
 
 // ---- boxes: nx x ny x nz cubes of edge `spacing`, corner at the origin; nx, ny, nz >= 1, 0 < spacing < infinity
 
@@ -38,9 +24,9 @@ class SplitMix64 {
 ///
 /// Points inside the box are moved at random by at most jitter * spacing; those of its surface stay. One after another,
 /// a move is halved until every tetrahedron around the point has at least a tenth of its first volume, so nothing
-/// inverts for any jitter >= 0. Few moves need it below 1/(2 sqrt(3)) = 0.288...: two opposite edges of each
-/// tetrahedron, a face diagonal each, are 1/sqrt(3) spacings apart, no altitude is shorter, and so no four moves below
-/// half of that can flatten one.
+/// inverts for any jitter >= 0. Hardly a move needs it up to 0.3 (none of 6,859 in a probe; 489 at 0.5): two opposite
+/// edges of each tetrahedron, the two that are face diagonals, are 1/sqrt(3) spacings apart, and no altitude is
+/// shorter, so four moves below half of that, 0.288..., cannot flatten one.
 Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter = 0, std::uint64_t seed = 0);
 
 Mesh hexahedron_box(int nx, int ny, int nz, double spacing);

@@ -34,40 +34,49 @@ Dart representative(Involutions set, Dart d) {
   }
 }
 
-/// Visit the orbit of d depth first. pre  `visited` holds representatives; that of d is among them already.
+/// Visit the orbit of d. pre  `visited` holds representatives; that of d is among them already.
 template <class Map, class F>
 bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
-  auto& stack = visited.stack();
-  const std::size_t bottom = stack.size();
-  stack.push_back(representative<Map>(set, d));
+  auto& todo = visited.stack();
+  const std::size_t bottom = todo.size();
   bool stopped = false;
-  while (stack.size() > bottom && !stopped) {
-    const Dart at = stack.back();
-    stack.pop_back();
-    if constexpr (Map::tetrahedral) {
-      const std::uint32_t p = at.index % 24, first = at.index - p, within = set.bits & 7u;
-      for (std::uint32_t rest = tet_darts.block[within][p]; rest != 0 && !stopped; rest &= rest - 1)
-        stopped = visit(f, Dart{first + static_cast<std::uint32_t>(std::countr_zero(rest))});
-      if (!set.contains(3)) continue;
-      const auto& exits = tet_darts.exits[within][p];
-      for (std::size_t k = 0; k < exits.count; ++k) {
-        const std::uint32_t q = exits.dart[k];
-        const std::uint32_t o = map.storage().opposite((first + q) / 6);
-        const std::uint32_t slot = o >> 3;
-        const std::uint32_t local = (slot % 4) * 6 + TetTable::turned[q % 6][o & 7];
-        const Dart next{slot / 4 * 24 + tet_darts.lowest(within, local)};
-        if (visited.set_if_new(next)) stack.push_back(next);
+  if constexpr (Map::tetrahedral) {
+    // Block by block, breadth first: the next block is known long before it is its turn, and whether a block is new
+    // moves an index instead of taking a branch that nobody can predict. Depth first took twice the time.
+    const std::uint32_t within = set.bits & 7u;
+    todo.resize(bottom + 64);
+    todo[bottom] = representative<Map>(set, d);
+    std::size_t end = bottom + 1;
+    for (std::size_t k = bottom; k < end && !stopped; ++k) {
+      const std::uint32_t t = todo[k].index / 24, p = todo[k].index % 24;
+      const auto& block = tet_darts.block[within][p];
+      for (std::size_t x = 0; x < tet_darts.block_size[within] && !stopped; ++x) stopped = visit(f, Dart{24 * t + block[x]});
+      if (!set.contains(3)) break;
+      const std::size_t exits = tet_darts.exit_count[within];
+      if (todo.size() < end + exits) todo.resize(2 * todo.size());
+      for (std::size_t x = 0; x < exits; ++x) {
+        const auto [face, r] = tet_darts.exits[within][p][x];
+        const std::uint32_t o = map.storage().opposite(4 * t + face);
+        const Dart next{24 * (o / 32) + tet_darts.entry[within][r][o % 32]};
+        todo[end] = next;
+        end += visited(next) ? 0 : 1;
+        visited.set(next);
       }
-    } else {
+    }
+  } else {
+    todo.push_back(d);
+    while (todo.size() > bottom && !stopped) {
+      const Dart at = todo.back();
+      todo.pop_back();
       stopped = visit(f, at);
       for (int i = 0; i <= Map::dimension; ++i) {
         if (!set.contains(i)) continue;
         const Dart next = map.alpha(i, at);
-        if (visited.set_if_new(next)) stack.push_back(next);
+        if (visited.set_if_new(next)) todo.push_back(next);
       }
     }
   }
-  stack.resize(bottom);
+  todo.resize(bottom);
   return stopped;
 }
 

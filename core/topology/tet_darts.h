@@ -15,19 +15,23 @@ struct TetDarts {
   std::array<std::uint8_t, 24> node{};  // 0..3
   std::array<std::uint8_t, 24> edge{};  // 0..5: 01 02 03 12 13 23
 
-  // Each set of involutions within the tetrahedron (bits 0..2) parts its darts into orbits, called blocks here.
-  std::array<std::array<std::uint32_t, 24>, 8> block{};  // the darts of the block of p, as bits
-  // One dart of the block for each way out by alpha_3; the other darts leave to the same blocks, because alpha_0 and
-  // alpha_1 commute with alpha_3.
-  struct Exits {
-    std::uint8_t count = 0;
-    std::array<std::uint8_t, 4> dart{};
-  };
-  std::array<std::array<Exits, 24>, 8> exits{};
+  // Each set of involutions within the tetrahedron (bits 0..2) parts its darts into orbits, called blocks here. All the
+  // blocks of a set are alike, because a permutation of the nodes takes any dart to any other.
+  std::array<std::uint8_t, 8> block_size{}, exit_count{};
+  std::array<std::array<std::array<std::uint8_t, 24>, 24>, 8> block{};  // block[set][p]: the darts of p's, ascending
 
-  constexpr std::uint8_t lowest(unsigned set, unsigned p) const {
-    return static_cast<std::uint8_t>(std::countr_zero(block[set][p]));
-  }
+  // One dart of the block, dart 6 face + r, for each way out by alpha_3; the other darts leave to the same blocks, because
+  // alpha_0 and alpha_1 commute with alpha_3.
+  struct Exit {
+    std::uint8_t face, r;
+  };
+  std::array<std::array<std::array<Exit, 4>, 24>, 8> exits{};
+  // Where one comes in: turned[r][turn] is the dart of a face opposite dart r of a face sewn to it with that turn (turns
+  // are told by where dart 0 goes); entry[set][r][8 f + turn] is the lowest dart of the block met when that face is f.
+  std::array<std::array<std::uint8_t, 8>, 6> turned{};
+  std::array<std::array<std::array<std::uint8_t, 32>, 6>, 8> entry{};
+
+  constexpr std::uint8_t lowest(unsigned set, unsigned p) const { return block[set][p][0]; }
 };
 
 namespace detail {
@@ -71,15 +75,26 @@ constexpr TetDarts make_tet_darts() {
 
   for (unsigned set = 0; set < 8; ++set)
     for (unsigned p = 0; p < 24; ++p) {
-      t.block[set][p] = orbit_bits(t, set, p);
-      std::uint32_t open = t.block[set][p];
-      auto& exits = t.exits[set][p];
-      while (open != 0) {
+      const std::uint32_t block = orbit_bits(t, set, p);
+      std::uint8_t darts = 0, ways = 0;
+      for (std::uint32_t rest = block; rest != 0; rest &= rest - 1)
+        t.block[set][p][darts++] = static_cast<std::uint8_t>(std::countr_zero(rest));
+      for (std::uint32_t open = block; open != 0;) {
         const auto q = static_cast<unsigned>(std::countr_zero(open));
-        exits.dart[exits.count++] = static_cast<std::uint8_t>(q);
+        t.exits[set][p][ways++] = {static_cast<std::uint8_t>(q / 6), static_cast<std::uint8_t>(q % 6)};
         open &= ~orbit_bits(t, set & 3u, q);
       }
+      t.block_size[set] = darts;
+      t.exit_count[set] = ways;
     }
+
+  // around the two faces the numbers run the same way (even turns) or against each other (odd ones)
+  for (unsigned r = 0; r < 6; ++r)
+    for (unsigned turn = 0; turn < 6; ++turn)
+      t.turned[r][turn] = static_cast<std::uint8_t>((turn + (turn % 2 == 0 ? r : 6 - r)) % 6);
+  for (unsigned set = 0; set < 8; ++set)
+    for (unsigned r = 0; r < 6; ++r)
+      for (unsigned in = 0; in < 32; ++in) t.entry[set][r][in] = t.lowest(set, 6 * (in / 8) + t.turned[r][in % 8]);
   return t;
 }
 

@@ -51,12 +51,9 @@ class TetTable {
   /// pre  i == 3
   void link(int i, Dart a, Dart b);
 
-  /// Face slot and turn that face slot s is sewn to, packed as 8 * slot + turn: dart 6 s is opposite dart
-  /// 6 slot + turn. For walks that go face by face.
+  /// Face slot and turn that face slot s is sewn to, packed as 8 * slot + turn: dart r of s is opposite dart
+  /// tet_darts.turned[r][turn] of that slot. For walks that go face by face.
   std::uint32_t opposite(std::uint32_t s) const { return opposite_[s]; }
-  static constexpr std::uint8_t turned[6][8] = {{0, 1, 2, 3, 4, 5, 0, 0}, {1, 0, 3, 2, 5, 4, 0, 0},
-                                               {2, 5, 4, 1, 0, 3, 0, 0}, {3, 4, 5, 0, 1, 2, 0, 0},
-                                               {4, 3, 0, 5, 2, 1, 0, 0}, {5, 2, 1, 4, 3, 0, 0, 0}};
 
   void attach(Journal* journal) { journal_ = journal; }
   void undo(const Change& change);
@@ -68,7 +65,7 @@ class TetTable {
  private:
   Dart alpha3(std::uint32_t s, std::uint32_t r) const {
     const std::uint32_t o = opposite_[s];
-    return {(o >> 3) * 6 + turned[r][o & 7]};
+    return {(o >> 3) * 6 + tet_darts.turned[r][o & 7]};
   }
   void write(std::uint32_t where, std::uint32_t value) {
     if (journal_) journal_->record({Change::Kind::link, where, opposite_[where], value});

@@ -1,0 +1,186 @@
+// Embeddings and cell arrays that follow operations, against counts, sums and rebuilding, after every one.
+
+#include "core/mechanics/adapt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/operations/dissociate_face.h"
+#include "core/operations/remove_volume.h"
+#include "core/operations/tear_fan.h"
+#include "core/topology/check.h"
+#include "core/views/cell_arrays.h"
+#include "tests/meshes_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+template <class Map>
+using Body = MassSpringBody<Map, Held::by_every_dart>;
+
+Problem box(int n) {
+  Problem problem;
+  problem.mesh = kuhn_grid(n, n, n, 0.125, 0.2, 3);
+  problem.material = {.density = 1000.0, .stiffness = 4.0, .damping = 0.25, .viscosity = 0.5};
+  for (const auto& p : problem.mesh.points) problem.initial_velocity.push_back(p.cwiseProduct(p));
+  return problem;
+}
+
+// Numbers and cells must be in one-to-one correspondence, and the lowest darts known.
+template <int i, class Map, class Index>
+void expect_numbered(const Map& map, const Index& index, const std::vector<Dart>& dart_of) {
+  std::size_t cells = 0;
+  for_each_cell<i>(map, [&](Cell<i> cell) {
+    const std::uint32_t number = index(map, cell.dart);
+    ASSERT_LT(number, dart_of.size());
+    ASSERT_EQ(dart_of[number], cell.dart);  // the coverage tells the lowest; so no two cells share a number either
+    for_each_dart_of(map, cell, [&](Dart d) { ASSERT_EQ(index(map, d), number); });
+    ++cells;
+  });
+  ASSERT_EQ(cells, dart_of.size());
+}
+
+template <class Map>
+void expect_consistent(const Body<Map>& body, const CellArrays& arrays) {
+  const Map& map = body.map;
+  ASSERT_EQ(check(map), "");
+  expect_numbered<0>(map, body.vertex, body.vertices.dart);
+  expect_numbered<1>(map, body.edge, body.edge_dart);
+  expect_numbered<2>(map, body.face, body.face_dart);
+  expect_numbered<3>(map, body.cell, body.cell_dart);
+
+  // Both sums add positive terms, at most 24 cells per vertex, fewer than 2^12 numbers in all: gamma_(2^12) u < 2^-40.
+  const double by_vertex = std::accumulate(body.vertices.mass.begin(), body.vertices.mass.end(), 0.0);
+  const double by_cell = std::accumulate(body.cell_mass.begin(), body.cell_mass.end(), 0.0);
+  ASSERT_NEAR(by_vertex, by_cell, by_cell * 0x1p-40);
+  // k = 4 and c = 1/4: sums of small multiples of powers of two, exact
+  double stiffness = 0.0, damping = 0.0;
+  for (const Spring& s : body.springs) {
+    stiffness += s.stiffness;
+    damping += s.damping;
+  }
+  ASSERT_EQ(stiffness, 4.0 * 6.0 * static_cast<double>(body.cell_mass.size()));
+  ASSERT_EQ(damping, 0.25 * 6.0 * static_cast<double>(body.cell_mass.size()));
+  for (std::uint32_t k = 0; k < body.vertices.size(); ++k) {
+    ASSERT_EQ(body.vertices.mass[k], body.mass_of(Vertex{body.vertices.dart[k]}));
+    ASSERT_EQ(body.vertices.viscosity[k], 0.5 * body.vertices.mass[k]);
+  }
+  CellArrays rebuilt;
+  rebuilt.rebuild(body);
+  ASSERT_TRUE(arrays == rebuilt);
+}
+
+// Deterministic and the same everywhere.
+struct Draw {
+  std::uint32_t state = 1;
+  std::uint32_t below(std::size_t n) {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(state) * n) >> 32);
+  }
+};
+
+template <class Map>
+Dart some_live_dart(const Map& map, Draw& draw) {
+  for (;;)
+    if (const Dart d{draw.below(map.capacity())}; map.is_live(d)) return d;
+}
+
+template <class Map>
+struct Adapt : testing::Test {};
+using Solids = testing::Types<Map3, TetMap>;
+TYPED_TEST_SUITE(Adapt, Solids);
+
+TYPED_TEST(Adapt, SharesAVertexMassAndAnEdgeStiffnessBetweenTheParts) {
+  Problem problem;
+  problem.mesh = two_tetrahedra();
+  auto body = build_body<TypeParam, Held::by_every_dart>(problem);
+  const auto masses = body.vertices.mass;
+  Dart shared = no_dart;
+  body.map.for_each_dart([&](Dart d) {
+    if (!body.map.template is_free<3>(d)) shared = d;
+  });
+  adapt(body, dissociate_face(body.map, shared));
+  ASSERT_EQ(body.vertices.size(), 8u);
+  ASSERT_EQ(body.springs.size(), 12u);
+  for (const Spring& s : body.springs) EXPECT_EQ(s.stiffness, problem.material.stiffness);  // k = k1 + k2
+  // m = m1 + m2 up to the rounding of one addition
+  for (std::uint32_t k = 5; k < 8; ++k) {
+    std::uint32_t twin = 0;
+    while (body.vertices.point[twin] != body.vertices.point[k]) ++twin;
+    EXPECT_NEAR(body.vertices.mass[twin] + body.vertices.mass[k], masses[twin], masses[twin] * 0x1p-52);
+  }
+}
+
+TYPED_TEST(Adapt, DuplicatesPositionAndVelocity) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(1));
+  const auto before = body.vertices;
+  Draw draw;
+  for (int k = 0; k < 30; ++k) adapt(body, dissociate_face(body.map, some_live_dart(body.map, draw)));
+  ASSERT_GT(body.vertices.size(), before.size());
+  for (std::uint32_t k = 0; k < body.vertices.size(); ++k) {
+    std::uint32_t origin = 0;
+    while (before.point[origin] != body.vertices.point[k]) ++origin;
+    EXPECT_EQ(body.vertices.position[k], before.position[origin]);
+    EXPECT_EQ(body.vertices.velocity[k], before.velocity[origin]);
+  }
+}
+
+TYPED_TEST(Adapt, StaysConsistentThroughDissociations) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(2));
+  CellArrays arrays;
+  arrays.rebuild(body);
+  Draw draw;
+  for (int k = 0; k < 150; ++k) {
+    arrays.apply(body, adapt(body, dissociate_face(body.map, some_live_dart(body.map, draw))));
+    expect_consistent(body, arrays);
+    if (this->HasFatalFailure()) FAIL() << "after dissociation " << k;
+  }
+}
+
+TYPED_TEST(Adapt, StaysConsistentWhileEveryVolumeIsRemoved) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(2));
+  CellArrays arrays;
+  arrays.rebuild(body);
+  Draw draw;
+  while (body.map.dart_count() > 0) {
+    arrays.apply(body, adapt(body, remove_volume(body.map, some_live_dart(body.map, draw))));
+    expect_consistent(body, arrays);
+    if (this->HasFatalFailure()) FAIL() << body.cell_mass.size() << " volumes left";
+  }
+  EXPECT_EQ(body.vertices.size(), 0u);
+  EXPECT_EQ(body.springs.size(), 0u);
+}
+
+TYPED_TEST(Adapt, StaysConsistentThroughTearsAndSeriesOfOperations) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(3));
+  CellArrays arrays;
+  arrays.rebuild(body);
+  Draw draw;
+  for (int k = 0; k < 30; ++k) {
+    TopologyChange change = tear_fan(body.map, some_live_dart(body.map, draw));
+    change.append(remove_volume(body.map, some_live_dart(body.map, draw)));
+    change.append(dissociate_face(body.map, some_live_dart(body.map, draw)));
+    arrays.apply(body, adapt(body, change));
+    expect_consistent(body, arrays);
+    if (this->HasFatalFailure()) FAIL() << "after series " << k;
+  }
+}
+
+TYPED_TEST(Adapt, OfNothingChangesNothing) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(1));
+  const ChangedEmbeddings changed = adapt(body, TopologyChange{});
+  EXPECT_TRUE(changed.vertices.empty() && changed.edges.empty() && changed.faces.empty() && changed.cells.empty());
+}
+
+TYPED_TEST(Adapt, TakesAwayExactlyTheRemovedMass) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(box(2));
+  const auto total = [&] { return std::accumulate(body.vertices.mass.begin(), body.vertices.mass.end(), 0.0); };
+  const double before = total(), removed = body.cell_mass[body.cell(body.map, Dart{0})];
+  adapt(body, remove_volume(body.map, Dart{0}));
+  EXPECT_NEAR(total(), before - removed, before * 0x1p-44);  // 27 sums of at most 24 terms: gamma_(2^8)
+}
+
+}  // namespace
+}  // namespace dartboard

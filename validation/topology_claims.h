@@ -1,0 +1,30 @@
+#pragma once
+// What the paper says of maps and graphs in general, tried out.
+
+#include <cstdint>
+#include <string>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+struct ClaimAnswer {
+  bool holds;
+  std::string measured;
+};
+
+/// Sections 1 and 2: no operation leaves the class of objects in which a face joins at most two volumes. Random
+/// dissociations, removals and sews; the conditions are checked after each.
+ClaimAnswer try_to_leave_the_class(const Mesh& mesh, int operations, std::uint64_t seed);
+
+/// Fig. 2: cells joined by a vertex or an edge only cannot be built as joined, three cells on a face cannot be built at all.
+ClaimAnswer try_non_manifold_inputs();
+
+/// Section 1: one face of the mesh is dissociated that takes no vertex or edge apart. Nodes, springs and tetrahedra are
+/// the same before and after, so no adjacency graph can tell the two bodies apart; the maps are not isomorphic.
+ClaimAnswer try_same_graph_twice(const Mesh& mesh);
+
+/// Section 2: export to a combinatorial map, with half the darts, and back.
+ClaimAnswer try_combinatorial_round_trip(const Mesh& mesh);
+
+}  // namespace dartboard
