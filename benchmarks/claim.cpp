@@ -1,5 +1,7 @@
 #include "benchmarks/claim.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +31,23 @@ int exit_code(std::span<const Claim> claims) {
   const bool all_hold = std::none_of(claims.begin(), claims.end(),
                                      [](const Claim& claim) { return claim.verdict == Verdict::falls_short; });
   return all_hold ? 0 : 1;
+}
+
+std::string to_text(std::span<const Claim> claims) {
+  std::string text;
+  for (const Claim& c : claims) {
+    text += fmt::format("{:<12}  {} (section {})\n", name(c.verdict), c.text, c.section);
+    std::string below;
+    const auto add = [&](std::string_view what, const std::string& value) {
+      if (!value.empty()) below += fmt::format("{}{}{}", below.empty() ? "" : "; ", what, value);
+    };
+    add("paper: ", c.paper_value);
+    add("here: ", c.measured);
+    add("", c.bound_or_interval);
+    add("", c.reason);
+    if (!below.empty()) text += fmt::format("{:<12}  {}\n", "", below);
+  }
+  return text;
 }
 
 Table table_of(std::span<const Claim> claims) {

@@ -35,6 +35,9 @@ void to_json(nlohmann::json& json, const Claim& claim);
 /// quick run can succeed; their reasons are in the report.
 int exit_code(std::span<const Claim> claims);
 
+/// For the terminal: verdict, section and text of each claim on one line, what it rests on below.
+std::string to_text(std::span<const Claim> claims);
+
 /// One row per claim; a column of reasons only if there is one.
 Table table_of(std::span<const Claim> claims);
 

@@ -66,7 +66,7 @@ void reproduce(const Options& options, Outcome& outcome) {
   say("\n" + to_text(timing_table(results)) + "\n" + note + "\n");
 
   const auto claims = answer_claims(results, problem);
-  say("4. The paper's claims\n\n" + to_text(table_of(claims)));
+  say("4. The paper's claims\n\n" + to_text(claims));
   folder.write_claims(claims);
   folder.write_table("counts", "Topology, against CGAL", counts_table(results));
   folder.write_table("agreement", "Forces and states, against the first contender", agreement_table(results));

@@ -44,5 +44,12 @@ TEST(Claim, TableGainsAColumnWhenThereIsAReason) {
   EXPECT_EQ(table.rows()[1].back(), "a quick run");
 }
 
+TEST(Claim, AsTextHasTheVerdictFirstAndWhatItRestsOnBelow) {
+  const Claim claim{"a", "arrays are fast", "5.2", "<= 1.10", "1.04", "[1.02, 1.07]", Verdict::holds, ""};
+  EXPECT_EQ(to_text(std::span(&claim, 1)),
+            "holds         arrays are fast (section 5.2)\n"
+            "              paper: <= 1.10; here: 1.04; [1.02, 1.07]\n");
+}
+
 }  // namespace
 }  // namespace dartboard
