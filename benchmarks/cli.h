@@ -22,6 +22,8 @@ struct Outcome {
 // Each adds a verb whose callback does the work and leaves its exit code in `outcome`, which must outlive the parse.
 void add_reproduce(CLI::App& app, Outcome& outcome);
 void add_measure(CLI::App& app, Outcome& outcome);
+void add_validate(CLI::App& app, Outcome& outcome);
+void add_bench(CLI::App& app, Outcome& outcome);
 void add_mesh(CLI::App& app, Outcome& outcome);
 void add_list(CLI::App& app, Outcome& outcome);
 

@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", DARTBOARD_VERSION);
   app.footer("Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed.");
   add_reproduce(app, outcome);
+  add_validate(app, outcome);
+  add_bench(app, outcome);
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);

@@ -162,6 +162,11 @@ TEST(BuildMap, KeepsQuadrilateralsApartThatShareTheirPointsInAnotherOrder) {
   EXPECT_EQ(counts(build_map<Map3>(mesh).map)[2], 10u);
 }
 
+TEST(BuildMap, KeepsQuadrilateralsApartThatShareThreeOfTheirPoints) {
+  const auto mesh = mesh_of(7, CellKind::pyramid, {{0, 1, 2, 3, 4}, {0, 1, 5, 3, 6}});
+  EXPECT_EQ(counts(build_map<Map3>(mesh).map)[2], 10u);
+}
+
 TEST(BuildMap, SewsAQuadrilateralFaceWhereverItsCycleStartsAndRuns) {
   const std::vector<Nodes> cycles{{0, 1, 2, 3}, {1, 2, 3, 0}, {2, 3, 0, 1}, {3, 0, 1, 2},
                                   {3, 2, 1, 0}, {2, 1, 0, 3}, {1, 0, 3, 2}, {0, 3, 2, 1}};

@@ -120,5 +120,24 @@ TEST(CheckDart, LooksAtOneDartOnly) {
   EXPECT_EQ(check_dart(map, Dart{9}), "d9 is dead");
 }
 
+// In tetrahedral storage one word holds a whole face; it is written here, and not its partner.
+TEST(CheckOfTetrahedra, NamesAFaceThatDoesNotLeadBack) {
+  auto map = build_map<TetMap>(two_tetrahedra()).map;
+  Dart inner = no_dart;
+  map.for_each_dart([&](Dart d) {
+    if (!map.is_free<3>(d)) inner = d;
+  });
+  const std::uint32_t face = inner.index / 6;
+  map.redo({Change::Kind::link, face, 0, 8 * face});  // 3-free, and yet sewn to
+  EXPECT_NE(check(map).find("alpha3 is not an involution"), std::string::npos) << check(map);
+}
+
+TEST(CheckOfTetrahedra, NamesAFaceSewnToATetrahedronBeyondTheSlots) {
+  TetMap map;
+  map.add_tetrahedron();
+  map.redo({Change::Kind::link, 0, 0, 8 * 500000000u});
+  EXPECT_EQ(check(map), "alpha3(d0) = d3000000000, which is dead");
+}
+
 }  // namespace
 }  // namespace dartboard

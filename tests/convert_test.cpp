@@ -93,5 +93,24 @@ TEST(Isomorphism, TellsOneComponentFromTwo) {
   EXPECT_FALSE(are_isomorphic(joined, apart));
 }
 
+TEST(Isomorphism, TellsAMapFromALargerOneThatContainsIt) {
+  Map3 one, two;
+  add_cell(one, CellKind::tetrahedron);
+  add_cell(two, CellKind::tetrahedron);
+  add_cell(two, CellKind::tetrahedron);
+  EXPECT_FALSE(are_isomorphic(one, two));
+}
+
+// The first dart lies on the border in one map and on the shared edge in the other: the search must start over.
+TEST(Isomorphism, IsFoundAfterAStartThatFails) {
+  Mesh mesh, turned;
+  mesh.points = turned.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{0, 1, 2});
+  mesh.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{0, 2, 3});
+  turned.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{2, 0, 1});
+  turned.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{0, 2, 3});
+  EXPECT_TRUE(are_isomorphic(build_map<Map2>(mesh).map, build_map<Map2>(turned).map));
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -8,6 +8,7 @@
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
+#include "core/topology/sew.h"
 #include "tests/meshes_for_tests.h"
 
 namespace dartboard {
@@ -129,6 +130,36 @@ TEST(DissociateEdge, AtTheBorderOfASheetSplitsOneVertexAndTheOther) {
   EXPECT_EQ(change.vertices.size(), 2u);
   EXPECT_EQ(count_cells<0>(map), 6u);
   EXPECT_EQ(check(map), "");
+}
+
+// The fold lays two edges of the triangle on each other, and the third on itself.
+TYPED_TEST(DissociateFace, FoldedOntoItselfSplitsNoFaceAndReportsItsEdgeOnce) {
+  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  sew<3>(map, Dart{0}, Dart{1});
+  ASSERT_EQ(count_cells<1>(map), 5u);
+  const TopologyChange change = dissociate_face(map, Dart{0});
+  EXPECT_TRUE(change.faces.empty());
+  EXPECT_EQ(count_cells<1>(map), 6u);
+  EXPECT_EQ(change.edges.size(), 1u);
+}
+
+// Two faces of a tetrahedron sewn so that their common edge meets itself the other way round: it stays one edge.
+TYPED_TEST(DissociateFace, KeepsAnEdgeThatHoldsTogetherWithATwist) {
+  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  sew<3>(map, Dart{0}, map.template alpha<2, 0>(Dart{0}));
+  const auto before = count_cells<1>(map);
+  const TopologyChange change = dissociate_face(map, Dart{0});
+  EXPECT_EQ(before + change.edges.size(), count_cells<1>(map));
+}
+
+TEST(DissociateEdge, FoldedOntoItselfSplitsNoEdge) {
+  Map2 map;
+  add_cell(map, CellKind::triangle);
+  sew<2>(map, {0}, {1});
+  const TopologyChange change = dissociate_edge(map, {0});
+  EXPECT_TRUE(change.edges.empty());
+  EXPECT_EQ(change.vertices.size(), 1u);
+  EXPECT_EQ(count_cells<0>(map), 3u);
 }
 
 }  // namespace

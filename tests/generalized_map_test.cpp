@@ -229,5 +229,17 @@ TEST(MovedMap, KeepsItsDartsItsIdsAndItsJournal) {
   EXPECT_EQ(journal.position(), 2u);
 }
 
+TEST(MapHash, TellsInWhichOrderDeadSlotsWillBeUsedAgain) {
+  Map2 map;
+  map.add_dart();
+  map.add_dart();
+  Map2 other = map;
+  map.remove_dart({0});
+  map.remove_dart({1});
+  other.remove_dart({1});
+  other.remove_dart({0});
+  EXPECT_NE(map.hash(), other.hash());
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -145,5 +145,18 @@ TEST(Mark, AStaleStampDoesNotComeBackWithALaterEpoch) {
   }
 }
 
+// Once in 2^32 clears: stamps of epochs that will come again must not be taken for theirs.
+TEST(Mark, UnmarksEveryDartWhenTheEpochsBeginAgain) {
+  const Map2 map = darts(3);
+  auto& stamps = map.marks().take(map.capacity());
+  stamps.epoch = 0xFFFFFFFE;
+  stamps.stamp[2] = 1;  // left over from the first mark of all
+  stamps.in_use = false;
+  Mark mark(map);
+  mark.set({0});
+  mark.clear();
+  map.for_each_dart([&](Dart d) { EXPECT_FALSE(mark(d)); });
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -231,5 +231,13 @@ TEST(BodyState, OfAnotherSizeIsRefused) {
   EXPECT_THROW(body.set_state({std::vector<Eigen::Vector3d>(4), std::vector<Eigen::Vector3d>(5)}), InputError);
 }
 
+TEST(BodyOfASurface, WeighsItsAreaTimesItsDensity) {
+  Mesh square;
+  square.points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  square.add_cell(CellKind::quadrilateral, std::array<std::uint32_t, 4>{0, 1, 2, 3});
+  const auto body = build_body<Map2, Held::by_one_dart>(problem_of(square));
+  EXPECT_EQ(body.cell_mass[0], 4.0 * body.material.density);
+}
+
 }  // namespace
 }  // namespace dartboard

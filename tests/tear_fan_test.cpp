@@ -76,5 +76,18 @@ TYPED_TEST(Fan, OfADeadDartIsNotTorn) {
   EXPECT_THROW(tear_fan(map, Dart{24}), TopologyError);
 }
 
+// Of 2 x 2 cubes side by side, each inner face meets the opposite one along the edge in the middle, and the surface
+// along the others.
+TEST(FanOfHexahedra, OpenAtTheSurfaceIsTheSameFromTheDartOfEitherEdge) {
+  const auto map = build_map<Map3>(hexahedron_grid(2, 2, 1, 1.0)).map;
+  int of_two = 0;
+  map.for_each_dart([&](Dart d) {
+    if (map.is_free<3>(d)) return;
+    EXPECT_EQ(fan(map, d).size(), fan(map, map.alpha<1>(d)).size());
+    of_two += fan(map, d).size() == 2 ? 1 : 0;
+  });
+  EXPECT_EQ(of_two, 4 * 2 * 2 * 2);  // four faces, their two sides, the two ends of the middle edge, two darts at each
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -131,6 +131,18 @@ TYPED_TEST(EachWalk, CanBeRebuiltForAnotherBody) {
   EXPECT_EQ(edges, 6u);
 }
 
+TYPED_TEST(EachWalk, CanBeRebuiltAfterTheNumbersHaveChanged) {
+  auto body = build_body<TetMap, one>(problem_of(kuhn_grid(2, 1, 1, 1.0)));
+  TypeParam walk;
+  if constexpr (requires { walk.rebuild(body); }) walk.rebuild(body);
+  auto left = static_cast<std::uint32_t>(body.springs.size());
+  for_each_cell<1>(body.map, [&](Edge e) { body.edge.attach(body.map, e, --left); });
+  if constexpr (requires { walk.rebuild(body); }) walk.rebuild(body);
+  std::vector<int> met(body.springs.size(), 0);
+  walk.for_each_edge(body, [&](std::uint32_t e, auto, auto) { ++met[e]; });
+  EXPECT_EQ(met, std::vector<int>(body.springs.size(), 1));
+}
+
 TYPED_TEST(EachWalk, HasNothingToVisitInAnEmptyBody) {
   const auto body = build_body<TetMap, one>(Problem{});
   TypeParam walk;

@@ -14,6 +14,7 @@ namespace {
 /// A dart of the dissociated side and the one it was sewn to: appendix A's da and db.
 struct Pair {
   Dart a, b;
+  bool has(Dart d) const { return d == a || d == b; }
 };
 using Pairs = boost::container::small_vector<Pair, 8>;  // a quadrilateral has 8 darts
 
@@ -87,7 +88,7 @@ TopologyChange dissociate_face(Map& map, Dart d) {
 
   // Edges first: each is met by its two darts on the face, and walked around from the first.
   const auto find = [&](Dart x) {
-    return static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.a == x; }) -
+    return static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.has(x); }) -
                                     pairs.begin());
   };
   Fans fans;
@@ -95,7 +96,9 @@ TopologyChange dissociate_face(Map& map, Dart d) {
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::size_t twin = find(map.template alpha<0>(pairs[k].a));
     fan_of[k] = twin < k ? fan_of[twin] : fans.size();
-    if (twin >= k) fans.push_back({k, pairs[k].a, pairs[k].b});
+    if (twin < k) continue;
+    const bool onto_itself = map.template alpha<0>(pairs[k].a) == pairs[k].b;  // an edge folded end over end
+    fans.push_back({.k = k, .walker = pairs[k].a, .other = pairs[k].b, .done = onto_itself, .twisted = onto_itself});
   }
   walk(map, fans);
   for (const Fan& fan : fans)
@@ -121,7 +124,8 @@ TopologyChange dissociate_face_by_orbits(Map& map, Dart d) {
   const Pairs pairs = unsew_pairs<3>(map, d).pairs;
   if (!same_cell<2>(map, d, opposite)) change.faces.push_back({d, opposite});
   const auto first_of = [&](std::size_t k, Dart twin) {  // not met before by its twin on the same cell
-    return std::none_of(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(k), [&](const Pair& p) { return p.a == twin; });
+    return std::none_of(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(k),
+                        [&](const Pair& p) { return p.has(twin); });
   };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [a, b] = pairs[k];

@@ -8,9 +8,10 @@ namespace {
 // Whether all six darts of a face of a live tetrahedron satisfy the conditions. Within the tetrahedron they hold by
 // construction, and every turn commutes with alpha_0 and alpha_1: what remains is that the opposite face leads back.
 bool face_is_valid(const TetTable& table, std::uint32_t face_slot) {
+  constexpr std::uint64_t none = std::uint64_t{1} << 40;  // there are six turns: nothing leads back from a seventh
+  constexpr std::uint64_t back[8] = {0, 1, 4, 3, 2, 5, none, none};
   const std::uint32_t o = table.opposite(face_slot), slot = o >> 3, turn = o & 7;
-  const std::uint32_t back = turn % 2 == 0 ? (6 - turn) % 6 : turn;
-  return turn < 6 && table.is_live({6 * slot}) && table.opposite(slot) == 8 * face_slot + back;
+  return table.is_live_tetrahedron(slot / 4) && table.opposite(slot) == 8 * std::uint64_t{face_slot} + back[turn];
 }
 
 }  // namespace
@@ -43,16 +44,21 @@ std::string check_dart(const Map& map, Dart d) {
 
 template <class Map>
 std::string check(const Map& map) {
-  // a face of a tetrahedron stands or falls as one, and only its own darts can tell
-  constexpr std::uint32_t stride = Map::tetrahedral ? 6 : 1;
+  // a face of a tetrahedron stands or falls as one, and tells best by its own darts
+  if constexpr (Map::tetrahedral) {
+    const TetTable& table = map.storage();
+    const auto faces = static_cast<std::uint32_t>(map.capacity() / 6);
+    for (std::uint32_t s = 0; s < faces; ++s) {
+      if (!table.is_live_tetrahedron(s / 4) || face_is_valid(table, s)) continue;
+      for (std::uint32_t d = 6 * s; d < 6 * s + 6; ++d)
+        if (auto violation = check_dart(map, Dart{d}); !violation.empty()) return violation;
+    }
+    return {};
+  }
   std::string violation;
   const auto end = static_cast<std::uint32_t>(map.capacity());
-  for (std::uint32_t slot = 0; slot < end && violation.empty(); slot += stride) {
-    if (!map.is_live({slot})) continue;
-    if constexpr (Map::tetrahedral)
-      if (face_is_valid(map.storage(), slot / stride)) continue;
-    for (std::uint32_t d = slot; d < slot + stride && violation.empty(); ++d) violation = check_dart(map, Dart{d});
-  }
+  for (std::uint32_t slot = 0; slot < end && violation.empty(); ++slot)
+    if (map.is_live({slot})) violation = check_dart(map, Dart{slot});
   return violation;
 }
 

@@ -20,8 +20,8 @@ struct TetDarts {
   std::array<std::uint8_t, 8> block_size{}, exit_count{};
   std::array<std::array<std::array<std::uint8_t, 24>, 24>, 8> block{};  // block[set][p]: the darts of p's, ascending
 
-  // One dart of the block, dart 6 face + r, for each way out by alpha_3; the other darts leave to the same blocks, because
-  // alpha_0 and alpha_1 commute with alpha_3.
+  // One dart of the block, dart 6 face + r, for each way out by alpha_3; the other darts leave to the same blocks,
+  // because alpha_0 and alpha_1 commute with alpha_3.
   struct Exit {
     std::uint8_t face, r;
   };

@@ -25,7 +25,8 @@ class TetTable {
 
   std::size_t capacity() const { return 24 * generation_.size(); }
   std::size_t dart_count() const { return 24 * (generation_.size() - free_.size()); }
-  bool is_live(Dart d) const { return d.index < capacity() && generation_[d.index / 24] != 0; }
+  bool is_live(Dart d) const { return is_live_tetrahedron(d.index / 24); }
+  bool is_live_tetrahedron(std::uint32_t t) const { return t < generation_.size() && generation_[t] != 0; }
   std::uint32_t generation(Dart d) const { return is_live(d) ? generation_[d.index / 24] : 0; }
 
   /// Where the label of the i-cell of `d` is kept: tetrahedron by tetrahedron, 4 nodes, 6 edges, 4 faces, 1 volume.

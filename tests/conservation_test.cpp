@@ -1,0 +1,217 @@
+// The validator of conservation: it passes what is right and fails what is not.
+
+#include "validation/conservation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/operations/dissociate_face.h"
+#include "core/plain/error.h"
+#include "core/scene/mesh_generators.h"
+#include "validation/conserved_sums.h"
+#include "validation/rebuild_oracle.h"
+
+namespace dartboard {
+namespace {
+
+// no sum of these is exact
+constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
+// 768 = 6 * 2^7: the tetrahedra of a box with a spacing of 2^-3 m weigh 2^-2 kg
+constexpr Material powers_of_two{.density = 768.0, .stiffness = 4.0, .damping = 0.25, .viscosity = 0.5};
+
+ConservationPlan short_plan(std::uint64_t seed, std::size_t operations = 300) {
+  ConservationPlan plan;
+  plan.seed = seed;
+  plan.operations = operations;
+  plan.everything_every = 1;
+  plan.oracle_every = 50;
+  return plan;
+}
+
+std::string violation_of(const ConservationResult& result) {
+  return result.violation ? to_string(*result.violation) : "none";
+}
+
+const ConservedRow& row(const ConservationResult& result, const std::string& what) {
+  for (const ConservedRow& r : result.rows)
+    if (r.what.find(what) != std::string::npos) return r;
+  throw InputError("no row " + what);
+}
+
+template <class Map>
+struct Conservation : testing::Test {
+  // The first violation when `fault` strikes after each series but the first four.
+  template <class Fault>
+  static std::string first_violation(Fault&& fault, std::size_t everything_every = 1) {
+    const Problem problem = moving_problem(kuhn_box(2, 2, 2, 0.125, 0.2, 3), soft, 1);
+    ConservationPlan plan = short_plan(4);
+    plan.everything_every = everything_every;
+    std::size_t series = 0;
+    const Follow<Map> faulty = [&](LiveBody<Map>& body, CellArrays& arrays, const TopologyChange& change) {
+      ChangedEmbeddings changed = follow(body, arrays, change);
+      if (++series > 4) fault(body, arrays);
+      return changed;
+    };
+    const auto result = validate_conservation<Map>(problem, plan, faulty);
+    return violation_of(result);
+  }
+};
+using Solids = testing::Types<Map3, TetMap>;
+TYPED_TEST_SUITE(Conservation, Solids);
+
+TYPED_TEST(Conservation, HoldsDownToTheEmptyBodyAndAgain) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto result = validate_conservation<TypeParam>(
+        moving_problem(kuhn_box(2, 2, 1, 0.125, 0.2, seed), soft, seed), short_plan(seed));
+    EXPECT_EQ(violation_of(result), "none");
+    EXPECT_GT(result.refills, 0u);
+    EXPECT_GT(result.bodies_from_scratch, 3u);
+    EXPECT_GE(result.operations(), 300u);
+    for (const ConservedRow& r : result.rows) {
+      EXPECT_TRUE(r.holds) << r.what;
+      EXPECT_GT(r.checks, 0u) << r.what;
+    }
+  }
+}
+
+TYPED_TEST(Conservation, IsExactWhereMassesAndStiffnessesArePowersOfTwo) {
+  const auto result = validate_conservation<TypeParam>(moving_problem(kuhn_box(2, 2, 2, 0.125), powers_of_two, 5),
+                                                       short_plan(5));
+  EXPECT_EQ(violation_of(result), "none");
+  for (const char* what :
+       {"total mass (", "total stiffness (", "total damping", "drift of total mass", "drift of total stiffness"}) {
+    EXPECT_EQ(row(result, what).largest, 0.0) << what;
+    EXPECT_EQ(row(result, what).bound, 0.0) << what;
+  }
+}
+
+TYPED_TEST(Conservation, FailsWhenAVertexGetsHeavier) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (body.vertices.size() > 0) body.vertices.mass[0] *= 1.0 + 1e-9;
+  });
+  EXPECT_NE(what.find("mass"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenAVertexGetsHeavierThoughOnlySumsAreSeen) {
+  const auto what = this->first_violation(
+      [](auto& body, auto&) {
+        if (body.vertices.size() > 0) body.vertices.mass[0] *= 1.0 + 1e-9;
+      },
+      1000);
+  EXPECT_NE(what.find("mass"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenASpringCountsACellTooMany) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (!body.springs.empty()) body.springs[0].stiffness += body.material.stiffness;
+  });
+  EXPECT_NE(what.find("stiffness"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenARestLengthIsThatOfTheDeformedBody) {
+  const auto what = this->first_violation([](auto& body, auto& arrays) {
+    if (arrays.edges.empty()) return;
+    const auto [a, b] = arrays.edges[0].ends;
+    body.springs[0].rest_length = (body.vertices.position[a] - body.vertices.position[b]).norm();
+  });
+  EXPECT_TRUE(what.find("rest length") != std::string::npos || what.find("elastic") != std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenAnArrayIsStale) {
+  const auto what = this->first_violation([](auto&, auto& arrays) {
+    if (!arrays.edges.empty()) std::swap(arrays.edges[0].ends[0], arrays.edges[0].ends[1]);
+  });
+  EXPECT_NE(what.find("apply = rebuild"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenAPartOfAVertexIsLeftBehind) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (body.vertices.size() > 0) body.vertices.velocity.back().x() += 1e-9;
+  });
+  EXPECT_NE(what.find("duplicated"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenADampingIsForgotten) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (!body.springs.empty()) body.springs.back().damping = 0.0;
+  });
+  EXPECT_NE(what.find("damping"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, NeitherMomentumNorEnergyChangesWithOneDissociation) {
+  auto body = build_body<TypeParam, Held::by_every_dart>(moving_problem(kuhn_box(1, 1, 1, 0.125, 0.2, 3), soft, 7));
+  for (auto& x : body.vertices.position) x += 0.01 * x.cwiseProduct(x);
+  CellArrays arrays;
+  arrays.rebuild(body);
+  const ConservedSums before = sums_of(body, arrays);
+  Dart d = no_dart;
+  body.map.for_each_dart([&](Dart e) {
+    if (!body.map.template is_free<3>(e)) d = e;
+  });
+  follow(body, arrays, dissociate_face(body.map, d));
+  const ConservedSums after = sums_of(body, arrays);
+  EXPECT_GT(before[Conserved::elastic].value(), 0.0);
+  for (std::size_t i = 0; i < conserved_count; ++i) {
+    const auto c = static_cast<Conserved>(i);
+    // the diagonal's ends have six cells
+    EXPECT_LE(std::abs(after[c].value() - before[c].value()), change_bound(c, 6, before[c], after[c], {})) << i;
+    EXPECT_LE(change_bound(c, 6, before[c], after[c], {}), before[c].magnitude * 0x1p-47) << i;
+  }
+}
+
+TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
+  const Problem start = moving_problem(kuhn_box(2, 2, 2, 0.125, 0.2, 3), soft, 3);
+  auto body = build_body<TypeParam, Held::by_every_dart>(start);
+  RemainingCells cells(start.mesh);
+  const MeshPlaces places(body, start.mesh, cells);
+  CellArrays arrays;
+  arrays.rebuild(body);
+  // two faces around an inner edge: it comes apart, its ends do not
+  std::uint32_t edge = 0;
+  while (cells.edge(edge).size() < 6) ++edge;
+  const Dart d = places.edge[edge], opposite = body.map.template alpha<2, 3, 2, 3, 2>(d);
+  TopologyChange change;
+  for (const Dart face : {d, opposite}) {
+    cells.dissociate(places.side_of[face.index]);
+    change.append(dissociate_face(body.map, face));
+  }
+  follow(body, arrays, change);
+  ASSERT_GE(change.edges.size(), 1u);
+  ASSERT_TRUE(change.vertices.empty());
+
+  const auto motion = compare_rebuilt_motion(body, arrays, start, places, cells, 10);
+  EXPECT_EQ(motion.springs_side_by_side, change.edges.size());
+  EXPECT_TRUE(motion.same_cells);
+  EXPECT_TRUE(motion.same_bits);
+  EXPECT_LE(motion.position, motion.bound.position);
+  EXPECT_LE(motion.velocity, motion.bound.velocity);
+  EXPECT_LT(motion.bound.position, 1e-9);
+
+  body.springs[0].stiffness *= 1.0 + 1e-9;
+  EXPECT_FALSE(compare_rebuilt_motion(body, arrays, start, places, cells, 10).same_bits);
+}
+
+TEST(ConservationMeshes, MayHaveCellsOfAllKinds) {
+  const auto result = validate_conservation<Map3>(moving_problem(mixed_box(2, 2, 2, 0.25), soft, 8), short_plan(8));
+  EXPECT_EQ(violation_of(result), "none");
+}
+
+TEST(ConservationMeshes, MayBeEmpty) {
+  EXPECT_EQ(violation_of(validate_conservation<TetMap>(moving_problem(empty_mesh(), soft, 1), short_plan(1))), "none");
+}
+
+TEST(ConservationMeshes, MustBeSolid) {
+  EXPECT_THROW(validate_conservation<Map3>(moving_problem(quad_sheet(2, 2, 1.0), soft, 1), short_plan(1)), InputError);
+}
+
+TEST(TwofoldSums, KeepWhatAnAdditionLoses) {
+  TwofoldSum sum;
+  for (const double term : {1.0, 0x1p-80, -1.0}) sum.add(term);
+  EXPECT_EQ(sum.value(), 0x1p-80);
+  EXPECT_EQ(quantum(12.0), 4.0);
+  EXPECT_EQ(quantum(0.625), 0.125);
+}
+
+}  // namespace
+}  // namespace dartboard

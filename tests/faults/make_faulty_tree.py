@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Copy the rooms of core into a folder, with every fault of a list compiled in behind a switch.
+
+    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT ROOM...
+
+The switch is the environment variable DARTBOARD_FAULT: the number of the one fault that is on, or unset. The sources
+themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
+again. A snippet that is not found exactly once is an error: whoever changes the line changes the fault with it.
+
+Standard library only, and of it only what Debian's python3-minimal has.
+"""
+
+import os
+import re
+import sys
+
+SWITCH = """#pragma once
+// Made by tests/faults/make_faulty_tree.py: which seeded fault is on.
+
+#include <cstdlib>
+#include <type_traits>
+
+namespace dartboard {
+
+inline const int chosen_fault = std::getenv("DARTBOARD_FAULT") ? std::atoi(std::getenv("DARTBOARD_FAULT")) : 0;
+
+/// Constant expressions stay right: they cannot be switched when the program runs.
+constexpr bool fault(int number) { return !std::is_constant_evaluated() && number == chosen_fault; }
+
+}  // namespace dartboard
+"""
+
+
+class Mistake(Exception):
+    """The list of faults is malformed or no longer fits the sources."""
+
+
+class Fault:
+    """One block of the list: `key: value` lines. `in` is needed where `right` alone is ambiguous."""
+
+    FIELDS = ("fault", "file", "in", "right", "wrong")
+
+    def __init__(self, number, fields, line):
+        self.number, self.line = number, line
+        self.name, self.file = fields["fault"], fields["file"]
+        self.right, self.wrong = fields["right"], fields["wrong"]
+        self.context = fields.get("in", self.right)
+        self.is_statement = self.right.endswith((";", "}"))
+
+    def place(self, text):
+        """Where `right` begins and ends in the text of the file."""
+        begin = self._find_once(text, self.context, self.file)
+        begin += self._find_once(self.context, self.right, "its 'in' line")
+        return begin, begin + len(self.right)
+
+    def _find_once(self, text, snippet, where):
+        count = text.count(snippet)
+        if count != 1:
+            found = "is not there any more" if count == 0 else "occurs %d times" % count
+            raise Mistake("line %d: fault '%s' is stale: in %s the snippet\n    %s\n  %s, expected once" %
+                          (self.line, self.name, where, snippet, found))
+        return text.index(snippet)
+
+
+def read_faults(path):
+    """The faults of a list, numbered from 1 in its order."""
+    faults, fields, begin = [], {}, 0
+
+    def finish():
+        if not fields:
+            return
+        missing = [key for key in Fault.FIELDS if key != "in" and key not in fields]
+        if missing:
+            raise Mistake("%s:%d: this fault has no '%s'" % (path, begin, missing[0]))
+        if any(f.name == fields["fault"] for f in faults):
+            raise Mistake("%s:%d: a second fault of the name '%s'" % (path, begin, fields["fault"]))
+        faults.append(Fault(len(faults) + 1, dict(fields), begin))
+        fields.clear()
+
+    with open(path, encoding="utf-8") as lines:
+        for number, line in enumerate(lines, 1):
+            if line.startswith("#"):
+                continue
+            if not line.strip():
+                finish()
+                continue
+            match = re.match(r"(\w+): *(.*)", line)
+            if not match or match[1] not in Fault.FIELDS or match[1] in fields:
+                raise Mistake("%s:%d: expected one line each of %s" % (path, number, ", ".join(Fault.FIELDS)))
+            begin = begin if fields else number
+            fields[match[1]] = match[2].rstrip()
+    finish()
+    return faults
+
+
+def switched(faults, right):
+    """The snippet that is one of the faults' `wrong`, by what is chosen, or `right`."""
+    if faults[0].is_statement:
+        choices = ["if (fault(%d)) { %s } else " % (f.number, f.wrong) for f in faults]
+        return "{ %s{ %s } }" % ("".join(choices), right)
+    choices = ["fault(%d) ? (%s) : " % (f.number, f.wrong) for f in faults]
+    return "(%s(%s))" % ("".join(choices), right)
+
+
+def with_faults(text, faults):
+    """The text of a file with its faults compiled in. Several may share a snippet, or lie within a larger one."""
+    places, stale = {}, []
+    for fault in faults:
+        try:
+            places.setdefault(fault.place(text), []).append(fault)
+        except Mistake as mistake:
+            stale.append(str(mistake))
+    if stale:
+        raise Mistake("\n".join(stale))
+    # from the smallest to the largest, so that one that encloses others finds them done
+    edits = []  # of the text as it is now: begin, end, what stands there
+    for (begin, end), group in sorted(places.items(), key=lambda item: item[0][1] - item[0][0]):
+        inside = [e for e in edits if begin <= e[0] and e[1] <= end]
+        if any(e[0] < end and begin < e[1] and e not in inside for e in edits):
+            raise Mistake("line %d: fault '%s' overlaps another: choose the same snippet, or one within it" %
+                          (group[0].line, group[0].name))
+        right = replaced(text[begin:end], [(b - begin, e - begin, new) for b, e, new in inside])
+        edits = [e for e in edits if e not in inside] + [(begin, end, switched(group, right))]
+    return '#include "fault.h"\n' + replaced(text, edits)
+
+
+def replaced(text, edits):
+    for begin, end, new in sorted(edits, reverse=True):
+        text = text[:begin] + new + text[end:]
+    return text
+
+
+def write_if_changed(path, text):
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            if file.read() == text:
+                return
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def main(source_root, fault_list, output, *rooms):
+    faults = read_faults(fault_list)
+    of_file = {}
+    for fault in faults:
+        of_file.setdefault(fault.file, []).append(fault)
+    # all or nothing: a mistake must not leave a tree that is half new
+    texts, mistakes = {"fault.h": SWITCH}, []
+    for room in rooms:
+        for name in sorted(os.listdir(os.path.join(source_root, room))):
+            if not name.endswith((".h", ".cpp")):
+                continue
+            path = room + "/" + name
+            with open(os.path.join(source_root, path), encoding="utf-8") as file:
+                text = file.read()
+            here = of_file.pop(path, None)
+            try:
+                texts[path] = with_faults(text, here) if here else text
+            except Mistake as mistake:
+                mistakes.append(str(mistake))
+    for path, lost in of_file.items():
+        mistakes.append("line %d: fault '%s' is stale: no %s is copied" % (lost[0].line, lost[0].name, path))
+    if mistakes:
+        raise Mistake("adapt %s to the new sources\n%s" % (fault_list, "\n".join(mistakes)))
+    for path, text in texts.items():
+        write_if_changed(os.path.join(output, path), text)
+
+
+if __name__ == "__main__":
+    try:
+        main(*sys.argv[1:])
+    except Mistake as mistake:
+        sys.exit("%s: %s" % (os.path.basename(sys.argv[0]), mistake))

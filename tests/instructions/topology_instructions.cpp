@@ -1,0 +1,83 @@
+// topology_instructions SECTION: one piece of work of the core on a small body, for callgrind to count.
+//
+// Every section builds the same body first, and `empty` does no more; what a section costs is the difference.
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+#include "core/operations/dissociate_face.h"
+#include "core/scene/mesh_generators.h"
+#include "core/topology/build.h"
+#include "core/topology/cells.h"
+#include "core/topology/check.h"
+
+using namespace dartboard;
+
+namespace {
+
+struct Body {
+  Mesh mesh = kuhn_box(6, 6, 6, 0.1);  // 1296 tetrahedra
+  TetMap tetrahedral = build_map<TetMap>(mesh).map;
+  Map3 general = build_map<Map3>(mesh).map;
+};
+
+template <class Map>
+std::size_t vertex_orbits(const Map& map) {
+  std::size_t sum = 0;
+  for_each_cell<0>(map, [&](Vertex v) { for_each_dart_of(map, v, [&](Dart d) { sum += d.index; }); });
+  return sum;
+}
+
+template <class Map>
+std::size_t edges(const Map& map) {
+  return count_cells<1>(map);
+}
+
+template <class Map>
+std::size_t full_check(const Map& map) {
+  return check(map).size() + 1;
+}
+
+template <class Map>
+std::size_t dissociate(Map& map) {
+  std::size_t apart = 0;
+  for (std::uint32_t d = 0; d < map.capacity(); d += 6 * 7) {  // every seventh face
+    const TopologyChange change = dissociate_face(map, Dart{d});
+    apart += change.faces.size() + change.edges.size() + change.vertices.size();
+  }
+  return apart;
+}
+
+struct Section {
+  std::string_view name;
+  std::size_t (*run)(Body&);
+};
+constexpr std::array<Section, 11> sections{{
+    {"empty", [](Body&) { return std::size_t{1}; }},
+    {"build-general", [](Body& b) { return build_map<Map3>(b.mesh).map.dart_count(); }},
+    {"build-tetrahedral", [](Body& b) { return build_map<TetMap>(b.mesh).map.dart_count(); }},
+    {"dissociate-general", [](Body& b) { return dissociate(b.general); }},
+    {"dissociate-tetrahedral", [](Body& b) { return dissociate(b.tetrahedral); }},
+    {"edges-general", [](Body& b) { return edges(b.general); }},
+    {"edges-tetrahedral", [](Body& b) { return edges(b.tetrahedral); }},
+    {"full-check-general", [](Body& b) { return full_check(b.general); }},
+    {"full-check-tetrahedral", [](Body& b) { return full_check(b.tetrahedral); }},
+    {"vertex-orbits-general", [](Body& b) { return vertex_orbits(b.general); }},
+    {"vertex-orbits-tetrahedral", [](Body& b) { return vertex_orbits(b.tetrahedral); }},
+}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view wanted = argc == 2 ? argv[1] : "";
+  for (const Section& section : sections) {
+    if (wanted == "--list") std::printf("%s\n", section.name.data());
+    if (wanted != section.name) continue;
+    Body body;
+    return section.run(body) == 0 ? 1 : 0;  // the answer is used, so the work cannot be left out
+  }
+  if (wanted == "--list") return 0;
+  std::fprintf(stderr, "topology_instructions SECTION, one of those that --list lists\n");
+  return 2;
+}

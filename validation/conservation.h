@@ -1,0 +1,89 @@
+#pragma once
+// Operations on a body that moves, and after each what they must not change: masses, stiffnesses, momenta, energies.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+#include "core/plain/problem.h"
+#include "core/views/cell_arrays.h"
+
+namespace dartboard {
+
+/// A body that operations can follow.
+template <class Map>
+using LiveBody = MassSpringBody<Map, Held::by_every_dart>;
+
+/// What makes a body and its arrays follow a change of the map: core's functions, or a faulty stand-in.
+template <class Map>
+using Follow = std::function<ChangedEmbeddings(LiveBody<Map>&, CellArrays&, const TopologyChange&)>;
+/// `adapt`, then `apply`.
+template <class Map>
+ChangedEmbeddings follow(LiveBody<Map>& body, CellArrays& arrays, const TopologyChange& change) {
+  ChangedEmbeddings changed = adapt(body, change);
+  arrays.apply(body, changed);
+  return changed;
+}
+
+struct ConservationPlan {
+  std::uint64_t seed = 1;
+  std::size_t operations = 1000;
+  std::size_t everything_every = 100;  // operations between two comparisons of everything; one at start and end too
+  std::size_t oracle_every = 1000;     // operations between two comparisons with a body built from scratch; one at the end
+  int oracle_steps = 10;
+  std::function<void(std::size_t done)> progress;  // called every 1000 operations or so
+};
+
+/// What was compared, how often, and how close it came to its bound.
+struct ConservedRow {
+  std::string what;
+  std::size_t checks = 0;
+  std::optional<double> bound;  // of the check that came closest to it; none where the bits must agree
+  double deviation = 0.0;       // of that check
+  double largest = 0.0;         // deviation of any check
+  bool holds = true;
+};
+
+/// The first thing that is not as it should be.
+struct Violation {
+  std::string what;
+  std::size_t operation = 0;  // how many operations went before
+  std::uint64_t seed = 0;
+  std::string actual, expected, bound;
+};
+std::string to_string(const Violation& violation);
+
+struct ConservationResult {
+  std::size_t dissociations = 0, tears = 0, removals = 0, series = 0, steps = 0, refills = 0;
+  std::size_t bodies_from_scratch = 0, bodies_without_bound = 0;  // a spring so short that the bound says nothing
+  std::vector<ConservedRow> rows;
+  std::optional<Violation> violation;
+
+  std::size_t operations() const { return dissociations + tears + removals; }
+};
+
+/// Take a moving body apart at random, in series of one to four operations, until nothing is left; then again with a fresh one.
+///
+/// After each series: numbers of cells as the change predicts; masses, springs and states of all that changed against the
+/// cells that remain (RemainingCells, which knows no dart); the conserved sums of the whole body, against those before
+/// and the share of what was removed. Now and then everything, against reference/rebuild; the arrays against rebuilt
+/// ones; the motion against that of a body built from scratch (rebuild_oracle.h). It stops at the first violation.
+///
+/// Relative sums are in units of the sum of the absolute values.
+/// throws  InputError if the mesh has no volumes, or is one that build_body refuses
+template <class Map>
+ConservationResult validate_conservation(const Problem& start, const ConservationPlan& plan,
+                                         const Follow<Map>& followed = follow<Map>);
+
+/// A problem to take apart: gravity, a sixteenth of the points held still, a random linear field of velocities that stretches
+/// the springs by some per cent, and a step well inside the stable ones of RK4, also for each cell alone.
+Problem moving_problem(Mesh mesh, const Material& material, std::uint64_t seed);
+
+extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<Map3>&);
+extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<TetMap>&);
+
+}  // namespace dartboard

@@ -1,0 +1,71 @@
+#include "validation/conservation_ledger.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dartboard {
+namespace {
+
+constexpr std::array<const char*, check_count> names{
+    "vertices, edges, faces, volumes",
+    "Euler characteristic",
+    "map valid, numbers match cells",
+    "mass of a vertex",
+    "stiffness, damping, rest length of an edge",
+    "position, velocity, fixed: duplicated",
+    "arrays: apply = rebuild",
+    "total mass (relative)",
+    "total stiffness (relative)",
+    "total damping (relative)",
+    "linear momentum (relative)",
+    "angular momentum (relative)",
+    "kinetic energy (relative)",
+    "elastic energy (relative)",
+    "boundary area (relative)",
+    "springs side by side, summed (relative)",
+    "cells of a body from scratch",
+    "its motion, edges in the same order",
+    "its motion, own order: position [m]",
+    "its motion, own order: velocity [m/s]",
+    "drift of total mass (relative)",
+    "drift of total stiffness (relative)"};
+
+}  // namespace
+
+ConservationLedger::ConservationLedger(ConservationResult& result, std::uint64_t seed) : result_(result), seed_(seed) {
+  for (const char* name : names) result_.rows.push_back({name, 0, {}, 0.0, 0.0, true});
+}
+
+void ConservationLedger::within(Check check, double deviation, double bound, double scale, double actual,
+                                double expected) {
+  ConservedRow& r = row(check);
+  ++r.checks;
+  const double share = deviation == 0.0 ? 0.0 : deviation / bound;
+  if (scale > 0.0) {
+    double& closest = share_[static_cast<std::size_t>(check)];
+    r.largest = std::max(r.largest, deviation / scale);
+    // of several checks without any deviation, the one with the widest bound
+    if (!r.bound || share > closest || (share == closest && bound / scale > *r.bound)) {
+      r.deviation = deviation / scale;
+      r.bound = bound / scale;
+      closest = share;
+    }
+  }
+  if (!(share <= 1.0))
+    fail(check, "", fmt::format("{:.17g}", actual), fmt::format("{:.17g}", expected), fmt::format("{:.3g}", bound));
+}
+
+void ConservationLedger::fail(Check check, const std::string& whose, std::string actual, std::string expected,
+                              std::string bound) {
+  row(check).holds = false;
+  if (broken()) return;
+  result_.violation = {row(check).what + whose, result_.operations(), seed_,
+                       std::move(actual), std::move(expected), std::move(bound)};
+}
+
+std::string to_string(const Violation& v) {
+  return fmt::format("after operation {} of seed {}: {}: {}, expected {} (bound: {})", v.operation, v.seed, v.what,
+                     v.actual, v.expected, v.bound);
+}
+
+}  // namespace dartboard

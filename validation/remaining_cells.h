@@ -1,0 +1,89 @@
+#pragma once
+// What is left of a mesh when cells were removed and faces came apart: a witness that knows no dart.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+/// The cells of a mesh that are still there, and the sides by which they still hold together.
+///
+/// Two corners are one vertex where a chain of cells leads from one to the other through joined sides around the same
+/// mesh point; edges likewise. Corner k of cell c has the number mesh.first[c] + k; sides (the order of `faces_of`) and
+/// edges (each once, in the order in which the sides show them) are numbered through in the same way.
+class RemainingCells {
+ public:
+  /// `mesh` must outlive it.   throws  InputError if a side is shared by three cells
+  explicit RemainingCells(const Mesh& mesh);
+
+  void dissociate(std::uint32_t side);
+  void remove(std::uint32_t cell);
+
+  std::size_t count() const { return count_; }
+  bool is_there(std::uint32_t cell) const { return there_[cell] != 0; }
+  bool is_joined(std::uint32_t side) const { return opposite_[side] != side; }
+  std::uint32_t opposite(std::uint32_t side) const { return opposite_[side]; }
+
+  std::uint32_t cell_of_corner(std::uint32_t corner) const { return cell_of_corner_[corner]; }
+  std::uint32_t first_side(std::uint32_t cell) const { return first_side_[cell]; }
+  std::uint32_t first_edge(std::uint32_t cell) const { return first_edge_[cell]; }
+  /// The corners at the ends of an edge of a cell.
+  struct Ends {
+    std::uint32_t a, b;
+  };
+  Ends ends(std::uint32_t edge) const { return ends_[edge]; }
+  double area(std::uint32_t side) const { return area_[side]; }  // [m^2] at rest; the same bits on both sides
+
+  /// The corners that are one vertex with `corner`, and the edges of cells that are one edge with `edge`.
+  ///
+  /// The answers are valid until the next question.
+  /// cost    O(cells around it)
+  std::span<const std::uint32_t> vertex(std::uint32_t corner) const;
+  std::span<const std::uint32_t> edge(std::uint32_t edge) const;
+
+  /// f(first corner or edge of the class, all of it).   cost    O(cells)
+  template <class F>
+  void for_each_vertex(F&& f) const {
+    for_each_class(first_corner(), [&](std::uint32_t k) { return vertex(k); }, f);
+  }
+  template <class F>
+  void for_each_edge(F&& f) const {
+    for_each_class(first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
+  }
+  std::size_t count_faces() const;
+
+ private:
+  std::span<const std::uint32_t> first_corner() const { return mesh_->first; }
+  std::uint32_t corner_at(std::uint32_t cell, std::uint32_t point) const;
+  std::uint32_t edge_at(std::uint32_t cell, std::uint32_t p, std::uint32_t q) const;
+  bool has_point(std::uint32_t side, std::uint32_t point) const;
+
+  template <class First, class Class, class F>
+  void for_each_class(const First& first, Class&& class_of, F& f) const {
+    std::vector<char> met(first.back(), 0);
+    for (std::uint32_t c = 0; c < there_.size(); ++c)
+      for (std::uint32_t k = first[c]; there_[c] && k < first[c + 1]; ++k) {
+        if (met[k]) continue;
+        const auto members = class_of(k);
+        for (const std::uint32_t m : members) met[m] = 1;
+        f(k, members);
+      }
+  }
+
+  const Mesh* mesh_;
+  std::size_t count_;
+  std::vector<char> there_;                            // by cell
+  std::vector<std::uint32_t> first_side_, first_edge_;  // by cell, and the end
+  std::vector<std::uint32_t> cell_of_corner_, cell_of_side_, cell_of_edge_;
+  std::vector<std::uint32_t> opposite_;  // by side; itself when nothing is there
+  std::vector<std::uint32_t> first_point_, side_points_;  // the mesh points of side s: first_point_[s] .. [s + 1]
+  std::vector<double> area_;
+  std::vector<Ends> ends_;
+  mutable std::vector<std::uint32_t> found_;
+};
+
+}  // namespace dartboard
