@@ -53,12 +53,8 @@ std::string to_text(std::span<const Claim> claims) {
 Table table_of(std::span<const Claim> claims) {
   const bool reasons =
       std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return !claim.reason.empty(); });
-  std::vector<Column> columns{{"claim"},
-                              {"section"},
-                              {"paper", Align::right},
-                              {"measured", Align::right},
-                              {"interval or bound"},
-                              {"verdict"}};
+  std::vector<Column> columns{
+      {"claim"}, {"section"}, {"paper", Align::right}, {"measured", Align::right}, {"interval or bound"}, {"verdict"}};
   if (reasons) columns.push_back({"reason"});
   Table table(std::move(columns));
   for (const Claim& claim : claims) {

@@ -178,7 +178,8 @@ std::optional<std::vector<std::string>> git(const fs::path& folder, std::vector<
   arguments.insert(arguments.begin(), {"--no-optional-locks", "-C", folder.string()});
   std::vector<std::string> lines;
   try {
-    run_program("git", arguments, [&](std::string_view line) { lines.emplace_back(line); }, Stderr::discarded);
+    run_program(
+        "git", arguments, [&](std::string_view line) { lines.emplace_back(line); }, Stderr::discarded);
   } catch (const ProcessError&) {
     return std::nullopt;
   }
@@ -251,8 +252,6 @@ json begin_manifest(const RunFacts& facts) {
           {"started", {{"utc", utc_time()}, {"load_average", load_average()}}}};
 }
 
-void finish_manifest(json& manifest) {
-  manifest["finished"] = {{"utc", utc_time()}, {"load_average", load_average()}};
-}
+void finish_manifest(json& manifest) { manifest["finished"] = {{"utc", utc_time()}, {"load_average", load_average()}}; }
 
 }  // namespace dartboard

@@ -46,8 +46,15 @@ std::vector<StepSample> measure(const MeasurePlan& plan, const std::function<voi
   repeat_self(
       plan.processes,
       [&](int process) {
-        std::vector<std::string> arguments{"measure", "--scene", plan.scene, "--process", std::to_string(process),
-                                           "--rounds", std::to_string(plan.rounds), "--seed", std::to_string(plan.seed)};
+        std::vector<std::string> arguments{"measure",
+                                           "--scene",
+                                           plan.scene,
+                                           "--process",
+                                           std::to_string(process),
+                                           "--rounds",
+                                           std::to_string(plan.rounds),
+                                           "--seed",
+                                           std::to_string(plan.seed)};
         for (const auto& c : plan.contenders) arguments.push_back(fmt::format("{}:{}", c.id, c.steps));
         return arguments;
       },

@@ -151,8 +151,12 @@ nlohmann::json json_of(const Figure& figure) {
 }  // namespace
 
 void to_json(nlohmann::json& json, const Sample& sample) {
-  json = {{"task", sample.task},         {"process", sample.process}, {"round", sample.round},
-          {"position", sample.position}, {"cpu_ns", sample.cpu_ns},   {"wall_ns", sample.wall_ns},
+  json = {{"task", sample.task},
+          {"process", sample.process},
+          {"round", sample.round},
+          {"position", sample.position},
+          {"cpu_ns", sample.cpu_ns},
+          {"wall_ns", sample.wall_ns},
           {"hash", fmt::format("{:016x}", sample.hash)}};
 }
 

@@ -11,10 +11,13 @@ namespace dartboard {
 
 std::span<const PaperClaim> paper_claims() {
   static const std::array<PaperClaim, 16> table{{
-      {"graphs-ambiguous", "two bodies that are topologically different can have the same adjacency graph", "1", "possible"},
+      {"graphs-ambiguous", "two bodies that are topologically different can have the same adjacency graph", "1",
+       "possible"},
       {"non-manifold-refused", "the non-manifold objects of Fig. 2 cannot be represented", "1", "impossible"},
-      {"class-closed", "operations cannot leave the class of objects in which a face joins at most two volumes", "1, 2", "never"},
-      {"combinatorial-export", "a generalized map can be exported to a combinatorial map of half the size", "2", "known method"},
+      {"class-closed", "operations cannot leave the class of objects in which a face joins at most two volumes", "1, 2",
+       "never"},
+      {"combinatorial-export", "a generalized map can be exported to a combinatorial map of half the size", "2",
+       "known method"},
       {"map-valid", "the body's map satisfies the three conditions of a 3-g-map", "2.1", "valid"},
       {"cells-partition", "the i-cells partition the darts, for each i", "2.1", "each dart in 1 cell per i"},
       {"mass-sum", "the masses of the vertices, eq. (1), sum up to the masses of the tetrahedra", "4.3", "equal"},

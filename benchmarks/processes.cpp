@@ -134,8 +134,8 @@ void run(const std::string& path, const std::string& name, const std::vector<std
   read_lines(pipe.read_end(), on_line);
   const int status = child.wait();
   if (WIFSIGNALED(status))
-    throw ProcessError(fmt::format("`{}` was killed by signal {} ({})", command_line(name, arguments),
-                                   WTERMSIG(status), strsignal(WTERMSIG(status))));
+    throw ProcessError(fmt::format("`{}` was killed by signal {} ({})", command_line(name, arguments), WTERMSIG(status),
+                                   strsignal(WTERMSIG(status))));
   if (WEXITSTATUS(status) != 0)
     throw ProcessError(
         fmt::format("`{}` ended with status {}, expected 0", command_line(name, arguments), WEXITSTATUS(status)));

@@ -46,7 +46,9 @@ Claim untested(std::string_view id, std::string measured, std::string reason) {
 
 void answer_topology(std::vector<Claim>& claims, const MassSpringBody<Map3, Held::by_every_dart>& body,
                      const ReproduceResults& results, const Problem& problem) {
-  const auto answer = [&](std::string_view id, const ClaimAnswer& a) { claims.push_back(tested(id, a.holds, a.measured, "exact")); };
+  const auto answer = [&](std::string_view id, const ClaimAnswer& a) {
+    claims.push_back(tested(id, a.holds, a.measured, "exact"));
+  };
   answer("graphs-ambiguous", try_same_graph_twice(problem.mesh));
   answer("non-manifold-refused", try_non_manifold_inputs());
   answer("class-closed", try_to_leave_the_class(problem.mesh, 500, 1));
@@ -56,7 +58,8 @@ void answer_topology(std::vector<Claim>& claims, const MassSpringBody<Map3, Held
   const std::string violation = check(map);
   claims.push_back(tested("map-valid", violation.empty(), violation.empty() ? "valid" : violation, "exact"));
   const bool once = partitions<0>(map) && partitions<1>(map) && partitions<2>(map) && partitions<3>(map);
-  claims.push_back(tested("cells-partition", once, once ? "each dart in 1 cell per i" : "a dart is in 0 or 2", "exact"));
+  claims.push_back(
+      tested("cells-partition", once, once ? "each dart in 1 cell per i" : "a dart is in 0 or 2", "exact"));
 
   // Each side sums positive numbers with at most n - 1 additions after at most 2 + d roundings per term, d the largest
   // number of cells at a vertex; both relative errors are below gamma_n with n as counted here (Higham, 2002, eq. 3.4).
@@ -66,7 +69,8 @@ void answer_topology(std::vector<Claim>& claims, const MassSpringBody<Map3, Held
   const double n = static_cast<double>(body.cell_mass.size() + body.vertices.size()) + 64.0;
   const double bound = n * 0x1p-53 / (1.0 - n * 0x1p-53);
   const double relative = std::abs(by_vertex - by_cell) / by_cell;
-  claims.push_back(tested("mass-sum", relative <= bound, fmt::format("{:.6g} kg, relative difference {:.1e}", by_vertex, relative),
+  claims.push_back(tested("mass-sum", relative <= bound,
+                          fmt::format("{:.6g} kg, relative difference {:.1e}", by_vertex, relative),
                           fmt::format("summation bound {:.1e}", bound)));
   double stiffness = 0.0;  // multiples of k, so that the sum of small integers is exact
   for (const Spring& s : body.springs) stiffness += std::round(s.stiffness / problem.material.stiffness);
@@ -75,7 +79,8 @@ void answer_topology(std::vector<Claim>& claims, const MassSpringBody<Map3, Held
                           fmt::format("exactly {:.0f} k", expected)));
 
   const auto count = [&](const char* what) {
-    return std::find_if(results.counts.begin(), results.counts.end(), [&](const auto& c) { return c.what == what; })->ours;
+    return std::find_if(results.counts.begin(), results.counts.end(), [&](const auto& c) { return c.what == what; })
+        ->ours;
   };
   claims.push_back(tested("body-size", count("vertices") == 564 && count("edges") == 2850 && count("volumes") == 1856,
                           fmt::format("{} / {} / {}", count("vertices"), count("edges"), count("volumes")), "exact"));
@@ -102,11 +107,13 @@ void answer_time(std::vector<Claim>& claims, const ReproduceResults& r) {
   const Figure arrays = r.ratio("arrays", "graph").cpu;
   claims.push_back(tested("arrays-overhead", arrays.median <= 1.10, fmt::format("{:.3f}", arrays.median),
                           to_string(arrays.interval)));
-  claims.push_back(tested("arrays-step", r.ms("arrays") <= 2.0, fmt::format("{:.3f} ms", r.ms("arrays")), "median of processor time"));
+  claims.push_back(tested("arrays-step", r.ms("arrays") <= 2.0, fmt::format("{:.3f} ms", r.ms("arrays")),
+                          "median of processor time"));
   const auto over_graph = [&](const char* id) { return r.ratio(id, "graph").cpu.median; };
-  claims.push_back(untested("paper-ladder",
-                            fmt::format("{:.3g} : {:.3g} : {:.2f} : 1", over_graph("coverage"), over_graph("lists"), over_graph("arrays")),
-                            "the ladder belongs to a processor of 2010; arrays have gained more since than walks through links"));
+  claims.push_back(untested(
+      "paper-ladder",
+      fmt::format("{:.3g} : {:.3g} : {:.2f} : 1", over_graph("coverage"), over_graph("lists"), over_graph("arrays")),
+      "the ladder belongs to a processor of 2010; arrays have gained more since than walks through links"));
 }
 
 }  // namespace
@@ -116,20 +123,26 @@ bool ReproduceResults::timed(const std::string& id) const {
 }
 
 Table counts_table(const ReproduceResults& results) {
-  const std::map<std::string, std::string> paper{{"darts", "44544"}, {"vertices", "564"}, {"edges", "2850"}, {"volumes", "1856"}};
+  const std::map<std::string, std::string> paper{
+      {"darts", "44544"}, {"vertices", "564"}, {"edges", "2850"}, {"volumes", "1856"}};
   Table table({{"count"}, {"paper", Align::right}, {"this map", Align::right}, {"CGAL", Align::right}, {"agree"}});
   for (const auto& c : results.counts)
-    table.add_row({c.what, paper.contains(c.what) ? paper.at(c.what) : "-", std::to_string(c.ours), std::to_string(c.cgal),
-                   c.agrees() ? "yes" : "NO"});
+    table.add_row({c.what, paper.contains(c.what) ? paper.at(c.what) : "-", std::to_string(c.ours),
+                   std::to_string(c.cgal), c.agrees() ? "yes" : "NO"});
   return table;
 }
 
 Table agreement_table(const ReproduceResults& results) {
-  Table table({{"contender"}, {"state hash"}, {"force difference / bound", Align::right}, {"position difference [m]", Align::right},
-               {"bound [m]", Align::right}, {"agrees"}});
+  Table table({{"contender"},
+               {"state hash"},
+               {"force difference / bound", Align::right},
+               {"position difference [m]", Align::right},
+               {"bound [m]", Align::right},
+               {"agrees"}});
   for (const auto& m : results.motion) {
     const bool bits = m.position_bound == 0.0;
-    table.add_row({m.id, fmt::format("{:016x}", m.hash), bits ? (m.force_difference == 0.0 ? "0" : "not 0") : fmt::format("{:.2g}", m.force_difference),
+    table.add_row({m.id, fmt::format("{:016x}", m.hash),
+                   bits ? (m.force_difference == 0.0 ? "0" : "not 0") : fmt::format("{:.2g}", m.force_difference),
                    m.position_difference == 0.0 ? "0" : fmt::format("{:.1e}", m.position_difference),
                    bits ? "0, same bits" : fmt::format("{:.1e}", m.position_bound), m.agrees ? "yes" : "NO"});
   }
@@ -137,17 +150,25 @@ Table agreement_table(const ReproduceResults& results) {
 }
 
 Table timing_table(const ReproduceResults& results) {
-  Table table({{"walk"}, {"section"}, {"paper [ms]", Align::right}, {"paper ratio", Align::right}, {"here [ms]", Align::right},
-               {"wall [ms]", Align::right}, {"ratio here [interval]", Align::right}});
+  Table table({{"walk"},
+               {"section"},
+               {"paper [ms]", Align::right},
+               {"paper ratio", Align::right},
+               {"here [ms]", Align::right},
+               {"wall [ms]", Align::right},
+               {"ratio here [interval]", Align::right}});
   for (const Contender& c : contenders()) {
     const bool timed = results.timed(c.id) && results.timed("graph");
     const Times times = timed ? times_of(results.per_step, c.id) : Times{};
-    table.add_row({c.id, or_dash(!c.section.empty(), c.section), or_dash(c.paper_ms > 0.0, fmt::format("{:.0f}", c.paper_ms)),
-                   or_dash(c.paper_ms > 0.0, c.id == "arrays" ? "<= 1.10" : fmt::format("{:.0f}", c.paper_ms / paper_baseline_ms)),
-                   or_dash(timed, fmt::format("{:.4f}", times.cpu_median * 1e-6)), or_dash(timed, fmt::format("{:.4f}", times.wall_median * 1e-6)),
-                   !timed               ? "not timed: failed a gate"
+    table.add_row({c.id, or_dash(!c.section.empty(), c.section),
+                   or_dash(c.paper_ms > 0.0, fmt::format("{:.0f}", c.paper_ms)),
+                   or_dash(c.paper_ms > 0.0,
+                           c.id == "arrays" ? "<= 1.10" : fmt::format("{:.0f}", c.paper_ms / paper_baseline_ms)),
+                   or_dash(timed, fmt::format("{:.4f}", times.cpu_median * 1e-6)),
+                   or_dash(timed, fmt::format("{:.4f}", times.wall_median * 1e-6)),
+                   !timed            ? "not timed: failed a gate"
                    : c.id == "graph" ? "1"
-                                        : to_string(results.ratio(c.id, "graph").cpu)});
+                                     : to_string(results.ratio(c.id, "graph").cpu)});
   }
   return table;
 }
@@ -160,14 +181,19 @@ std::string timing_note(const ReproduceResults& r, const Problem& problem) {
   std::string walks;
   for (const Contender& c : contenders()) walks += fmt::format("- {}: {}\n", c.id, c.what);
   return fmt::format(
-      "{}\nTimes are processor time per RK4 step (four force evaluations, h = {:g} s), medians over processes. Ratios are "
+      "{}\nTimes are processor time per RK4 step (four force evaluations, h = {:g} s), medians over processes. Ratios "
+      "are "
       "paired within rounds; their intervals are distribution-free, over processes.\n\n"
-      "Against the paper's times (2010, 2.8 GHz, its map library MOKA) full coverage is {:.1f} times as fast when one dart "
-      "holds the embedding, lists {:.1f}, cell arrays {:.0f} and the adjacency graph {:.0f} times: contiguous arrays profit "
-      "from wider and deeper processors, a walk waits for one link to know the next. So the ratios to the graph are not "
+      "Against the paper's times (2010, 2.8 GHz, its map library MOKA) full coverage is {:.1f} times as fast when one "
+      "dart "
+      "holds the embedding, lists {:.1f}, cell arrays {:.0f} and the adjacency graph {:.0f} times: contiguous arrays "
+      "profit "
+      "from wider and deeper processors, a walk waits for one link to know the next. So the ratios to the graph are "
+      "not "
       "the paper's, while the order of the walks is the same.\n\n"
       "Cell arrays take {:.1f} ns per spring and force evaluation, everything included.\n\n"
-      "When one dart of an orbit holds the embedding (the paper's choice, section 2.2), a look-up walks the orbit; when "
+      "When one dart of an orbit holds the embedding (the paper's choice, section 2.2), a look-up walks the orbit; "
+      "when "
       "every dart holds it, coverage costs {:.3g} ms and lists {:.3g} ms.",
       walks, problem.h, 12.0 / r.ms("coverage"), 8.0 / r.ms("lists"), 2.0 / r.ms("arrays"), 2.0 / r.ms("graph"),
       r.ms("arrays") * 1e6 / (4.0 * springs), r.ms("coverage-every"), r.ms("lists-every"));

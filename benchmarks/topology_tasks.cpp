@@ -194,7 +194,8 @@ TopologyStage make_topology_stage(const std::string& body, std::uint64_t seed) {
   if (body == scaling) {
     for (std::size_t k = 0; k < scaling_sizes.size(); ++k) {
       constexpr int cubes[] = {7, 20, 55};  // on a side, six tetrahedra each
-      const TopologyWork& work = stage.works.emplace_back(topology_work(kuhn_box(cubes[k], cubes[k], cubes[k], 0.1), seed));
+      const int n = cubes[k];
+      const TopologyWork& work = stage.works.emplace_back(topology_work(kuhn_box(n, n, n, 0.1), seed));
       stage.add(scaling_sizes[k], work, topology_tasks<TetMap>(work));
     }
     std::erase_if(stage.groups, [](const auto& g) { return !g.figure.starts_with("unsew"); });

@@ -22,7 +22,8 @@ Entries entries_of(std::string_view kind) {
   if (kind == "integrators")
     entries.emplace_back("rk4", "classical Runge-Kutta, order 4, 4 force evaluations, the paper's");
   if (kind == "claims")
-    for (const PaperClaim& c : paper_claims()) entries.emplace_back(c.id, fmt::format("(section {}) {}", c.section, c.text));
+    for (const PaperClaim& c : paper_claims())
+      entries.emplace_back(c.id, fmt::format("(section {}) {}", c.section, c.text));
   return entries;
 }
 

@@ -17,14 +17,9 @@ MapSummary summary_of(const Mesh& mesh) {
 }
 
 nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded, const MapSummary& s) {
-  nlohmann::ordered_json json{{"file", file},
-                              {"format", loaded.format},
-                              {"dimension", s.dimension},
-                              {"points", loaded.mesh.points.size()},
-                              {"darts", s.darts},
-                              {"vertices", s.cells[0]},
-                              {"edges", s.cells[1]},
-                              {"faces", s.cells[2]}};
+  nlohmann::ordered_json json{
+      {"file", file},     {"format", loaded.format}, {"dimension", s.dimension}, {"points", loaded.mesh.points.size()},
+      {"darts", s.darts}, {"vertices", s.cells[0]},  {"edges", s.cells[1]},      {"faces", s.cells[2]}};
   if (s.dimension == 3) json["volumes"] = s.cells[3];
   json["components"] = s.components;
   json[s.dimension == 3 ? "boundary_faces" : "boundary_edges"] = s.boundary_facets;
@@ -62,7 +57,8 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
       fmt::print("{}\n", json.dump(2));
     } else {
       for (const auto& [key, value] : json.items())
-        if (key != "notices") fmt::print("{:15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+        if (key != "notices")
+          fmt::print("{:15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
       for (const std::string& notice : loaded.notices) fmt::print(stderr, "notice: {}\n", notice);
     }
     outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;

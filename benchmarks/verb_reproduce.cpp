@@ -77,21 +77,25 @@ void reproduce(const Options& options, Outcome& outcome) {
   const bool gates_passed = topology_agrees && agreed.size() == results.motion.size();
   outcome.exit_code = gates_passed ? exit_code(claims) : exit_disagrees;
   if (options.json)
-    fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}, {"gates_passed", gates_passed}}.dump(2));
-  say(fmt::format("{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
-                  outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
-                  folder.path().string()));
+    fmt::print("{}\n",
+               nlohmann::json{{"claims", claims}, {"manifest", manifest}, {"gates_passed", gates_passed}}.dump(2));
+  say(fmt::format(
+      "{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
+      outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
+      folder.path().string()));
 }
 
 }  // namespace
 
 void add_reproduce(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("reproduce", "Gate and time the paper's walks on a body of its size; answer its claims.");
+  auto* verb =
+      app.add_subcommand("reproduce", "Gate and time the paper's walks on a body of its size; answer its claims.");
   verb->add_flag("--quick", options->quick, "fewer processes and rounds; under a minute");
   verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
   verb->add_option("--seed", options->seed, "of the order in which contenders take turns [1]");
-  verb->add_flag("--json", options->json, "print claims and manifest as JSON on standard output, the rest on standard error");
+  verb->add_flag("--json", options->json,
+                 "print claims and manifest as JSON on standard output, the rest on standard error");
   verb->callback([options, &outcome] { reproduce(*options, outcome); });
 }
 

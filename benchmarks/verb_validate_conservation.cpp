@@ -47,7 +47,8 @@ Session session(std::string name, std::string storage, Mesh mesh, const Material
   const auto validate = [](const Problem& problem, const ConservationPlan& plan) {
     return validate_conservation<Map>(problem, plan);
   };
-  return {std::move(name), std::move(storage), moving_problem(std::move(mesh), material, seed), seed, validate, {}, 0.0};
+  return {
+      std::move(name), std::move(storage), moving_problem(std::move(mesh), material, seed), seed, validate, {}, 0.0};
 }
 
 Mesh find_mesh(const std::string& name) {
@@ -120,11 +121,12 @@ Table table_of(const ConservationResult& result) {
 
 void print(const Session& s, const Options& options) {
   const ConservationResult& r = s.result;
-  fmt::print("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(), s.seed,
-             s.problem.h);
-  fmt::print("{} operations ({} faces dissociated, {} fans torn, {} volumes removed) in {} series, {} steps between; "
-             "the body was emptied and refilled {} times\n",
-             r.operations(), r.dissociations, r.tears, r.removals, r.series, r.steps, r.refills);
+  fmt::print("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(),
+             s.seed, s.problem.h);
+  fmt::print(
+      "{} operations ({} faces dissociated, {} fans torn, {} volumes removed) in {} series, {} steps between; "
+      "the body was emptied and refilled {} times\n",
+      r.operations(), r.dissociations, r.tears, r.removals, r.series, r.steps, r.refills);
   fmt::print("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
              s.operations_per_s, r.bodies_from_scratch,
              r.bodies_without_bound == 0

@@ -36,8 +36,8 @@ class AdjacencyGraph {
   std::size_t nodes() const { return nodes_.size(); }
   std::size_t springs() const { return springs_.size(); }
   std::size_t cells() const { return cells_; }
-  std::span<const double> masses() const { return masses_; }          // kg, per point
-  std::span<const Spring> spring_list() const { return springs_; }    // ascending in the end points
+  std::span<const double> masses() const { return masses_; }        // kg, per point
+  std::span<const Spring> spring_list() const { return springs_; }  // ascending in the end points
 
  private:
   struct Node {

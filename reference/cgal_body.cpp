@@ -23,11 +23,11 @@ using Point = Kernel::Point_3;
 
 // All that a vertex carries beside its point, which is the position at the stage of the step.
 struct VertexInfo {
-  Point x0 = CGAL::ORIGIN;                                      // at the start of the step
-  Vector v0 = CGAL::NULL_VECTOR, v = CGAL::NULL_VECTOR;         // at the start of the step, at the stage
-  Vector force = CGAL::NULL_VECTOR;                             // of the springs
-  Vector dx = CGAL::NULL_VECTOR, dv = CGAL::NULL_VECTOR;        // what the step adds up
-  double mass = 0.0, viscosity = 0.0;                           // kg, kg/s
+  Point x0 = CGAL::ORIGIN;                                // at the start of the step
+  Vector v0 = CGAL::NULL_VECTOR, v = CGAL::NULL_VECTOR;   // at the start of the step, at the stage
+  Vector force = CGAL::NULL_VECTOR;                       // of the springs
+  Vector dx = CGAL::NULL_VECTOR, dv = CGAL::NULL_VECTOR;  // what the step adds up
+  double mass = 0.0, viscosity = 0.0;                     // kg, kg/s
   bool fixed = false;
   bool operator==(const VertexInfo&) const = default;
 };
@@ -46,15 +46,14 @@ struct Items {
   };
 };
 
-using Map =
-    CGAL::Linear_cell_complex_for_generalized_map<3, 3, CGAL::Linear_cell_complex_traits<3, Kernel>, Items>;
+using Map = CGAL::Linear_cell_complex_for_generalized_map<3, 3, CGAL::Linear_cell_complex_traits<3, Kernel>, Items>;
 using Dart = Map::Dart_handle;
 
 // A dart, and the mesh's names for the cells it lies in.
 struct NamedDart {
   Dart dart;
-  std::uint32_t from, to;              // its vertex, and the other end of its edge
-  std::array<std::uint32_t, 4> face;   // the points of its face, ascending
+  std::uint32_t from, to;             // its vertex, and the other end of its edge
+  std::array<std::uint32_t, 4> face;  // the points of its face, ascending
   std::uint32_t cell;
 };
 
@@ -247,8 +246,8 @@ struct CgalBody::Complex {
   void set_state(const PointState& state) {
     const std::size_t n = vertex_of_point.size();
     if (state.x.size() != n || state.v.size() != n)
-      throw InputError(fmt::format("a state of {} positions and {} velocities for {} points", state.x.size(),
-                                   state.v.size(), n));
+      throw InputError(
+          fmt::format("a state of {} positions and {} velocities for {} points", state.x.size(), state.v.size(), n));
     for (std::size_t i = 0; i < n; ++i) {
       VertexInfo& info = vertex_of_point[i]->info();
       vertex_of_point[i]->point() = info.x0 = to_point(state.x[i]);

@@ -26,11 +26,11 @@ Swing oscillate(double omega2, double drag, Swing start, double t);
 
 /// Two masses on a line joined by a spring, both in a medium of that viscosity.
 struct Dumbbell {
-  double m1, m2;            // kg
-  double stiffness;         // N/m
-  double damping = 0.0;     // N s/m
+  double m1, m2;             // kg
+  double stiffness;          // N/m
+  double damping = 0.0;      // N s/m
   double rest_length = 0.0;  // m
-  double viscosity = 0.0;   // 1/s
+  double viscosity = 0.0;    // 1/s
 };
 
 /// Positions and velocities of the two masses along the line; x1 < x2 as long as the formula holds.

@@ -63,8 +63,8 @@ Rebuilt rebuild(const Mesh& mesh, const Material& material) {
     while (last < soup.size() && soup[last] == soup[first]) ++last;
     const auto around = static_cast<std::uint32_t>(last - first);
     const auto [a, b] = soup[first];
-    out.springs.push_back({a, b, material.stiffness * around, material.damping * around,
-                           (mesh.points[b] - mesh.points[a]).norm()});
+    out.springs.push_back(
+        {a, b, material.stiffness * around, material.damping * around, (mesh.points[b] - mesh.points[a]).norm()});
     out.cells.push_back(around);
   }
   return out;

@@ -85,9 +85,9 @@ struct Body {
 // What the springs do to a point.
 struct Pull {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  double magnitude = 0.0;                         // sum of |f_ij|
-  double error = 0.0;                             // sum of E_ij
-  double by_position = 0.0, by_velocity = 0.0;    // how much `force` can change per change of all x, of all v
+  double magnitude = 0.0;                       // sum of |f_ij|
+  double error = 0.0;                           // sum of E_ij
+  double by_position = 0.0, by_velocity = 0.0;  // how much `force` can change per change of all x, of all v
 };
 
 // All pulls in a state of which x is known up to ex and v up to ev; false when that is not enough to say how they
@@ -111,8 +111,8 @@ bool pull_points(const Body& body, const Vectors& x, const Vectors& v, double ex
     const Eigen::Vector3d f = (s.stiffness * (l - L) + s.damping * dv.dot(u)) * u;
     const double error = gamma(13) * s.stiffness * (l + L) + gamma(m + 12) * s.stiffness * std::abs(l - L) +
                          gamma(m + 23) * s.damping * speed;
-    const double by_position = s.stiffness * std::max(1.0, std::abs(1.0 - L / shortest)) +
-                               s.damping * (speed + 4.0 * ev) / shortest;
+    const double by_position =
+        s.stiffness * std::max(1.0, std::abs(1.0 - L / shortest)) + s.damping * (speed + 4.0 * ev) / shortest;
 
     // a fixed end does not differ between runs; two free ends may move apart
     const double ends = body.fixed[s.a] || body.fixed[s.b] ? 1.0 : 2.0;
@@ -186,9 +186,9 @@ StateBound state_bound(const Problem& problem, const PointState& start, int step
     vs = v;
     std::fill(dx.begin(), dx.end(), Eigen::Vector3d::Zero());
     dv = dx;
-    double Xs = X, Vs = V;                             // of the stage
-    double growth_x = 0.0, growth_v = 0.0;             // of the step
-    double travel_x = 0.0, travel_v = 0.0;             // sizes of its terms
+    double Xs = X, Vs = V;                  // of the stage
+    double growth_x = 0.0, growth_v = 0.0;  // of the step
+    double travel_x = 0.0, travel_v = 0.0;  // sizes of its terms
     for (int s = 0; s < 4; ++s) {
       if (!pull_points(body, xs, vs, Xs, Vs, pulls)) return {infinity, infinity};
       double A = 0.0;

@@ -10,6 +10,7 @@
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/operations/tear_fan.h"
+#include "core/plain/error.h"
 #include "core/topology/check.h"
 #include "core/views/cell_arrays.h"
 #include "tests/meshes_for_tests.h"
@@ -180,6 +181,16 @@ TYPED_TEST(Adapt, TakesAwayExactlyTheRemovedMass) {
   const double before = total(), removed = body.cell_mass[body.cell(body.map, Dart{0})];
   adapt(body, remove_volume(body.map, Dart{0}));
   EXPECT_NEAR(total(), before - removed, before * 0x1p-44);  // 27 sums of at most 24 terms: gamma_(2^8)
+}
+
+TYPED_TEST(Adapt, LeavesABodyThatHasNoStateByMeshPoint) {
+  Problem problem;
+  problem.mesh = two_tetrahedra();
+  auto body = build_body<TypeParam, Held::by_every_dart>(problem);
+  adapt(body, remove_volume(body.map, Dart{0}));
+  EXPECT_THROW(body.state(), InputError);
+  EXPECT_THROW(body.set_state({}), InputError);
+  EXPECT_NE(body.state_hash(), 0u);
 }
 
 }  // namespace

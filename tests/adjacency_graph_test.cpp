@@ -129,7 +129,7 @@ TEST(AdjacencyGraph, ExertsNoForceAndNoTorqueOnItselfAndKeepsMomentum) {
     const Eigen::Vector3d arm = start.x[i];
     force += forces[i];
     torque += arm.cross(forces[i]);
-    force_rounding += bound[i] + 30 * u * forces[i].norm();               // and 27 terms to add
+    force_rounding += bound[i] + 30 * u * forces[i].norm();                  // and 27 terms to add
     torque_rounding += arm.norm() * (bound[i] + 33 * u * forces[i].norm());  // and a cross product
   }
   EXPECT_LE(force.norm(), force_rounding);

@@ -38,7 +38,7 @@ TEST(CgalBody, OfACubeOfSixTetrahedraHasTheCellsOfAKuhnCube) {
 TEST(CgalBody, OfMixedVolumesIsAMap) {
   // a cube with a pyramid on its top and a prism at its side x = 1; a dart per corner, edge and face: 48 + 32 + 36
   Mesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},     {0, 0, 1}, {1, 0, 1},
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},    {1, 0, 1},
                  {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 1, 0}, {0.5, 0.5, 2}};
   mesh.add_cell(CellKind::hexahedron, std::array<std::uint32_t, 8>{0, 1, 2, 3, 4, 5, 6, 7});
   mesh.add_cell(CellKind::pyramid, std::array<std::uint32_t, 5>{4, 5, 6, 7, 10});

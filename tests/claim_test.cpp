@@ -9,7 +9,9 @@ namespace dartboard {
 namespace {
 
 Claim claim_with(Verdict verdict, std::string reason = "") {
-  return {"arrays", "cell arrays cost what plain arrays cost", "5.2", "<= 1.10", "1.04", "[1.02, 1.07] at 96.9 %",
+  return {"arrays", "cell arrays cost what plain arrays cost",
+          "5.2",    "<= 1.10",
+          "1.04",   "[1.02, 1.07] at 96.9 %",
           verdict,  std::move(reason)};
 }
 

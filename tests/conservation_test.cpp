@@ -76,8 +76,8 @@ TYPED_TEST(Conservation, HoldsDownToTheEmptyBodyAndAgain) {
 }
 
 TYPED_TEST(Conservation, IsExactWhereMassesAndStiffnessesArePowersOfTwo) {
-  const auto result = validate_conservation<TypeParam>(moving_problem(kuhn_box(2, 2, 2, 0.125), powers_of_two, 5),
-                                                       short_plan(5));
+  const auto result =
+      validate_conservation<TypeParam>(moving_problem(kuhn_box(2, 2, 2, 0.125), powers_of_two, 5), short_plan(5));
   EXPECT_EQ(violation_of(result), "none");
   for (const char* what :
        {"total mass (", "total stiffness (", "total damping", "drift of total mass", "drift of total stiffness"}) {

@@ -12,8 +12,9 @@
 namespace dartboard {
 namespace {
 
-// After 20 steps of the scene `liver`. It changes only when the scene or the order of its sums does: say so in the commit.
-constexpr std::uint64_t pinned = 0xbe2a5f2dbb6a8f32;
+// After 20 steps of the scene `liver`. It changes only when the scene or the order of its sums does: say so in the
+// commit.
+constexpr std::uint64_t pinned = 0x58a4e0c7384a4139;
 
 template <class Map, Held held, class Walk>
 std::uint64_t hash_after_20_steps() {
@@ -30,7 +31,9 @@ constexpr auto one = Held::by_one_dart;
 constexpr auto every = Held::by_every_dart;
 
 TEST(StateHash, OfDartCoverageIsThePinnedOne) { EXPECT_EQ((hash_after_20_steps<Map3, one, DartCoverage>()), pinned); }
-TEST(StateHash, OfEmbeddingListsIsThePinnedOne) { EXPECT_EQ((hash_after_20_steps<Map3, one, EmbeddingLists>()), pinned); }
+TEST(StateHash, OfEmbeddingListsIsThePinnedOne) {
+  EXPECT_EQ((hash_after_20_steps<Map3, one, EmbeddingLists>()), pinned);
+}
 TEST(StateHash, OfCellArraysIsThePinnedOne) { EXPECT_EQ((hash_after_20_steps<Map3, every, CellArrays>()), pinned); }
 TEST(StateHash, OfARepeatedRunIsThePinnedOne) { EXPECT_EQ((hash_after_20_steps<Map3, every, CellArrays>()), pinned); }
 TEST(StateHash, OfTetrahedralStorageIsThePinnedOne) {

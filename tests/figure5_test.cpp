@@ -30,11 +30,11 @@ unsigned number(Dart d) { return d.index + 1; }
 Map2 figure5() {
   Map2 map;
   for (int k = 0; k < 22; ++k) map.add_dart();
-  const Pairs alpha0{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {19, 20},
+  const Pairs alpha0{{1, 2},   {3, 4},   {5, 6},   {7, 8},   {9, 10}, {19, 20},
                      {11, 12}, {13, 14}, {15, 16}, {17, 18}, {21, 22}};  // this line completed
-  const Pairs alpha1{{1, 5}, {2, 3}, {4, 8}, {6, 7}, {9, 18}, {10, 13}, {20, 21},
-                     {14, 17}, {22, 15}, {16, 11}, {12, 19}};  // this line completed
-  const Pairs alpha2{{3, 20}, {4, 19}, {13, 16}, {14, 15}};    // the last two completed
+  const Pairs alpha1{{1, 5},   {2, 3},   {4, 8},   {6, 7},   {9, 18}, {10, 13},
+                     {20, 21}, {14, 17}, {22, 15}, {16, 11}, {12, 19}};  // this line completed
+  const Pairs alpha2{{3, 20}, {4, 19}, {13, 16}, {14, 15}};              // the last two completed
   for (const auto& [a, b] : alpha0) map.link<0>(dart(a), dart(b));
   for (const auto& [a, b] : alpha1) map.link<1>(dart(a), dart(b));
   for (const auto& [a, b] : alpha2) map.link<2>(dart(a), dart(b));
@@ -79,9 +79,7 @@ TEST(Figure5, TheFaceOfDart1IsTheQuadrilateralOfTheTable) {
 }
 
 // "2 = alpha_0(1), 3 = alpha_1(2), 20 = alpha_2(3)"
-TEST(Figure5, TheChainOfSection21LeadsFromDart1ToDart20) {
-  EXPECT_EQ(number(figure5().alpha<0, 1, 2>(dart(1))), 20u);
-}
+TEST(Figure5, TheChainOfSection21LeadsFromDart1ToDart20) { EXPECT_EQ(number(figure5().alpha<0, 1, 2>(dart(1))), 20u); }
 
 // Each of those steps exchanges the cell of its own dimension and keeps the other two.
 TEST(Figure5, EachAlphaExchangesTheCellOfItsDimensionOnly) {

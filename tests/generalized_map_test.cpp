@@ -172,8 +172,11 @@ TEST(DartIds, ADefaultIdNamesNoDart) {
   Map2 map;
   map.add_dart();
   EXPECT_EQ(message_of([&] { map.resolve(DartId{}); }), "no dart given, expected a live one");
-  EXPECT_EQ(message_of([&] { map.resolve(DartId{Dart{0}, 0}); }), "d0 has died and its slot holds another dart "
-                                                                  "(generation 1, expected 0)");
+  EXPECT_EQ(message_of([&] {
+              map.resolve(DartId{Dart{0}, 0});
+            }),
+            "d0 has died and its slot holds another dart "
+            "(generation 1, expected 0)");
 }
 
 TEST(CopiedMap, EqualsTheOriginalAndLivesOnItsOwn) {

@@ -83,7 +83,9 @@ TEST(Gmsh, RefusesATruncatedFile) {
 
 TEST(Gmsh, RefusesSectionsBeforeTheFormatIsKnown) {
   expect_part(refused("$Nodes\n0\n$EndNodes\n"), "file:1: found $Nodes; expected $MeshFormat before it");
-  expect_part(refused("\x7f" "ELF\x01"), "file:1: found '\\x7fELF\\x01'");
+  expect_part(refused("\x7f"
+                      "ELF\x01"),
+              "file:1: found '\\x7fELF\\x01'");
 }
 
 }  // namespace

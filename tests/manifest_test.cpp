@@ -29,7 +29,8 @@ class ManifestTest : public testing::Test {
   }
   void git(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"-C", root_.string(), "-c", "user.name=T", "-c", "user.email=t@example.org"});
-    run_program("git", arguments, [](std::string_view) {}, Stderr::discarded);
+    run_program(
+        "git", arguments, [](std::string_view) {}, Stderr::discarded);
   }
 
   fs::path root_;
@@ -79,8 +80,8 @@ TEST_F(ManifestTest, KnowsItsRun) {
 }
 
 TEST_F(ManifestTest, NamesNoAbsolutePath) {
-  auto manifest = begin_manifest({.command_line = {"/opt/bin/dartboard", root_.string()},
-                                  .input_files = {file_with("body.mesh", "a")}});
+  auto manifest = begin_manifest(
+      {.command_line = {"/opt/bin/dartboard", root_.string()}, .input_files = {file_with("body.mesh", "a")}});
   finish_manifest(manifest);
   EXPECT_EQ(absolute_path_in(manifest), "");
 }

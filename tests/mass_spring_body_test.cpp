@@ -217,7 +217,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"infinite_velocity", "velocity is not finite",
                  [](Problem& p) { p.initial_velocity.assign(5, Eigen::Vector3d(0, inf, 0)); }},
         BadInput{"flat_cell", "mass of cell 0 is 0", [](Problem& p) { p.mesh.points[3].z() = 0; }},
-        BadInput{"huge_cell", "mass of cell 0 is inf", [](Problem& p) { for (auto& x : p.mesh.points) x *= 1e120; }},
+        BadInput{"huge_cell", "mass of cell 0 is inf",
+                 [](Problem& p) {
+                   for (auto& x : p.mesh.points) x *= 1e120;
+                 }},
         BadInput{"lonely_point", "point 5 belongs to no cell", [](Problem& p) { p.mesh.points.emplace_back(9, 9, 9); }},
         BadInput{"cells_at_a_vertex", "point 0 is more than one vertex",
                  [](Problem& p) {

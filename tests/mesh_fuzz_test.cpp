@@ -31,11 +31,11 @@ struct Sample {
 };
 
 std::vector<Sample> all_samples() {
-  return {{std::string(medit), MeshFormat::medit},          {tetgen(), MeshFormat::tetgen},
-          {std::string(gmsh1), MeshFormat::gmsh},           {std::string(gmsh2), MeshFormat::gmsh},
-          {std::string(gmsh4), MeshFormat::gmsh},           {std::string(vtk4), MeshFormat::vtk_legacy},
-          {std::string(vtk5), MeshFormat::vtk_legacy},      {std::string(vtu_ascii), MeshFormat::vtu},
-          {std::string(vtu_base64), MeshFormat::vtu},       {std::string(vtu_base64_wide), MeshFormat::vtu}};
+  return {{std::string(medit), MeshFormat::medit},     {tetgen(), MeshFormat::tetgen},
+          {std::string(gmsh1), MeshFormat::gmsh},      {std::string(gmsh2), MeshFormat::gmsh},
+          {std::string(gmsh4), MeshFormat::gmsh},      {std::string(vtk4), MeshFormat::vtk_legacy},
+          {std::string(vtk5), MeshFormat::vtk_legacy}, {std::string(vtu_ascii), MeshFormat::vtu},
+          {std::string(vtu_base64), MeshFormat::vtu},  {std::string(vtu_base64_wide), MeshFormat::vtu}};
 }
 
 class Mutator {
@@ -68,11 +68,44 @@ class Mutator {
   }
 
   void replace_number(std::string& text, std::size_t from) {
-    static const char* const extremes[] = {
-        "0", "-1", "1", "2", "3", "4", "5", "7", "11", "12", "13", "42", "255", "4294967295", "4294967296",
-        "-2147483648", "9223372036854775807", "9223372036854775808", "-9223372036854775808", "6148914691236517206",
-        "1e999", "-1e999", "1e-999", "1e300", "-1e300", "1e150", "1e-150", "5e-324", "nan", "-nan", "inf", "0x10",
-        "+1", "1.5", "1e", "--1", ".", "99999999999999999999999999"};
+    static const char* const extremes[] = {"0",
+                                           "-1",
+                                           "1",
+                                           "2",
+                                           "3",
+                                           "4",
+                                           "5",
+                                           "7",
+                                           "11",
+                                           "12",
+                                           "13",
+                                           "42",
+                                           "255",
+                                           "4294967295",
+                                           "4294967296",
+                                           "-2147483648",
+                                           "9223372036854775807",
+                                           "9223372036854775808",
+                                           "-9223372036854775808",
+                                           "6148914691236517206",
+                                           "1e999",
+                                           "-1e999",
+                                           "1e-999",
+                                           "1e300",
+                                           "-1e300",
+                                           "1e150",
+                                           "1e-150",
+                                           "5e-324",
+                                           "nan",
+                                           "-nan",
+                                           "inf",
+                                           "0x10",
+                                           "+1",
+                                           "1.5",
+                                           "1e",
+                                           "--1",
+                                           ".",
+                                           "99999999999999999999999999"};
     const std::size_t begin = text.find_first_of("0123456789", from);
     if (begin == text.npos) return;
     const std::size_t end = std::min(text.find_first_not_of("0123456789.eE+-", begin), text.size());

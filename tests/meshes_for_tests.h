@@ -88,7 +88,7 @@ inline Mesh hexahedron_grid(int nx, int ny, int nz, double spacing) {
 /// One of each: a unit cube, a pyramid on its top, a prism at its side, a tetrahedron at an end of the prism.
 inline Mesh mixed_cells() {
   Mesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0},     {1, 1, 0}, {0, 1, 0}, {0, 0, 1},     {1, 0, 1},
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},     {0, 1, 0}, {0, 0, 1}, {1, 0, 1},
                  {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}, {2, 0, 0}, {2, 1, 0}, {1.25, -1, 0.25}};
   mesh.add_cell(CellKind::hexahedron, std::array<std::uint32_t, 8>{0, 1, 2, 3, 4, 5, 6, 7});
   mesh.add_cell(CellKind::pyramid, std::array<std::uint32_t, 5>{4, 5, 6, 7, 8});
@@ -125,7 +125,7 @@ inline Mesh klein_bottle() { return sheet(4, 3, true, true, true); }
 /// The neighbourhood of point 0 is a cone over an annulus, a "pinched ball".
 inline Mesh pinched_body() {
   Mesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 1},  {0, 1, 1},  {-1, 0, 1},  {0, -1, 1},
+  mesh.points = {{0, 0, 0},  {1, 0, 1},  {0, 1, 1},   {-1, 0, 1}, {0, -1, 1},
                  {1, 0, -1}, {0, 1, -1}, {-1, 0, -1}, {0, -1, -1}};
   for (std::uint32_t k = 0; k < 4; ++k) {
     const std::uint32_t above = 1 + k, next = 1 + (k + 1) % 4;

@@ -20,8 +20,19 @@ struct Recorder {
 
   Recorder() {
     for (const char* name : {"a", "b", "c"})
-      tasks.push_back({name, [this] { state = 0; log += 'r'; }, [this, name] { ++state; log += name; },
-                       [this] { log += 'h'; return static_cast<std::uint64_t>(state); }});
+      tasks.push_back({name,
+                       [this] {
+                         state = 0;
+                         log += 'r';
+                       },
+                       [this, name] {
+                         ++state;
+                         log += name;
+                       },
+                       [this] {
+                         log += 'h';
+                         return static_cast<std::uint64_t>(state);
+                       }});
   }
   void run(const PairedOptions& options) {
     run_rounds(tasks, options, [this](const Sample& sample) { samples.push_back(sample); });

@@ -15,8 +15,8 @@ namespace {
 constexpr double u = 0x1p-53;
 
 const Spring* find(const Rebuilt& body, std::uint32_t a, std::uint32_t b) {
-  const auto at = std::find_if(body.springs.begin(), body.springs.end(),
-                               [&](const Spring& s) { return s.a == a && s.b == b; });
+  const auto at =
+      std::find_if(body.springs.begin(), body.springs.end(), [&](const Spring& s) { return s.a == a && s.b == b; });
   return at == body.springs.end() ? nullptr : &*at;
 }
 

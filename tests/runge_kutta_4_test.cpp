@@ -103,7 +103,7 @@ TEST(RungeKutta4, FallsFreelyToWithinRounding) {
   const PointState end = body.state();
   const double t = n * h;
   const Vector3d g = problem.surroundings.gravity, v0(1, -2, 3);
-  const double V = 4 + 10 * t, X = 3 + V * t;  // |v0| < 4, |g| < 10, |x0| < 3
+  const double V = 4 + 10 * t, X = 3 + V * t;                          // |v0| < 4, |g| < 10, |x0| < 3
   const double velocity_bound = n * u * (V + 8 * 10 * h) + u * 4 * V;  // and the evaluation of the expected value
   const double position_bound = n * u * (X + 8 * h * V) + t * velocity_bound + u * 8 * X;
   for (std::size_t p = 0; p < 5; ++p)

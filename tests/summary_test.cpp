@@ -139,8 +139,7 @@ TEST(Orientation, GivesSignsThatEveryAlphaChanges) {
   ASSERT_TRUE(sign.has_value());
   map.for_each_dart([&](Dart d) {
     EXPECT_EQ(std::abs((*sign)[d.index]), 1);
-    for (int i = 0; i <= 3; ++i)
-      EXPECT_TRUE(map.is_free(i, d) || (*sign)[map.alpha(i, d).index] == -(*sign)[d.index]);
+    for (int i = 0; i <= 3; ++i) EXPECT_TRUE(map.is_free(i, d) || (*sign)[map.alpha(i, d).index] == -(*sign)[d.index]);
   });
 }
 

@@ -17,14 +17,13 @@ TEST(TetGen, ReadsPointsNumberedFromZeroWithAttributesAndMarkers) {
 }
 
 TEST(TetGen, ReadsPointsNumberedFromOne) {
-  expect_two_tetrahedra(parse_mesh(
-      "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n# cells\n2 4 0\n1 1 2 3 4\n2 2 3 4 5\n",
-      MeshFormat::tetgen, "file"));
+  expect_two_tetrahedra(
+      parse_mesh("5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n# cells\n2 4 0\n1 1 2 3 4\n2 2 3 4 5\n",
+                 MeshFormat::tetgen, "file"));
 }
 
 TEST(TetGen, ReadsTrianglesInThePlane) {
-  const auto loaded =
-      parse_mesh("3 2 0 1\n1 0 0 1\n2 1 0 1\n3 0 1 1\n1 3 0\n1 1 2 3\n", MeshFormat::tetgen, "file");
+  const auto loaded = parse_mesh("3 2 0 1\n1 0 0 1\n2 1 0 1\n3 0 1 1\n1 3 0\n1 1 2 3\n", MeshFormat::tetgen, "file");
   EXPECT_EQ(loaded.mesh.kinds, std::vector{CellKind::triangle});
 }
 

@@ -22,13 +22,11 @@ TEST(VtkLegacy, ReadsVersionThreeUpToTheFirstData) {
   EXPECT_EQ(loaded.notices, (std::vector<std::string>{"skipped 1 triangle: the body is made of its 2 volumes"}));
 }
 
-TEST(VtkLegacy, ReadsVersionFiveWithOffsets) {
-  expect_two_tetrahedra(parse(vtk5));
-}
+TEST(VtkLegacy, ReadsVersionFiveWithOffsets) { expect_two_tetrahedra(parse(vtk5)); }
 
 TEST(VtkLegacy, ReordersVoxelsAndPixels) {
-  const auto voxel = parse(
-      grid("8 float 0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1", "1 9 8 0 1 2 3 4 5 6 7", "1 11"));
+  const auto voxel =
+      parse(grid("8 float 0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1", "1 9 8 0 1 2 3 4 5 6 7", "1 11"));
   EXPECT_EQ(voxel.mesh.kinds, std::vector{CellKind::hexahedron});
   EXPECT_DOUBLE_EQ(signed_measure(voxel.mesh, 0), 1.0);
   EXPECT_TRUE(voxel.notices.empty());

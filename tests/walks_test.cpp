@@ -91,8 +91,8 @@ TYPED_TEST(EachWalk, MeetsEveryVertexAndEveryEdgeOnceInTheirOrder) {
   EXPECT_EQ(edges, body.springs.size());
 }
 
-// After dissociations the numbers of embeddings are no longer those of the order of the cells. Coverages and lists go by
-// cells then, arrays by numbers; all must visit the same.
+// After dissociations the numbers of embeddings are no longer those of the order of the cells. Coverages and lists go
+// by cells then, arrays by numbers; all must visit the same.
 TYPED_TEST(EachWalk, TellsTheNumbersOfEmbeddingsAndNotOfPlaces) {
   auto body = build_body<TetMap, one>(problem_of(kuhn_grid(2, 1, 1, 1.0)));
   const auto edges = static_cast<std::uint32_t>(body.springs.size());
@@ -187,9 +187,7 @@ EmbeddingList list_of(const Numbers& numbers) {
   return list;
 }
 
-TEST(EmbeddingList, KeepsTheOrderOfItsPushes) {
-  EXPECT_EQ(contents(list_of({3, 0, 7, 1})), (Numbers{3, 0, 7, 1}));
-}
+TEST(EmbeddingList, KeepsTheOrderOfItsPushes) { EXPECT_EQ(contents(list_of({3, 0, 7, 1})), (Numbers{3, 0, 7, 1})); }
 
 TEST(EmbeddingList, KeepsTheOrderWhenOneInTheMiddleIsErased) {
   EmbeddingList list = list_of({0, 1, 2, 3});

@@ -38,7 +38,11 @@ template <class Map>
 class Run {
  public:
   Run(const Problem& start, const ConservationPlan& plan, const Follow<Map>& followed)
-      : plan_(plan), follow_(followed), random_(plan.seed), ledger_(result_, plan.seed), at_(start),
+      : plan_(plan),
+        follow_(followed),
+        random_(plan.seed),
+        ledger_(result_, plan.seed),
+        at_(start),
         checks_(at_, ledger_) {}
 
   ConservationResult run() {
@@ -143,8 +147,8 @@ class Run {
     at_.cells.dissociate(side);
   }
 
-  // What the cell has of everything is told by the numbers that the darts had before the series: corners and edges moved
-  // nowhere since.
+  // What the cell has of everything is told by the numbers that the darts had before the series: corners and edges
+  // moved nowhere since.
   void take_away(std::uint32_t c) {
     const LiveBody<Map>& body = at_.body;
     const Mesh& mesh = at_.start.mesh;
@@ -158,8 +162,9 @@ class Run {
     for (std::uint32_t e = at_.whole.first_edge(c); e < at_.whole.first_edge(c + 1); ++e) {
       const double rest_length = body.springs[body.edge(body.map, at_.places.edge[e])].rest_length;
       const auto [a, b] = at_.whole.ends(e);
-      removed_.add_spring(material.stiffness, material.damping,
-                          elongation(rest_length, body.vertices.position[number(a)], body.vertices.position[number(b)]));
+      removed_.add_spring(
+          material.stiffness, material.damping,
+          elongation(rest_length, body.vertices.position[number(a)], body.vertices.position[number(b)]));
       stiffness_.remove(material.stiffness);
     }
     for (std::uint32_t side = at_.whole.first_side(c); side < at_.whole.first_side(c + 1); ++side) {
@@ -186,8 +191,9 @@ class Run {
     ledger_.within(Check::oracle_velocity, motion.velocity, motion.bound.velocity, 1.0, motion.velocity, 0.0);
   }
 
-  // The target that the project set itself: 1e-15 times the square root of the number of operations. Masses are computed
-  // anew from their cells, so that in truth drift does not grow: it stays below gamma of the cells around a vertex.
+  // The target that the project set itself: 1e-15 times the square root of the number of operations. Masses are
+  // computed anew from their cells, so that in truth drift does not grow: it stays below gamma of the cells around a
+  // vertex.
   void compare_drift() {
     const double target = 1e-15 * std::sqrt(static_cast<double>(std::max<std::size_t>(done(), 1)));
     const auto compare = [&](Check check, const Drift& drift, Conserved c) {
@@ -212,7 +218,8 @@ class Run {
 }  // namespace
 
 template <class Map>
-ConservationResult validate_conservation(const Problem& start, const ConservationPlan& plan, const Follow<Map>& followed) {
+ConservationResult validate_conservation(const Problem& start, const ConservationPlan& plan,
+                                         const Follow<Map>& followed) {
   if (start.mesh.cell_count() > 0 && start.mesh.dimension() != 3)
     throw InputError("conservation is checked in solids: expected a mesh of volumes");
   return Run<Map>(start, plan, followed).run();
@@ -233,8 +240,8 @@ Problem moving_problem(Mesh mesh, const Material& material, std::uint64_t seed) 
   const RemainingCells cells(problem.mesh);
   for (std::uint32_t c = 0; c < problem.mesh.cell_count(); ++c) {
     const auto edges = static_cast<double>(cells.first_edge(c + 1) - cells.first_edge(c));
-    const double share = material.density * std::abs(signed_measure(problem.mesh, c)) /
-                         static_cast<double>(problem.mesh.cell(c).size());
+    const double share =
+        material.density * std::abs(signed_measure(problem.mesh, c)) / static_cast<double>(problem.mesh.cell(c).size());
     stiffest = std::max(stiffest, 2.0 * edges * material.stiffness / share);
     most_damped = std::max(most_damped, 2.0 * edges * material.damping / share);
   }

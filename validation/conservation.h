@@ -33,7 +33,7 @@ struct ConservationPlan {
   std::uint64_t seed = 1;
   std::size_t operations = 1000;
   std::size_t everything_every = 100;  // operations between two comparisons of everything; one at start and end too
-  std::size_t oracle_every = 1000;     // operations between two comparisons with a body built from scratch; one at the end
+  std::size_t oracle_every = 1000;  // operations between two comparisons with a body built from scratch; one at the end
   int oracle_steps = 10;
   std::function<void(std::size_t done)> progress;  // called every 1000 operations or so
 };
@@ -66,12 +66,14 @@ struct ConservationResult {
   std::size_t operations() const { return dissociations + tears + removals; }
 };
 
-/// Take a moving body apart at random, in series of one to four operations, until nothing is left; then again with a fresh one.
+/// Take a moving body apart at random, in series of one to four operations, until nothing is left; then again with a
+/// fresh one.
 ///
-/// After each series: numbers of cells as the change predicts; masses, springs and states of all that changed against the
-/// cells that remain (RemainingCells, which knows no dart); the conserved sums of the whole body, against those before
-/// and the share of what was removed. Now and then everything, against reference/rebuild; the arrays against rebuilt
-/// ones; the motion against that of a body built from scratch (rebuild_oracle.h). It stops at the first violation.
+/// After each series: numbers of cells as the change predicts; masses, springs and states of all that changed against
+/// the cells that remain (RemainingCells, which knows no dart); the conserved sums of the whole body, against those
+/// before and the share of what was removed. Now and then everything, against reference/rebuild; the arrays against
+/// rebuilt ones; the motion against that of a body built from scratch (rebuild_oracle.h). It stops at the first
+/// violation.
 ///
 /// Relative sums are in units of the sum of the absolute values.
 /// throws  InputError if the mesh has no volumes, or is one that build_body refuses
@@ -79,11 +81,12 @@ template <class Map>
 ConservationResult validate_conservation(const Problem& start, const ConservationPlan& plan,
                                          const Follow<Map>& followed = follow<Map>);
 
-/// A problem to take apart: gravity, a sixteenth of the points held still, a random linear field of velocities that stretches
-/// the springs by some per cent, and a step well inside the stable ones of RK4, also for each cell alone.
+/// A problem to take apart: gravity, a sixteenth of the points held still, a random linear field of velocities that
+/// stretches the springs by some per cent, and a step well inside the stable ones of RK4, also for each cell alone.
 Problem moving_problem(Mesh mesh, const Material& material, std::uint64_t seed);
 
 extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<Map3>&);
-extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<TetMap>&);
+extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&,
+                                                         const Follow<TetMap>&);
 
 }  // namespace dartboard

@@ -35,7 +35,10 @@ long euler_of(const std::array<std::size_t, 4>& n) {
 
 template <class Map>
 Subject<Map>::Subject(const Problem& problem)
-    : start(problem), whole(problem.mesh), cells(whole), fresh(build_body<Map, Held::by_every_dart>(problem)),
+    : start(problem),
+      whole(problem.mesh),
+      cells(whole),
+      fresh(build_body<Map, Held::by_every_dart>(problem)),
       places(fresh, problem.mesh, whole) {}
 
 template <class Map>
@@ -134,7 +137,8 @@ double ConservationChecks<Map>::mass_from_cells(std::span<const std::uint32_t> c
 template <class Map>
 void ConservationChecks<Map>::vertex(std::uint32_t k, std::span<const std::uint32_t> corners) {
   for (const std::uint32_t corner : corners)
-    ledger_.equal(valid, at_.body.vertex(at_.body.map, at_.places.corner[corner]), k, "number at a corner of vertex", k);
+    ledger_.equal(valid, at_.body.vertex(at_.body.map, at_.places.corner[corner]), k, "number at a corner of vertex",
+                  k);
   if (ledger_.broken()) return;
   const VertexColumns& v = at_.body.vertices;
   ledger_.equal(mass_of_vertex, v.mass[k], mass_from_cells(corners), "vertex", k);
@@ -176,8 +180,7 @@ void ConservationChecks<Map>::changed_cells(const ChangedEmbeddings& changed) {
 }
 
 template <class Map>
-ConservedSums ConservationChecks<Map>::sums_are_conserved(const ConservedSums& before,
-                                                          const ConservedSums& removed) {
+ConservedSums ConservationChecks<Map>::sums_are_conserved(const ConservedSums& before, const ConservedSums& removed) {
   const ConservedSums after = all_sums();
   for (std::size_t i = 0; i < conserved_count; ++i) {
     const TwofoldSum &b = before.sums[i], &a = after.sums[i], &r = removed.sums[i];
@@ -204,8 +207,8 @@ void ConservationChecks<Map>::everything() {
   if (!ledger_.broken()) soup();
 }
 
-// Numbers and the witness's cells must be in one-to-one correspondence: all places of a cell have one number (in `vertex`
-// and `edge`), no two cells the same, and there are as many of both (in `all_counts`).
+// Numbers and the witness's cells must be in one-to-one correspondence: all places of a cell have one number (in
+// `vertex` and `edge`), no two cells the same, and there are as many of both (in `all_counts`).
 template <class Map>
 void ConservationChecks<Map>::all_vertices() {
   std::vector<char> met(at_.body.vertices.size(), 0);

@@ -6,29 +6,28 @@
 namespace dartboard {
 namespace {
 
-constexpr std::array<const char*, check_count> names{
-    "vertices, edges, faces, volumes",
-    "Euler characteristic",
-    "map valid, numbers match cells",
-    "mass of a vertex",
-    "stiffness, damping, rest length of an edge",
-    "position, velocity, fixed: duplicated",
-    "arrays: apply = rebuild",
-    "total mass (relative)",
-    "total stiffness (relative)",
-    "total damping (relative)",
-    "linear momentum (relative)",
-    "angular momentum (relative)",
-    "kinetic energy (relative)",
-    "elastic energy (relative)",
-    "boundary area (relative)",
-    "springs side by side, summed (relative)",
-    "cells of a body from scratch",
-    "its motion, edges in the same order",
-    "its motion, own order: position [m]",
-    "its motion, own order: velocity [m/s]",
-    "drift of total mass (relative)",
-    "drift of total stiffness (relative)"};
+constexpr std::array<const char*, check_count> names{"vertices, edges, faces, volumes",
+                                                     "Euler characteristic",
+                                                     "map valid, numbers match cells",
+                                                     "mass of a vertex",
+                                                     "stiffness, damping, rest length of an edge",
+                                                     "position, velocity, fixed: duplicated",
+                                                     "arrays: apply = rebuild",
+                                                     "total mass (relative)",
+                                                     "total stiffness (relative)",
+                                                     "total damping (relative)",
+                                                     "linear momentum (relative)",
+                                                     "angular momentum (relative)",
+                                                     "kinetic energy (relative)",
+                                                     "elastic energy (relative)",
+                                                     "boundary area (relative)",
+                                                     "springs side by side, summed (relative)",
+                                                     "cells of a body from scratch",
+                                                     "its motion, edges in the same order",
+                                                     "its motion, own order: position [m]",
+                                                     "its motion, own order: velocity [m/s]",
+                                                     "drift of total mass (relative)",
+                                                     "drift of total stiffness (relative)"};
 
 }  // namespace
 
@@ -60,7 +59,7 @@ void ConservationLedger::fail(Check check, const std::string& whose, std::string
   row(check).holds = false;
   if (broken()) return;
   result_.violation = {row(check).what + whose, result_.operations(), seed_,
-                       std::move(actual), std::move(expected), std::move(bound)};
+                       std::move(actual),       std::move(expected),  std::move(bound)};
 }
 
 std::string to_string(const Violation& v) {

@@ -13,9 +13,28 @@ namespace dartboard {
 
 /// The rows of a ConservationResult, in this order.
 enum class Check : std::size_t {
-  counts, euler, valid, mass_of_vertex, spring_of_edge, duplicated, views,
-  total_mass, total_stiffness, total_damping, linear_momentum, angular_momentum, kinetic_energy, elastic_energy,
-  boundary_area, side_by_side, same_cells, same_bits, oracle_position, oracle_velocity, mass_drift, stiffness_drift
+  counts,
+  euler,
+  valid,
+  mass_of_vertex,
+  spring_of_edge,
+  duplicated,
+  views,
+  total_mass,
+  total_stiffness,
+  total_damping,
+  linear_momentum,
+  angular_momentum,
+  kinetic_energy,
+  elastic_energy,
+  boundary_area,
+  side_by_side,
+  same_cells,
+  same_bits,
+  oracle_position,
+  oracle_velocity,
+  mass_drift,
+  stiffness_drift
 };
 inline constexpr std::size_t check_count = 22;
 

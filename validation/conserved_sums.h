@@ -1,16 +1,16 @@
 #pragma once
 // The sums that operations must conserve, and how far rounding may move them.
 //
-// Rounding in the usual way: u = 2^-53, gamma_n = n u / (1 - n u), and "n" stands for a relative error of gamma_n. What a
-// body holds counts as exact data: the share s_c of a node in the mass of its cell, positions, velocities, the
+// Rounding in the usual way: u = 2^-53, gamma_n = n u / (1 - n u), and "n" stands for a relative error of gamma_n. What
+// a body holds counts as exact data: the share s_c of a node in the mass of its cell, positions, velocities, the
 // stiffness kappa and damping that one cell contributes. In exact arithmetic every sum is then one over the cells:
 //
 //     sum_v m_v g(x_v, v_v) = sum over the cells c and their corners of s_c g,   because m_v is the sum of its shares,
 //     sum_e k_e e_e^2 / 2   = sum over the cells and their edges of kappa e^2 / 2,  because k_e counts its cells.
 //
-// A dissociation shares the corners of a vertex out between its parts and leaves x, v, and so every elongation, the same
-// in both, bit for bit (exchanging the ends of a spring only changes signs). So neither sum changes, and a removal takes
-// away the terms of the removed cell. What the computed terms deviate by, with at most n cells around a vertex:
+// A dissociation shares the corners of a vertex out between its parts and leaves x, v, and so every elongation, the
+// same in both, bit for bit (exchanging the ends of a spring only changes signs). So neither sum changes, and a removal
+// takes away the terms of the removed cell. What the computed terms deviate by, with at most n cells around a vertex:
 //
 //     mass                n - 1   the sum of its shares
 //     momentum            n       and one product
@@ -56,7 +56,18 @@ struct TwofoldSum {
 };
 
 enum class Conserved {
-  mass, stiffness, damping, momentum_x, momentum_y, momentum_z, spin_x, spin_y, spin_z, kinetic, elastic, boundary
+  mass,
+  stiffness,
+  damping,
+  momentum_x,
+  momentum_y,
+  momentum_z,
+  spin_x,
+  spin_y,
+  spin_z,
+  kinetic,
+  elastic,
+  boundary
 };
 inline constexpr std::size_t conserved_count = 12;
 

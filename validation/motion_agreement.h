@@ -12,8 +12,8 @@ namespace dartboard {
 /// How one contender compares with the first one.
 struct MotionAgreement {
   std::string id;
-  std::uint64_t hash = 0;           // of its state after the steps
-  double force_difference = 0.0;    // largest over points, as a fraction of that point's bound (bits: any is too much)
+  std::uint64_t hash = 0;            // of its state after the steps
+  double force_difference = 0.0;     // largest over points, as a fraction of that point's bound (bits: any is too much)
   double position_difference = 0.0;  // largest [m]
   double velocity_difference = 0.0;  // largest [m/s]
   double position_bound = 0.0;       // [m]; 0 where the bits must agree

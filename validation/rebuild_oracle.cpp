@@ -2,10 +2,10 @@
 // the live body may have P >= p there, because an edge with m cells has come apart into parts with m_1 + m_2 + ... = m.
 // The parts have the same length, and stiffness and damping in the proportion of their cells, so their forces point the
 // same way and both |f| and the error E of one force (summation_bound.cpp) are at most those of the whole: E is
-// linear in k and c with factors that grow with m. Only the additions are more: of the 2 n + p + 10 roundings of a point
-// with n cells, p become P. Every error of the derivation is proportional to such a number, and the differences X, V
-// are linear in the errors but for the tube, whose width enters through 1 / (l - 4 X) and the speed within it: as long
-// as that changes a factor of growth by less than 1e-6, forty stages change by less than 4e-5. So
+// linear in k and c with factors that grow with m. Only the additions are more: of the 2 n + p + 10 roundings of a
+// point with n cells, p become P. Every error of the derivation is proportional to such a number, and the differences
+// X, V are linear in the errors but for the tube, whose width enters through 1 / (l - 4 X) and the speed within it: as
+// long as that changes a factor of growth by less than 1e-6, forty stages change by less than 4e-5. So
 //
 //     bound for P  <=  1.001 max over points of (2 n + P + 10) / (2 n + p + 10)  times  bound for p,
 //
@@ -64,8 +64,8 @@ double more_roundings(const Problem& rest, const CellArrays& live, const std::ve
   for (const EdgeEntry& e : live.edges) ++several[e.ends[0]], ++several[e.ends[1]];
   double ratio = 1.0;
   for (std::size_t k = 0; k < cells.size(); ++k)
-    ratio = std::max(ratio, static_cast<double>(2 * cells[k] + several[k] + 10) /
-                                static_cast<double>(2 * cells[k] + one[k] + 10));
+    ratio = std::max(
+        ratio, static_cast<double>(2 * cells[k] + several[k] + 10) / static_cast<double>(2 * cells[k] + one[k] + 10));
   return 1.001 * ratio;
 }
 

@@ -36,9 +36,8 @@ RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cel
         const auto a = corner + static_cast<std::uint32_t>(cycle[k]);
         const auto b = corner + static_cast<std::uint32_t>(cycle[(k + 1) % cycle.size()]);
         points.push_back(mesh.nodes[a]);
-        const bool known = std::any_of(ends_.begin() + first_edge_[c], ends_.end(), [&](Ends e) {
-          return (e.a == a && e.b == b) || (e.a == b && e.b == a);
-        });
+        const bool known = std::any_of(ends_.begin() + first_edge_[c], ends_.end(),
+                                       [&](Ends e) { return (e.a == a && e.b == b) || (e.a == b && e.b == a); });
         if (known) continue;
         ends_.push_back({a, b});
         cell_of_edge_.push_back(c);

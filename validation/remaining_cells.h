@@ -48,11 +48,13 @@ class RemainingCells {
   /// f(first corner or edge of the class, all of it).   cost    O(cells)
   template <class F>
   void for_each_vertex(F&& f) const {
-    for_each_class(first_corner(), [&](std::uint32_t k) { return vertex(k); }, f);
+    for_each_class(
+        first_corner(), [&](std::uint32_t k) { return vertex(k); }, f);
   }
   template <class F>
   void for_each_edge(F&& f) const {
-    for_each_class(first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
+    for_each_class(
+        first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
   }
   std::size_t count_faces() const;
 
@@ -76,10 +78,10 @@ class RemainingCells {
 
   const Mesh* mesh_;
   std::size_t count_;
-  std::vector<char> there_;                            // by cell
+  std::vector<char> there_;                             // by cell
   std::vector<std::uint32_t> first_side_, first_edge_;  // by cell, and the end
   std::vector<std::uint32_t> cell_of_corner_, cell_of_side_, cell_of_edge_;
-  std::vector<std::uint32_t> opposite_;  // by side; itself when nothing is there
+  std::vector<std::uint32_t> opposite_;                   // by side; itself when nothing is there
   std::vector<std::uint32_t> first_point_, side_points_;  // the mesh points of side s: first_point_[s] .. [s + 1]
   std::vector<double> area_;
   std::vector<Ends> ends_;

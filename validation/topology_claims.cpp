@@ -75,7 +75,8 @@ ClaimAnswer try_non_manifold_inputs() {
   } catch (const InputError& error) {
     refusal = error.what();
   }
-  const bool apart = at_edge.components == 2 && at_vertex.components == 2 && at_edge.cells[0] == 8 && at_vertex.cells[0] == 8;
+  const bool apart =
+      at_edge.components == 2 && at_vertex.components == 2 && at_edge.cells[0] == 8 && at_vertex.cells[0] == 8;
   return {apart && !refusal.empty(),
           fmt::format("edge: {} components; vertex: {} components; third cell on a face: {}", at_edge.components,
                       at_vertex.components, refusal.empty() ? "accepted" : "refused")};
@@ -90,7 +91,8 @@ ClaimAnswer try_same_graph_twice(const Mesh& mesh) {
     const TopologyChange change = dissociate_face(cut, Dart{d});
     if (!change.vertices.empty() || !change.edges.empty()) continue;
     const bool same_graph = graph(whole, built.point) == graph(cut, built.point) &&
-                            count_cells<0>(whole) == count_cells<0>(cut) && count_cells<1>(whole) == count_cells<1>(cut);
+                            count_cells<0>(whole) == count_cells<0>(cut) &&
+                            count_cells<1>(whole) == count_cells<1>(cut);
     const bool different = !are_isomorphic(whole, cut);
     return {same_graph && different,
             fmt::format("graphs {}, maps {} ({} and {} faces)", same_graph ? "equal" : "differ",

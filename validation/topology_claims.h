@@ -17,7 +17,8 @@ struct ClaimAnswer {
 /// dissociations, removals and sews; the conditions are checked after each.
 ClaimAnswer try_to_leave_the_class(const Mesh& mesh, int operations, std::uint64_t seed);
 
-/// Fig. 2: cells joined by a vertex or an edge only cannot be built as joined, three cells on a face cannot be built at all.
+/// Fig. 2: cells joined by a vertex or an edge only cannot be built as joined, three cells on a face cannot be built at
+/// all.
 ClaimAnswer try_non_manifold_inputs();
 
 /// Section 1: one face of the mesh is dissociated that takes no vertex or edge apart. Nodes, springs and tetrahedra are

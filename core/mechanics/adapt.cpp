@@ -27,8 +27,9 @@ void duplicate(std::uint32_t k, Column&... columns) {
   (columns.push_back(columns[k]), ...);
 }
 
-/// Give every part of the cells in `pairs` a number of its own: the first part met keeps the one they share, each further
-/// part gets the next, with a copy of the columns. All numbers met end up in `touched`, their lowest darts in `dart_of`.
+/// Give every part of the cells in `pairs` a number of its own: the first part met keeps the one they share, each
+/// further part gets the next, with a copy of the columns. All numbers met end up in `touched`, their lowest darts in
+/// `dart_of`.
 template <int i, class Map, class Index, class Duplicate>
 void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& pairs, std::vector<Dart>& dart_of,
               Numbers& touched, Duplicate&& duplicate_columns) {
@@ -54,16 +55,18 @@ void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& 
   for (const DissociatedCell& pair : pairs) part(pair.split);
 }
 
-/// Take the numbers away that only dead darts hold now: those read at `removed` that no live part of a touched cell kept.
-/// The last number moves into each gap.
+/// Take the numbers away that only dead darts hold now: those read at `removed` that no live part of a touched cell
+/// kept. The last number moves into each gap.
 template <int i, class Map, class Index, class Move>
 void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, std::vector<Dart>& dart_of,
                 Numbers& touched, Move&& move_last_columns) {
   Numbers dead;
   for (const Dart d : removed)
-    if (const std::uint32_t number = index(map, d); number != no_embedding && !touched.contains(number)) dead.insert(number);
+    if (const std::uint32_t number = index(map, d); number != no_embedding && !touched.contains(number))
+      dead.insert(number);
   const auto ascending = sorted(dead);
-  for (auto hole = ascending.rbegin(); hole != ascending.rend(); ++hole) {  // from the end: the last is never dead itself
+  for (auto hole = ascending.rbegin(); hole != ascending.rend();
+       ++hole) {  // from the end: the last is never dead itself
     const auto last = static_cast<std::uint32_t>(dart_of.size() - 1);
     touched.erase(last);
     if (*hole != last) {
@@ -88,13 +91,15 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   separate<0>(map, body.vertex, change.vertices, v.dart, vertices, [&](std::uint32_t k) {
     duplicate(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
   });
-  separate<1>(map, body.edge, change.edges, body.edge_dart, edges, [&](std::uint32_t k) { duplicate(k, body.springs); });
+  separate<1>(map, body.edge, change.edges, body.edge_dart, edges,
+              [&](std::uint32_t k) { duplicate(k, body.springs); });
   if constexpr (n == 3) separate<2>(map, body.face, change.faces, body.face_dart, faces, [](std::uint32_t) {});
 
   // what went away
   close_gaps<n>(map, body.cell, n == 3 ? change.removed_volumes : change.removed_faces, body.cell_dart, cells,
                 [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share); });
-  if constexpr (n == 3) close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, [](std::uint32_t) {});
+  if constexpr (n == 3)
+    close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, [](std::uint32_t) {});
   close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges,
                 [&](std::uint32_t k) { move_last(k, body.springs); });
   close_gaps<0>(map, body.vertex, change.removed_vertices, v.dart, vertices, [&](std::uint32_t k) {
@@ -107,13 +112,14 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   Numbers reweighed = vertices;
   // masses are summed in the order of cell numbers: a renumbered cell can change the last bit of its vertices
   for (const std::uint32_t c : cells)
-    for (const Vertex w : incident_cells<0>(map, Cell<n>{body.cell_dart[c]})) reweighed.insert(body.vertex(map, w.dart));
+    for (const Vertex w : incident_cells<0>(map, Cell<n>{body.cell_dart[c]}))
+      reweighed.insert(body.vertex(map, w.dart));
   for (const std::uint32_t k : reweighed) body.set_mass(k, body.mass_of(Vertex{v.dart[k]}));
   // the springs around a renumbered vertex have another number at this end
   for (const std::uint32_t k : vertices)
     for (const Edge e : incident_cells<1>(map, Vertex{v.dart[k]})) edges.insert(body.edge(map, e.dart));
 
-  return {sorted(vertices), sorted(edges),         sorted(faces),         sorted(cells),
+  return {sorted(vertices), sorted(edges),       sorted(faces),         sorted(cells),
           v.size(),         body.springs.size(), body.face_dart.size(), body.cell_mass.size()};
 }
 

@@ -19,11 +19,12 @@ struct ChangedEmbeddings {
 /// Adapt the embeddings of a body to what an operation, or a series of them, did to its map.
 ///
 /// Each embedding follows by its own rule: position and velocity are duplicated; mass, eq. (1), and stiffness are
-/// computed anew from the incident cells on the rest shape, so that m = m1 + m2 and k = k1 + k2; viscosity is proportional
-/// to the mass; rest length is duplicated. One part of a dissociated cell keeps its number, the others get the next free
-/// ones. Numbers stay dense: when a cell goes away, the last one takes its number.
+/// computed anew from the incident cells on the rest shape, so that m = m1 + m2 and k = k1 + k2; viscosity is
+/// proportional to the mass; rest length is duplicated. One part of a dissociated cell keeps its number, the others get
+/// the next free ones. Numbers stay dense: when a cell goes away, the last one takes its number.
 ///
-/// pre     every dart holds the embedding numbers; `change` covers all that happened to the map since the last call, and
+/// pre     every dart holds the embedding numbers; `change` covers all that happened to the map since the last call,
+/// and
 ///         the slots of removed darts have not been used again
 /// cost    O(darts of the touched cells), whatever the size of the body
 template <class Map>

@@ -40,7 +40,8 @@ void require_one_vertex_per_point(const VertexColumns& vertices, std::size_t poi
   std::vector<int> met(points, 0);
   for (const std::uint32_t p : vertices.point)
     if (++met[p] > 1)
-      throw InputError(fmt::format("point {} is more than one vertex of the map: the cells around it are not joined by faces", p));
+      throw InputError(
+          fmt::format("point {} is more than one vertex of the map: the cells around it are not joined by faces", p));
   for (std::size_t p = 0; p < points; ++p)
     if (met[p] == 0) throw InputError(fmt::format("point {} belongs to no cell", p));
 }
@@ -78,7 +79,8 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     for (auto* column : {&columns.mass, &columns.inverse_mass, &columns.viscosity}) column->push_back(0.0);
     body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(v));
     columns.position.push_back(mesh.points[p]);
-    columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0) : problem.initial_velocity[p]);
+    columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0)
+                                                                : problem.initial_velocity[p]);
     columns.force.emplace_back(0, 0, 0);
     columns.fixed.push_back(0);
     columns.point.push_back(p);
@@ -122,8 +124,23 @@ Spring MassSpringBody<Map, held>::spring_of(Edge e, double rest_length) const {
   return {rest_length, cells * material.stiffness, cells * material.damping};
 }
 
+namespace {
+
+// A state by point is one vertex per point: not so after a cut or a removal.
+void require_vertex_per_point(const VertexColumns& vertices) {
+  std::vector<bool> met(vertices.size(), false);
+  for (const std::uint32_t p : vertices.point) {
+    if (p >= met.size() || met[p])
+      throw InputError("the body has changed: its vertices are no longer one for each point of the mesh");
+    met[p] = true;
+  }
+}
+
+}  // namespace
+
 template <class Map, Held held>
 PointState MassSpringBody<Map, held>::state() const {
+  require_vertex_per_point(vertices);
   PointState s;
   s.x.resize(vertices.size());
   s.v.resize(vertices.size());
@@ -136,6 +153,7 @@ PointState MassSpringBody<Map, held>::state() const {
 
 template <class Map, Held held>
 void MassSpringBody<Map, held>::set_state(const PointState& s) {
+  require_vertex_per_point(vertices);
   if (s.x.size() != vertices.size() || s.v.size() != vertices.size())
     throw InputError(fmt::format("a state of {} positions and {} velocities for {} vertices", s.x.size(), s.v.size(),
                                  vertices.size()));
@@ -147,10 +165,9 @@ void MassSpringBody<Map, held>::set_state(const PointState& s) {
 
 template <class Map, Held held>
 std::uint64_t MassSpringBody<Map, held>::state_hash() const {
-  const PointState s = state();
   Hash h;
-  h.add(s.x);
-  h.add(s.v);
+  h.add(vertices.position);
+  h.add(vertices.velocity);
   return h.value();
 }
 

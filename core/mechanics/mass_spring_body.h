@@ -13,15 +13,15 @@ namespace dartboard {
 
 /// What vertices embed. Columns share one numbering, that of the vertex embeddings.
 struct VertexColumns {
-  std::vector<double> mass;                // [kg]  eq. (1)
-  std::vector<double> inverse_mass;        // [1/kg]; a product is cheaper than a quotient in the loop
-  std::vector<double> viscosity;           // [kg/s], proportional to the mass
-  std::vector<Eigen::Vector3d> position;   // [m]
-  std::vector<Eigen::Vector3d> velocity;   // [m/s]
-  std::vector<Eigen::Vector3d> force;      // [N] sum of the springs; zero between steps
-  std::vector<std::uint8_t> fixed;         // 1: held still
-  std::vector<std::uint32_t> point;        // the mesh point it came from; shared by the parts of a dissociated vertex
-  std::vector<Dart> dart;                  // the lowest dart of the vertex
+  std::vector<double> mass;               // [kg]  eq. (1)
+  std::vector<double> inverse_mass;       // [1/kg]; a product is cheaper than a quotient in the loop
+  std::vector<double> viscosity;          // [kg/s], proportional to the mass
+  std::vector<Eigen::Vector3d> position;  // [m]
+  std::vector<Eigen::Vector3d> velocity;  // [m/s]
+  std::vector<Eigen::Vector3d> force;     // [N] sum of the springs; zero between steps
+  std::vector<std::uint8_t> fixed;        // 1: held still
+  std::vector<std::uint32_t> point;       // the mesh point it came from; shared by the parts of a dissociated vertex
+  std::vector<Dart> dart;                 // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
 };
@@ -55,8 +55,8 @@ struct MassSpringBody {
   Material material;
   Surroundings surroundings;
 
-  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by cell number, so that the
-  /// order of the walk leaves no trace in the bits.
+  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by cell number, so that
+  /// the order of the walk leaves no trace in the bits.
   double mass_of(Vertex v) const;
   /// The mass of vertex embedding k, and what is proportional to it.
   void set_mass(std::uint32_t k, double mass) {
@@ -68,10 +68,12 @@ struct MassSpringBody {
   Spring spring_of(Edge e, double rest_length) const;
 
   /// Positions and velocities by mesh point.
+  /// throws  InputError when a cut or a removal has left a point with another number of vertices than one (set_state
+  /// too)
   PointState state() const;
   /// Fixed vertices take the position and stay at rest.
   void set_state(const PointState& state);
-  /// Of positions and velocities, in the order of the mesh's points.
+  /// Of positions and velocities, in the order of the embeddings' numbers.
   std::uint64_t state_hash() const;
   std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + face.bytes() + cell.bytes(); }
 };
@@ -84,15 +86,15 @@ struct MassSpringBody {
 template <class Map, Held held>
 MassSpringBody<Map, held> build_body(const Problem& problem);
 
-#define DARTBOARD_BODY(prefix, Map, held)              \
-  prefix template struct MassSpringBody<Map, held>;    \
+#define DARTBOARD_BODY(prefix, Map, held)           \
+  prefix template struct MassSpringBody<Map, held>; \
   prefix template MassSpringBody<Map, held> build_body(const Problem&);
-#define DARTBOARD_BODIES(prefix)                       \
-  DARTBOARD_BODY(prefix, Map2, Held::by_one_dart)      \
-  DARTBOARD_BODY(prefix, Map2, Held::by_every_dart)    \
-  DARTBOARD_BODY(prefix, Map3, Held::by_one_dart)      \
-  DARTBOARD_BODY(prefix, Map3, Held::by_every_dart)    \
-  DARTBOARD_BODY(prefix, TetMap, Held::by_one_dart)    \
+#define DARTBOARD_BODIES(prefix)                    \
+  DARTBOARD_BODY(prefix, Map2, Held::by_one_dart)   \
+  DARTBOARD_BODY(prefix, Map2, Held::by_every_dart) \
+  DARTBOARD_BODY(prefix, Map3, Held::by_one_dart)   \
+  DARTBOARD_BODY(prefix, Map3, Held::by_every_dart) \
+  DARTBOARD_BODY(prefix, TetMap, Held::by_one_dart) \
   DARTBOARD_BODY(prefix, TetMap, Held::by_every_dart)
 DARTBOARD_BODIES(extern)
 

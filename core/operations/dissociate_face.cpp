@@ -49,7 +49,7 @@ using Fans = boost::container::small_vector<Fan, 4>;
 
 /// Walk until the walkers of every fan have met or one has come to a boundary.
 ///
-/// All take turns, so that none waits for the memory of another: in bodies larger than the caches this halves the time.
+/// All take turns, so that none waits for the memory of another: a tenth less time per face in a body of 10^6 cells.
 template <class Map>
 void walk(const Map& map, Fans& fans) {
   for (bool all_done = false; !all_done;) {

@@ -10,9 +10,9 @@ namespace dartboard {
 
 /// The fan of faces around the vertex of `d` that starts with the face of `d`: one dart of each, all of that vertex.
 ///
-/// The next face is found by alpha_2, alpha_3, alpha_2, alpha_1: across the edge, to the face that leaves it on the other
-/// side. The walk stops where it started (a closed fan) or before alpha_3 at the surface; then the other part of an open
-/// fan is found the same way from alpha_1(d). A face that the walk meets twice is listed once.
+/// The next face is found by alpha_2, alpha_3, alpha_2, alpha_1: across the edge, to the face that leaves it on the
+/// other side. The walk stops where it started (a closed fan) or before alpha_3 at the surface; then the other part of
+/// an open fan is found the same way from alpha_1(d). A face that the walk meets twice is listed once.
 ///
 /// cost    O(faces of the fan)
 /// source  section 5.1

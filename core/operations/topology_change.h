@@ -23,9 +23,7 @@ struct TopologyChange {
   // A dart, dead now, of every cell that went away with a removed volume.
   std::vector<Dart> removed_vertices, removed_edges, removed_faces, removed_volumes;
 
-  bool empty() const {
-    return vertices.empty() && edges.empty() && faces.empty() && removed_volumes.empty();
-  }
+  bool empty() const { return vertices.empty() && edges.empty() && faces.empty() && removed_volumes.empty(); }
   /// The changes of an operation that came after this one.
   void append(const TopologyChange& later);
 };

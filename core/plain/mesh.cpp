@@ -62,7 +62,9 @@ int Mesh::dimension() const {
 double signed_measure(const Mesh& mesh, std::size_t c) {
   const auto cell = mesh.cell(c);
   const CellKind kind = mesh.kinds[c];
-  const auto p = [&](int local) -> const Eigen::Vector3d& { return mesh.points[cell[static_cast<std::size_t>(local)]]; };
+  const auto p = [&](int local) -> const Eigen::Vector3d& {
+    return mesh.points[cell[static_cast<std::size_t>(local)]];
+  };
   if (kind == CellKind::tetrahedron) return tetrahedron_volume(p(0), p(1), p(2), p(3));
   if (dimension(kind) == 2) {
     Eigen::Vector3d twice = Eigen::Vector3d::Zero();

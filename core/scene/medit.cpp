@@ -15,10 +15,10 @@ struct Section {
 };
 
 constexpr Section cell_sections[] = {
-    {"Triangles", CellKind::triangle},       {"Quadrilaterals", CellKind::quadrilateral},
-    {"Tetrahedra", CellKind::tetrahedron},   {"Pyramids", CellKind::pyramid},
-    {"Prisms", CellKind::prism},             {"Pentahedra", CellKind::prism},
-    {"Hexahedra", CellKind::hexahedron},     {"Hexaedra", CellKind::hexahedron},
+    {"Triangles", CellKind::triangle},     {"Quadrilaterals", CellKind::quadrilateral},
+    {"Tetrahedra", CellKind::tetrahedron}, {"Pyramids", CellKind::pyramid},
+    {"Prisms", CellKind::prism},           {"Pentahedra", CellKind::prism},
+    {"Hexahedra", CellKind::hexahedron},   {"Hexaedra", CellKind::hexahedron},
 };
 
 struct HigherOrderSection {
@@ -34,10 +34,28 @@ constexpr HigherOrderSection higher_order_sections[] = {
 
 // nothing in them changes the mesh
 constexpr std::string_view ignored_sections[] = {
-    "Corners", "Ridges", "RequiredVertices", "RequiredEdges", "RequiredTriangles", "RequiredQuadrilaterals",
-    "Normals", "NormalAtVertices", "NormalAtTriangleVertices", "NormalAtQuadrilateralVertices", "Tangents",
-    "TangentAtVertices", "TangentAtEdges", "EdgesP2", "SubDomainFromMesh", "SubDomainFromGeom", "AngleOfCornerBound",
-    "BoundingBox", "Geometry", "Identifier", "VertexOnGeometricVertex", "VertexOnGeometricEdge",
+    "Corners",
+    "Ridges",
+    "RequiredVertices",
+    "RequiredEdges",
+    "RequiredTriangles",
+    "RequiredQuadrilaterals",
+    "Normals",
+    "NormalAtVertices",
+    "NormalAtTriangleVertices",
+    "NormalAtQuadrilateralVertices",
+    "Tangents",
+    "TangentAtVertices",
+    "TangentAtEdges",
+    "EdgesP2",
+    "SubDomainFromMesh",
+    "SubDomainFromGeom",
+    "AngleOfCornerBound",
+    "BoundingBox",
+    "Geometry",
+    "Identifier",
+    "VertexOnGeometricVertex",
+    "VertexOnGeometricEdge",
 };
 
 template <class Sections>

@@ -145,8 +145,8 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   }
   for (auto& node : mesh.nodes) node = kept[node];
   if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0)
-    loaded.notices.push_back(fmt::format("dropped {} that {} to no cell", counted(dropped, "point"),
-                                         dropped == 1 ? "belongs" : "belong"));
+    loaded.notices.push_back(
+        fmt::format("dropped {} that {} to no cell", counted(dropped, "point"), dropped == 1 ? "belongs" : "belong"));
   return loaded;
 }
 

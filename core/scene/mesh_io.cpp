@@ -22,8 +22,8 @@ struct Extension {
 };
 
 constexpr Extension extensions[] = {
-    {".mesh", MeshFormat::medit},  {".node", MeshFormat::tetgen},    {".ele", MeshFormat::tetgen},
-    {".msh", MeshFormat::gmsh},    {".vtk", MeshFormat::vtk_legacy}, {".vtu", MeshFormat::vtu},
+    {".mesh", MeshFormat::medit}, {".node", MeshFormat::tetgen},    {".ele", MeshFormat::tetgen},
+    {".msh", MeshFormat::gmsh},   {".vtk", MeshFormat::vtk_legacy}, {".vtu", MeshFormat::vtu},
 };
 
 constexpr std::string_view known_extensions =

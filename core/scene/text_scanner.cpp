@@ -130,8 +130,7 @@ std::int64_t TextScanner::integer(Wanted wanted) {
   const bool whole = end == digits.data() + digits.size();
   if (whole && error == std::errc::result_out_of_range)
     fail(fmt::format("{} is out of the range of integers", in_quotes(found)), wanted.text());
-  if (!whole || error != std::errc{})
-    fail(fmt::format("{} is not an integer", in_quotes(found)), wanted.text());
+  if (!whole || error != std::errc{}) fail(fmt::format("{} is not an integer", in_quotes(found)), wanted.text());
   return value;
 }
 

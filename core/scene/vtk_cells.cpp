@@ -33,15 +33,15 @@ struct HigherOrderCell {
 };
 
 constexpr HigherOrderCell higher_order_cells[] = {
-    {22, 2, "6-node triangle"},       {23, 2, "8-node quadrilateral"},       {24, 3, "10-node tetrahedron"},
-    {25, 3, "20-node hexahedron"},    {26, 3, "15-node prism"},              {27, 3, "13-node pyramid"},
-    {28, 2, "9-node quadrilateral"},  {29, 3, "27-node hexahedron"},         {30, 2, "6-node quadrilateral"},
-    {31, 3, "12-node prism"},         {32, 3, "18-node prism"},              {33, 3, "24-node hexahedron"},
-    {34, 2, "7-node triangle"},       {36, 2, "quadratic polygon"},          {37, 3, "19-node pyramid"},
-    {69, 2, "Lagrange triangle"},     {70, 2, "Lagrange quadrilateral"},     {71, 3, "Lagrange tetrahedron"},
-    {72, 3, "Lagrange hexahedron"},   {73, 3, "Lagrange prism"},             {74, 3, "Lagrange pyramid"},
-    {76, 2, "Bezier triangle"},       {77, 2, "Bezier quadrilateral"},       {78, 3, "Bezier tetrahedron"},
-    {79, 3, "Bezier hexahedron"},     {80, 3, "Bezier prism"},               {81, 3, "Bezier pyramid"},
+    {22, 2, "6-node triangle"},      {23, 2, "8-node quadrilateral"},   {24, 3, "10-node tetrahedron"},
+    {25, 3, "20-node hexahedron"},   {26, 3, "15-node prism"},          {27, 3, "13-node pyramid"},
+    {28, 2, "9-node quadrilateral"}, {29, 3, "27-node hexahedron"},     {30, 2, "6-node quadrilateral"},
+    {31, 3, "12-node prism"},        {32, 3, "18-node prism"},          {33, 3, "24-node hexahedron"},
+    {34, 2, "7-node triangle"},      {36, 2, "quadratic polygon"},      {37, 3, "19-node pyramid"},
+    {69, 2, "Lagrange triangle"},    {70, 2, "Lagrange quadrilateral"}, {71, 3, "Lagrange tetrahedron"},
+    {72, 3, "Lagrange hexahedron"},  {73, 3, "Lagrange prism"},         {74, 3, "Lagrange pyramid"},
+    {76, 2, "Bezier triangle"},      {77, 2, "Bezier quadrilateral"},   {78, 3, "Bezier tetrahedron"},
+    {79, 3, "Bezier hexahedron"},    {80, 3, "Bezier prism"},           {81, 3, "Bezier pyramid"},
 };
 
 /// The dimension of a cell that no body is made of: vertices, edges, curves.

@@ -98,11 +98,9 @@ void finish_piece(const Piece& piece, const VtuEncoding& encoding, MeshBuilder& 
               fmt::format("offsets that grow from 0 to {}", connectivity.size()));
     const auto points =
         std::span(connectivity).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first));
-    add_vtk_cell(builder, types[c], points,
-                 {.line = connectivity_array.tag.line,
-                  .cell = c,
-                  .first_point = first_point,
-                  .point_count = piece.points});
+    add_vtk_cell(
+        builder, types[c], points,
+        {.line = connectivity_array.tag.line, .cell = c, .first_point = first_point, .point_count = piece.points});
     first = end;
   }
   check_size(connectivity_array, connectivity.size(), static_cast<std::uint64_t>(first), file);

@@ -58,7 +58,9 @@ class AlphaTable {
   std::uint64_t hash() const;
 
  private:
-  static std::size_t at(int i, Dart d) { return static_cast<std::size_t>(d.index) * (N + 1) + static_cast<std::size_t>(i); }
+  static std::size_t at(int i, Dart d) {
+    return static_cast<std::size_t>(d.index) * (N + 1) + static_cast<std::size_t>(i);
+  }
   void write(std::size_t where, std::uint32_t value) {
     if (journal_) journal_->record({Change::Kind::link, static_cast<std::uint32_t>(where), alphas_[where], value});
     alphas_[where] = value;

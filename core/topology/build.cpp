@@ -156,7 +156,9 @@ BuiltMap<Map> build_map(const Mesh& mesh) {
     const CellKind kind = mesh.kinds[c];
     if (dimension(kind) != n || (Map::tetrahedral && kind != CellKind::tetrahedron))
       throw InputError(fmt::format("cell {} is a {}: this map holds {} only", c, name(kind),
-                                   Map::tetrahedral ? "tetrahedra" : n == 2 ? "polygons" : "volumes"));
+                                   Map::tetrahedral ? "tetrahedra"
+                                   : n == 2         ? "polygons"
+                                                    : "volumes"));
     require_cell(mesh, c);
     const auto cell = mesh.cell(c);
     const Template& t = template_of(kind);
@@ -173,9 +175,10 @@ BuiltMap<Map> build_map(const Mesh& mesh) {
       auto* met = matcher.meet(FacetMatcher::key(nodes.data(), corners), static_cast<std::uint32_t>(c), first + begin);
       if (met == nullptr) continue;
       if (met->second_cell != none)
-        throw InputError(fmt::format("cells {}, {} and {} share the {} of points {}: at most two may", met->cell,
-                                     met->second_cell, c, n == 2 ? "edge" : "face",
-                                     fmt::join(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(corners), ", ")));
+        throw InputError(
+            fmt::format("cells {}, {} and {} share the {} of points {}: at most two may", met->cell, met->second_cell,
+                        c, n == 2 ? "edge" : "face",
+                        fmt::join(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(corners), ", ")));
       met->second_cell = static_cast<std::uint32_t>(c);
       // the dart here that lies on the node and edge of the other facet's first dart
       const auto point = [&](std::uint32_t d) { return built.point[Map::template slot<0>({d})]; };

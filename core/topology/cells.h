@@ -50,8 +50,9 @@ std::vector<Cell<i>> incident_cells(const Map& map, Cell<j> cell) {
   static_assert(i != j);
   std::vector<Cell<i>> found;
   Mark covered(map);
-  constexpr Involutions set = cell_orbit<i, Map>();
-  for_each_dart_of(map, cell, [&](Dart d) {
+  // Named captures, the constant inside: GCC 12 lays a [&] capture of it out differently in different files.
+  for_each_dart_of(map, cell, [&map, &found, &covered](Dart d) {
+    constexpr Involutions set = cell_orbit<i, Map>();
     if (!covered.set_if_new(detail::representative<Map>(set, d))) return;
     found.push_back({d});
     detail::walk(map, set, d, covered, [](Dart) {});

@@ -75,7 +75,8 @@ GeneralizedMap<n> to_generalized_map(const CombinatorialMap& in) {
 
 namespace {
 
-// Extend "a goes to b" along all alphas; true if it never contradicts itself. `image` and `taken` are put back on failure.
+// Extend "a goes to b" along all alphas; true if it never contradicts itself. `image` and `taken` are put back on
+// failure.
 template <class A, class B>
 bool extend(const A& a, const B& b, Dart from, Dart to, std::vector<Dart>& image, std::vector<bool>& taken) {
   std::vector<Dart> done{from};

@@ -39,15 +39,15 @@ GeneralizedMap<n> to_generalized_map(const CombinatorialMap& map);
 template <class A, class B>
 bool are_isomorphic(const A& a, const B& b);
 
-#define DARTBOARD_CONVERT(prefix)                                            \
-  prefix template CombinatorialMap to_combinatorial_map(const Map2&);        \
-  prefix template CombinatorialMap to_combinatorial_map(const Map3&);        \
-  prefix template CombinatorialMap to_combinatorial_map(const TetMap&);      \
-  prefix template Map2 to_generalized_map<2>(const CombinatorialMap&);       \
-  prefix template Map3 to_generalized_map<3>(const CombinatorialMap&);       \
-  prefix template bool are_isomorphic(const Map2&, const Map2&);             \
-  prefix template bool are_isomorphic(const Map3&, const Map3&);             \
-  prefix template bool are_isomorphic(const TetMap&, const Map3&);           \
+#define DARTBOARD_CONVERT(prefix)                                       \
+  prefix template CombinatorialMap to_combinatorial_map(const Map2&);   \
+  prefix template CombinatorialMap to_combinatorial_map(const Map3&);   \
+  prefix template CombinatorialMap to_combinatorial_map(const TetMap&); \
+  prefix template Map2 to_generalized_map<2>(const CombinatorialMap&);  \
+  prefix template Map3 to_generalized_map<3>(const CombinatorialMap&);  \
+  prefix template bool are_isomorphic(const Map2&, const Map2&);        \
+  prefix template bool are_isomorphic(const Map3&, const Map3&);        \
+  prefix template bool are_isomorphic(const TetMap&, const Map3&);      \
   prefix template bool are_isomorphic(const TetMap&, const TetMap&);
 DARTBOARD_CONVERT(extern)
 

@@ -39,7 +39,6 @@ using Volume = Cell<3>;
 /// "d17", or "no dart".
 inline std::string to_string(Dart d) { return d == no_dart ? "no dart" : "d" + std::to_string(d.index); }
 
-
 }  // namespace dartboard
 
 template <>

@@ -120,34 +120,26 @@ class GeneralizedMap {
   }
 
   /// A new dart, free for every i.
-  Dart add_dart()
-    requires(!tetrahedral)
-  {
+  Dart add_dart() requires(!tetrahedral) {
     const Dart d = storage_.add_dart();
     marks_->forget(d);
     return d;
   }
   /// throws  TopologyError if d is dead or not free for every i
-  void remove_dart(Dart d)
-    requires(!tetrahedral)
-  {
+  void remove_dart(Dart d) requires(!tetrahedral) {
     require_live(d);
     for (int i = 0; i <= N; ++i)
       if (!is_free(i, d)) throw_cannot_remove(i, d, alpha(i, d));
     storage_.remove_dart(d);
   }
   /// The 24 darts of a new tetrahedron (tet_darts.h), 3-free; returns the first.
-  Dart add_tetrahedron()
-    requires tetrahedral
-  {
+  Dart add_tetrahedron() requires tetrahedral {
     const Dart d = storage_.add_tetrahedron();
     for (std::uint32_t p = 0; p < 24; ++p) marks_->forget({d.index + p});
     return d;
   }
   /// throws  TopologyError if d is dead or a face of its tetrahedron is sewn
-  void remove_tetrahedron(Dart d)
-    requires tetrahedral
-  {
+  void remove_tetrahedron(Dart d) requires tetrahedral {
     require_live(d);
     const std::uint32_t first = d.index - d.index % 24;
     for (std::uint32_t p = first; p < first + 24; p += 6)

@@ -49,9 +49,7 @@ class Mark {
   Mark& operator=(const Mark&) = delete;
   Mark& operator=(Mark&&) = delete;
 
-  bool operator()(Dart d) const {
-    return d.index < stamps_->stamp.size() && stamps_->stamp[d.index] == stamps_->epoch;
-  }
+  bool operator()(Dart d) const { return d.index < stamps_->stamp.size() && stamps_->stamp[d.index] == stamps_->epoch; }
   void set(Dart d) {
     if (d.index >= stamps_->stamp.size()) grow(d);
     stamps_->stamp[d.index] = stamps_->epoch;

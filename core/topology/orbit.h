@@ -34,65 +34,39 @@ Dart representative(Involutions set, Dart d) {
   }
 }
 
-/// Visit the orbit of d. pre  `visited` holds representatives; that of d is among them already.
+/// Visit the orbit of d depth first. pre  `visited` holds representatives; that of d is among them already.
 template <class Map, class F>
-bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f)
-  requires(!Map::tetrahedral)
-{
-  auto& todo = visited.stack();
-  const std::size_t bottom = todo.size();
-  todo.push_back(d);
+bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
+  auto& stack = visited.stack();
+  const std::size_t bottom = stack.size();
+  stack.push_back(representative<Map>(set, d));
   bool stopped = false;
-  while (todo.size() > bottom && !stopped) {
-    const Dart at = todo.back();
-    todo.pop_back();
-    stopped = visit(f, at);
-    for (int i = 0; i <= Map::dimension; ++i) {
-      if (!set.contains(i)) continue;
-      const Dart next = map.alpha(i, at);
-      if (visited.set_if_new(next)) todo.push_back(next);
+  while (stack.size() > bottom && !stopped) {
+    const Dart at = stack.back();
+    stack.pop_back();
+    if constexpr (Map::tetrahedral) {
+      // block by block: `set` is known to the compiler where it matters, so both loops have fixed lengths
+      const std::uint32_t t = at.index / 24, p = at.index % 24, within = set.bits & 7u;
+      const auto& block = tet_darts.block[within][p];
+      for (std::size_t x = 0; x < tet_darts.block_size[within] && !stopped; ++x)
+        stopped = visit(f, Dart{24 * t + block[x]});
+      if (!set.contains(3)) continue;
+      for (std::size_t x = 0; x < tet_darts.exit_count[within]; ++x) {
+        const auto [face, r] = tet_darts.exits[within][p][x];
+        const std::uint32_t o = map.storage().opposite(4 * t + face);
+        const Dart next{24 * (o / 32) + tet_darts.entry[within][r][o % 32]};
+        if (visited.set_if_new(next)) stack.push_back(next);
+      }
+    } else {
+      stopped = visit(f, at);
+      for (int i = 0; i <= Map::dimension; ++i) {
+        if (!set.contains(i)) continue;
+        const Dart next = map.alpha(i, at);
+        if (visited.set_if_new(next)) stack.push_back(next);
+      }
     }
   }
-  todo.resize(bottom);
-  return stopped;
-}
-
-/// The same block by block and breadth first: what comes next is known long before its turn, and whether a block is new
-/// moves an index instead of taking a branch that nobody can foresee. Depth first took more than twice the time.
-template <class Map, class F>
-bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f)
-  requires(Map::tetrahedral)
-{
-  const std::uint32_t within = set.bits & 7u;
-  const auto visit_block = [&](std::uint32_t t, std::uint32_t p) {
-    const auto& block = tet_darts.block[within][p];
-    bool stopped = false;
-    for (std::size_t x = 0; x < tet_darts.block_size[within] && !stopped; ++x)
-      stopped = visit(f, Dart{24 * t + block[x]});
-    return stopped;
-  };
-  if (!set.contains(3)) return visit_block(d.index / 24, d.index % 24);
-
-  auto& todo = visited.stack();
-  const std::size_t bottom = todo.size(), exits = tet_darts.exit_count[within];
-  todo.resize(bottom + 64);
-  todo[bottom] = representative<Map>(set, d);
-  std::size_t end = bottom + 1;
-  bool stopped = false;
-  for (std::size_t k = bottom; k < end && !stopped; ++k) {
-    const std::uint32_t t = todo[k].index / 24, p = todo[k].index % 24;
-    stopped = visit_block(t, p);
-    if (todo.size() < end + exits) todo.resize(2 * todo.size());
-    for (std::size_t x = 0; x < exits; ++x) {
-      const auto [face, r] = tet_darts.exits[within][p][x];
-      const std::uint32_t o = map.storage().opposite(4 * t + face);
-      const Dart next{24 * (o / 32) + tet_darts.entry[within][r][o % 32]};
-      todo[end] = next;
-      end += visited(next) ? 0 : 1;
-      visited.set(next);
-    }
-  }
-  todo.resize(bottom);
+  stack.resize(bottom);
   return stopped;
 }
 

@@ -12,8 +12,8 @@ namespace dartboard {
 
 namespace detail {
 
-// An i-sew acts on the orbit of {alpha_j : |i - j| >= 2}. In dimension 2 and 3 these are at most two involutions, so the
-// orbit is a path or a cycle of darts, and two of them can be followed side by side without marks.
+// An i-sew acts on the orbit of {alpha_j : |i - j| >= 2}. In dimension 2 and 3 these are at most two involutions, so
+// the orbit is a path or a cycle of darts, and two of them can be followed side by side without marks.
 template <int i, class Map>
 struct SewLine {
   static constexpr Involutions set = sew_involutions(Map::dimension, i);

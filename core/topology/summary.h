@@ -28,8 +28,9 @@ struct MapSummary {
   std::size_t darts = 0;
   std::vector<std::size_t> cells;
   std::size_t components = 0;
-  std::size_t boundary_facets = 0;  // (n-1)-cells with one n-cell: boundary faces of a solid, boundary edges of a surface
-  long euler = 0;                   // sum of (-1)^i cells[i]
+  std::size_t boundary_facets =
+      0;           // (n-1)-cells with one n-cell: boundary faces of a solid, boundary edges of a surface
+  long euler = 0;  // sum of (-1)^i cells[i]
   bool orientable = true;
   std::string violation;  // of check(map); empty for a valid map
 };

@@ -15,7 +15,8 @@ void throw_dead(Dart d, std::uint32_t expected, std::uint32_t found) {
 }
 
 void throw_link_to_itself(int i, Dart d) {
-  throw TopologyError(fmt::format("cannot {0}-link {1} to itself: alpha{0}({1}) = {1} is what {0}-free means", i, to_string(d)));
+  throw TopologyError(
+      fmt::format("cannot {0}-link {1} to itself: alpha{0}({1}) = {1} is what {0}-free means", i, to_string(d)));
 }
 
 void throw_turned_face(Dart a, Dart b) {

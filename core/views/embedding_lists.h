@@ -50,9 +50,8 @@ class EmbeddingLists {
   template <class Body, class F>
   void for_each_edge(const Body& body, F&& f) const {
     const auto& map = body.map;
-    edges_.for_each([&](std::uint32_t k, Dart d) {
-      f(k, body.vertex(map, d), body.vertex(map, map.template alpha<0>(d)));
-    });
+    edges_.for_each(
+        [&](std::uint32_t k, Dart d) { f(k, body.vertex(map, d), body.vertex(map, map.template alpha<0>(d))); });
   }
 
  private:
