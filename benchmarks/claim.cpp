@@ -36,12 +36,13 @@ int exit_code(std::span<const Claim> claims) {
 std::string to_text(std::span<const Claim> claims) {
   std::string text;
   for (const Claim& c : claims) {
-    text += fmt::format("{:<12}  {} (section {})\n", name(c.verdict), c.text, c.section);
+    const bool of_paper = !c.section.empty();  // else a target of our own
+    text += fmt::format("{:<12}  {}{}\n", name(c.verdict), c.text, of_paper ? " (section " + c.section + ")" : "");
     std::string below;
     const auto add = [&](std::string_view what, const std::string& value) {
       if (!value.empty()) below += fmt::format("{}{}{}", below.empty() ? "" : "; ", what, value);
     };
-    add("paper: ", c.paper_value);
+    add(of_paper ? "paper: " : "target: ", c.paper_value);
     add("here: ", c.measured);
     add("", c.bound_or_interval);
     add("", c.reason);

@@ -20,7 +20,7 @@ std::string_view name(Verdict verdict);
 struct Claim {
   std::string id{};                 // "arrays-over-adjacency"
   std::string text{};               // the claim in one line
-  std::string section{};            // of the paper: "5.2"
+  std::string section{};            // of the paper: "5.2"; empty for a target of our own
   std::string paper_value{};        // "<= 1.10"
   std::string measured{};           // "1.04"
   std::string bound_or_interval{};  // "[1.02, 1.07] at 96.9 %"

@@ -1,5 +1,5 @@
-// The work of `bench topology` as Google Benchmark cases, "vertex-orbit/kuhn-48000/CGAL". Not paired and in one process:
-// for a look while working on the code; the figures that are published come from `dartboard bench topology`.
+// The work of `bench topology` as Google Benchmark cases, "vertex-orbit/kuhn-48000/CGAL". Not paired and in one
+// process: for a look while working on the code; the figures that are published come from `dartboard bench topology`.
 
 #include <benchmark/benchmark.h>
 
@@ -17,8 +17,8 @@ void time_task(benchmark::State& state, const TopologyGroup::Entry& entry) {
   }
   entry.task.restore();
   // seconds per dart, vertex, tetrahedron or face
-  state.counters["per_unit"] = benchmark::Counter(
-      entry.units, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_unit"] =
+      benchmark::Counter(entry.units, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace

@@ -140,9 +140,8 @@ std::vector<TopologyTask> topology_tasks(const TopologyWork& work) {
     return n;
   });
   reads_only("full-check", [&map] { return check(map).empty(); });
-  reads_only("count-cells", [&map] {
-    return count_cells<0>(map) + count_cells<1>(map) + count_cells<2>(map) + count_cells<3>(map);
-  });
+  reads_only("count-cells",
+             [&map] { return count_cells<0>(map) + count_cells<1>(map) + count_cells<2>(map) + count_cells<3>(map); });
   reads_only("local-check", [&map, &work] {
     std::size_t valid = 0;
     for (Dart d : work.scattered)

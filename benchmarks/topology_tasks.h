@@ -34,7 +34,8 @@ std::size_t map_bytes(const Mesh& mesh);
 
 // ---- everything, set out to be run
 
-/// One figure, by several contenders on one body, or by the tetrahedral map on bodies of several sizes: they take turns.
+/// One figure, by several contenders on one body, or by the tetrahedral map on bodies of several sizes: they take
+/// turns.
 struct TopologyGroup {
   struct Entry {
     std::string name;

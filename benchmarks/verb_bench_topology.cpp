@@ -55,7 +55,8 @@ void add_measure_topology(CLI::App& app) {
     options->paired.warmup = 1;
     const std::set<std::string> wanted(options->groups.begin(), options->groups.end());
     for (const std::string& body : {topology_bodies[0], topology_bodies[1], scaling}) {
-      if (std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return w.starts_with(body + ":"); })) continue;
+      if (std::none_of(wanted.begin(), wanted.end(), [&](const auto& w) { return w.starts_with(body + ":"); }))
+        continue;
       TopologyStage stage = make_topology_stage(body, options->paired.seed);
       for (auto& group : stage.groups) {
         if (!wanted.contains(body + ":" + group.figure)) continue;
@@ -81,8 +82,8 @@ void add_measure_topology(CLI::App& app) {
 struct Results {
   std::map<std::string, std::map<std::string, double>> bytes;  // per tetrahedron, by body and contender
   std::vector<std::string> disagreements;
-  std::map<std::string, std::vector<Sample>> samples;          // by "BODY:FIGURE"
-  std::map<std::string, double> units;                         // by "BODY:FIGURE:CONTENDER"
+  std::map<std::string, std::vector<Sample>> samples;  // by "BODY:FIGURE"
+  std::map<std::string, double> units;                 // by "BODY:FIGURE:CONTENDER"
 
   /// Processor time per unit [ns]; nothing if it was not timed.
   std::optional<double> ns(const std::string& group, const std::string& who) const {
@@ -149,7 +150,13 @@ const std::vector<Target>& targets() {
       {"full-check", "full validity check", {"full-check"}, "ns per dart", 1.0, 5.0, 20.0},
       {"local-check", "incremental check of an operation", {"local-check"}, "us per face", 1e3, 1.0, 0.0},
       {"build", "build from a mesh in memory", {"build"}, "us per tetrahedron", 1e3, 0.8, 0.0},
-      {"unsew", "unsew a face and tell what came apart", {"unsew-cut", "unsew-scattered"}, "us per face", 1e3, 1.5, 0.0},
+      {"unsew",
+       "unsew a face and tell what came apart",
+       {"unsew-cut", "unsew-scattered"},
+       "us per face",
+       1e3,
+       1.5,
+       0.0},
       {"", "vertex to tetrahedra", {"vertex-to-tetrahedra"}, "us per vertex", 1e3, 0.0, 0.0},
       {"", "count all cells", {"count-cells"}, "ns per dart", 1.0, 0.0, 0.0},
   };
@@ -198,12 +205,20 @@ const std::string &smallest = scaling_sizes.front(), &largest = scaling_sizes.ba
 std::string scaling_group(bool cut) { return scaling + (cut ? ":unsew-cut" : ":unsew-scattered"); }
 
 Table figures_table(const Results& r) {
-  Table table({{"figure"}, {"body"}, {"target"}, {"general", Align::right}, {"tetrahedral", Align::right},
-               {"CGAL", Align::right}, {"its ratio to tetrahedral", Align::right}, {"bare CGAL", Align::right},
-               {"its ratio", Align::right}, {"verdict"}});
+  Table table({{"figure"},
+               {"body"},
+               {"target"},
+               {"general", Align::right},
+               {"tetrahedral", Align::right},
+               {"CGAL", Align::right},
+               {"its ratio to tetrahedral", Align::right},
+               {"bare CGAL", Align::right},
+               {"its ratio", Align::right},
+               {"verdict"}});
   for (const auto& [body, bytes] : r.bytes)
-    table.add_row({"memory, vertex and edge ids included", body, memory_target, fmt::format("{:.4g}", bytes.at("general")),
-                   fmt::format("{:.4g}", bytes.at("tetrahedral")), fmt::format("{:.4g}", bytes.at("CGAL")),
+    table.add_row({"memory, vertex and edge ids included", body, memory_target,
+                   fmt::format("{:.4g}", bytes.at("general")), fmt::format("{:.4g}", bytes.at("tetrahedral")),
+                   fmt::format("{:.4g}", bytes.at("CGAL")),
                    fmt::format("{:.3g}", bytes.at("CGAL") / bytes.at("tetrahedral")), "-", "-",
                    bytes.at("tetrahedral") <= memory_bound ? "holds" : "falls short"});
   for (const Target& t : targets())
@@ -213,8 +228,12 @@ Table figures_table(const Results& r) {
 }
 
 Table scaling_table(const Results& r) {
-  Table table({{"unsew, tetrahedral map"}, {"2,058 [us]", Align::right}, {"48,000 [us]", Align::right},
-               {"998,250 [us]", Align::right}, {"largest / smallest", Align::right}, {"target"}});
+  Table table({{"unsew, tetrahedral map"},
+               {"2,058 [us]", Align::right},
+               {"48,000 [us]", Align::right},
+               {"998,250 [us]", Align::right},
+               {"largest / smallest", Align::right},
+               {"target"}});
   for (const bool cut : {true, false}) {
     const std::string group = scaling_group(cut);
     std::vector<std::string> row{cut ? "along a cut" : "at random"};
@@ -228,8 +247,11 @@ Table scaling_table(const Results& r) {
 
 /// Other programs, measured once by others on another machine (a shared virtual one, +-30 %): context and no more.
 Table peers_table() {
-  Table table({{"1,920 / 48,000 tetrahedra"}, {"CGAL 5.5.1 g-map", Align::right}, {"CGoGN_3", Align::right},
-               {"OpenVolumeMesh", Align::right}, {"tet-implicit probe", Align::right}});
+  Table table({{"1,920 / 48,000 tetrahedra"},
+               {"CGAL 5.5.1 g-map", Align::right},
+               {"CGoGN_3", Align::right},
+               {"OpenVolumeMesh", Align::right},
+               {"tet-implicit probe", Align::right}});
   table.add_row({"memory [bytes per tetrahedron]", "1,830", "512", "416", "32"});
   table.add_row({"vertex orbit [ns per dart]", "48 / 95", "10 / 10", "-", "0.7-1.3"});
   table.add_row({"vertex to tetrahedra [us]", "19 / 22", "-", "0.65 / 1.75", "0.1"});
@@ -245,20 +267,20 @@ const char* const note =
     "rounds, their intervals distribution-free over processes. Before each run the map is put back and read through "
     "once, so that what fits the caches is there.\n\n"
     "CGAL's map carries what the memory counts for all, a number on each vertex and edge, and is_valid() checks those "
-    "too; bare CGAL has no attributes, so it compares walks and conditions alone. CGAL's unsew renews the attributes of "
+    "too; bare CGAL has no attributes, so it compares walks and conditions alone. CGAL's unsew renews the attributes "
+    "of "
     "the cells that came apart, its only way to tell them, while ours reports them, has written a journal and has "
-    "checked the darts it touched. Not in the memory: a mark in use takes 4 bytes per dart of ours, 96 per tetrahedron, "
-    "once for all walks; CGAL's marks are in its darts.";
+    "checked the darts it touched. Not in the memory: a mark in use takes 4 bytes per dart of ours, 96 per "
+    "tetrahedron, "
+    "for each mark in use at once; CGAL's marks are in its darts.";
 
 std::vector<Claim> claims_of(const Results& r) {
   const auto claim = [](std::string id, std::string text, std::string bound) {
-    return Claim{
-        .id = std::move(id), .text = std::move(text), .section = "issue 3", .paper_value = std::move(bound)};
+    return Claim{.id = std::move(id), .text = std::move(text), .section = "", .paper_value = std::move(bound)};
   };
   const auto verdict = [](bool holds) { return holds ? Verdict::holds : Verdict::falls_short; };
   std::vector<Claim> claims;
-  Claim memory = claim("topology-memory", "memory of the tetrahedral storage with vertex and edge ids",
-                       memory_target);
+  Claim memory = claim("topology-memory", "memory of the tetrahedral storage with vertex and edge ids", memory_target);
   bool fits = true;
   for (const auto& [body, bytes] : r.bytes) {
     memory.measured += fmt::format("{}{:.4g}", memory.measured.empty() ? "" : " / ", bytes.at("tetrahedral"));
@@ -336,8 +358,8 @@ void bench_topology(const Options& options, Outcome& outcome) {
   repeat_self(
       processes,
       [&](int process) {
-        std::vector<std::string> arguments{"measure-topology", "--process", std::to_string(process), "--rounds",
-                                           std::to_string(rounds), "--seed", std::to_string(options.seed)};
+        std::vector<std::string> arguments{"measure-topology",     "--process", std::to_string(process),     "--rounds",
+                                           std::to_string(rounds), "--seed",    std::to_string(options.seed)};
         arguments.insert(arguments.end(), groups.begin(), groups.end());
         return arguments;
       },

@@ -14,9 +14,9 @@ namespace dartboard {
 
 /// What every contender is given. Darts go by their numbers in our maps: 24 c + p is dart p of tetrahedron c.
 struct TopologyWork {
-  Mesh mesh;                          // of tetrahedra
-  std::vector<Dart> vertices;         // a dart of each vertex
-  std::vector<Dart> cut, scattered;   // a dart of each face to unsew: neighbours along a cut, and here and there
+  Mesh mesh;                         // of tetrahedra
+  std::vector<Dart> vertices;        // a dart of each vertex
+  std::vector<Dart> cut, scattered;  // a dart of each face to unsew: neighbours along a cut, and here and there
 };
 
 /// One figure of one contender. All contenders must find the same number, or they did not do the same work.

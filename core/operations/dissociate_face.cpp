@@ -103,8 +103,8 @@ TopologyChange dissociate_face(Map& map, Dart d) {
   walk(map, fans);
   for (const Fan& fan : fans)
     if (!fan.joined && !fan.twisted) change.edges.push_back({pairs[fan.k].a, pairs[fan.k].b});
-  // A vertex can only come apart where both of its edges on the face did: one that still joins the two sides joins their
-  // corners too.
+  // A vertex can only come apart where both of its edges on the face did: one that still joins the two sides joins
+  // their corners too.
   const auto joined = [&](std::size_t k) { return fans[fan_of[k]].joined; };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [a, b] = pairs[k];

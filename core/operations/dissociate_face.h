@@ -9,8 +9,9 @@ namespace dartboard {
 /// Separate the two volumes that share the face of `d` by 3-unsewing it.
 ///
 /// Returns the face, and the edges and vertices of it that came apart; the side of `d` is the one that keeps. Nothing
-/// happens when the face is on the boundary already. The darts touched are checked before it returns. Where a face meets
-/// one cell at several corners, which sewing faces of one volume can bring about, a cell may be reported more than once.
+/// happens when the face is on the boundary already. The darts touched are checked before it returns. Where a face
+/// meets one cell at several corners, which sewing faces of one volume can bring about, a cell may be reported more
+/// than once.
 ///
 /// throws  TopologyError if d is dead
 /// cost    O(darts around the edges of the face), and around a vertex when two of its edges came apart

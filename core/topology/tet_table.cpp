@@ -10,7 +10,9 @@ constexpr std::uint32_t nothing = 0xFFFFFFFF;
 
 // The turn that takes dart 0 of a face to dart e of the opposite one, given that dart r goes to dart q. Around the two
 // faces the numbers run the same way (e even) or against each other (e odd).
-constexpr std::uint32_t turn(std::uint32_t r, std::uint32_t q) { return (q + r) % 2 == 0 ? (q + 6 - r) % 6 : (q + r) % 6; }
+constexpr std::uint32_t turn(std::uint32_t r, std::uint32_t q) {
+  return (q + r) % 2 == 0 ? (q + 6 - r) % 6 : (q + r) % 6;
+}
 
 }  // namespace
 
