@@ -15,6 +15,7 @@
 #include "core/plain/error.h"
 #include "core/scene/mesh_generators.h"
 #include "core/scene/mesh_io.h"
+#include "validation/delaunay_ball.h"
 #include "validation/topology_fuzz.h"
 #include "validation/topology_report.h"
 
@@ -44,16 +45,23 @@ Target file_target(const std::filesystem::path& path) {
           }};
 }
 
+/// The generated meshes, those that CGAL makes included.
+std::vector<Target> generated_targets() {
+  std::vector<Target> targets;
+  for (const auto meshes : {test_meshes(), delaunay_meshes()})
+    for (const NamedMesh& mesh : meshes) targets.push_back({mesh.name, mesh.make});
+  return targets;
+}
+
 /// A mesh of the project by its name, or a file.
 Target find_target(const std::string& name) {
-  for (const NamedMesh& mesh : test_meshes())
-    if (mesh.name == name) return {mesh.name, mesh.make};
+  for (const Target& target : generated_targets())
+    if (target.name == name) return target;
   return file_target(name);
 }
 
 std::vector<Target> all_targets() {
-  std::vector<Target> targets;
-  for (const NamedMesh& mesh : test_meshes()) targets.push_back({mesh.name, mesh.make});
+  std::vector<Target> targets = generated_targets();
   std::vector<std::filesystem::path> files;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes"))
