@@ -59,7 +59,7 @@ void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& 
 /// kept. The last number moves into each gap.
 template <int i, class Map, class Index, class Move>
 void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, std::vector<Dart>& dart_of,
-                Numbers& touched, Move&& move_last_columns) {
+                Numbers& touched, std::vector<Renumbered>& moved, Move&& move_last_columns) {
   Numbers dead;
   for (const Dart d : removed)
     if (const std::uint32_t number = index(map, d); number != no_embedding && !touched.contains(number))
@@ -75,6 +75,7 @@ void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, 
     }
     move_last_columns(*hole);
     move_last(*hole, dart_of);
+    moved.push_back({last, *hole});
   }
 }
 
@@ -86,6 +87,7 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   const Map& map = body.map;
   VertexColumns& v = body.vertices;
   Numbers vertices, edges, faces, cells;
+  ChangedEmbeddings changed;
 
   // what came apart
   separate<0>(map, body.vertex, change.vertices, v.dart, vertices, [&](std::uint32_t k) {
@@ -97,14 +99,17 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
 
   // what went away
   close_gaps<n>(map, body.cell, n == 3 ? change.removed_volumes : change.removed_faces, body.cell_dart, cells,
-                [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share); });
+                changed.moved_cells,
+                [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share, body.cell_inside_out); });
   if constexpr (n == 3)
-    close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, [](std::uint32_t) {});
-  close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges,
+    close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, changed.moved_faces,
+                  [](std::uint32_t) {});
+  close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges, changed.moved_edges,
                 [&](std::uint32_t k) { move_last(k, body.springs); });
-  close_gaps<0>(map, body.vertex, change.removed_vertices, v.dart, vertices, [&](std::uint32_t k) {
-    move_last(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
-  });
+  close_gaps<0>(map, body.vertex, change.removed_vertices, v.dart, vertices, changed.moved_vertices,
+                [&](std::uint32_t k) {
+                  move_last(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
+                });
 
   // what has other neighbours now
   for (const std::uint32_t k : edges)
@@ -119,8 +124,15 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   for (const std::uint32_t k : vertices)
     for (const Edge e : incident_cells<1>(map, Vertex{v.dart[k]})) edges.insert(body.edge(map, e.dart));
 
-  return {sorted(vertices), sorted(edges),       sorted(faces),         sorted(cells),
-          v.size(),         body.springs.size(), body.face_dart.size(), body.cell_mass.size()};
+  changed.vertices = sorted(vertices);
+  changed.edges = sorted(edges);
+  changed.faces = sorted(faces);
+  changed.cells = sorted(cells);
+  changed.vertex_count = v.size();
+  changed.edge_count = body.springs.size();
+  changed.face_count = body.face_dart.size();
+  changed.cell_count = body.cell_mass.size();
+  return changed;
 }
 
 template ChangedEmbeddings adapt(Body<Map2>&, const TopologyChange&);

@@ -9,10 +9,18 @@
 
 namespace dartboard {
 
+/// Embedding `from`, the last of its kind, took the number `to` of one that went away.
+struct Renumbered {
+  std::uint32_t from, to;
+};
+
 /// The numbers whose embedding, dart or neighbours are not what they were, ascending, each once; and how many there are
 /// now. What a view needs to follow.
 struct ChangedEmbeddings {
   std::vector<std::uint32_t> vertices, edges, faces, cells;  // no faces in a surface, where they are the cells
+  // Columns kept elsewhere, by number, follow so: make room for what appeared, then do these moves in order, each
+  // followed by dropping the last.
+  std::vector<Renumbered> moved_vertices, moved_edges, moved_faces, moved_cells;
   std::size_t vertex_count = 0, edge_count = 0, face_count = 0, cell_count = 0;
 };
 

@@ -65,7 +65,9 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   // volumes: mass, and the share of it that each of their nodes gets
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     body.cell.attach(map, {Dart{built.first_dart[c]}}, static_cast<std::uint32_t>(c));
-    body.cell_mass.push_back(material.density * std::abs(signed_measure(mesh, c)));
+    const double measure = signed_measure(mesh, c);
+    body.cell_mass.push_back(material.density * std::abs(measure));
+    body.cell_inside_out.push_back(measure < 0.0);
     require(std::isfinite(body.cell_mass[c]) && body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(),
             body.cell_mass[c], "more than 0 kg and finite");
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));

@@ -51,6 +51,12 @@ struct MassSpringBody {
   std::vector<double> cell_mass;   // [kg]
   std::vector<double> node_share;  // [kg] of each cell: its mass over its number of nodes
   std::vector<Dart> cell_dart;     // the lowest dart of each cell
+  // 1 where the face of that dart, walked along alpha_0 alpha_1 from it, runs clockwise seen from outside the cell at
+  // rest
+  std::vector<std::uint8_t> cell_inside_out;
+  // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
+  // the body is refined.
+  std::vector<double> edge_share;
 
   Material material;
   Surroundings surroundings;
