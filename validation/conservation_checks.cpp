@@ -119,16 +119,18 @@ void ConservationChecks<Map>::columns_were_duplicated(const BeforeSeries<Map>& b
   }
 }
 
-// Shares are added in the order of the body's cell numbers, so that the bits must agree; nothing else of them is used.
+// Shares are added in the order of the darts of the body's cells, so that the bits must agree; nothing else of them is
+// used.
 template <class Map>
 double ConservationChecks<Map>::mass_from_cells(std::span<const std::uint32_t> corners) {
   const Mesh& mesh = at_.start.mesh;
   numbers_.clear();
-  for (const std::uint32_t k : corners) numbers_.push_back(at_.body.cell(at_.body.map, at_.places.corner[k]));
+  for (const std::uint32_t k : corners)
+    numbers_.push_back(at_.body.cell_dart[at_.body.cell(at_.body.map, at_.places.corner[k])].index);
   std::sort(numbers_.begin(), numbers_.end());
   double mass = 0.0;
-  for (const std::uint32_t number : numbers_) {
-    const std::uint32_t c = at_.places.cell_of[at_.body.cell_dart[number].index];
+  for (const std::uint32_t dart : numbers_) {
+    const std::uint32_t c = at_.places.cell_of[dart];
     mass += at_.start.material.density * std::abs(signed_measure(mesh, c)) / static_cast<double>(mesh.cell(c).size());
   }
   return mass;
@@ -263,8 +265,8 @@ void ConservationChecks<Map>::boundary() {
                  area.value());
 }
 
-// Masses are summed by cell number there too, so the bits must agree. Springs between the same two vertices are one for
-// a soup: q of them, each a product, and their sum take q roundings, the soup's product one.
+// Masses are summed in the order of the darts there too, so the bits must agree. Springs between the same two vertices
+// are one for a soup: q of them, each a product, and their sum take q roundings, the soup's product one.
 template <class Map>
 void ConservationChecks<Map>::soup() {
   const LiveBody<Map>& body = at_.body;

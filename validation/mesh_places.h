@@ -57,7 +57,15 @@ struct MeshPlaces {
   }
 };
 
-/// The body's cells, in the order of their numbers, as a plain problem at rest whose points are the body's vertices.
+/// The lowest darts of the body's cells, ascending: the order in which masses are summed.
+template <class Body>
+std::vector<Dart> cells_by_dart(const Body& body) {
+  std::vector<Dart> darts = body.cell_dart;
+  std::sort(darts.begin(), darts.end());
+  return darts;
+}
+
+/// The body's cells, in the order of their darts, as a plain problem at rest whose points are the body's vertices.
 ///
 /// pre  `places` and `cells` are those of `start.mesh`
 template <class Body>
@@ -68,7 +76,7 @@ Problem rest_problem(const Body& body, const Problem& start, const MeshPlaces& p
   problem.h = start.h;
   problem.mesh.points.resize(body.vertices.size());
   std::vector<std::uint32_t> nodes;
-  for (const Dart d : body.cell_dart) {
+  for (const Dart d : cells_by_dart(body)) {
     const std::uint32_t c = places.cell_of[d.index];
     nodes.clear();
     for (std::uint32_t k = start.mesh.first[c]; k < start.mesh.first[c + 1]; ++k) {

@@ -105,9 +105,10 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   // dissociate what only touches, all in one series
   const RemainingCells touching(rest.mesh);
   const MeshPlaces scratch_places(scratch, rest.mesh, touching);
+  const auto in_order = cells_by_dart(body);
   TopologyChange change;
-  for (std::uint32_t k = 0; k < body.cell_dart.size(); ++k) {
-    const std::uint32_t c = places.cell_of[body.cell_dart[k].index];
+  for (std::uint32_t k = 0; k < in_order.size(); ++k) {
+    const std::uint32_t c = places.cell_of[in_order[k].index];
     for (std::uint32_t s = 0; s < touching.first_side(k + 1) - touching.first_side(k); ++s)
       if (!cells.is_joined(cells.first_side(c) + s))
         change.append(dissociate_face(scratch.map, scratch_places.side[touching.first_side(k) + s]));
@@ -121,8 +122,8 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   LiveOrder order;
   order.vertices.resize(motion.vertices);
   order.edges.resize(motion.springs);
-  for (std::uint32_t k = 0; k < body.cell_dart.size(); ++k) {
-    const std::uint32_t c = places.cell_of[body.cell_dart[k].index];
+  for (std::uint32_t k = 0; k < in_order.size(); ++k) {
+    const std::uint32_t c = places.cell_of[in_order[k].index];
     for (std::size_t n = 0; n < rest.mesh.cell(k).size(); ++n)
       order.vertices[rest.mesh.cell(k)[n]] = scratch.vertex(scratch.map, scratch_places.corner[rest.mesh.first[k] + n]);
     for (std::uint32_t e = 0; e < touching.first_edge(k + 1) - touching.first_edge(k); ++e)

@@ -1,6 +1,7 @@
 #include "core/mechanics/adapt.h"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <unordered_set>
 
 namespace dartboard {
@@ -8,11 +9,43 @@ namespace {
 
 template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
-using Numbers = std::unordered_set<std::uint32_t>;
+using Numbers = std::vector<std::uint32_t>;
 
-std::vector<std::uint32_t> sorted(const Numbers& numbers) {
-  std::vector<std::uint32_t> list(numbers.begin(), numbers.end());
-  std::sort(list.begin(), list.end());
+/// A set of numbers that is small as a rule.
+class NumberSet {
+ public:
+  bool contains(std::uint32_t k) const {
+    return many_.empty() ? std::find(few_.begin(), few_.end(), k) != few_.end() : many_.contains(k);
+  }
+  /// True if it was not there.
+  bool insert(std::uint32_t k) {
+    if (contains(k)) return false;
+    few_.push_back(k);
+    if (!many_.empty())
+      many_.insert(k);
+    else if (few_.size() > 32)
+      many_.insert(few_.begin(), few_.end());
+    return true;
+  }
+  const auto& numbers() const { return few_; }
+
+ private:
+  boost::container::small_vector<std::uint32_t, 32> few_;
+  std::unordered_set<std::uint32_t> many_;  // the same numbers, once there are many
+};
+
+void sort_once(Numbers& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// Those that are still numbers of something, ascending.
+template <class List>
+Numbers below(std::size_t count, const List& numbers) {
+  Numbers list;
+  for (const std::uint32_t k : numbers)
+    if (k < count) list.push_back(k);
+  sort_once(list);
   return list;
 }
 
@@ -27,48 +60,58 @@ void duplicate(std::uint32_t k, Column&... columns) {
   (columns.push_back(columns[k]), ...);
 }
 
-/// Give every part of the cells in `pairs` a number of its own: the first part met keeps the one they share, each
-/// further part gets the next, with a copy of the columns. All numbers met end up in `touched`, their lowest darts in
-/// `dart_of`.
-template <int i, class Map, class Index, class Duplicate>
-void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& pairs, std::vector<Dart>& dart_of,
-              Numbers& touched, Duplicate&& duplicate_columns) {
+/// One dart for each place of a cell: what a single walk around it finds, and all that its embedding follows from.
+using Places = boost::container::small_vector<Dart, 192>;
+
+/// Visit every part of the cells in `pairs`: those of `kept` first, each part once.
+template <int i, class Map, class Visit>
+void for_each_part(const Map& map, const std::vector<DissociatedCell>& pairs, Places& places, Visit&& visit) {
+  if (pairs.empty()) return;
   Mark seen(map);
-  const auto part = [&](Dart d) {
-    if (!map.is_live(d) || seen(d)) return;
-    Dart lowest = d;
-    for_each_dart_of(map, Cell<i>{d}, [&](Dart e) {
-      seen.set(e);
-      lowest = std::min(lowest, e);
-    });
-    std::uint32_t number = index(map, d);
-    if (!touched.insert(number).second) {
+  const auto part = [&map, &places, &seen, &visit](Dart d) {
+    if (!map.is_live(d)) return;
+    places.clear();
+    for_each_place_of(map, Cell<i>{d}, seen, [&places](Dart e) { places.push_back(e); });
+    if (!places.empty()) visit();
+  };
+  for (const DissociatedCell& pair : pairs) part(pair.kept);
+  for (const DissociatedCell& pair : pairs) part(pair.split);
+}
+
+/// Give every part of the cells in `pairs` a number of its own: the first part met keeps the one they share, each
+/// further part gets the next, with a copy of the columns. Then follow(number, places, whether the number changed).
+template <int i, class Map, class Index, class Duplicate, class FollowPart>
+void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& pairs, std::vector<Dart>& dart_of,
+              NumberSet& touched, Duplicate&& duplicate_columns, FollowPart&& follow) {
+  Places places;
+  for_each_part<i>(map, pairs, places, [&] {
+    const Dart lowest = *std::min_element(places.begin(), places.end());
+    std::uint32_t number = index(map, lowest);
+    const bool is_new = !touched.insert(number);
+    if (is_new) {
       duplicate_columns(number);
       number = static_cast<std::uint32_t>(dart_of.size());
       dart_of.push_back(lowest);
       touched.insert(number);
-      index.attach(map, Cell<i>{lowest}, number);
+      index.attach_places(map, places, number);
     }
     dart_of[number] = lowest;
-  };
-  for (const DissociatedCell& pair : pairs) part(pair.kept);
-  for (const DissociatedCell& pair : pairs) part(pair.split);
+    follow(number, places, is_new);
+  });
 }
 
 /// Take the numbers away that only dead darts hold now: those read at `removed` that no live part of a touched cell
 /// kept. The last number moves into each gap.
 template <int i, class Map, class Index, class Move>
 void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, std::vector<Dart>& dart_of,
-                Numbers& touched, std::vector<Renumbered>& moved, Move&& move_last_columns) {
+                NumberSet& touched, std::vector<Renumbered>& moved, Move&& move_last_columns) {
   Numbers dead;
   for (const Dart d : removed)
     if (const std::uint32_t number = index(map, d); number != no_embedding && !touched.contains(number))
-      dead.insert(number);
-  const auto ascending = sorted(dead);
-  for (auto hole = ascending.rbegin(); hole != ascending.rend();
-       ++hole) {  // from the end: the last is never dead itself
+      dead.push_back(number);
+  sort_once(dead);
+  for (auto hole = dead.rbegin(); hole != dead.rend(); ++hole) {  // from the end: the last is never dead itself
     const auto last = static_cast<std::uint32_t>(dart_of.size() - 1);
-    touched.erase(last);
     if (*hole != last) {
       index.attach(map, Cell<i>{dart_of[last]}, *hole);
       touched.insert(*hole);
@@ -79,6 +122,18 @@ void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, 
   }
 }
 
+/// The numbers of the edges at a vertex with these places.
+template <class Map>
+void add_edges(const Body<Map>& body, const Places& places, Numbers& edges) {
+  for (const Dart d : places) {
+    edges.push_back(body.edge(body.map, d));
+    if constexpr (Map::tetrahedral) {  // one place stands for the three edges of its tetrahedron there
+      edges.push_back(body.edge(body.map, body.map.template alpha<1>(d)));
+      edges.push_back(body.edge(body.map, body.map.template alpha<2, 1>(d)));
+    }
+  }
+}
+
 }  // namespace
 
 template <class Map>
@@ -86,52 +141,58 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   constexpr int n = Map::dimension;
   const Map& map = body.map;
   VertexColumns& v = body.vertices;
-  Numbers vertices, edges, faces, cells;
+  NumberSet vertices, edges, faces, cells;
   ChangedEmbeddings changed;
+  Numbers& edges_at_renumbered = changed.edges;
 
-  // what came apart
-  separate<0>(map, body.vertex, change.vertices, v.dart, vertices, [&](std::uint32_t k) {
-    duplicate(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
-  });
-  separate<1>(map, body.edge, change.edges, body.edge_dart, edges,
-              [&](std::uint32_t k) { duplicate(k, body.springs); });
-  if constexpr (n == 3) separate<2>(map, body.face, change.faces, body.face_dart, faces, [](std::uint32_t) {});
-
-  // what went away
+  if constexpr (n == 3) {
+    const auto nothing = [](auto&&...) {};
+    separate<2>(map, body.face, change.faces, body.face_dart, faces, nothing, nothing);
+    close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, changed.moved_faces, nothing);
+  }
   close_gaps<n>(map, body.cell, n == 3 ? change.removed_volumes : change.removed_faces, body.cell_dart, cells,
                 changed.moved_cells,
                 [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share, body.cell_inside_out); });
-  if constexpr (n == 3)
-    close_gaps<2>(map, body.face, change.removed_faces, body.face_dart, faces, changed.moved_faces,
-                  [](std::uint32_t) {});
+
+  separate<1>(
+      map, body.edge, change.edges, body.edge_dart, edges, [&](std::uint32_t k) { duplicate(k, body.springs); },
+      [&](std::uint32_t k, const Places& places, bool) {
+        body.springs[k] = body.spring_of({places.data(), places.size()}, body.springs[k].rest_length);
+      });
   close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges, changed.moved_edges,
                 [&](std::uint32_t k) { move_last(k, body.springs); });
+
+  // Vertices last: the springs around a renumbered one have another number at this end, and now they have their own.
+  separate<0>(
+      map, body.vertex, change.vertices, v.dart, vertices,
+      [&](std::uint32_t k) {
+        duplicate(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
+      },
+      [&](std::uint32_t k, const Places& places, bool is_new) {
+        body.set_mass(k, body.mass_of({places.data(), places.size()}));
+        if (is_new) add_edges(body, places, edges_at_renumbered);
+      });
   close_gaps<0>(map, body.vertex, change.removed_vertices, v.dart, vertices, changed.moved_vertices,
                 [&](std::uint32_t k) {
                   move_last(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
                 });
+  for (const auto& [from, to] : changed.moved_vertices)
+    if (to < v.size()) {
+      Places places;
+      Mark seen(map);
+      for_each_place_of(map, Vertex{v.dart[to]}, seen, [&](Dart d) { places.push_back(d); });
+      add_edges(body, places, edges_at_renumbered);
+    }
 
-  // what has other neighbours now
-  for (const std::uint32_t k : edges)
-    body.springs[k] = body.spring_of(Edge{body.edge_dart[k]}, body.springs[k].rest_length);
-  Numbers reweighed = vertices;
-  // masses are summed in the order of cell numbers: a renumbered cell can change the last bit of its vertices
-  for (const std::uint32_t c : cells)
-    for (const Vertex w : incident_cells<0>(map, Cell<n>{body.cell_dart[c]}))
-      reweighed.insert(body.vertex(map, w.dart));
-  for (const std::uint32_t k : reweighed) body.set_mass(k, body.mass_of(Vertex{v.dart[k]}));
-  // the springs around a renumbered vertex have another number at this end
-  for (const std::uint32_t k : vertices)
-    for (const Edge e : incident_cells<1>(map, Vertex{v.dart[k]})) edges.insert(body.edge(map, e.dart));
-
-  changed.vertices = sorted(vertices);
-  changed.edges = sorted(edges);
-  changed.faces = sorted(faces);
-  changed.cells = sorted(cells);
+  changed.edges.insert(changed.edges.end(), edges.numbers().begin(), edges.numbers().end());
   changed.vertex_count = v.size();
   changed.edge_count = body.springs.size();
   changed.face_count = body.face_dart.size();
   changed.cell_count = body.cell_mass.size();
+  changed.vertices = below(changed.vertex_count, vertices.numbers());
+  changed.edges = below(changed.edge_count, changed.edges);
+  changed.faces = below(changed.face_count, faces.numbers());
+  changed.cells = below(changed.cell_count, cells.numbers());
   return changed;
 }
 

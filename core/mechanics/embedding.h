@@ -30,6 +30,14 @@ class CellEmbedding {
     at_[Map::template slot<i>(cell.dart)] = number;
   }
 
+  /// The same for a cell whose places, one dart for each slot<i>, are known (for_each_place_of).
+  template <class Darts>
+  void attach_places(const Map& map, const Darts& places, std::uint32_t number) {
+    static_assert(held == Held::by_every_dart);
+    if (at_.size() < map.template slot_count<i>()) at_.resize(map.template slot_count<i>(), no_embedding);
+    for (const Dart d : places) at_[Map::template slot<i>(d)] = number;
+  }
+
   /// The embedding of the i-cell of d; no_embedding if it has none.
   std::uint32_t operator()(const Map& map, Dart d) const {
     if constexpr (held == Held::by_every_dart) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <utility>
 
 #include "core/plain/error.h"
 #include "core/topology/build.h"
@@ -110,19 +111,56 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   return body;
 }
 
+namespace {
+
+/// Add what each cell contributes, each cell once, in the order of the cells' darts.
+template <class Contribution>
+double sum_over_cells(Contribution&& contribution, std::span<const Dart> darts) {
+  boost::container::small_vector<std::pair<Dart, double>, 192> around;
+  for (const Dart d : darts) around.push_back(contribution(d));
+  std::sort(around.begin(), around.end());
+  double sum = 0.0;
+  for (std::size_t k = 0; k < around.size(); ++k)
+    if (k == 0 || around[k].first != around[k - 1].first) sum += around[k].second;
+  return sum;
+}
+
+template <int i, class Map, int j>
+auto darts_of_incident(const Map& map, Cell<j> cell) {
+  boost::container::small_vector<Dart, 64> darts;
+  for (const auto c : incident_cells<i>(map, cell)) darts.push_back(c.dart);
+  return darts;
+}
+
+}  // namespace
+
 template <class Map, Held held>
 double MassSpringBody<Map, held>::mass_of(Vertex v) const {
-  boost::container::small_vector<std::uint32_t, 64> around;
-  for (const auto c : incident_cells<dimension>(map, v)) around.push_back(cell(map, c.dart));
-  std::sort(around.begin(), around.end());
-  double mass = 0.0;
-  for (const std::uint32_t c : around) mass += node_share[c];
-  return mass;
+  const auto darts = darts_of_incident<dimension>(map, v);
+  return mass_of({darts.data(), darts.size()});
+}
+
+template <class Map, Held held>
+double MassSpringBody<Map, held>::mass_of(std::span<const Dart> darts) const {
+  const auto share = [this](Dart d) {
+    const std::uint32_t k = cell(map, d);
+    return std::pair(cell_dart[k], node_share[k]);
+  };
+  return sum_over_cells(share, darts);
 }
 
 template <class Map, Held held>
 Spring MassSpringBody<Map, held>::spring_of(Edge e, double rest_length) const {
-  const auto cells = static_cast<double>(incident_cells<dimension>(map, e).size());
+  const auto darts = darts_of_incident<dimension>(map, e);
+  return spring_of({darts.data(), darts.size()}, rest_length);
+}
+
+template <class Map, Held held>
+Spring MassSpringBody<Map, held>::spring_of(std::span<const Dart> darts, double rest_length) const {
+  const auto share = [this](Dart d) {
+    return std::pair(cell_dart[cell(map, d)], edge_share.empty() ? 1.0 : edge_share[Map::template slot<1>(d)]);
+  };
+  const double cells = sum_over_cells(share, darts);
   return {rest_length, cells * material.stiffness, cells * material.damping};
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mechanics/embedding.h"
@@ -61,9 +62,11 @@ struct MassSpringBody {
   Material material;
   Surroundings surroundings;
 
-  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by cell number, so that
-  /// the order of the walk leaves no trace in the bits.
+  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by the cells' darts,
+  /// so that neither the order of the walk nor the numbers of the cells leave a trace in the bits.
   double mass_of(Vertex v) const;
+  /// The same for a vertex of which at least one dart in each of its cells is given.
+  double mass_of(std::span<const Dart> darts) const;
   /// The mass of vertex embedding k, and what is proportional to it.
   void set_mass(std::uint32_t k, double mass) {
     vertices.mass[k] = mass;
@@ -72,6 +75,8 @@ struct MassSpringBody {
   }
   /// Stiffness and damping of an edge: what its incident cells contribute, as springs in parallel.
   Spring spring_of(Edge e, double rest_length) const;
+  /// The same for an edge of which at least one dart in each of its cells is given.
+  Spring spring_of(std::span<const Dart> darts, double rest_length) const;
 
   /// Positions and velocities by mesh point.
   /// throws  InputError when a cut or a removal has left a point with another number of vertices than one (set_state

@@ -110,7 +110,7 @@ TopologyChange dissociate_face(Map& map, Dart d) {
     const auto [a, b] = pairs[k];
     const std::size_t twin = find(map.template alpha<1>(a));
     if (twin < k || joined(k) || (twin < pairs.size() && joined(twin))) continue;
-    if (!same_cell<0>(map, a, b)) change.vertices.push_back({a, b});
+    if (!detail::meet(map, cell_orbit<0, Map>(), a, b)) change.vertices.push_back({a, b});
   }
   return change;
 }

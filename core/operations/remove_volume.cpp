@@ -5,6 +5,22 @@
 #include "core/topology/cells.h"
 
 namespace dartboard {
+namespace {
+
+/// One dart of each i-cell of an isolated volume.
+template <int i, class Map>
+void add_cells(const Map& map, Dart d, std::vector<Dart>& darts) {
+  if constexpr (Map::tetrahedral) {
+    const std::uint32_t first = d.index - d.index % 24;
+    for (std::uint32_t p = 0; p < 24; ++p)
+      if (detail::representative<Map>(cell_orbit<i, Map>(), {first + p}).index == first + p)
+        darts.push_back({first + p});
+  } else {
+    for (const auto cell : incident_cells<i>(map, Volume{d})) darts.push_back(cell.dart);
+  }
+}
+
+}  // namespace
 
 template <class Map>
 TopologyChange remove_volume(Map& map, Dart d) {
@@ -16,9 +32,9 @@ TopologyChange remove_volume(Map& map, Dart d) {
     // neighbour
     change.append(dissociate_face(map, outside));
   }
-  for (const auto v : incident_cells<0>(map, Volume{d})) change.removed_vertices.push_back(v.dart);
-  for (const auto e : incident_cells<1>(map, Volume{d})) change.removed_edges.push_back(e.dart);
-  for (const auto f : incident_cells<2>(map, Volume{d})) change.removed_faces.push_back(f.dart);
+  add_cells<0>(map, d, change.removed_vertices);
+  add_cells<1>(map, d, change.removed_edges);
+  add_cells<2>(map, d, change.removed_faces);
   change.removed_volumes.push_back(d);
   remove_cell(map, d);
   return change;

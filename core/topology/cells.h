@@ -20,6 +20,18 @@ bool for_each_dart_of(const Map& map, Cell<i> cell, F&& f) {
   return for_each_dart_of(map, cell_orbit<i, Map>(), cell.dart, f);
 }
 
+/// Call f(dart) once for every place `slot<i>` of the cell, with the lowest dart there: a corner of a tetrahedron at a
+/// vertex, every dart in general storage. `seen`, a mark of the caller's, keeps the places visited; nothing is visited
+/// when it has the cell's already.
+///
+/// cost    O(darts of the cell); a sixth of a full walk around a vertex of tetrahedra
+template <int i, class Map, class F>
+void for_each_place_of(const Map& map, Cell<i> cell, Mark& seen, F&& f) {
+  constexpr Involutions set = cell_orbit<i, Map>();
+  if (!seen.set_if_new(detail::representative<Map>(set, cell.dart))) return;
+  detail::walk_places(map, set, cell.dart, seen, f);
+}
+
 template <int i, class Map>
 std::vector<Dart> orbit(const Map& map, Cell<i> cell) {
   return orbit(map, cell_orbit<i, Map>(), cell.dart);

@@ -1,8 +1,10 @@
 #pragma once
-// Orbits: all darts that a set of involutions reaches from one (section 2.1), and coverages of all orbits (section 4.2).
+// Orbits: all darts that a set of involutions reaches from one (section 2.1), and coverages of all orbits
+// (section 4.2).
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/topology/generalized_map.h"
@@ -31,6 +33,23 @@ Dart representative(Involutions set, Dart d) {
     return {d.index - p + tet_darts.lowest(set.bits & 7u, p)};
   } else {
     return d;
+  }
+}
+
+/// f(representative) of every block or dart next to the one that `at` represents.
+template <class Map, class F>
+void leave_block(const Map& map, Involutions set, Dart at, F&& f) {
+  if constexpr (Map::tetrahedral) {
+    const std::uint32_t t = at.index / 24, p = at.index % 24, within = set.bits & 7u;
+    if (!set.contains(3)) return;
+    for (std::size_t x = 0; x < tet_darts.exit_count[within]; ++x) {
+      const auto [face, r] = tet_darts.exits[within][p][x];
+      const std::uint32_t o = map.storage().opposite(4 * t + face);
+      f(Dart{24 * (o / 32) + tet_darts.entry[within][r][o % 32]});
+    }
+  } else {
+    for (int i = 0; i <= Map::dimension; ++i)
+      if (set.contains(i)) f(map.alpha(i, at));
   }
 }
 
@@ -68,6 +87,51 @@ bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
   }
   stack.resize(bottom);
   return stopped;
+}
+
+/// The same with one visit per representative.
+template <class Map, class F>
+void walk_places(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
+  if constexpr (!Map::tetrahedral) {
+    walk(map, set, d, visited, f);
+  } else {
+    auto& stack = visited.stack();
+    const std::size_t bottom = stack.size();
+    stack.push_back(representative<Map>(set, d));
+    while (stack.size() > bottom) {
+      const Dart at = stack.back();
+      stack.pop_back();
+      f(at);
+      if (set.contains(3))
+        leave_block(map, set, at, [&](Dart next) {
+          if (visited.set_if_new(next)) stack.push_back(next);
+        });
+    }
+  }
+}
+
+/// Whether <set>(a) and <set>(b) are one orbit, walking from both by turns: little more than twice the smaller one.
+template <class Map>
+bool meet(const Map& map, Involutions set, Dart a, Dart b) {
+  a = representative<Map>(set, a);
+  b = representative<Map>(set, b);
+  if (a == b) return true;
+  Mark mark_a(map), mark_b(map);
+  mark_a.set(a);
+  mark_b.set(b);
+  mark_a.stack().push_back(a);
+  mark_b.stack().push_back(b);
+  for (Mark *here = &mark_a, *there = &mark_b; !here->stack().empty(); std::swap(here, there)) {
+    const Dart at = here->stack().back();
+    here->stack().pop_back();
+    bool met = false;
+    leave_block(map, set, at, [&](Dart next) {
+      met = met || (*there)(next);
+      if (here->set_if_new(next)) here->stack().push_back(next);
+    });
+    if (met) return true;
+  }
+  return false;
 }
 
 }  // namespace detail
