@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "core/topology/generalized_map.h"
 
 namespace dartboard {
+
+/// In place of a mesh point, for a vertex that a refinement made.
+inline constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
 /// What vertices embed. Columns share one numbering, that of the vertex embeddings.
 struct VertexColumns {
@@ -21,8 +25,9 @@ struct VertexColumns {
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
   std::vector<Eigen::Vector3d> force;     // [N] sum of the springs; zero between steps
   std::vector<std::uint8_t> fixed;        // 1: held still
-  std::vector<std::uint32_t> point;       // the mesh point it came from; shared by the parts of a dissociated vertex
-  std::vector<Dart> dart;                 // the lowest dart of the vertex
+  std::vector<std::uint32_t>
+      point;               // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
+  std::vector<Dart> dart;  // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
 };
