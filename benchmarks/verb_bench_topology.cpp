@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 
-#include "benchmarks/cli.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/paired.h"
 #include "benchmarks/processes.h"
@@ -14,6 +13,7 @@
 #include "benchmarks/run_folder.h"
 #include "benchmarks/scenes.h"
 #include "benchmarks/topology_tasks.h"
+#include "benchmarks/verb_bench.h"
 #include "reference/cgal_body.h"
 
 namespace dartboard {
@@ -394,12 +394,10 @@ void bench_topology(const Options& options, Outcome& outcome) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Outcome& outcome) {
-  auto* bench = app.add_subcommand("bench", "Measure one part against its targets and its peers.");
-  bench->require_subcommand(1);
+void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* topology =
-      bench->add_subcommand("topology", "Memory, walks, checks, building and unsewing, side by side with CGAL.");
+      bench.add_subcommand("topology", "Memory, walks, checks, building and unsewing, side by side with CGAL.");
   topology->add_flag("--quick", options->quick, "fewer processes and rounds");
   topology->add_option("--out", options->out, "folder to write to, new or empty [results/topology-TIME]");
   topology->add_option("--seed", options->seed, "of the order of turns and the random faces [1]");

@@ -20,6 +20,16 @@ double second_weight(double z) {
   return sum;
 }
 
+// The n-th step of a map of determinant 1 and trace 2 cos(phi), which turns along an ellipse: its n-th power has the
+// diagonal cos(n phi) +- skew sin(n phi) / sin(phi), skew being half the difference of the diagonal, and the
+// off-diagonals times sin(n phi) / sin(phi). Extended precision, since n phi is large.
+Swing turn(long double phi, long double skew, long double q_from_v, long double v_from_q, Swing start, int n) {
+  const long double even = std::cos(n * phi), odd = std::sin(n * phi) / std::sin(phi);
+  const long double q = start.q, v = start.v;
+  return {static_cast<double>((even + skew * odd) * q + q_from_v * odd * v),
+          static_cast<double>(v_from_q * odd * q + (even - skew * odd) * v)};
+}
+
 }  // namespace
 
 Flight free_fall(const Flight& start, const Eigen::Vector3d& gravity, double viscosity, double t) {
@@ -79,6 +89,42 @@ double chain_omega_free(int n, double stiffness, double mass, int j) {
   return 2.0 * std::sqrt(stiffness / mass) * std::sin(j * std::numbers::pi / (2.0 * n));
 }
 
+double chain_omega_fixed_free(int n, double stiffness, double mass, int j) {
+  return 2.0 * std::sqrt(stiffness / mass) * std::sin((2 * j - 1) * std::numbers::pi / (2.0 * (2 * n + 1)));
+}
+
+double chain_shape_fixed(int n, int j, int i) { return std::sin(i * j * std::numbers::pi / (n + 1)); }
+
+double chain_shape_free(int n, int j, int i) { return std::cos((2 * i - 1) * j * std::numbers::pi / (2 * n)); }
+
+double chain_shape_fixed_free(int n, int j, int i) {
+  return std::sin(i * (2 * j - 1) * std::numbers::pi / (2 * n + 1));
+}
+
+double chain_dispersion(double stiffness, double mass, double spacing, double q) {
+  return 2.0 * std::sqrt(stiffness / mass) * std::abs(std::sin(q * spacing / 2.0));
+}
+
+double chain_group_velocity(double stiffness, double mass, double spacing, double q) {
+  const double sign = std::sin(q * spacing / 2.0) < 0.0 ? -1.0 : 1.0;
+  return sign * spacing * std::sqrt(stiffness / mass) * std::cos(q * spacing / 2.0);
+}
+
+double rotating_length(double stiffness, double rest_length, double reduced_mass, double rate) {
+  return rest_length / (1.0 - reduced_mass * rate * rate / stiffness);
+}
+
+std::vector<double> hanging_lengths(std::span<const double> masses, double stiffness, double rest_length,
+                                    double gravity) {
+  std::vector<double> lengths(masses.size());
+  double below = 0.0;
+  for (std::size_t i = masses.size(); i-- > 0;) {
+    below += masses[i];
+    lengths[i] = rest_length + gravity * below / stiffness;
+  }
+  return lengths;
+}
+
 std::complex<double> rk4_amplification(std::complex<double> z) {
   return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
 }
@@ -91,6 +137,41 @@ Swing rk4_oscillate(double omega2, double drag, Swing start, double h, int n) {
   Eigen::Vector2d y(start.q, start.v);
   for (; n > 0; --n) y = step * y;
   return {y[0], y[1]};
+}
+
+std::complex<double> backward_euler_amplification(std::complex<double> z) { return 1.0 / (1.0 - z); }
+
+std::complex<double> implicit_midpoint_amplification(std::complex<double> z) {
+  return (1.0 + z / 2.0) / (1.0 - z / 2.0);
+}
+
+long double splitting_phase(long double theta) { return 2.0L * std::asin(theta / 2.0L); }
+
+Swing verlet_oscillate(VerletForm form, double omega2, Swing start, double h, int n) {
+  const long double step = h, square = step * step * omega2, less = 1.0L - square / 4.0L;
+  const bool drift_first = form == VerletForm::drift_kick_drift;
+  return turn(splitting_phase(std::sqrt(square)), 0.0L, drift_first ? step * less : step,
+              -step * omega2 * (drift_first ? 1.0L : less), start, n);
+}
+
+Swing symplectic_euler_oscillate(double omega2, Swing start, double h, int n) {
+  const long double step = h, square = step * step * omega2;
+  return turn(splitting_phase(std::sqrt(square)), -square / 2.0L, step, -step * omega2, start, n);
+}
+
+double verlet_invariant(VerletForm form, double omega2, double h, Swing at) {
+  const double less = 1.0 - h * h * omega2 / 4.0;
+  return form == VerletForm::drift_kick_drift ? (less * at.v * at.v + omega2 * at.q * at.q) / 2.0
+                                              : (at.v * at.v + less * omega2 * at.q * at.q) / 2.0;
+}
+
+double symplectic_euler_invariant(double omega2, double h, Swing at) {
+  return (at.v * at.v + omega2 * at.q * at.q - h * omega2 * at.q * at.v) / 2.0;
+}
+
+Flight euler_fall(EulerForm form, const Flight& start, const Eigen::Vector3d& gravity, double h, int n) {
+  const double count = n, pairs = count * (form == EulerForm::end_velocity ? count + 1.0 : count - 1.0) / 2.0;
+  return {start.x + count * h * start.v + h * h * pairs * gravity, start.v + count * h * gravity};
 }
 
 }  // namespace dartboard::reference

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <span>
+#include <vector>
 
 namespace dartboard::reference {
 
@@ -46,11 +48,63 @@ DumbbellState swing(const Dumbbell& body, const DumbbellState& start, double t);
 double chain_omega_fixed(int n, double stiffness, double mass, int j);
 double chain_omega_free(int n, double stiffness, double mass, int j);
 
+/// The same with one end fixed and the other free: n springs, j = 1 .. n.
+double chain_omega_fixed_free(int n, double stiffness, double mass, int j);
+
+/// Displacement of mass i = 1 .. n of the chain in its mode j, up to a factor; the fixed end comes first.
+double chain_shape_fixed(int n, int j, int i);
+double chain_shape_free(int n, int j, int i);
+double chain_shape_fixed_free(int n, int j, int i);
+
+/// Angular frequency [1/s] of a wave of wave number q [1/m] along an endless chain of that spacing [m], and the
+/// velocity [m/s] at which packets of such waves travel.
+double chain_dispersion(double stiffness, double mass, double spacing, double q);
+double chain_group_velocity(double stiffness, double mass, double spacing, double q);
+
+/// Length [m] of a spring whose two masses circle at `rate` [1/s] about their centre; a relative equilibrium, possible
+/// while reduced_mass rate^2 < stiffness.
+double rotating_length(double stiffness, double rest_length, double reduced_mass, double rate);
+
+/// Lengths [m], from the top, of the equal springs of a chain that hangs at rest from a fixed point, masses [kg] from
+/// the top.
+std::vector<double> hanging_lengths(std::span<const double> masses, double stiffness, double rest_length,
+                                    double gravity);
+
+// ---- What methods make of motions, exactly: a simulator is compared with these up to rounding
+
 /// What one step of classical Runge-Kutta multiplies exp(lambda t) by, z = h lambda: 1 + z + z^2/2 + z^3/6 + z^4/24.
 std::complex<double> rk4_amplification(std::complex<double> z);
 
 /// What n steps of classical Runge-Kutta make of q'' + drag q' + omega2 q = 0: its discretisation error is exact,
 /// so a simulator is compared with it up to rounding.
 Swing rk4_oscillate(double omega2, double drag, Swing start, double h, int n);
+
+/// What one step of backward Euler and of the implicit midpoint rule multiply exp(lambda t) by, z = h lambda: 1/(1 - z)
+/// and (1 + z/2)/(1 - z/2).
+std::complex<double> backward_euler_amplification(std::complex<double> z);
+std::complex<double> implicit_midpoint_amplification(std::complex<double> z);
+
+/// The angle by which symplectic Euler and Verlet turn an oscillation in one step, theta = h omega < 2: 2
+/// asin(theta/2).
+long double splitting_phase(long double theta);
+
+/// The two orders in which half and whole steps alternate.
+enum class VerletForm { drift_kick_drift, kick_drift_kick };
+
+/// What n steps of Verlet make of q'' + omega2 q = 0; h^2 omega2 < 4.
+Swing verlet_oscillate(VerletForm form, double omega2, Swing start, double h, int n);
+/// What n steps of symplectic Euler (kick, then drift) make of it.
+Swing symplectic_euler_oscillate(double omega2, Swing start, double h, int n);
+
+/// The quadratic form near the energy that the method conserves exactly: v^2/2 + omega2 (1 - h^2 omega2/4) q^2/2 for
+/// kick, drift, kick; (1 - h^2 omega2/4) v^2/2 + omega2 q^2/2 for drift, kick, drift.
+double verlet_invariant(VerletForm form, double omega2, double h, Swing at);
+/// v^2/2 + omega2 q^2/2 - h omega2 q v/2 for kick, then drift.
+double symplectic_euler_invariant(double omega2, double h, Swing at);
+
+/// A fall in n steps whose positions follow the velocity of the start (explicit Euler) or of the end (symplectic and
+/// backward Euler) of each step: off the parabola by -+ gravity h t / 2.
+enum class EulerForm { start_velocity, end_velocity };
+Flight euler_fall(EulerForm form, const Flight& start, const Eigen::Vector3d& gravity, double h, int n);
 
 }  // namespace dartboard::reference

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace dartboard::reference {
 namespace {
@@ -103,6 +104,64 @@ TEST(Chain, HasTheFrequenciesOfItsStiffnessMatrix) {
   }
 }
 
+// m omega^2 shape - K shape at every mass, where the ends are walls (fixed) or nothing (free).
+template <class Shape>
+double worst_defect(int n, double k, double m, double omega, bool wall_before, bool wall_behind, Shape&& shape) {
+  double worst = 0.0;
+  for (int i = 1; i <= n; ++i) {
+    const double before = i > 1 ? shape(i - 1) : wall_before ? 0.0 : shape(i);
+    const double behind = i < n ? shape(i + 1) : wall_behind ? 0.0 : shape(i);
+    const double force = k * (before - shape(i)) + k * (behind - shape(i));
+    worst = std::max(worst, std::abs(m * omega * omega * shape(i) + force));
+  }
+  return worst;
+}
+
+TEST(Chain, SwingsInTheShapesOfItsModes) {
+  // shapes are at most 1 and their arguments below n pi, so they are within (n pi + 1) u; 4 k of them meet
+  const int n = 7;
+  const double k = 30.0, m = 0.2, tolerance = 2 * 4 * k * (n * std::numbers::pi + 4) * u;
+  for (int j = 1; j <= n; ++j) {
+    EXPECT_LT(worst_defect(n, k, m, chain_omega_fixed(n, k, m, j), true, true,
+                           [&](int i) { return chain_shape_fixed(n, j, i); }),
+              tolerance);
+    EXPECT_LT(worst_defect(n, k, m, chain_omega_fixed_free(n, k, m, j), true, false,
+                           [&](int i) { return chain_shape_fixed_free(n, j, i); }),
+              tolerance);
+    EXPECT_LT(worst_defect(n, k, m, chain_omega_free(n, k, m, j - 1), false, false,
+                           [&](int i) { return chain_shape_free(n, j - 1, i); }),
+              tolerance);
+  }
+}
+
+TEST(Chain, CarriesWavesAtTheFrequenciesOfItsModes) {
+  // mode j of n free masses is a standing wave of j half waves on n spacings
+  const double k = 30.0, m = 0.2, a = 0.5;
+  for (int j = 0; j < 8; ++j)
+    EXPECT_NEAR(chain_dispersion(k, m, a, j * std::numbers::pi / (8 * a)), chain_omega_free(8, k, m, j), 30 * 8 * u);
+}
+
+TEST(Chain, HasTheGroupVelocityThatIsTheSlopeOfItsDispersion) {
+  // the difference quotient is off by d^2/6 times the third derivative, c a^2 / 4 or less, and by rounding 4 omega u /
+  // d
+  const double k = 30.0, m = 0.2, a = 0.5, d = 1e-4, c = a * std::sqrt(k / m);
+  for (const double q : {-3.0, -0.5, 0.25, 1.0, 4.0})
+    EXPECT_NEAR((chain_dispersion(k, m, a, q + d) - chain_dispersion(k, m, a, q - d)) / (2 * d),
+                chain_group_velocity(k, m, a, q), c * a * a * d * d / 24 * 1.01 + 8 * 25 * u / d)
+        << q;
+}
+
+TEST(RotatingDumbbell, PullsAsMuchAsItsMassesFlyApart) {
+  const double k = 40.0, rest = 2.0, reduced = 0.75, rate = 3.0;
+  const double length = rotating_length(k, rest, reduced, rate);
+  EXPECT_NEAR(k * (length - rest), reduced * rate * rate * length, 32 * u * k * length);
+}
+
+TEST(HangingChain, CarriesWhatHangsBelow) {
+  const std::vector<double> masses{1.0, 2.0, 4.0};
+  EXPECT_EQ(hanging_lengths(masses, 8.0, 0.5, 2.0), (std::vector{2.25, 2.0, 1.5}));
+}
+
 TEST(Rk4, IsNeutralAtItsStabilityLimitOnTheImaginaryAxis) {
   // |R(iy)|^2 = 1 - y^6/72 + y^8/576, which is 1 at y^2 = 8
   EXPECT_NEAR(std::abs(rk4_amplification({0.0, std::sqrt(8.0)})), 1.0, 64 * u);
@@ -119,6 +178,71 @@ TEST(Rk4, MapsAnOscillatorAsItsAmplificationSays) {
   const Swing end = rk4_oscillate(1.0, 0.0, {0.25, 0.5}, h, 20);
   EXPECT_NEAR(end.q, y.real(), 20 * 16 * u);
   EXPECT_NEAR(end.v, y.imag(), 20 * 16 * u);
+}
+
+TEST(ImplicitMethods, HaveTheirPhasesAndAmplitudes) {
+  for (const double theta : {0.1, 1.0, 20.0}) {
+    const auto euler = backward_euler_amplification({0.0, theta});
+    EXPECT_NEAR(std::abs(euler), 1.0 / std::sqrt(1.0 + theta * theta), 8 * u);
+    EXPECT_NEAR(std::arg(euler), std::atan(theta), 8 * u);
+    const auto midpoint = implicit_midpoint_amplification({0.0, theta});
+    EXPECT_NEAR(std::abs(midpoint), 1.0, 8 * u);
+    EXPECT_NEAR(std::arg(midpoint), 2.0 * std::atan(theta / 2.0), 16 * u);
+  }
+}
+
+// 20 steps written as the methods are; amplitudes stay below 2 and each step makes some 6 roundings.
+constexpr double omega2 = 4.0, step = 0.3, twenty_steps = 20 * 20 * 6 * u * 4;
+
+TEST(Verlet, TurnsAsItsRecurrence) {
+  Swing drift{0.25, 0.5}, kick = drift;
+  for (int i = 0; i < 20; ++i) {
+    drift.q += step / 2 * drift.v;
+    drift.v -= step * omega2 * drift.q;
+    drift.q += step / 2 * drift.v;
+    kick.v -= step / 2 * omega2 * kick.q;
+    kick.q += step * kick.v;
+    kick.v -= step / 2 * omega2 * kick.q;
+  }
+  const Swing drift_end = verlet_oscillate(VerletForm::drift_kick_drift, omega2, {0.25, 0.5}, step, 20);
+  const Swing kick_end = verlet_oscillate(VerletForm::kick_drift_kick, omega2, {0.25, 0.5}, step, 20);
+  EXPECT_NEAR(drift.q, drift_end.q, twenty_steps);
+  EXPECT_NEAR(drift.v, drift_end.v, twenty_steps);
+  EXPECT_NEAR(kick.q, kick_end.q, twenty_steps);
+  EXPECT_NEAR(kick.v, kick_end.v, twenty_steps);
+}
+
+TEST(Verlet, KeepsItsInvariant) {
+  for (const auto form : {VerletForm::drift_kick_drift, VerletForm::kick_drift_kick}) {
+    const double before = verlet_invariant(form, omega2, step, {0.25, 0.5});
+    for (const int n : {1, 7, 20})
+      EXPECT_NEAR(verlet_invariant(form, omega2, step, verlet_oscillate(form, omega2, {0.25, 0.5}, step, n)), before,
+                  16 * u);
+  }
+}
+
+TEST(SymplecticEuler, TurnsAsItsRecurrenceAndKeepsItsInvariant) {
+  Swing at{0.25, 0.5};
+  const double before = symplectic_euler_invariant(omega2, step, at);
+  for (int i = 0; i < 20; ++i) {
+    at.v -= step * omega2 * at.q;
+    at.q += step * at.v;
+  }
+  const Swing end = symplectic_euler_oscillate(omega2, {0.25, 0.5}, step, 20);
+  EXPECT_NEAR(at.q, end.q, twenty_steps);
+  EXPECT_NEAR(at.v, end.v, twenty_steps);
+  EXPECT_NEAR(symplectic_euler_invariant(omega2, step, end), before, 16 * u);
+}
+
+TEST(EulerFall, IsOffTheParabolaByHalfAStepOfVelocity) {
+  const Flight start{{1, 2, 3}, {4, 0, -2}};
+  const Flight exact = free_fall(start, {0, 0, -8}, 0.0, 2.0);  // short binary fractions throughout
+  const Flight early = euler_fall(EulerForm::start_velocity, start, {0, 0, -8}, 0.25, 8);
+  const Flight late = euler_fall(EulerForm::end_velocity, start, {0, 0, -8}, 0.25, 8);
+  EXPECT_EQ(early.x - exact.x, Eigen::Vector3d(0, 0, 2));
+  EXPECT_EQ(late.x - exact.x, Eigen::Vector3d(0, 0, -2));
+  EXPECT_EQ(early.v, exact.v);
+  EXPECT_EQ(late.v, exact.v);
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ struct DissociatedCell {
 struct TopologyChange {
   std::vector<DissociatedCell> vertices, edges, faces;
 
-  // A dart, dead now, of every cell that went away with a removed volume.
+  // A dart, dead now, of every cell that went away with a removed volume or face.
   std::vector<Dart> removed_vertices, removed_edges, removed_faces, removed_volumes;
 
-  bool empty() const { return vertices.empty() && edges.empty() && faces.empty() && removed_volumes.empty(); }
+  bool empty() const { return vertices.empty() && edges.empty() && faces.empty() && removed_faces.empty(); }
   /// The changes of an operation that came after this one.
   void append(const TopologyChange& later);
 };

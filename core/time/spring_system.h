@@ -2,16 +2,13 @@
 // The mechanics as the time loop sees them: contiguous columns, no map and no dart.
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <span>
 
 #include "core/mechanics/mass_spring_body.h"
+#include "core/views/spring_ends.h"
 
 namespace dartboard {
-
-/// The numbers of the vertices at the two ends of a spring.
-using SpringEnds = std::array<std::uint32_t, 2>;
 
 /// What acts on a set of vertices: springs between them, ambient viscosity and gravity (the formulas:
 /// core/plain/problem.h).

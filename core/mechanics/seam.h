@@ -1,0 +1,69 @@
+#pragma once
+// Seams: sets of interior faces along which a body is to come apart; of a surface, sets of interior edges.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+
+namespace dartboard {
+
+/// A set of faces of a map of volumes, told by any of their darts. It knows the cells of the map it was made for; new
+/// cells in the places of removed ones would be taken for them.
+///
+/// cost    O(1) to ask; a bit per face and volume
+class FaceSet {
+ public:
+  template <class Map>
+  FaceSet(const Map& map, std::span<const Dart> faces);
+
+  template <class Map>
+  bool contains(const Map&, Dart d) const {
+    const std::uint32_t slot = Map::template slot<2>(d);
+    return slot < in_.size() && in_[slot];
+  }
+
+ private:
+  std::vector<bool> in_;  // by slot<2>
+};
+
+/// The interior faces between cells on different sides of a plane: one dart of each, its lowest, ascending.
+///
+/// A cell is on the side where the mean of its vertices' positions is now; on the plane counts as in front of it
+/// (where the normal points). Every path from cell to cell between the sides crosses such a face, so dissociating all
+/// of them separates the body completely. The normal need not be a unit vector.
+/// throws  InputError if a number is not finite or the normal is zero
+/// cost    O(darts)
+template <class Map>
+std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal);
+
+/// The interior faces that have three given mesh points among their vertices: one dart of each face, its lowest,
+/// ascending. Three points tell a quadrilateral too. Where several faces have the same three points, all of them.
+///
+/// throws  InputError, naming the points, if no interior face has them
+/// cost    O(darts log(triples))
+template <class Map>
+std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>& body,
+                                  std::span<const std::array<std::uint32_t, 3>> triples);
+
+/// The same in a surface: the interior edges between faces on different sides of a plane.
+std::vector<Dart> edges_on_plane(const MassSpringBody<Map2, Held::by_every_dart>& body, const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal);
+
+/// The same in a surface: the interior edges between two given mesh points.
+std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart>& body,
+                                  std::span<const std::array<std::uint32_t, 2>> pairs);
+
+#define DARTBOARD_SEAMS(prefix, Map)                                                                 \
+  prefix template FaceSet::FaceSet(const Map&, std::span<const Dart>);                               \
+  prefix template std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>&,  \
+                                                   const Eigen::Vector3d&, const Eigen::Vector3d&);  \
+  prefix template std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>&, \
+                                                    std::span<const std::array<std::uint32_t, 3>>);
+DARTBOARD_SEAMS(extern, Map3)
+DARTBOARD_SEAMS(extern, TetMap)
+
+}  // namespace dartboard

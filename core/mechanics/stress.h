@@ -1,0 +1,65 @@
+#pragma once
+// The inner stress at a vertex, from the springs around it: what decides where and along which face a body tears.
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+
+namespace dartboard {
+
+/// What a spring adds to the virial of each of its two ends [J]: 1/2 T l (u u^T), tension positive; zero for zero
+/// length. Exchanging the ends leaves the bits.
+///
+/// T is the elastic tension k (l - L) alone: stress is then a function of the positions. With the damping in it, a
+/// threshold would be passed by the shock that a tear itself sends through its neighbours, and the sooner the smaller
+/// the time step.
+inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d& dx) {
+  const double length = std::sqrt(dx.squaredNorm());
+  if (length == 0.0) return Eigen::Matrix3d::Zero();
+  const double scale = 0.5 * spring.stiffness * (length - spring.rest_length) / length;
+  Eigen::Matrix3d virial;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) virial(i, j) = virial(j, i) = (scale * dx[i]) * dx[j];
+  return virial;
+}
+
+/// The stress at vertex k [Pa] (of a surface [N/m]), symmetric, tension positive:
+///
+///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T),  V = mass / density
+///
+/// V is the rest volume (area) that eq. (1) gives the vertex. So the sum of V sigma over all vertices is the virial of
+/// all springs, and a uniform stress is the same at every vertex of a regular lattice. Springs are found by walking
+/// the edges around the vertex, and summed by edge number, so that the order of the walk leaves no trace in the bits.
+template <class Map>
+Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k);
+
+/// The same for all vertices at once, into `stress` by vertex number, to the bit: one pass over the springs and one
+/// over the vertices, for use in every time step.
+///
+/// pre     ends, springs by edge number, mass, position by vertex number, as the body has them
+/// cost    O(springs + vertices); no allocation once `stress` has had its size
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, std::span<const Spring> springs,
+                     std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
+                     std::vector<Eigen::Matrix3d>& stress);
+
+/// The largest eigenvalue of a stress and its direction.
+struct PrincipalStress {
+  double value;               // [Pa], tension positive
+  Eigen::Vector3d direction;  // a unit vector; of the two, the one whose component of largest magnitude is positive
+};
+
+/// Where the largest eigenvalue is repeated, the direction is one of those it has, the same for the same bits.
+///
+/// throws  SolverError if the stress is not finite
+PrincipalStress principal_stress(const Eigen::Matrix3d& stress);
+
+extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);
+extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map3, Held::by_every_dart>&, std::uint32_t);
+extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<TetMap, Held::by_every_dart>&, std::uint32_t);
+
+}  // namespace dartboard

@@ -1,0 +1,22 @@
+#pragma once
+// The explicit Euler method: the baseline that shows why not.
+
+#include <vector>
+
+#include "core/time/trial_state.h"
+
+namespace dartboard {
+
+/// x += h v, v += h a(x, v): amplifies every undamped oscillation, whatever the step.
+class ExplicitEuler : public Integrator {
+ public:
+  const Scheme& scheme() const override;
+  StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  void restart() override { terms_.forget(); }
+
+ private:
+  KnownTerms terms_;
+  TrialState end_;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,46 @@
+#include "core/time/integrators.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+#include "core/plain/error.h"
+#include "core/time/blanes_moan_4.h"
+#include "core/time/classical_runge_kutta.h"
+#include "core/time/dormand_prince_54.h"
+#include "core/time/explicit_euler.h"
+#include "core/time/symplectic_euler.h"
+#include "core/time/verlet.h"
+
+namespace dartboard {
+namespace {
+
+template <class T>
+std::unique_ptr<Integrator> make() {
+  return std::make_unique<T>();
+}
+
+constexpr std::array table{
+    IntegratorEntry{"explicit-euler", make<ExplicitEuler>},
+    IntegratorEntry{"symplectic-euler", make<SymplecticEuler>},
+    IntegratorEntry{"verlet", make<Verlet>},
+    IntegratorEntry{"blanes-moan-4", make<BlanesMoan4>},
+    IntegratorEntry{"rk4", make<ClassicalRungeKutta>},
+    IntegratorEntry{"dormand-prince-54", make<DormandPrince54>},
+};
+
+}  // namespace
+
+std::span<const IntegratorEntry> integrators() { return table; }
+
+std::unique_ptr<Integrator> make_integrator(std::string_view name) {
+  std::string known;
+  for (const IntegratorEntry& entry : table) {
+    if (entry.name == name) return entry.make();
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
+  }
+  throw InputError(fmt::format("there is no integrator '{}'; there are {}", name, known));
+}
+
+}  // namespace dartboard

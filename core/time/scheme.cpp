@@ -1,0 +1,42 @@
+#include "core/time/scheme.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+Eigen::Matrix2d test_oscillator(double theta, double zeta) {
+  Eigen::Matrix2d z;
+  z << 0.0, theta, -theta, -2.0 * zeta * theta;
+  return z;
+}
+
+double spectral_radius(const Scheme& scheme, double theta, double zeta) {
+  const Eigen::MatrixXd a = scheme.amplification(theta, zeta);
+  if (a.rows() != 2) return a.eigenvalues().cwiseAbs().maxCoeff();
+  const double mean = (a(0, 0) + a(1, 1)) / 2, half = (a(0, 0) - a(1, 1)) / 2;
+  const double discriminant = half * half + a(0, 1) * a(1, 0);
+  return discriminant < 0 ? std::hypot(mean, std::sqrt(-discriminant)) : std::abs(mean) + std::sqrt(discriminant);
+}
+
+double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling) {
+  if (!(gain > 1.0) || !(steps > 0.0)) throw InputError("a stability limit needs a gain above 1 and some steps");
+  const double allowed = std::log(gain) / steps;
+  // a radius that is not a number counts as growth
+  const auto stable = [&](double theta) { return std::log(spectral_radius(scheme, theta, zeta)) < allowed; };
+  constexpr double scan = 1e-3;
+  for (int i = 1; i * scan <= ceiling; ++i) {
+    if (stable(i * scan)) continue;
+    double low = (i - 1) * scan, high = i * scan;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = (low + high) / 2;
+      (stable(middle) ? low : high) = middle;
+    }
+    return low;
+  }
+  return Scheme::unlimited;
+}
+
+}  // namespace dartboard

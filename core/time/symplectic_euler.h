@@ -1,0 +1,25 @@
+#pragma once
+// The symplectic Euler method, which the graphics literature calls semi-implicit.
+
+#include "core/time/frozen_damping.h"
+#include "core/time/trial_state.h"
+
+namespace dartboard {
+
+/// v += h a(x), damping by its flow at x, x += h v.
+///
+/// Started at rest its velocities look like those of a method of order 2; its positions do not.
+class SymplecticEuler : public Integrator {
+ public:
+  const Scheme& scheme() const override;
+  StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  void restart() override;
+
+ private:
+  KnownTerms terms_;
+  FrozenDamping damping_;
+  TrialState end_;
+  std::vector<Eigen::Vector3d> a_;
+};
+
+}  // namespace dartboard

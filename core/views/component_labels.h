@@ -1,0 +1,144 @@
+#pragma once
+// The connected components of a body, by cell; they follow cuts without a walk through the body.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+
+namespace dartboard {
+
+/// What became of the components in one call.
+struct ComponentChange {
+  // The labels of parts that came off, as they are after `moved`. The largest part of a component keeps its label.
+  std::vector<std::uint32_t> separated;
+  // Components that went away with their cells: label `to` was given to the last component, label `from`, in this
+  // order, after the separated parts had got the next free ones.
+  std::vector<Renumbered> moved;
+
+  bool empty() const { return separated.empty() && moved.empty(); }
+};
+
+/// The connected component of every cell (volume of a solid, face of a surface).
+///
+/// "The loss of connectivity is quite simple to verify", says the paper's conclusion: walk through the structure along
+/// all alpha-links and see whether all darts are marked. That is what `rebuild` does. `apply` walks only where
+/// something may have come apart:
+///
+/// Connectivity is lost only where a vertex came apart. Let P be a component after the change that is less than the
+/// component it was in. Nothing but unsewing takes cells out of a component (a removed cell is isolated first), so some
+/// unsewing of a facet was the last to part P from other cells: one side of that facet was in P, the other was not.
+/// Both sides had the vertices of the facet in common before, and none after, so each of these vertices came apart, and
+/// the operation told so, by darts of the two sides. One of these lies in P, and it is alive, because it is in P still.
+/// Hence the live darts of `TopologyChange::vertices` lie in all the parts of every component that came apart, and if
+/// there are none, nothing has. A pair whose facets still share a vertex elsewhere is passed over, because its sides
+/// hang together; the pair of the proof is none of these. Most cuts are over with that.
+///
+/// From the cells of these darts searches set out, taking turns cell by cell. Two that meet become one. One that has
+/// nowhere to go has found a whole component. When one is left, it is what remains of the old component.
+///
+/// Labels are dense. A component that came off gets the next label; when one goes away, the last takes its label.
+class ComponentLabels {
+ public:
+  template <class Map>
+  using Body = MassSpringBody<Map, Held::by_every_dart>;
+
+  /// Labels in the order of the lowest cell number of each component.
+  ///
+  /// cost    O(darts)
+  template <class Map>
+  void rebuild(const Body<Map>& body);
+
+  /// Follow an operation or a series of them, and what `adapt` reported of it; gives the components of `rebuild`.
+  ///
+  /// A cell with a number that did not exist before is of the component of its neighbours.
+  ///
+  /// cost    nothing unless a vertex came apart; then O(cells that the searches meet before they meet each other), or,
+  ///         where a part came off, O(cells of all parts but the largest), up to the number of places searched from
+  template <class Map>
+  ComponentChange apply(const Body<Map>& body, const TopologyChange& change, const ChangedEmbeddings& changed);
+
+  std::size_t count() const { return size_.size(); }
+  std::uint32_t label(std::uint32_t cell) const { return label_of_[name_[cell]]; }
+  /// How many cells the component has.
+  std::size_t size(std::uint32_t label) const { return size_[label]; }
+  std::size_t cell_count() const { return name_.size(); }
+
+  /// Equal when the same cells are together; labels do not count.
+  friend bool operator==(const ComponentLabels& a, const ComponentLabels& b);
+
+  std::size_t bytes() const {
+    return sizeof(Visit) * visit_.capacity() +
+           sizeof(std::uint32_t) *
+               (name_.capacity() + label_of_.capacity() + name_of_.capacity() + unused_.capacity()) +
+           sizeof(std::size_t) * size_.capacity();
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+  // A cell on a search: `group` searched it, `next` comes after it on the list it is on.
+  struct Visit {
+    std::uint32_t epoch = 0, group = none, next = none;
+  };
+  // Cells in a list that takes O(1) to append another to.
+  struct List {
+    std::uint32_t first = none, last = none;
+  };
+  // Searches that have met: the cells they have looked around at, and those they still have to.
+  struct Group {
+    std::uint32_t joined;  // the group it has become part of, or itself
+    List done, waiting;
+    std::size_t size;
+  };
+
+  void clear();
+  std::uint32_t new_component();
+  void set_name(std::uint32_t cell, std::uint32_t name) {
+    name_[cell] = name;
+    ++size_[label_of_[name]];
+  }
+  template <class Map>
+  void spread(const Body<Map>& body, std::uint32_t cell);
+  void follow_numbers(const ChangedEmbeddings& changed);
+  template <class Map>
+  void name_added(const Body<Map>& body, const ChangedEmbeddings& changed);
+  template <class Map>
+  void find_seeds(const Body<Map>& body, const TopologyChange& change);
+  template <class Map>
+  void search(const Body<Map>& body, std::size_t first_seed, std::size_t last_seed, ComponentChange& report);
+  template <class Map>
+  std::size_t look_around(const Body<Map>& body, std::uint32_t group);
+  void part(std::uint32_t largest, ComponentChange& report);
+  void drop_empty(ComponentChange& report);
+  std::uint32_t find(std::uint32_t group);
+  void append(List& list, std::uint32_t cell);
+  void append(List& list, List other);
+
+  // A component has a name besides its label, so that no cell need be told when its component takes another label.
+  std::vector<std::uint32_t> name_;      // by cell
+  std::vector<std::uint32_t> label_of_;  // by name
+  std::vector<std::uint32_t> name_of_;   // by label
+  std::vector<std::size_t> size_;        // by label
+  std::vector<std::uint32_t> unused_;    // names
+
+  // scratch, kept between calls
+  std::uint32_t epoch_ = 0;
+  std::vector<Visit> visit_;  // by cell
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> active_, parts_, emptied_, stack_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seeds_;  // name, cell
+};
+
+extern template void ComponentLabels::rebuild(const Body<Map2>&);
+extern template void ComponentLabels::rebuild(const Body<Map3>&);
+extern template void ComponentLabels::rebuild(const Body<TetMap>&);
+extern template ComponentChange ComponentLabels::apply(const Body<Map2>&, const TopologyChange&,
+                                                       const ChangedEmbeddings&);
+extern template ComponentChange ComponentLabels::apply(const Body<Map3>&, const TopologyChange&,
+                                                       const ChangedEmbeddings&);
+extern template ComponentChange ComponentLabels::apply(const Body<TetMap>&, const TopologyChange&,
+                                                       const ChangedEmbeddings&);
+
+}  // namespace dartboard

@@ -1,0 +1,66 @@
+#pragma once
+// The two ends of every spring, by edge number: all that a force loop needs to know of the topology.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+
+namespace dartboard {
+
+/// The numbers of the vertices at the two ends of a spring.
+using SpringEnds = std::array<std::uint32_t, 2>;
+
+/// The ends of every edge: the vertices at its lowest dart and across alpha_0. Eight bytes per edge, in one stream.
+class SpringEndsView {
+ public:
+  std::vector<SpringEnds> ends;
+  friend bool operator==(const SpringEndsView&, const SpringEndsView&) = default;
+
+  /// cost    O(edges)
+  template <class Body>
+  void rebuild(const Body& body) {
+    ends.resize(body.edge_dart.size());
+    for (std::uint32_t k = 0; k < ends.size(); ++k) ends[k] = ends_of(body, k);
+  }
+
+  /// Follow what `adapt` reports; gives what `rebuild` would.
+  ///
+  /// cost    O(changed edges), whatever the size of the body
+  template <class Body>
+  void apply(const Body& body, const ChangedEmbeddings& changed) {
+    const auto nothing = [](std::uint32_t, const SpringEnds&) {};
+    apply(body, changed, nothing, nothing);
+  }
+
+  /// The same, and tell the difference: gone(edge, ends) for ends that an edge number had, come(edge, ends) for those
+  /// it has. A view of neighbours follows from that without a look at the map.
+  template <class Body, class Gone, class Come>
+  void apply(const Body& body, const ChangedEmbeddings& changed, Gone&& gone, Come&& come) {
+    const std::size_t kept = std::min(ends.size(), changed.edge_count);
+    for (std::size_t k = kept; k < ends.size(); ++k) gone(static_cast<std::uint32_t>(k), ends[k]);
+    ends.resize(changed.edge_count);
+    for (const std::uint32_t k : changed.edges) {
+      const SpringEnds now = ends_of(body, k);
+      if (k < kept) {
+        if (now == ends[k]) continue;
+        gone(k, ends[k]);
+      }
+      ends[k] = now;
+      come(k, now);
+    }
+  }
+
+  std::size_t bytes() const { return sizeof(SpringEnds) * ends.capacity(); }
+
+ private:
+  template <class Body>
+  static SpringEnds ends_of(const Body& body, std::uint32_t k) {
+    const Dart d = body.edge_dart[k];
+    return {body.vertex(body.map, d), body.vertex(body.map, body.map.template alpha<0>(d))};
+  }
+};
+
+}  // namespace dartboard

@@ -1,0 +1,52 @@
+#pragma once
+// All views of a body at once; a scene that needs fewer holds fewer.
+
+#include "core/views/boundary_surface.h"
+#include "core/views/cell_arrays.h"
+#include "core/views/component_labels.h"
+#include "core/views/sparse_pattern.h"
+#include "core/views/spring_ends.h"
+#include "core/views/vertex_adjacency.h"
+
+namespace dartboard {
+
+struct Views {
+  CellArrays cells;
+  SpringEndsView ends;
+  VertexAdjacency adjacency;
+  SparsePattern pattern;
+  BoundarySurface boundary;
+  ComponentLabels components;
+
+  friend bool operator==(const Views&, const Views&) = default;
+
+  /// f(name, view) for each.
+  template <class Self, class F>
+  static void for_each(Self& self, F&& f) {
+    f("cell arrays", self.cells);
+    f("spring ends", self.ends);
+    f("vertex adjacency", self.adjacency);
+    f("sparse pattern", self.pattern);
+    f("boundary surface", self.boundary);
+    f("component labels", self.components);
+  }
+
+  template <class Body>
+  void rebuild(const Body& body) {
+    for_each(*this, [&body](const char*, auto& view) { view.rebuild(body); });
+  }
+  /// Follow a change and what `adapt` reported of it; gives what `rebuild` would.
+  template <class Body>
+  ComponentChange apply(const Body& body, const TopologyChange& change, const ChangedEmbeddings& changed) {
+    ComponentChange components_changed;
+    for_each(*this, [&](const char*, auto& view) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, ComponentLabels>)
+        components_changed = view.apply(body, change, changed);
+      else
+        view.apply(body, changed);
+    });
+    return components_changed;
+  }
+};
+
+}  // namespace dartboard

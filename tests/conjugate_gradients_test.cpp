@@ -1,0 +1,131 @@
+#include "core/time/conjugate_gradients.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/spring_bodies_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Body {
+  SpringArrays arrays = spring_grid(3, 3, 3);
+  StepMatrix matrix;
+  BlockMatrix blocks;
+
+  explicit Body(double shrink = 1.0, Compression compression = Compression::projected, double tau = 0.02) {
+    arrays.fixed[2] = 1;
+    disturb(arrays, 0.01, 0);
+    for (Vector3d& p : arrays.x) p *= shrink;
+    std::vector<SpringTangent> tangents;
+    evaluate_tangents(arrays.system(), arrays.x, compression, tangents);
+    matrix.evaluate(arrays.system(), tangents, tau);
+    matrix.assemble(node_pattern_of(arrays.system()), blocks);
+  }
+  std::vector<Vector3d> right() const {
+    auto b = random_vectors(arrays.x.size(), 4);
+    b[2].setZero();
+    return b;
+  }
+};
+
+double relative_residual(const Body& body, std::span<const Vector3d> b, std::span<const Vector3d> x) {
+  std::vector<Vector3d> y(b.size());
+  body.blocks.multiply(x, y);
+  double r = 0, s = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    r += (b[i] - y[i]).squaredNorm();
+    s += b[i].squaredNorm();
+  }
+  return std::sqrt(r / s);
+}
+
+// The residual is computed by the same products up to rounding, which is far below the tightest tolerance.
+TEST(ConjugateGradients, MeetsTheToleranceFromSpringsAndFromEntries) {
+  const Body body;
+  const auto b = body.right();
+  for (const double tolerance : {1e-2, 1e-6, 1e-10}) {
+    ConjugateGradients solver;
+    std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0)), y = x;
+    const auto by_springs = solver.solve(body.matrix, b, x, {.tolerance = tolerance});
+    const auto by_entries = solver.solve(body.blocks, b, y, {.tolerance = tolerance});
+    EXPECT_EQ(by_springs.status, SolveStatus::ok);
+    EXPECT_EQ(by_entries.status, SolveStatus::ok);
+    EXPECT_LT(relative_residual(body, b, x), 1.1 * tolerance);
+    EXPECT_LT(relative_residual(body, b, y), 1.1 * tolerance);
+  }
+}
+
+TEST(ConjugateGradients, IndefiniteMatrixIsReported) {
+  const Body folded(0.3, Compression::exact, 1.0), crushed(0.05, Compression::exact, 1.0);
+  for (const Body* body : {&folded, &crushed}) {
+    const auto b = body->right();
+    std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0));
+    EXPECT_EQ(ConjugateGradients().solve(body->matrix, b, x, {.tolerance = 1e-10}).status,
+              SolveStatus::not_positive_definite);
+  }
+}
+
+// A saddle with sound diagonal blocks: only a direction of negative curvature gives it away.
+TEST(ConjugateGradients, IndefiniteMatrixWithDefiniteDiagonalBlocksIsReported) {
+  BlockMatrix saddle;
+  saddle.pattern.column_start = {0, 1, 1};
+  saddle.pattern.row = {1};
+  saddle.diagonal.assign(2, Eigen::Matrix3d::Identity());
+  saddle.below.assign(1, -2.0 * Eigen::Matrix3d::Identity());
+  const std::vector<Vector3d> b(2, Vector3d(1, 1, 1));
+  std::vector<Vector3d> x(2, Vector3d(0, 0, 0));
+  EXPECT_EQ(ConjugateGradients().solve(saddle, b, x, {}).status, SolveStatus::not_positive_definite);
+}
+
+TEST(ConjugateGradients, ToleranceOutOfReachIsReported) {
+  const Body body;
+  const auto b = body.right();
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0));
+  const auto few = ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-10, .max_iterations = 2});
+  EXPECT_EQ(few.status, SolveStatus::not_converged);
+  EXPECT_EQ(few.iterations, 2);
+  const auto fine = ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-20, .max_iterations = 1000});
+  EXPECT_EQ(fine.status, SolveStatus::not_converged);
+}
+
+TEST(ConjugateGradients, NotANumberIsReported) {
+  Body body;
+  auto b = body.right();
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0));
+  b[1].z() = NAN;
+  EXPECT_EQ(ConjugateGradients().solve(body.matrix, b, x, {}).status, SolveStatus::not_finite);
+  body.blocks.below[0](0, 0) = NAN;
+  EXPECT_EQ(ConjugateGradients().solve(body.blocks, body.right(), x, {}).status, SolveStatus::not_finite);
+}
+
+TEST(ConjugateGradients, FactorOfTheMatrixItselfSolvesInOneIteration) {
+  const Body body;
+  const auto b = body.right();
+  std::vector<Vector3d> x(b.size());
+  Cholesky factor;
+  ASSERT_EQ(factor.factorise(body.blocks), SolveStatus::ok);
+  const auto result = ConjugateGradients().solve(body.matrix, factor, b, x, {.tolerance = 1e-12});
+  EXPECT_EQ(result.status, SolveStatus::ok);
+  EXPECT_EQ(result.iterations, 1);
+  EXPECT_LT(relative_residual(body, b, x), 1e-12);
+}
+
+TEST(ConjugateGradients, FactorOfANearbyMatrixSolvesInFewerIterationsThanTheDiagonal) {
+  const Body near(1.05), body(1.0, Compression::projected, 0.02);
+  const auto b = body.right();
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0)), y = x;
+  Cholesky factor;
+  ASSERT_EQ(factor.factorise(near.blocks), SolveStatus::ok);
+  const auto with_factor = ConjugateGradients().solve(body.matrix, factor, b, x, {.tolerance = 1e-8});
+  const auto with_diagonal = ConjugateGradients().solve(body.matrix, b, y, {.tolerance = 1e-8});
+  EXPECT_EQ(with_factor.status, SolveStatus::ok);
+  EXPECT_LT(with_factor.iterations, with_diagonal.iterations);
+  EXPECT_LT(relative_residual(body, b, x), 1.1e-8);
+}
+
+}  // namespace
+}  // namespace dartboard

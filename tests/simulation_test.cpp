@@ -1,0 +1,153 @@
+#include "core/scene/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/scene/scene_run.h"
+#include "tests/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+
+// ---- when events happen
+
+TEST(Simulation, AppliesAnEventAtTheFirstStepThatIsNotBeforeIt) {
+  Simulation simulation(parse(with_events(moving_box(), R"([{"at": 0.0025, "remove": {"ids": [5]}}])")));
+  for (int n = 0; n < 2; ++n) simulation.advance();
+  EXPECT_EQ(cells(simulation), 48u);
+  simulation.advance();
+  EXPECT_EQ(cells(simulation), 47u);
+}
+
+TEST(Simulation, AppliesAnEventAtItsOwnStepWhenTheTimeIsAMultiple) {
+  Simulation simulation(parse(with_events(moving_box(), R"([{"at": 0.003, "remove": {"ids": [5]}}])")));
+  for (int n = 0; n < 2; ++n) simulation.advance();
+  EXPECT_EQ(cells(simulation), 48u);
+  simulation.advance();
+  EXPECT_EQ(cells(simulation), 47u);
+}
+
+TEST(Simulation, AppliesEventsOfTimeZeroBeforeTheFirstStep) {
+  const Simulation simulation(parse(with_events(moving_box(), R"([{"at": 0, "remove": {"ids": [5, 6]}}])")));
+  EXPECT_EQ(cells(simulation), 46u);
+  EXPECT_EQ(simulation.operations(), 2u);
+}
+
+TEST(Simulation, AppliesAnEventOfTheEndAfterTheLastStep) {
+  Simulation simulation(parse(with_events(moving_box(), R"([{"at": 0.01, "remove": {"ids": [5]}}])")));
+  run(simulation);
+  EXPECT_EQ(simulation.steps_done(), 10u);
+  EXPECT_EQ(cells(simulation), 47u);
+}
+
+TEST(Simulation, RepeatsAnEvent) {
+  Simulation simulation(parse(with_events(
+      moving_box(), R"([{"every": 0.002, "from": 0.001, "until": 0.005, "remove": {"random": {"count": 4}}}])")));
+  std::vector<std::size_t> left;
+  for (int n = 0; n < 6; ++n) {
+    simulation.advance();
+    left.push_back(cells(simulation));
+  }
+  EXPECT_EQ(left, (std::vector<std::size_t>{44, 44, 40, 40, 36, 36}));
+}
+
+// ---- the smallest map
+
+TEST(Simulation, TakesTheSmallestMapThatHoldsTheBody) {
+  Json scene = moving_box();
+  EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "tetrahedral 3-g-map");
+  scene["body"]["generate"]["box"]["kind"] = "mixed";
+  EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "3-g-map");
+  scene["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.1}}})");
+  EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "2-g-map");
+}
+
+TEST(Simulation, CutsAndErodesHexahedraAndSurfacesToo) {
+  const char* events = R"([{"at": 0.001, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+                           {"at": 0.002, "remove": {"random": {"count": 2}}}])";
+  Json scene = with_events(moving_box(), events);
+  scene["body"] = Json::parse(R"({"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.125, "kind": "hexahedra"}}})");
+  Simulation solid(parse(scene));
+  run(solid);
+  EXPECT_EQ(solid.operations(), 4u + 2u);
+  EXPECT_EQ(solid.body().counts().components, 2u);
+  EXPECT_EQ(solid.body().violation(), "");
+  scene["body"] =
+      Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.125, "kind": "quadrilaterals"}}})");
+  Simulation surface(parse(scene));
+  run(surface);
+  EXPECT_EQ(surface.operations(), 2u + 2u);
+  EXPECT_EQ(surface.body().counts().cells, 2u);
+  EXPECT_EQ(surface.body().violation(), "");
+}
+
+// ---- watching changes nothing
+
+TEST(Simulation, HasTheSameBitsHoweverItIsWatched) {
+  const Json scene = with_events(moving_box(), R"([
+    {"at": 0.002, "tear": {"vertex": 13, "direction": [1, 0, 0]}}, {"tear_where_stressed": {"threshold": 100}},
+    {"every": 0.003, "remove": {"random": {"count": 3}}, "until": 0.01}])");
+  Simulation bare(parse(scene));
+  run(bare);
+
+  Simulation watched(parse(scene));
+  watched.watch_events(true);
+  RunWatcher watcher;
+  const RunResult result = run_scene(watched, {.frame_steps = 1, .diagnostic_steps = 1}, watcher);
+  EXPECT_FALSE(result.divergence);
+  EXPECT_GT(watched.operations(), 9u);
+  EXPECT_EQ(watched.operations(), bare.operations());
+  EXPECT_EQ(watched.body().state_hash(), bare.body().state_hash());
+}
+
+struct Counter : RunWatcher {
+  std::vector<double> frames, rows;
+  void frame(const Frame& f) override { frames.push_back(f.time); }
+  void diagnostics(const Diagnostics& d) override { rows.push_back(d.time); }
+};
+
+TEST(SceneRun, HandsOutTheFirstAndTheLastStateAndThoseInBetween) {
+  Simulation simulation(parse(moving_box()));
+  Counter counter;
+  run_scene(simulation, {.frame_steps = 4, .diagnostic_steps = {}}, counter);
+  EXPECT_EQ(counter.frames, (std::vector<double>{0, 0.004, 0.008, 0.01}));
+  EXPECT_EQ(counter.rows, (std::vector<double>{0, 0.01}));
+}
+
+TEST(SceneRun, StopsAfterAsManyStepsAsAsked) {
+  Simulation simulation(parse(moving_box()));
+  Counter counter;
+  run_scene(simulation, {}, counter, 3);
+  EXPECT_EQ(simulation.steps_done(), 3u);
+  EXPECT_EQ(counter.frames, (std::vector<double>{0, 0.003}));
+}
+
+// ---- divergence
+
+TEST(SceneRun, StopsWithADiagnosisWhenTheMotionDiverges) {
+  Json scene = moving_box();
+  // h omega is far beyond 2.83: an edge of the box has mass below 12 kg and stiffness above 6.4e7, so that
+  // omega > 2000/s and h omega > 20
+  scene["material"]["stiffness"] = 6.4e7;
+  scene["step"] = 0.01;
+  scene["duration"] = 10;
+  Simulation simulation(parse(scene));
+  Counter counter;
+  const RunResult result = run_scene(simulation, {.frame_steps = 1, .diagnostic_steps = 1}, counter);
+  ASSERT_TRUE(result.divergence);
+  EXPECT_EQ(result.divergence->step, simulation.steps_done());
+  EXPECT_LT(result.divergence->step, 1000u);
+  EXPECT_FALSE(result.divergence->quantity.empty());
+  EXPECT_LT(result.divergence->vertex, 27u);
+  EXPECT_FALSE(std::abs(result.divergence->value) <= 299792458.0);
+  EXPECT_NE(to_string(*result.divergence).find("vertex"), std::string::npos);
+  // the last state handed out is the last good one
+  EXPECT_EQ(counter.frames.size(), result.divergence->step);
+  EXPECT_TRUE(std::isfinite(result.last.kinetic));
+}
+
+}  // namespace
+}  // namespace dartboard
