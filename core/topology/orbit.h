@@ -48,8 +48,10 @@ void leave_block(const Map& map, Involutions set, Dart at, F&& f) {
       f(Dart{24 * (o / 32) + tet_darts.entry[within][r][o % 32]});
     }
   } else {
-    for (int i = 0; i <= Map::dimension; ++i)
-      if (set.contains(i)) f(map.alpha(i, at));
+    for (int i = 0; i <= Map::dimension; ++i) {
+      if (!set.contains(i)) continue;
+      f(map.alpha(i, at));
+    }
   }
 }
 
@@ -69,21 +71,12 @@ bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
       const auto& block = tet_darts.block[within][p];
       for (std::size_t x = 0; x < tet_darts.block_size[within] && !stopped; ++x)
         stopped = visit(f, Dart{24 * t + block[x]});
-      if (!set.contains(3)) continue;
-      for (std::size_t x = 0; x < tet_darts.exit_count[within]; ++x) {
-        const auto [face, r] = tet_darts.exits[within][p][x];
-        const std::uint32_t o = map.storage().opposite(4 * t + face);
-        const Dart next{24 * (o / 32) + tet_darts.entry[within][r][o % 32]};
-        if (visited.set_if_new(next)) stack.push_back(next);
-      }
     } else {
       stopped = visit(f, at);
-      for (int i = 0; i <= Map::dimension; ++i) {
-        if (!set.contains(i)) continue;
-        const Dart next = map.alpha(i, at);
-        if (visited.set_if_new(next)) stack.push_back(next);
-      }
     }
+    leave_block(map, set, at, [&visited, &stack](Dart next) {
+      if (visited.set_if_new(next)) stack.push_back(next);
+    });
   }
   stack.resize(bottom);
   return stopped;
@@ -102,10 +95,9 @@ void walk_places(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) 
       const Dart at = stack.back();
       stack.pop_back();
       f(at);
-      if (set.contains(3))
-        leave_block(map, set, at, [&](Dart next) {
-          if (visited.set_if_new(next)) stack.push_back(next);
-        });
+      leave_block(map, set, at, [&visited, &stack](Dart next) {
+        if (visited.set_if_new(next)) stack.push_back(next);
+      });
     }
   }
 }
