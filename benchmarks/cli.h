@@ -24,6 +24,8 @@ void add_reproduce(CLI::App& app, Outcome& outcome);
 void add_measure(CLI::App& app, Outcome& outcome);
 void add_validate(CLI::App& app, Outcome& outcome);
 void add_bench(CLI::App& app, Outcome& outcome);
+void add_simulate(CLI::App& app, Outcome& outcome);
+void add_scene(CLI::App& app, Outcome& outcome);
 void add_mesh(CLI::App& app, Outcome& outcome);
 void add_list(CLI::App& app, Outcome& outcome);
 

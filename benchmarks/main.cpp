@@ -38,6 +38,8 @@ int main(int argc, char** argv) {
   add_reproduce(app, outcome);
   add_validate(app, outcome);
   add_bench(app, outcome);
+  add_simulate(app, outcome);
+  add_scene(app, outcome);
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);

@@ -6,6 +6,7 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/paper_claims.h"
 #include "benchmarks/scenes.h"
+#include "core/time/integrators.h"
 #include "validation/contenders.h"
 
 namespace dartboard {
@@ -20,7 +21,8 @@ Entries entries_of(std::string_view kind) {
   if (kind == "contenders")
     for (const Contender& c : contenders()) entries.emplace_back(c.id, c.what);
   if (kind == "integrators")
-    entries.emplace_back("rk4", "classical Runge-Kutta, order 4, 4 force evaluations, the paper's");
+    for (const IntegratorEntry& i : integrators())
+      entries.emplace_back(i.name, i.make()->scheme().what);
   if (kind == "claims")
     for (const PaperClaim& c : paper_claims())
       entries.emplace_back(c.id, fmt::format("(section {}) {}", c.section, c.text));

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/cli.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/scene_pages.h"
+#include "core/scene/simulation.h"
+
+namespace dartboard {
+namespace {
+
+void check_scene(const std::string& file) {
+  const SceneFile scene = read_scene(file);
+  const Simulation simulation(scene);
+  const CellCounts n = simulation.body().counts();
+  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {} components; {} steps of {:.6g} s, {} events\n",
+             file, simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, n.components,
+             simulation.step_count(), scene.step, scene.events.size());
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, Outcome& outcome) {
+  struct Options {
+    bool schema = false, keys = false;
+    std::string check;
+  };
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("scene", "What a scene file may say.");
+  auto* what = verb->add_option_group("what");
+  what->add_flag("--schema", options->schema, "print the JSON Schema of scene files");
+  what->add_flag("--keys", options->keys, "print the reference page of all keys, in Markdown");
+  what->add_option("--check", options->check, "read and assemble a scene, and run nothing");
+  what->require_option(1);
+  verb->callback([options, &outcome] {
+    outcome.exit_code = exit_agrees;
+    if (options->schema) fmt::print("{}\n", scene_schema().dump(2));
+    if (options->keys) fmt::print("{}", scene_reference());
+    if (!options->check.empty()) check_scene(options->check);
+  });
+}
+
+}  // namespace dartboard

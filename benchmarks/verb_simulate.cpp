@@ -1,0 +1,268 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "benchmarks/cli.h"
+#include "benchmarks/clock.h"
+#include "benchmarks/manifest.h"
+#include "benchmarks/progress.h"
+#include "benchmarks/table.h"
+#include "core/plain/error.h"
+#include "core/scene/atomic_file.h"
+#include "core/scene/scene_file.h"
+#include "core/scene/scene_output.h"
+#include "core/scene/scene_run.h"
+#include "core/scene/scene_verdict.h"
+
+namespace dartboard {
+namespace {
+
+struct Options {
+  std::string scene, out;
+  bool json = false, quick = false;
+  std::optional<std::uint64_t> steps, seed;
+
+  std::optional<std::uint64_t> most_steps() const {
+    if (steps) return steps;
+    return quick ? std::optional<std::uint64_t>(100) : std::nullopt;
+  }
+};
+
+class Watcher : public RunWatcher {
+ public:
+  Watcher(SceneOutput* output, Progress& progress, std::uint64_t steps_per_report)
+      : output_(output), progress_(progress), steps_per_report_(steps_per_report) {}
+  void frame(const Frame& frame) override {
+    if (output_ != nullptr) output_->write(frame);
+  }
+  void diagnostics(const Diagnostics& diagnostics) override {
+    if (output_ != nullptr) output_->write(diagnostics);
+  }
+  void stepped(const Simulation& simulation) override {
+    if (simulation.steps_done() % steps_per_report_ == 0)
+      progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
+  }
+
+ private:
+  SceneOutput* output_;
+  Progress& progress_;
+  std::uint64_t steps_per_report_;
+};
+
+/// Everything the summary says.
+struct Report {
+  const SceneFile& scene;
+  const Simulation& simulation;
+  const RunResult& result;
+  std::vector<ExpectedRow> expected;
+  std::string unjudged;  // why there is no verdict; empty where there is one
+  double wall_s, cpu_s;
+  std::string folder;
+  std::size_t frames;
+
+  bool holds() const {
+    return !result.divergence &&
+           std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
+  }
+  /// What became of the mass beyond what removals took, relative to the mass at the start.
+  double mass_drift() const {
+    const double start = result.first.mass + removed_at_start, end = simulation.body().mass();
+    return start == 0.0 ? 0.0 : std::abs(start - simulation.body().removed_mass() - end) / start;
+  }
+  double removed_at_start = 0.0;
+};
+
+std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("{:.2e}", drift); }
+
+Table summary_of(const Report& r) {
+  Table table({{"quantity", Align::left}, {"start", Align::right}, {"end", Align::right}});
+  const Diagnostics &first = r.result.first, &last = r.result.last;
+  const auto row = [&table](const char* what, auto start, auto end) {
+    table.add_row({what, fmt::format("{:.6g}", start), fmt::format("{:.6g}", end)});
+  };
+  const auto counts = [&table](const char* what, std::size_t start, std::size_t end) {
+    table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
+  };
+  row("time [s]", first.time, last.time);
+  table.add_row({"steps", "0", fmt::format("{}", r.simulation.steps_done())});
+  counts("operations", first.operations, last.operations);
+  counts("vertices", first.counts.vertices, last.counts.vertices);
+  counts("edges", first.counts.edges, last.counts.edges);
+  counts("faces", first.counts.faces, last.counts.faces);
+  counts("cells", first.counts.cells, last.counts.cells);
+  counts("components", first.counts.components, last.counts.components);
+  row("mass [kg]", first.mass, last.mass);
+  row("kinetic energy [J]", first.kinetic, last.kinetic);
+  row("elastic energy [J]", first.elastic, last.elastic);
+  row("gravitational energy [J]", first.gravitational, last.gravitational);
+  row("boundary", first.boundary, last.boundary);
+  row("largest stress", first.largest_stress, last.largest_stress);
+  return table;
+}
+
+void print(const Report& r) {
+  fmt::print("{}\n{}, {}, h = {:.6g} s\n\n{}\n", r.scene.name, r.simulation.body().map_name(), r.scene.integrator,
+             r.scene.step, to_text(summary_of(r)));
+  const double steps = std::max(1.0, static_cast<double>(r.simulation.steps_done()));
+  fmt::print("wall {:.3g} s, processor {:.3g} s, {:.3g} microseconds per step, events and output included\n", r.wall_s,
+             r.cpu_s, r.cpu_s / steps * 1e6);
+  fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
+  const EventJumps& jumps = r.simulation.jumps();
+  if (jumps.events > 0)
+    fmt::print(
+        "largest jump at the {} events that dissociate: mass {}, momentum {}, kinetic and elastic energy {} "
+        "(relative)\n",
+        jumps.events, drift_text(jumps.mass), drift_text(jumps.momentum), drift_text(jumps.energy));
+  fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
+  if (r.result.divergence)
+    fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
+  if (!r.expected.empty()) {
+    Table table(
+        {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
+    for (const ExpectedRow& row : r.expected)
+      table.add_row({row.what, row.expected, row.actual, row.holds ? "yes" : "NO"});
+    fmt::print("\n{}", to_text(table));
+  }
+  if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
+  if (!r.folder.empty()) fmt::print("\n{} frames, frames.pvd and diagnostics.csv written to {}.\n", r.frames, r.folder);
+}
+
+// JSON has no infinity: a number that is not finite is left null.
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+nlohmann::ordered_json to_json(const Diagnostics& d) {
+  return {{"time", d.time},
+          {"kinetic", number(d.kinetic)},
+          {"elastic", number(d.elastic)},
+          {"gravitational", number(d.gravitational)},
+          {"mass", d.mass},
+          {"vertices", d.counts.vertices},
+          {"edges", d.counts.edges},
+          {"faces", d.counts.faces},
+          {"cells", d.counts.cells},
+          {"components", d.counts.components},
+          {"boundary", number(d.boundary)},
+          {"largest_stress", number(d.largest_stress)},
+          {"operations", d.operations}};
+}
+
+nlohmann::ordered_json to_json(const Report& r) {
+  const EventJumps& jumps = r.simulation.jumps();
+  nlohmann::ordered_json json{
+      {"scene", r.scene.name},
+      {"map", r.simulation.body().map_name()},
+      {"integrator", r.scene.integrator},
+      {"holds", r.holds()},
+      {"steps", r.simulation.steps_done()},
+      {"first", to_json(r.result.first)},
+      {"last", to_json(r.result.last)},
+      {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
+      {"wall_s", r.wall_s},
+      {"cpu_s", r.cpu_s},
+      {"mass_drift", r.mass_drift()},
+      {"jumps",
+       {{"events", jumps.events}, {"mass", jumps.mass}, {"momentum", jumps.momentum}, {"energy", jumps.energy}}}};
+  if (const auto& d = r.result.divergence)
+    json["divergence"] = {{"step", d->step},
+                          {"time", d->time},
+                          {"quantity", d->quantity},
+                          {"vertex", d->vertex},
+                          {"value", fmt::format("{:.17g}", d->value)}};
+  json["expected"] = nlohmann::ordered_json::array();
+  for (const ExpectedRow& row : r.expected)
+    json["expected"].push_back(
+        {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
+  if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
+  if (!r.folder.empty()) json["folder"] = r.folder;
+  return json;
+}
+
+/// What the run was made of, beside its results.
+nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const Outcome& outcome) {
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
+  facts.input_files = {options.scene};
+  if (const auto* mesh = std::get_if<std::filesystem::path>(&scene.body.mesh)) facts.input_files.push_back(*mesh);
+  return begin_manifest(facts);
+}
+
+void simulate(const Options& options, Outcome& outcome) {
+  SceneFile scene = read_scene(options.scene);
+  if (options.seed) reseed(scene, *options.seed);
+  Simulation simulation(scene);
+  simulation.watch_events(true);
+  // the folder comes last: a scene that is wrong leaves nothing behind
+  std::optional<SceneOutput> output;
+  nlohmann::json manifest;
+  const auto write_manifest = [&] {
+    if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
+  };
+  if (!options.out.empty()) {
+    output.emplace(options.out);
+    manifest = manifest_of(scene, options, outcome);
+    write_manifest();
+  }
+
+  const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
+  const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
+  const double removed_at_start = simulation.body().removed_mass();
+  RunResult result;
+  const auto wall = steady_wall_ns(), cpu = thread_cpu_ns();
+  {
+    Progress progress("simulate", steps / steps_per_report, options.json);
+    Watcher watcher(output ? &*output : nullptr, progress, steps_per_report);
+    result = run_scene(simulation, scene.output, watcher, options.most_steps());
+  }
+  Report report{.scene = scene,
+                .simulation = simulation,
+                .result = result,
+                .expected = {},
+                .unjudged = {},
+                .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
+                .cpu_s = static_cast<double>(thread_cpu_ns() - cpu) * 1e-9,
+                .folder = output ? output->folder().string() : "",
+                .frames = output ? output->frame_count() : 0,
+                .removed_at_start = removed_at_start};
+  if (simulation.steps_done() < simulation.step_count() && !result.divergence)
+    report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
+  else if (options.seed)
+    report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
+  else if (!result.divergence)
+    report.expected = compare_with_expectation(scene.expect, simulation);
+
+  outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
+  if (output) {
+    write_whole(output->folder() / "summary.json", to_json(report).dump(2) + "\n");
+    finish_manifest(manifest);
+    write_manifest();
+  }
+  if (options.json)
+    fmt::print("{}\n", to_json(report).dump(2));
+  else
+    print(report);
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
+  verb->add_option("--steps", options->steps, "stop after so many steps");
+  verb->add_flag("--quick", options->quick, "stop after 100 steps");
+  verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]");
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->callback([options, &outcome] { simulate(*options, outcome); });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,14 @@
+#pragma once
+// Files that appear whole or not at all.
+
+#include <filesystem>
+#include <string_view>
+
+namespace dartboard {
+
+/// Write beside the place, then rename into it: who reads at any moment finds the old contents or the new.
+///
+/// throws  IoError if it cannot be written
+void write_whole(const std::filesystem::path& path, std::string_view contents);
+
+}  // namespace dartboard

@@ -1,0 +1,157 @@
+#pragma once
+// A simulated body on a map of type Map: embeddings, views and columns that follow its events.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/refine.h"
+#include "core/mechanics/stress.h"
+#include "core/scene/cell_nodes.h"
+#include "core/scene/scene_events.h"
+#include "core/scene/simulated_body.h"
+#include "core/topology/check.h"
+#include "core/views/component_labels.h"
+#include "core/views/spring_ends.h"
+
+namespace dartboard {
+
+template <class Map>
+class BodyOnMap final : public SimulatedBody {
+ public:
+  using Body = MassSpringBody<Map, Held::by_every_dart>;
+  static constexpr int n = Map::dimension;
+
+  explicit BodyOnMap(const Problem& problem) : body_(build_body<Map, Held::by_every_dart>(problem)) {
+    ends_.rebuild(body_);
+    components_.rebuild(body_);
+    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
+  }
+
+  // ---- for events
+
+  Body& body() { return body_; }
+  const Body& body() const { return body_; }
+  std::span<const SpringEnds> ends() const { return ends_.ends; }
+  std::span<const std::uint32_t> mesh_cell() const { return mesh_cell_; }
+
+  /// Let embeddings and views follow a change of the map.
+  void follow(const TopologyChange& change) {
+    const ChangedEmbeddings changed = adapt(body_, change);
+    for (const auto [from, to] : changed.moved_cells) {
+      mesh_cell_[to] = mesh_cell_[from];
+      mesh_cell_.pop_back();
+    }
+    ends_.apply(body_, changed);
+    components_.apply(body_, change, changed);
+  }
+  /// The same for a subdivision of tetrahedra.
+  void follow(const Subdivision& subdivision, double bracing) requires(n == 3) {
+    const ChangedEmbeddings changed = adapt(body_, subdivision, bracing);
+    mesh_cell_.resize(changed.cell_count);
+    const auto cell_of = [this](const Subdivision::Child& child) { return body_.cell(body_.map, child.darts[0]); };
+    for (const auto& child : subdivision.children) {  // the first child of a parent keeps its number
+      const auto first = child.parent * static_cast<std::size_t>(subdivision.cell_vertices);
+      mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
+    }
+    ends_.apply(body_, changed);
+    components_.apply(body_, {}, changed);
+  }
+  void count_removed(double mass) { removed_mass_ += mass; }
+
+  // ---- SimulatedBody
+
+  std::string map_name() const override {
+    return n == 2 ? "2-g-map" : Map::tetrahedral ? "tetrahedral 3-g-map" : "3-g-map";
+  }
+  const VertexColumns& vertices() const override { return body_.vertices; }
+  SpringSystem system() const override {
+    const VertexColumns& v = body_.vertices;
+    return {.ends = ends_.ends,
+            .springs = body_.springs,
+            .mass = v.mass,
+            .inverse_mass = v.inverse_mass,
+            .viscosity = v.viscosity,
+            .fixed = v.fixed,
+            .gravity = body_.surroundings.gravity};
+  }
+  Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
+  std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override { return make_event_ready(*this, event); }
+
+  double mass() const override {
+    double sum = 0.0;
+    for (const double m : body_.cell_mass) sum += m;
+    return sum;
+  }
+  double removed_mass() const override { return removed_mass_; }
+
+  CellCounts counts() const override {
+    return {.vertices = body_.vertices.size(),
+            .edges = body_.springs.size(),
+            .faces = n == 3 ? body_.face_dart.size() : body_.cell_dart.size(),
+            .cells = body_.cell_dart.size(),
+            .components = components_.count()};
+  }
+
+  double boundary() const override {
+    double sum = 0.0;
+    const auto position = [this](Dart d) -> const Eigen::Vector3d& {
+      return body_.vertices.position[body_.vertex(body_.map, d)];
+    };
+    for (const Dart d : n == 3 ? body_.face_dart : body_.edge_dart) {
+      if (!body_.map.template is_free<n>(d)) continue;
+      if constexpr (n == 2) {
+        sum += (position(body_.map.template alpha<0>(d)) - position(d)).norm();
+      } else {
+        const auto around = detail::around_face(body_.map, d);
+        Eigen::Vector3d twice(0, 0, 0);
+        for (std::size_t k = 1; k + 1 < around.size(); ++k)
+          twice += (position(around[k]) - position(d)).cross(position(around[k + 1]) - position(d));
+        sum += 0.5 * twice.norm();
+      }
+    }
+    return sum;
+  }
+
+  double largest_stress() const override {
+    const VertexColumns& v = body_.vertices;
+    std::vector<Eigen::Matrix3d> stress;
+    vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress);
+    double largest = stress.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
+    for (const Eigen::Matrix3d& sigma : stress) {
+      if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, principal_stress(sigma).value);
+    }
+    return largest;
+  }
+
+  Frame frame() const override {
+    Frame frame;
+    const VertexColumns& v = body_.vertices;
+    frame.mesh.points = v.position;
+    frame.velocity = v.velocity;
+    frame.mass = v.mass;
+    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) {
+      add_cell_of(body_, c, frame.mesh);
+      frame.mesh_cell.push_back(mesh_cell_[c]);
+      frame.component.push_back(components_.label(c));
+    }
+    return frame;
+  }
+
+  std::uint64_t state_hash() const override { return body_.state_hash(); }
+  std::string violation() const override { return check(body_.map); }
+
+ private:
+  Body body_;
+  SpringEndsView ends_;
+  ComponentLabels components_;
+  std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
+  double removed_mass_ = 0.0;             // [kg]
+};
+
+}  // namespace dartboard

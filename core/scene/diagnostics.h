@@ -1,0 +1,35 @@
+#pragma once
+// What a run reports about itself at a moment: one row of diagnostics.csv.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+
+namespace dartboard {
+
+/// How many cells of each dimension there are; `cells` are the volumes of a solid, the faces of a surface.
+struct CellCounts {
+  std::size_t vertices = 0, edges = 0, faces = 0, cells = 0, components = 0;
+  friend bool operator==(const CellCounts&, const CellCounts&) = default;
+};
+
+struct Diagnostics {
+  double time = 0;                                     // [s]
+  double kinetic = 0, elastic = 0, gravitational = 0;  // [J]
+  Eigen::Vector3d momentum{0, 0, 0};                   // [kg m/s]
+  Eigen::Vector3d angular_momentum{0, 0, 0};           // [kg m^2/s], about the origin
+  double mass = 0;                                     // [kg]
+  CellCounts counts;
+  double boundary = 0;         // [m^2] area of the boundary surface; of a surface [m] length of its border
+  double largest_stress = 0;   // [Pa] largest principal stress of a vertex; of a surface [N/m]
+  std::size_t operations = 0;  // so far: faces dissociated, cells removed, vertices put in by refinement
+
+  double energy() const { return kinetic + elastic + gravitational; }
+};
+
+/// The names of the columns, with units, and one row; real numbers with 17 digits, so that they can be read back
+/// exactly. Both end with a line break.
+std::string diagnostics_header();
+std::string diagnostics_row(const Diagnostics& diagnostics);
+
+}  // namespace dartboard

@@ -1,0 +1,26 @@
+#pragma once
+// A scene held against the table of keys, before anything is made of it.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/scene/scene_keys.h"
+
+namespace dartboard {
+
+/// The value with every default filled in, when it is an object of this shape.
+///
+/// throws  InputError "NAME: /path: what is there; expected ..." for the first key that is unknown, missing, of another
+///         type or out of range, and for keys that exclude each other
+nlohmann::ordered_json check_and_complete(const nlohmann::ordered_json& value, Shape shape, std::string_view name);
+
+/// The fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.
+///
+/// source  optimal string alignment, the restricted distance of Damerau and Levenshtein
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// A value as an error shows it: on one line, shortened when long.
+std::string shown(const nlohmann::ordered_json& value);
+
+}  // namespace dartboard

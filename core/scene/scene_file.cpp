@@ -1,0 +1,311 @@
+#include "core/scene/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/plain/error.h"
+#include "core/scene/mesh_generators.h"
+#include "core/scene/mesh_io.h"
+#include "core/scene/scene_check.h"
+#include "core/scene/step_times.h"
+#include "core/scene/strict_json.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// A number of steps above this is a mistake in a unit; it also keeps step numbers exact in a double.
+constexpr double most_steps = 1e12;
+
+/// Makes structs of JSON that has been held against the table of keys: types are right and defaults are there.
+class Reader {
+ public:
+  Reader(std::string_view name, fs::path folder) : name_(name), folder_(std::move(folder)) {}
+
+  SceneFile scene(const Json& json) const {
+    SceneFile scene;
+    scene.file = name_;
+    scene.name = json.at("name").get<std::string>();
+    scene.about = json.at("about").get<std::string>();
+    scene.step = json.at("step");
+    scene.duration = json.at("duration");
+    if (scene.duration / scene.step > most_steps)
+      fail("/duration", fmt::format("is {} s, {:.3g} steps", scene.duration, scene.duration / scene.step),
+           fmt::format("at most {:.0e} steps", most_steps));
+    scene.body = body(json.at("body"));
+    const Json& material = json.at("material");
+    scene.material = {.density = material.at("density"),
+                      .stiffness = material.at("stiffness"),
+                      .damping = material.at("damping"),
+                      .viscosity = material.at("viscosity")};
+    scene.gravity = point(json.at("gravity"));
+    scene.initial_velocity = velocity(json.at("initial_velocity"));
+    for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
+      scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
+    scene.integrator = json.at("integrator").get<std::string>();
+    for (std::size_t k = 0; k < json.at("events").size(); ++k)
+      scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
+    require_consistent(scene.events);
+    const Json& output = json.at("output");
+    scene.output.frame_steps = every(output, "frames_every", scene);
+    scene.output.diagnostic_steps = every(output, "diagnostics_every", scene);
+    scene.expect = expectation(json.at("expect"));
+    return scene;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& path, std::string_view found, std::string_view expected) const {
+    throw InputError(fmt::format("{}: {}: {}; expected {}", name_, path, found, expected));
+  }
+
+  static Eigen::Vector3d point(const Json& json) {
+    return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+  }
+
+  BodySource body(const Json& json) const {
+    BodySource source{{}, json.at("scale"), point(json.at("translate"))};
+    if (json.contains("mesh")) {
+      source.mesh = folder_ / json.at("mesh").get<std::string>();
+      return source;
+    }
+    const Json& generate = json.at("generate");
+    if (generate.contains("box")) {
+      const Json& box = generate.at("box");
+      source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
+      if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
+        fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
+    } else {
+      const Json& sheet = generate.at("sheet");
+      source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
+    }
+    return source;
+  }
+
+  static InitialVelocity velocity(const Json& json) {
+    if (json.is_array()) return {.constant = point(json)};
+    InitialVelocity v{.constant = point(json.at("constant")), .centre = point(json.at("centre"))};
+    for (int r = 0; r < 3; ++r) v.linear.row(r) = point(json.at("linear")[static_cast<std::size_t>(r)]);
+    return v;
+  }
+
+  PlaneSelection plane(const Json& json, const std::string& path) const {
+    PlaneSelection plane{point(json.at("point")), point(json.at("normal"))};
+    const double length = plane.normal.norm();
+    if (!(length > 0.0) || !std::isfinite(length))
+      fail(path + "/normal", "is " + shown(json.at("normal")), "a direction, of a length other than 0");
+    plane.normal /= length;
+    return plane;
+  }
+
+  template <class Selection>
+  std::optional<Selection> region(const Json& json, const std::string& path) const {
+    if (json.contains("ids")) return IdSelection{json.at("ids").get<std::vector<std::uint32_t>>()};
+    if (json.contains("plane")) return plane(json.at("plane"), path + "/plane");
+    if (json.contains("sphere"))
+      return SphereSelection{point(json.at("sphere").at("centre")), json.at("sphere").at("radius")};
+    if (!json.contains("box")) return {};
+    const BoxSelection box{point(json.at("box").at("min")), point(json.at("box").at("max"))};
+    for (int k = 0; k < 3; ++k)
+      if (box.min[k] > box.max[k])
+        fail(path + "/box", fmt::format("has a min[{}] of {} and a max[{}] of {}", k, box.min[k], k, box.max[k]),
+             "no min above its max");
+    return box;
+  }
+
+  CellSelection cells(const Json& json, const std::string& path) const {
+    if (const auto selection = region<CellSelection>(json, path)) return *selection;
+    return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
+  }
+
+  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
+    const Eigen::Vector3d d = point(json);
+    if (!(d.norm() > 0.0) || !std::isfinite(d.norm()))
+      fail(path, "is " + shown(json), "a direction, of a length other than 0");
+    return d.normalized();
+  }
+
+  SceneEvent event(const Json& json, const std::string& path, const SceneFile& scene) const {
+    SceneEvent event;
+    event.path = path;
+    const bool by_stress = json.contains("tear_where_stressed");
+    if (json.contains("at")) {
+      event.from = event.until = json.at("at");
+    } else {
+      event.from = json.at("from");
+      event.until = json.value("until", scene.duration);
+      if (json.contains("every")) event.every = json.at("every").get<double>();
+      if (!event.every && !by_stress && !json.contains("until"))
+        fail(path, "has no time", "'at', or 'every', 'from' and 'until'");
+      if (event.until < event.from)
+        fail(path + "/until", fmt::format("is {} s", event.until),
+             fmt::format("no time before that of 'from', {} s", event.from));
+    }
+    if (event.from > scene.duration)
+      fail(path + (json.contains("at") ? "/at" : "/from"), fmt::format("is {} s", event.from),
+           fmt::format("a time within the duration of {} s", scene.duration));
+    event.until = std::min(event.until, scene.duration);
+    event.action = action(json, path);
+    return event;
+  }
+
+  Action action(const Json& json, const std::string& path) const {
+    if (json.contains("remove")) return Remove{cells(json.at("remove"), path + "/remove")};
+    if (json.contains("dissociate")) {
+      const Json& faces = json.at("dissociate");
+      if (faces.contains("plane")) return Dissociate{plane(faces.at("plane"), path + "/dissociate/plane")};
+      return Dissociate{faces.at("points").get<std::vector<std::vector<std::uint32_t>>>()};
+    }
+    if (json.contains("tear")) {
+      const Json& tear = json.at("tear");
+      const Eigen::Vector3d toward = direction(tear.at("direction"), path + "/tear/direction");
+      if (tear.contains("vertex")) return Tear{tear.at("vertex").get<std::uint32_t>(), toward};
+      return Tear{point(tear.at("near")), toward};
+    }
+    if (json.contains("refine")) {
+      const Json& refine = json.at("refine");
+      return Refine{cells(refine.at("cells"), path + "/refine/cells"), refine.at("at") == "centre",
+                    refine.at("bracing")};
+    }
+    const Json& stress = json.at("tear_where_stressed");
+    TearWhereStressed tear{stress.at("threshold"), {}, {}};
+    if (stress.contains("most_per_step")) tear.most_per_step = stress.at("most_per_step").get<std::size_t>();
+    if (stress.contains("plane")) tear.seam = plane(stress.at("plane"), path + "/tear_where_stressed/plane");
+    return tear;
+  }
+
+  // A seam is a set of faces of the body at rest, and refinement replaces faces.
+  void require_consistent(const std::vector<SceneEvent>& events) const {
+    const SceneEvent *seam = nullptr, *refinement = nullptr;
+    for (const SceneEvent& event : events) {
+      const auto* stress = std::get_if<TearWhereStressed>(&event.action);
+      if (stress != nullptr && stress->seam) seam = &event;
+      if (std::holds_alternative<Refine>(event.action)) refinement = &event;
+    }
+    if (seam != nullptr && refinement != nullptr)
+      fail(refinement->path + "/refine", fmt::format("stands beside {}/tear_where_stressed/plane", seam->path),
+           "no refinement where a seam is given");
+  }
+
+  static std::optional<std::uint64_t> every(const Json& json, const std::string& key, const SceneFile& scene) {
+    if (json.contains(key + "_steps")) return json.at(key + "_steps").get<std::uint64_t>();
+    if (json.contains(key)) {
+      // no step lies beyond the duration, and a number of steps must fit
+      const double time = std::min(json.at(key).get<double>(), scene.duration + scene.step);
+      return std::max<std::uint64_t>(1, step_of_time(time, scene.step));
+    }
+    return {};
+  }
+
+  Expectation expectation(const Json& json) const {
+    Expectation e;
+    const auto take = [&json](const char* key, auto& into) {
+      if (json.contains(key)) into = json.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
+    };
+    take("vertices", e.vertices);
+    take("edges", e.edges);
+    take("faces", e.faces);
+    take("cells", e.cells);
+    take("components", e.components);
+    take("components_at_least", e.components_at_least);
+    take("operations", e.operations);
+    take("mass", e.mass);
+    if (json.contains("hash")) {
+      const auto digits = json.at("hash").get<std::string>();
+      std::uint64_t value = 0;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+      if (digits.size() != 16 || error != std::errc() || end != digits.data() + digits.size())
+        fail("/expect/hash", "is " + shown(json.at("hash")), "16 hexadecimal digits");
+      e.hash = value;
+    }
+    return e;
+  }
+
+  std::string name_;
+  fs::path folder_;
+};
+
+// Errors of a mesh name the key that asked for it.
+Mesh generate(const BoxMesh& box) {
+  const auto [nx, ny, nz] = box.cells;
+  if (box.kind == "hexahedra") return hexahedron_box(nx, ny, nz, box.spacing);
+  if (box.kind == "mixed") return mixed_box(nx, ny, nz, box.spacing);
+  return kuhn_box(nx, ny, nz, box.spacing, box.jitter, box.seed);
+}
+Mesh generate(const SheetMesh& sheet) {
+  const auto [nx, ny] = sheet.cells;
+  return sheet.kind == "triangles" ? triangle_sheet(nx, ny, sheet.spacing) : quad_sheet(nx, ny, sheet.spacing);
+}
+Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
+
+}  // namespace
+
+bool Expectation::empty() const {
+  return !vertices && !edges && !faces && !cells && !components && !components_at_least && !operations && !mass &&
+         !hash;
+}
+
+SceneFile parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
+  const Json complete = check_and_complete(parse_strict_json(text, name), Shape::scene, name);
+  return Reader(name, folder).scene(complete);
+}
+
+SceneFile read_scene(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw IoError(fmt::format("{}: there is no such file; expected a scene", path.string()));
+  if (fs::is_directory(path, error)) throw IoError(fmt::format("{}: is a folder; expected a scene", path.string()));
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw IoError(fmt::format("{}: cannot be read; expected a scene", path.string()));
+  return parse_scene(text.str(), path.string(), path.parent_path());
+}
+
+Mesh make_mesh(const SceneFile& scene) {
+  Mesh mesh;
+  const bool from_file = std::holds_alternative<fs::path>(scene.body.mesh);
+  try {
+    mesh = std::visit([](const auto& source) { return generate(source); }, scene.body.mesh);
+  } catch (const IoError& problem) {
+    throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: /body/{}: {}", scene.file, from_file ? "mesh" : "generate", problem.what()));
+  }
+  for (Eigen::Vector3d& x : mesh.points) x = scene.body.scale * x + scene.body.translate;
+  return mesh;
+}
+
+Problem make_problem(const SceneFile& scene) {
+  Problem problem;
+  problem.mesh = make_mesh(scene);
+  problem.material = scene.material;
+  problem.surroundings.gravity = scene.gravity;
+  problem.h = scene.step;
+  try {
+    problem.fixed = select_points(scene.fixed, problem.mesh.points);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", scene.file, error.what()));
+  }
+  for (const Eigen::Vector3d& x : problem.mesh.points) problem.initial_velocity.push_back(scene.initial_velocity.at(x));
+  return problem;
+}
+
+void reseed(SceneFile& scene, std::uint64_t seed) {
+  const auto reseed_cells = [seed](CellSelection& cells) {
+    if (auto* random = std::get_if<RandomSelection>(&cells)) random->seed += seed;
+  };
+  for (SceneEvent& event : scene.events) {
+    if (auto* remove = std::get_if<Remove>(&event.action)) reseed_cells(remove->cells);
+    if (auto* refine = std::get_if<Refine>(&event.action)) reseed_cells(refine->cells);
+  }
+}
+
+}  // namespace dartboard

@@ -1,0 +1,131 @@
+#pragma once
+// A scene as a user writes it: plain structs, and the strict parser that fills them.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/plain/material.h"
+#include "core/plain/mesh.h"
+#include "core/plain/problem.h"
+#include "core/scene/selection.h"
+
+namespace dartboard {
+
+struct BoxMesh {
+  std::array<int, 3> cells;
+  double spacing;
+  std::string kind;  // tetrahedra, hexahedra, mixed
+  double jitter;
+  std::uint64_t seed;
+};
+struct SheetMesh {
+  std::array<int, 2> cells;
+  double spacing;
+  std::string kind;  // triangles, quadrilaterals
+};
+
+/// The mesh of a body: a file or a generator, then scaled, then moved.
+struct BodySource {
+  std::variant<std::filesystem::path, BoxMesh, SheetMesh> mesh;
+  double scale;
+  Eigen::Vector3d translate;
+};
+
+/// v(x) = constant + linear (x - centre)
+struct InitialVelocity {
+  Eigen::Vector3d constant{0, 0, 0};
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d centre{0, 0, 0};
+
+  Eigen::Vector3d at(const Eigen::Vector3d& x) const { return constant + linear * (x - centre); }
+};
+
+// ---- events
+
+struct Dissociate {
+  std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection> faces;  // by the points around each; or a seam
+};
+struct Remove {
+  CellSelection cells;
+};
+struct Tear {
+  std::variant<std::uint32_t, Eigen::Vector3d> vertex;  // a point of the mesh; or the one nearest to a place
+  Eigen::Vector3d direction;
+};
+struct TearWhereStressed {
+  double threshold;                    // [Pa]
+  std::optional<PlaneSelection> seam;  // through the body at rest
+  std::optional<std::size_t> most_per_step;
+};
+struct Refine {
+  CellSelection cells;
+  bool at_centre;  // else in the longest edge
+  double bracing;
+};
+
+using Action = std::variant<Dissociate, Remove, Tear, TearWhereStressed, Refine>;
+
+/// What happens, and at which steps: an event that is due at n happens after n steps.
+struct SceneEvent {
+  Action action;
+  double from, until;           // [s]; equal for an event that happens once
+  std::optional<double> every;  // [s]; nothing: at every step
+  std::string path;             // "/events/3"
+};
+
+struct OutputPlan {
+  std::optional<std::uint64_t> frame_steps, diagnostic_steps;  // steps from one to the next
+};
+
+struct Expectation {
+  std::optional<std::uint64_t> vertices, edges, faces, cells, components, components_at_least, operations;
+  std::optional<double> mass;  // [kg]
+  std::optional<std::uint64_t> hash;
+
+  bool empty() const;
+};
+
+struct SceneFile {
+  std::string file;  // as errors name it
+  std::string name, about;
+  BodySource body;
+  Material material;
+  Eigen::Vector3d gravity;
+  InitialVelocity initial_velocity;
+  std::vector<VertexSelection> fixed;
+  double step, duration;  // [s]
+  std::string integrator;
+  std::vector<SceneEvent> events;
+  OutputPlan output;
+  Expectation expect;
+};
+
+/// A scene from a text; `name` stands for the file in errors, and paths are relative to `folder`.
+///
+/// throws  InputError "NAME: /path: ..." or "NAME:LINE:COLUMN: ..." for a scene that is wrong
+SceneFile parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder);
+
+/// throws  IoError if the file cannot be read, InputError if it is wrong
+SceneFile read_scene(const std::filesystem::path& path);
+
+/// The mesh of the body.
+///
+/// throws  IoError if its file cannot be read, InputError for a generator that cannot make it
+Mesh make_mesh(const SceneFile& scene);
+
+/// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first.
+///
+/// throws  as make_mesh; InputError for an id that is no point of the mesh
+Problem make_problem(const SceneFile& scene);
+
+/// Let every random selection draw other cells: `seed` is added to its own.
+void reseed(SceneFile& scene, std::uint64_t seed);
+
+}  // namespace dartboard

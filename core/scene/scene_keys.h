@@ -1,0 +1,96 @@
+#pragma once
+// The one table that defines every key of a scene file; the parser (scene_check.h), the JSON Schema and the
+// reference page (scene_pages.h) are made from it.
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dartboard {
+
+/// The kinds of object that a scene file is made of.
+enum class Shape {
+  scene,
+  body,
+  generate,
+  box_mesh,
+  sheet_mesh,
+  material,
+  velocity,
+  vertex_selection,
+  cell_selection,
+  box,
+  plane,
+  sphere,
+  random,
+  event,
+  dissociate,
+  tear,
+  stress,
+  refine,
+  output,
+  expect,
+};
+
+struct ShapeHelp {
+  Shape shape;
+  std::string_view name, help;
+};
+std::span<const ShapeHelp> scene_shapes();
+const ShapeHelp& help_of(Shape shape);
+
+enum class ValueType {
+  text,
+  choice,
+  integer,
+  integers,  // a list of them
+  real,
+  point,    // three numbers
+  matrix,   // three rows of three numbers
+  object,   // of the shape `of`
+  objects,  // a list of them
+  point_or_object,
+  integer_pair,
+  integer_triple,
+  integer_lists,
+};
+
+/// What a number may be: from `least` to `most`, and not `least` itself where it is `above`.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+  bool above = false;
+};
+
+/// One key of one shape.
+struct SceneKey {
+  Shape shape{};
+  std::string_view name{};
+  ValueType type{};
+  Shape of{};                          // of an object
+  std::string_view unit{};             // empty for none
+  Range range{};                       // of every number in the value
+  std::vector<std::string> choices{};  // of a choice
+  bool required = false;
+  std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none
+  std::string_view help{};
+};
+
+std::span<const SceneKey> scene_keys();
+
+/// What the keys of a shape have to do with each other.
+struct SceneRule {
+  enum Kind { exactly_one, at_most_one, excludes } kind;  // excludes: the first none of the others
+  Shape shape;
+  std::vector<std::string_view> keys;
+};
+std::span<const SceneRule> scene_rules();
+
+/// "a number > 0 [kg/m^3]": what is expected of a value, in words.
+std::string expectation(const SceneKey& key);
+
+/// "'a', 'b'": words in quotes.
+std::string quoted_list(const std::vector<std::string>& words, std::string_view between);
+
+}  // namespace dartboard

@@ -1,0 +1,30 @@
+#pragma once
+// The loop of a simulation from start to end, with somebody to watch it.
+
+#include <functional>
+#include <optional>
+
+#include "core/scene/simulation.h"
+
+namespace dartboard {
+
+/// What a run hands out. Nothing here can change the motion.
+class RunWatcher {
+ public:
+  virtual ~RunWatcher() = default;
+  virtual void frame(const Frame&) {}
+  virtual void diagnostics(const Diagnostics&) {}
+  virtual void stepped(const Simulation&) {}
+};
+
+struct RunResult {
+  std::optional<Divergence> divergence;
+  Diagnostics first, last;  // of those handed out
+};
+
+/// Run to the end, to `most_steps`, or until the motion diverges. The first state is always handed out, and the last if
+/// it is good: what was handed out last before a divergence stays.
+RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
+                    std::optional<std::uint64_t> most_steps = {});
+
+}  // namespace dartboard

@@ -1,0 +1,52 @@
+#include "core/scene/selection.h"
+
+#include <fmt/format.h>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+bool contains(const BoxSelection& box, const Eigen::Vector3d& x) {
+  return (x.array() >= box.min.array()).all() && (x.array() <= box.max.array()).all();
+}
+
+bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x) {
+  return (x - plane.point).dot(plane.normal) >= 0.0;
+}
+
+bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
+  return (x - sphere.centre).norm() <= sphere.radius;
+}
+
+std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
+                                         std::span<const Eigen::Vector3d> points) {
+  std::vector<bool> chosen(points.size(), false);
+  for (std::size_t s = 0; s < selections.size(); ++s) {
+    if (const auto* by_id = std::get_if<IdSelection>(&selections[s])) {
+      for (std::size_t k = 0; k < by_id->ids.size(); ++k) {
+        if (by_id->ids[k] >= points.size())
+          throw InputError(fmt::format("/fixed/{}/ids/{}: is {}; expected a point of the mesh, less than {}", s, k,
+                                       by_id->ids[k], points.size()));
+        chosen[by_id->ids[k]] = true;
+      }
+      continue;
+    }
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const bool inside = std::visit(
+          [&](const auto& region) {
+            if constexpr (requires { contains(region, points[p]); })
+              return contains(region, points[p]);
+            else
+              return false;
+          },
+          selections[s]);
+      if (inside) chosen[p] = true;
+    }
+  }
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t p = 0; p < points.size(); ++p)
+    if (chosen[p]) numbers.push_back(p);
+  return numbers;
+}
+
+}  // namespace dartboard

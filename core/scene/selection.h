@@ -1,0 +1,48 @@
+#pragma once
+// Selections: which points of a body a scene means.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+namespace dartboard {
+
+/// Points or cells of the mesh, by number.
+struct IdSelection {
+  std::vector<std::uint32_t> ids;
+};
+/// A box with faces across the axes, surface included.
+struct BoxSelection {
+  Eigen::Vector3d min, max;
+};
+/// A plane and the side that its normal points to.
+struct PlaneSelection {
+  Eigen::Vector3d point, normal;
+};
+/// A ball, surface included.
+struct SphereSelection {
+  Eigen::Vector3d centre;
+  double radius;
+};
+/// `count` of those there are, drawn without replacement.
+struct RandomSelection {
+  std::uint32_t count;
+  std::uint64_t seed;
+};
+
+using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection>;
+using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, RandomSelection>;
+
+bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
+bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
+bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
+
+/// The numbers of the points in any of the selections, ascending, each once.
+///
+/// throws  InputError for an id that is no point, naming the selection and the id
+std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
+                                         std::span<const Eigen::Vector3d> points);
+
+}  // namespace dartboard
