@@ -189,6 +189,23 @@ TEST(Cholesky, RuleUpdatesForFewTermsAndFactorsForMany) {
   EXPECT_LT(solved_error(cholesky, all.blocks), 20 * epsilon);
 }
 
+TEST(Cholesky, FactorIsRenewedAfterManyUpdates) {
+  Body body(disturbed_grid());
+  Cholesky cholesky({.kind = FactorKind::simplicial, .renew_after = 20});
+  ASSERT_EQ(cholesky.factorise(body.blocks), SolveStatus::ok);
+  for (const double stiffness : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0}) {
+    SpringArrays changed = body.arrays;
+    changed.springs[40].stiffness = stiffness;
+    const Body after(changed);
+    const auto terms = body.matrix.follow(changed.system(), after.tangents, 1.0);
+    ASSERT_FALSE(terms.empty());
+    ASSERT_EQ(cholesky.follow(after.blocks, terms), SolveStatus::ok);
+    EXPECT_LT(solved_error(cholesky, after.blocks), 20 * epsilon);
+  }
+  EXPECT_GT(cholesky.counters().update_chosen, 5u);
+  EXPECT_GE(cholesky.counters().refactor_chosen, 1u);
+}
+
 TEST(Cholesky, NewVertexWithoutSpareRowIsAnalysedWithTheOldOrderingExtended) {
   Body before(disturbed_grid());
   const Body after(dissociated(before.arrays));

@@ -141,6 +141,65 @@ TEST(StepMatrix, CertificateOfDefinitenessHoldsWhereNothingIsCompressedAndNotInA
   EXPECT_TRUE(a.matrix.certainly_definite());
 }
 
+// All of a matrix, spare rows included.
+Eigen::MatrixXd dense(const BlockMatrix& blocks, std::size_t capacity, double spare) {
+  Eigen::MatrixXd result = spare * Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(3 * capacity),
+                                                             static_cast<Eigen::Index>(3 * capacity));
+  for (std::size_t j = 0; j < blocks.node_count(); ++j) {
+    const auto at = static_cast<Eigen::Index>(3 * j);
+    result.block<3, 3>(at, at) = blocks.diagonal[j];
+    for (std::uint32_t k = blocks.pattern.column_start[j]; k < blocks.pattern.column_start[j + 1]; ++k) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(blocks.pattern.row[k]);
+      result.block<3, 3>(row, at) = result.block<3, 3>(at, row) = blocks.below[k];
+    }
+  }
+  return result;
+}
+
+// A vertex that is split, a spring that goes, others that change, vertices that are held and let go, and back again.
+// Both sides are sums of at most 50 terms of the size of the largest entry.
+TEST(StepMatrix, TermsOfAChangeLeadFromTheOldMatrixToTheNew) {
+  const Assembled before;
+  SpringArrays changed = before.body;
+  const std::uint32_t added = changed.add_vertex(0.01, changed.x[5]);
+  changed.mass[5] = 0.01;
+  for (std::size_t e = 0; e < changed.ends.size(); e += 2)
+    for (std::uint32_t& end : changed.ends[e])
+      if (end == 5) end = added;
+  changed.springs[3].stiffness *= 0.5;
+  changed.springs[3].damping *= 0.5;
+  changed.springs[4].damping = 3.0;
+  changed.fixed[3] = 0;
+  changed.fixed[2] = 1;
+  changed.ends.pop_back();
+  changed.springs.pop_back();
+
+  StepMatrix followed = before.matrix;
+  const double spare = 0.02;
+  const std::size_t capacity = changed.x.size();
+  Eigen::MatrixXd old_matrix = dense(before.blocks, capacity, spare);
+  for (const SpringArrays* target : {static_cast<const SpringArrays*>(&changed), &before.body}) {
+    std::vector<SpringTangent> tangents;
+    evaluate_tangents(target->system(), target->x, Compression::exact, tangents);
+    const auto terms = followed.follow(target->system(), tangents, spare);
+    StepMatrix fresh;
+    fresh.evaluate(target->system(), tangents, 0.01);
+    BlockMatrix by_following, by_evaluating;
+    followed.assemble(node_pattern_of(target->system()), by_following);
+    fresh.assemble(node_pattern_of(target->system()), by_evaluating);
+    const Eigen::MatrixXd expected = dense(by_evaluating, capacity, spare);
+    for (const RankOneTerm& term : terms) {
+      Eigen::VectorXd w = Eigen::VectorXd::Zero(old_matrix.rows());
+      w.segment<3>(3 * static_cast<Eigen::Index>(term.first)) = term.direction;
+      if (term.second != NodePattern::none) w.segment<3>(3 * static_cast<Eigen::Index>(term.second)) = -term.direction;
+      old_matrix += term.weight * w * w.transpose();
+    }
+    const double bound = 50 * epsilon * expected.cwiseAbs().maxCoeff();
+    EXPECT_LT((dense(by_following, capacity, spare) - expected).cwiseAbs().maxCoeff(), bound);
+    EXPECT_LT((old_matrix - expected).cwiseAbs().maxCoeff(), bound);
+  }
+}
+
 TEST(NodePattern, ParallelSpringsShareAnEntryAndRowsAscend) {
   SpringArrays body;
   for (int i = 0; i < 4; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0});

@@ -6,10 +6,18 @@
 #include <string>
 
 #include "core/plain/error.h"
+#include "core/time/backward_euler.h"
+#include "core/time/baraff_witkin.h"
+#include "core/time/bdf2.h"
 #include "core/time/blanes_moan_4.h"
 #include "core/time/classical_runge_kutta.h"
 #include "core/time/dormand_prince_54.h"
+#include "core/time/energy_momentum.h"
 #include "core/time/explicit_euler.h"
+#include "core/time/implicit_midpoint.h"
+#include "core/time/local_global.h"
+#include "core/time/ros2.h"
+#include "core/time/sdirk2.h"
 #include "core/time/symplectic_euler.h"
 #include "core/time/verlet.h"
 
@@ -28,6 +36,14 @@ constexpr std::array table{
     IntegratorEntry{"blanes-moan-4", make<BlanesMoan4>},
     IntegratorEntry{"rk4", make<ClassicalRungeKutta>},
     IntegratorEntry{"dormand-prince-54", make<DormandPrince54>},
+    IntegratorEntry{"backward-euler", make<BackwardEuler>},
+    IntegratorEntry{"baraff-witkin", make<BaraffWitkin>},
+    IntegratorEntry{"local-global", make<LocalGlobal>},
+    IntegratorEntry{"ros2", make<Ros2>},
+    IntegratorEntry{"sdirk2", make<Sdirk2>},
+    IntegratorEntry{"implicit-midpoint", make<ImplicitMidpoint>},
+    IntegratorEntry{"energy-momentum", make<EnergyMomentum>},
+    IntegratorEntry{"bdf2", make<Bdf2>},
 };
 
 }  // namespace

@@ -1,0 +1,34 @@
+#pragma once
+// What the implicit integrators have in common.
+
+#include <vector>
+
+#include "core/time/implicit_stage.h"
+#include "core/time/integrator.h"
+#include "core/time/trial_state.h"
+
+namespace dartboard {
+
+/// An integrator whose steps solve stages.
+///
+/// `restart` keeps the factor: the next step finds out what has changed, and updates it where that is cheaper.
+class ImplicitIntegrator : public Integrator {
+ public:
+  explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}
+
+  void restart() override { stage_.system_changed(); }
+  const ImplicitOptions& options() const { return stage_.options(); }
+  /// What became of the factor, and which rule acted.
+  const CholeskyCounters& factor_work() { return stage_.solver().cholesky().counters(); }
+
+ protected:
+  StepResult fail(const StepResult& result) {
+    ++work_.failed_steps;
+    return result;
+  }
+
+  ImplicitStage stage_;
+  TrialState end_;
+};
+
+}  // namespace dartboard

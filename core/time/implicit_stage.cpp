@@ -1,0 +1,242 @@
+#include "core/time/implicit_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mechanics/spring_forces.h"
+#include "core/time/nan_proof.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// Force on the first end between the length vectors d0 and d1 of a spring: Gonzalez's discrete gradient, which for a
+// spring is k (lm - L) along (d0 + d1) / (l0 + l1), lm the mean length; without cancellation. Damping acts along it.
+Vector3d discrete_force(const Spring& spring, const Vector3d& d0, const Vector3d& d1, const Vector3d& dw) {
+  const double sum = std::sqrt(d0.squaredNorm()) + std::sqrt(d1.squaredNorm());
+  if (sum == 0.0) return Vector3d::Zero();
+  const Vector3d along = (d0 + d1) / sum;
+  return (spring.stiffness * (0.5 * sum - spring.rest_length) + spring.damping * dw.dot(along)) * along;
+}
+
+SpringTangent discrete_tangent(const Spring& spring, const Vector3d& d0, const Vector3d& d1, Compression compression) {
+  const double sum = std::sqrt(d0.squaredNorm()) + std::sqrt(d1.squaredNorm());
+  Spring mean = spring;
+  const double length = std::sqrt((d0 + d1).squaredNorm());
+  if (sum > 0.0) mean.rest_length = spring.rest_length * (length / sum);  // same ratio of rest length to length
+  return tangent_of(mean, 0.5 * (d0 + d1), compression);
+}
+
+}  // namespace
+
+void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, WorkCounters& work) {
+  const SpringSystem& s = p.system;
+  ++work.force_evaluations;
+  residual_.assign(w.size(), Vector3d::Zero());
+  const bool discrete = p.force == StageForce::discrete_gradient;
+  for (std::size_t e = 0; e < s.springs.size(); ++e) {
+    const auto [a, b] = s.ends[e];
+    const Vector3d dw = w[b] - w[a], d0 = p.xh[b] - p.xh[a];
+    const Vector3d f = discrete ? discrete_force(s.springs[e], d0, d0 + (2.0 * p.tau) * dw, dw)
+                                : spring_force(s.springs[e], d0 + p.tau * dw, dw);
+    residual_[a] -= f;
+    residual_[b] += f;
+  }
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (s.fixed[i]) {
+      residual_[i].setZero();
+    } else {
+      const Vector3d inner = residual_[i] + s.viscosity[i] * w[i] - s.mass[i] * s.gravity;  // minus the force
+      residual_[i] = s.mass[i] * (w[i] - p.vh[i]) + p.tau * inner;
+    }
+  }
+}
+
+// What the residual may be at each vertex: by the tolerance, and by rounding. A length vector is wrong by an ulp of its
+// own coordinates and of those it is the difference of; 8 covers that and the sums at a vertex.
+void ImplicitStage::set_allowed(const Problem& p, std::span<const Vector3d> w) {
+  const SpringSystem& s = p.system;
+  double scale = 0.0;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (s.fixed[i]) continue;
+    const Vector3d inertia = s.mass[i] * (w[i] - p.vh[i]);
+    const double kick = (residual_[i] - inertia).cwiseAbs().maxCoeff() / s.mass[i];
+    scale = max_or_nan(scale, max_or_nan(p.vh[i].cwiseAbs().maxCoeff(), kick));
+  }
+  allowed_.assign(w.size(), 0.0);
+  const double speed = max_abs_or_nan(w);
+  for (std::size_t e = 0; e < s.springs.size(); ++e) {
+    const auto [a, b] = s.ends[e];
+    const Spring& spring = s.springs[e];
+    const double place = p.xh[a].cwiseAbs().maxCoeff() + p.xh[b].cwiseAbs().maxCoeff();
+    const double force =
+        spring.stiffness * (place + spring.rest_length + std::abs(p.tau) * speed) + spring.damping * speed;
+    allowed_[a] += force;
+    allowed_[b] += force;
+  }
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const double speeds = w[i].cwiseAbs().maxCoeff() + p.vh[i].cwiseAbs().maxCoeff();
+    const double rounding = 8.0 * epsilon * (s.mass[i] * speeds + std::abs(p.tau) * allowed_[i]);
+    allowed_[i] = std::max(options_.tolerance * scale * s.mass[i], rounding);
+  }
+}
+
+double ImplicitStage::excess() const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < residual_.size(); ++i) {
+    const double size =
+        max_or_nan(std::abs(residual_[i].x()), max_or_nan(std::abs(residual_[i].y()), std::abs(residual_[i].z())));
+    largest = max_or_nan(largest, size == 0.0 ? 0.0 : size / allowed_[i]);
+  }
+  return largest;
+}
+
+double ImplicitStage::residual_norm(const Problem& p) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < residual_.size(); ++i) sum += residual_[i].squaredNorm() / p.system.mass[i];
+  return std::sqrt(sum);
+}
+
+// phi(w + alpha direction) - phi(w), and the sum of the terms' sizes times epsilon.
+ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::span<const Vector3d> w,
+                                                      double alpha) const {
+  const SpringSystem& s = p.system;
+  double sum = 0.0, sizes = 0.0;
+  const auto add = [&sum, &sizes](double term) {
+    sum += term;
+    sizes += std::abs(term);
+  };
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (s.fixed[i]) continue;
+    const Vector3d step = alpha * direction_[i];
+    add(s.mass[i] * (w[i] - p.vh[i] + 0.5 * step).dot(step));
+    add(p.tau * s.viscosity[i] * (w[i] + 0.5 * step).dot(step));
+    add(-p.tau * s.mass[i] * s.gravity.dot(step));
+  }
+  for (std::size_t e = 0; e < s.springs.size(); ++e) {
+    const auto [a, b] = s.ends[e];
+    const Spring& spring = s.springs[e];
+    const Vector3d dw = w[b] - w[a], step = alpha * (direction_[b] - direction_[a]);
+    const Vector3d d0 = p.xh[b] - p.xh[a] + p.tau * dw, move = p.tau * step;
+    const double l0 = std::sqrt(d0.squaredNorm()), l1 = std::sqrt((d0 + move).squaredNorm());
+    if (l0 + l1 > 0.0) {
+      const double stretch = (2.0 * d0 + move).dot(move) / (l0 + l1);  // l1 - l0
+      add(spring.stiffness * (0.5 * (l0 + l1) - spring.rest_length) * stretch);
+    }
+    if (l0 > 0.0 && spring.damping != 0.0) {
+      const double rate = dw.dot(d0) / l0, more = step.dot(d0) / l0;
+      add(p.tau * spring.damping * (rate + 0.5 * more) * more);
+    }
+  }
+  return {sum, 4.0 * epsilon * sizes};
+}
+
+// In a long step of a stiff body, vertices that stand still may be a better start than vertices that fly on.
+void ImplicitStage::choose_start(const Problem& p, std::span<Vector3d> w, WorkCounters& work) {
+  const std::vector<Vector3d> residual = residual_;
+  const double norm = residual_norm(p);
+  for (std::size_t i = 0; i < w.size(); ++i) direction_[i] = p.system.fixed[i] ? Vector3d(0, 0, 0) : Vector3d(-w[i]);
+  const bool has_potential = p.force == StageForce::at_end;
+  if (has_potential && !(potential_change(p, w, 1.0).value < 0.0)) return;
+  // Without a potential: a spring that the flight would turn round may find a solution on the wrong side.
+  const bool turned = !has_potential && std::ranges::any_of(p.system.ends, [&p, w](const SpringEnds& ends) {
+    const Vector3d d0 = p.xh[ends[1]] - p.xh[ends[0]];
+    return d0.dot(d0 + (2.0 * p.tau) * (w[ends[1]] - w[ends[0]])) < 0.0;
+  });
+  trial_.resize(w.size());
+  for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = w[i] + direction_[i];
+  set_residual(p, trial_, work);
+  if (has_potential || turned || residual_norm(p) < norm)
+    std::copy(trial_.begin(), trial_.end(), w.begin());
+  else
+    residual_ = residual;
+}
+
+// Move w along the direction as far as Armijo's condition allows; the residual follows. False if no step does.
+bool ImplicitStage::search(const Problem& p, std::span<Vector3d> w, WorkCounters& work) {
+  constexpr double armijo = 1e-4;
+  double slope = 0.0;
+  for (std::size_t i = 0; i < w.size(); ++i) slope += residual_[i].dot(direction_[i]);
+  if (!(slope < 0.0)) return false;
+  const bool has_potential = p.force == StageForce::at_end;
+  const double norm = residual_norm(p);
+  const std::vector<Vector3d> start = residual_;
+  trial_.resize(w.size());
+  double alpha = 1.0;
+  for (int trial = 0; trial < 40; ++trial, alpha *= 0.5) {
+    if (trial > 0) ++work.line_search_trials;
+    for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = w[i] + alpha * direction_[i];
+    bool accepted = false;
+    if (has_potential) {
+      const Change change = potential_change(p, w, alpha);
+      accepted = change.value <= armijo * alpha * slope + change.rounding;
+      if (accepted) set_residual(p, trial_, work);
+    } else {
+      set_residual(p, trial_, work);
+      accepted = residual_norm(p) <= (1.0 - armijo * alpha) * norm || excess() <= 1.0;
+    }
+    if (accepted) {
+      std::copy(trial_.begin(), trial_.end(), w.begin());
+      return true;
+    }
+  }
+  residual_ = start;
+  return false;
+}
+
+StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vector3d> xh, std::span<const Vector3d> vh,
+                                double tau, StageForce force, std::span<Vector3d> w, WorkCounters& work) {
+  const Problem p{system, xh, vh, tau, force};
+  for (std::size_t i = 0; i < w.size(); ++i)
+    if (system.fixed[i]) w[i] = vh[i];
+  direction_.resize(w.size());
+  const TangentsAt tangents = [&p, &w](Compression compression, std::vector<SpringTangent>& result) {
+    result.resize(p.system.springs.size());
+    for (std::size_t e = 0; e < result.size(); ++e) {
+      const auto [a, b] = p.system.ends[e];
+      const Vector3d d0 = p.xh[b] - p.xh[a], dw = w[b] - w[a];
+      result[e] = p.force == StageForce::at_end
+                      ? tangent_of(p.system.springs[e], d0 + p.tau * dw, compression)
+                      : discrete_tangent(p.system.springs[e], d0, d0 + (2.0 * p.tau) * dw, compression);
+    }
+  };
+
+  set_residual(p, w, work);
+  choose_start(p, w, work);
+  set_allowed(p, w);
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration <= options_.max_iterations; ++iteration) {
+    const double now = excess();
+    if (!std::isfinite(now)) return {StepCode::nonfinite, Witness::none, 0, "residual", now};
+    if (now <= 1.0 && (options_.tolerance > 0.0 || now >= 0.5 * last || now == 0.0)) return {};
+    if (iteration == options_.max_iterations) break;
+    ++work.newton_iterations;
+    last = now;
+
+    for (;;) {
+      SolveStatus status = solver_.prepare(system, tangents, tau, work);
+      if (status == SolveStatus::ok) {
+        trial_.resize(w.size());
+        for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = -residual_[i];
+        status = solver_.solve(trial_, direction_, Accuracy::iteration, work);
+      }
+      if (status == SolveStatus::ok && search(p, w, work)) break;
+      if (now <= 1.0) return {};
+      const bool may_project = !solver_.is_projecting() && options_.solver != LinearSolver::laplacian;
+      if (may_project && (status == SolveStatus::ok || status == SolveStatus::not_positive_definite)) {
+        solver_.project(work);
+      } else if (status == SolveStatus::ok) {
+        return {StepCode::newton_stalled, Witness::none, 0, "residual", residual_norm(p)};
+      } else {
+        return diagnosis_of(status, solver_);
+      }
+    }
+  }
+  if (options_.iterate_once) return {};
+  return {StepCode::newton_stalled, Witness::none, 0, "residual", residual_norm(p)};
+}
+
+}  // namespace dartboard
