@@ -51,7 +51,7 @@ TEST(CommandLine, WithAnUnknownVerbIsAUsageErrorThatNamesIt) {
 }
 
 TEST(CommandLine, HelpOfEveryVerbSucceeds) {
-  for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list"}) {
+  for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list", "simulate", "scene", "bench operations"}) {
     const Answer answer = run(std::string(verb) + " --help");
     EXPECT_EQ(answer.status, 0) << verb;
     EXPECT_NE(answer.out.find("Usage"), std::string::npos) << answer.out;
@@ -116,6 +116,45 @@ TEST(Reproduce, RefusesToWriteIntoAFolderThatHoldsFiles) {
   EXPECT_NE(answer.out.find("not empty"), std::string::npos) << answer.out;
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
   fs::remove_all(folder);
+}
+
+const std::string scenes = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/scenes/";
+
+TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-frames");
+  const Answer answer = run("simulate " + scenes + "sheet_cut.json --json --out " + out.string(), "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_TRUE(nlohmann::json::accept(answer.out)) << answer.out;
+  EXPECT_TRUE(fs::exists(out / "frames.pvd"));
+  EXPECT_TRUE(fs::exists(out / "diagnostics.csv"));
+  const Answer again = run("simulate " + scenes + "sheet_cut.json --out " + out.string());
+  EXPECT_EQ(again.status, 3) << "a folder with files in it is not written to: " << again.out;
+  fs::remove_all(out);
+}
+
+TEST(Simulate, ExitsWithOneWhenTheSceneExpectsSomethingElse) {
+  const TemporaryFile scene("wrong.json",
+                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
+                                "duration": 0.01, "expect": {"cells": 7}})");
+  const Answer answer = run("simulate " + scene.path.string());
+  EXPECT_EQ(answer.status, 1) << answer.out;
+}
+
+TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
+  const TemporaryFile scene("misspelt.json",
+                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
+  const Answer answer = run("simulate " + scene.path.string());
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("'step'"), std::string::npos) << answer.out;
+}
+
+TEST(Simulate, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("simulate /nowhere/scene.json").status, 3); }
+
+TEST(Scene, SchemaIsJson) {
+  const Answer answer = run("scene --schema", "");
+  EXPECT_EQ(answer.status, 0);
+  EXPECT_TRUE(nlohmann::json::accept(answer.out));
 }
 
 }  // namespace
