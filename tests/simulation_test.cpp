@@ -57,12 +57,16 @@ TEST(Simulation, RepeatsAnEvent) {
 // ---- the smallest map
 
 TEST(Simulation, TakesTheSmallestMapThatHoldsTheBody) {
-  Json scene = moving_box();
+  Json scene = with_events(moving_box(), R"([{"at": 0.001, "remove": {"ids": [0]}}])");
   EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "tetrahedral 3-g-map");
   scene["body"]["generate"]["box"]["kind"] = "mixed";
   EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "3-g-map");
   scene["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.1}}})");
   EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "2-g-map");
+}
+
+TEST(Simulation, HoldsNoMapForASceneWithoutEvents) {
+  EXPECT_EQ(Simulation(parse(moving_box())).body().map_name(), "no map");
 }
 
 TEST(Simulation, CutsAndErodesHexahedraAndSurfacesToo) {

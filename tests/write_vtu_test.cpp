@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 Frame frame_of(Mesh mesh) {
   Problem problem;
   problem.mesh = std::move(mesh);
-  return make_simulated_body(problem)->frame();
+  return make_simulated_body(problem, true)->frame();
 }
 
 std::string text_of(const fs::path& path) {

@@ -56,10 +56,10 @@ class SimulatedBody {
   virtual std::string violation() const = 0;
 };
 
-/// A body on the smallest map that can hold it: a 2-g-map for a surface, tetrahedral storage for tetrahedra alone,
-/// else a 3-g-map.
+/// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
+/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not: columns, and no map.
 ///
 /// throws  InputError as build_body does
-std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem);
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes);
 
 }  // namespace dartboard

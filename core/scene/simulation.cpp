@@ -31,7 +31,7 @@ Simulation::Simulation(const SceneFile& scene)
     : step_(scene.step), step_count_(step_of_time(scene.duration, scene.step)) {
   const Problem problem = make_problem(scene);
   try {
-    body_ = make_simulated_body(problem);
+    body_ = make_simulated_body(problem, !scene.events.empty());
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: /body: {}", scene.file, error.what()));
   }

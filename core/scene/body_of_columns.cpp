@@ -1,0 +1,125 @@
+#include "core/scene/body_of_columns.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/mechanics/stress.h"
+#include "core/plain/error.h"
+#include "core/topology/hash.h"
+#include "core/views/boundary_surface.h"
+#include "core/views/component_labels.h"
+
+namespace dartboard {
+
+BodyOfColumns::BodyOfColumns(const Problem& problem) {
+  const auto& kinds = problem.mesh.kinds;
+  if (problem.mesh.dimension() == 2)
+    take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh);
+  else if (std::all_of(kinds.begin(), kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; }))
+    take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh);
+  else
+    take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh);
+}
+
+template <class Map>
+void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh) {
+  SpringEndsView ends;
+  ends.rebuild(body);
+  ComponentLabels components;
+  components.rebuild(body);
+  BoundarySurface boundary;
+  boundary.rebuild(body);
+  counts_ = {.vertices = body.vertices.size(),
+             .edges = body.springs.size(),
+             .faces = Map::dimension == 3 ? body.face_dart.size() : body.cell_dart.size(),
+             .cells = body.cell_dart.size(),
+             .components = components.count()};
+  for (std::uint32_t c = 0; c < counts_.cells; ++c) component_.push_back(components.label(c));
+  for (const BoundaryFacet& facet : boundary.facets()) {
+    for (const std::uint32_t k : BoundarySurface::corners(body, facet)) facet_node_.push_back(k);
+    facet_first_.push_back(static_cast<std::uint32_t>(facet_node_.size()));
+  }
+  std::vector<std::uint32_t> vertex_of(mesh.points.size());
+  for (std::uint32_t k = 0; k < body.vertices.size(); ++k) vertex_of[body.vertices.point[k]] = k;
+  cells_.kinds = mesh.kinds;
+  cells_.first = mesh.first;
+  for (const std::uint32_t p : mesh.nodes) cells_.nodes.push_back(vertex_of[p]);
+
+  vertices_ = std::move(body.vertices);
+  vertices_.dart = std::vector<Dart>();
+  springs_ = std::move(body.springs);
+  ends_ = std::move(ends.ends);
+  cell_mass_ = std::move(body.cell_mass);
+  gravity_ = body.surroundings.gravity;
+  density_ = body.material.density;
+}
+
+SpringSystem BodyOfColumns::system() const {
+  return {.ends = ends_,
+          .springs = springs_,
+          .mass = vertices_.mass,
+          .inverse_mass = vertices_.inverse_mass,
+          .viscosity = vertices_.viscosity,
+          .fixed = vertices_.fixed,
+          .gravity = gravity_};
+}
+
+std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
+  throw InputError(event.path + ": the body was built for a scene without events");
+}
+
+double BodyOfColumns::mass() const {
+  double sum = 0.0;
+  for (const double m : cell_mass_) sum += m;
+  return sum;
+}
+
+double BodyOfColumns::boundary() const {
+  double sum = 0.0;
+  const auto& x = vertices_.position;
+  for (std::size_t f = 0; f + 1 < facet_first_.size(); ++f) {
+    const std::uint32_t* node = facet_node_.data() + facet_first_[f];
+    const std::size_t n = facet_first_[f + 1] - facet_first_[f];
+    if (n == 2) {
+      sum += (x[node[1]] - x[node[0]]).norm();
+    } else {
+      Eigen::Vector3d twice(0, 0, 0);
+      for (std::size_t k = 1; k + 1 < n; ++k) twice += (x[node[k]] - x[node[0]]).cross(x[node[k + 1]] - x[node[0]]);
+      sum += 0.5 * twice.norm();
+    }
+  }
+  return sum;
+}
+
+double BodyOfColumns::largest_stress() const {
+  std::vector<Eigen::Matrix3d> stress;
+  vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress);
+  double largest = stress.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
+  for (const Eigen::Matrix3d& sigma : stress) {
+    if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, principal_stress(sigma).value);
+  }
+  return largest;
+}
+
+Frame BodyOfColumns::frame() const {
+  Frame frame;
+  frame.mesh = cells_;
+  frame.mesh.points = vertices_.position;
+  frame.velocity = vertices_.velocity;
+  frame.mass = vertices_.mass;
+  for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
+  frame.component = component_;
+  return frame;
+}
+
+std::uint64_t BodyOfColumns::state_hash() const {
+  Hash h;
+  h.add(vertices_.position);
+  h.add(vertices_.velocity);
+  return h.value();
+}
+
+}  // namespace dartboard
