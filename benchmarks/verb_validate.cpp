@@ -306,6 +306,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   topology->add_flag("--json", options->json, "print JSON");
   topology->callback([options, &outcome] { validate(*options, outcome); });
   add_validate_conservation(*verb, outcome);
+  add_validate_order(*verb, outcome);
 }
 
 }  // namespace dartboard

@@ -5,7 +5,8 @@
 
 namespace dartboard {
 
-/// Adds `conservation` to the verb `validate`; `outcome` must outlive the parse.
+// Each adds a verb to `validate`; `outcome` must outlive the parse.
 void add_validate_conservation(CLI::App& validate, Outcome& outcome);
+void add_validate_order(CLI::App& validate, Outcome& outcome);
 
 }  // namespace dartboard

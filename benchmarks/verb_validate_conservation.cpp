@@ -16,6 +16,7 @@
 #include "core/scene/mesh_generators.h"
 #include "core/scene/mesh_io.h"
 #include "validation/conservation.h"
+#include "validation/refinement_conservation.h"
 
 namespace dartboard {
 namespace {
@@ -42,11 +43,17 @@ struct Session {
   }
 };
 
-template <class Map>
+enum class Mode { take_apart, refine };
+
+template <class Map, Mode mode = Mode::take_apart>
 Session session(std::string name, std::string storage, Mesh mesh, const Material& material, std::uint64_t seed) {
   const auto validate = [](const Problem& problem, const ConservationPlan& plan) {
-    return validate_conservation<Map>(problem, plan);
+    if constexpr (mode == Mode::refine)
+      return validate_refinement<Map>(problem, plan);
+    else
+      return validate_conservation<Map>(problem, plan);
   };
+  if (mode == Mode::refine) name += ", refined";
   return {
       std::move(name), std::move(storage), moving_problem(std::move(mesh), material, seed), seed, validate, {}, 0.0};
 }
@@ -70,16 +77,26 @@ std::vector<Session> sessions_for(const Options& options) {
   std::vector<Session> sessions;
   try {
     const Mesh mesh = find_mesh(options.mesh);
-    if (mesh.dimension() == 2) throw InputError("expected a mesh of volumes");
     const std::string name = std::filesystem::path(options.mesh).filename().string();
-    if (std::all_of(mesh.kinds.begin(), mesh.kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; }))
+    if (mesh.dimension() == 2) {
+      sessions.push_back(session<Map2>(name, "general", mesh, soft, options.seed));
+      return sessions;
+    }
+    if (std::all_of(mesh.kinds.begin(), mesh.kinds.end(),
+                    [](CellKind kind) { return kind == CellKind::tetrahedron; })) {
       sessions.push_back(session<TetMap>(name, "tetrahedral", mesh, soft, options.seed));
+      sessions.push_back(session<TetMap, Mode::refine>(name, "tetrahedral", mesh, soft, options.seed + 3));
+    }
     sessions.push_back(session<Map3>(name, "general", mesh, soft, options.seed + 1));
   } catch (const InputError& error) {  // the mesh, not the command line, is at fault
     throw IoError(fmt::format("{}: {}", options.mesh, error.what()));
   }
   sessions.push_back(session<TetMap>("box of powers of two", "tetrahedral", kuhn_box(5, 5, 5, 0.125), powers_of_two,
                                      options.seed + 2));
+  sessions.push_back(
+      session<Map3, Mode::refine>("box", "general", kuhn_box(3, 3, 3, 0.125, 0.2, 1), soft, options.seed + 4));
+  sessions.push_back(
+      session<Map2>("sheet of triangles", "general", triangle_sheet(16, 16, 0.125), soft, options.seed + 5));
   return sessions;
 }
 
@@ -124,9 +141,10 @@ void print(const Session& s, const Options& options) {
   fmt::print("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(),
              s.seed, s.problem.h);
   fmt::print(
-      "{} operations ({} faces dissociated, {} fans torn, {} volumes removed) in {} series, {} steps between; "
-      "the body was emptied and refilled {} times\n",
-      r.operations(), r.dissociations, r.tears, r.removals, r.series, r.steps, r.refills);
+      "{} operations ({} dissociations, {} torn fans, {} removals, {} refinements) in {} series, {} steps between; "
+      "{} parts split off; the body was emptied and refilled {} times\n",
+      r.operations(), r.dissociations, r.tears, r.removals, r.refinements, r.series, r.steps, r.parts_split_off,
+      r.refills);
   fmt::print("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
              s.operations_per_s, r.bodies_from_scratch,
              r.bodies_without_bound == 0
@@ -150,6 +168,8 @@ nlohmann::ordered_json to_json(const Session& s) {
                               {"dissociations", r.dissociations},
                               {"tears", r.tears},
                               {"removals", r.removals},
+                              {"refinements", r.refinements},
+                              {"parts_split_off", r.parts_split_off},
                               {"series", r.series},
                               {"steps", r.steps},
                               {"refills", r.refills},

@@ -48,10 +48,10 @@ struct Conservation : testing::Test {
     ConservationPlan plan = short_plan(4);
     plan.everything_every = everything_every;
     std::size_t series = 0;
-    const Follow<Map> faulty = [&](LiveBody<Map>& body, CellArrays& arrays, const TopologyChange& change) {
-      ChangedEmbeddings changed = follow(body, arrays, change);
-      if (++series > 4) fault(body, arrays);
-      return changed;
+    const Follow<Map> faulty = [&](LiveBody<Map>& body, Views& views, const TopologyChange& change) {
+      Followed followed = follow(body, views, change);
+      if (++series > 4) fault(body, views);
+      return followed;
     };
     const auto result = validate_conservation<Map>(problem, plan, faulty);
     return violation_of(result);
@@ -66,6 +66,7 @@ TYPED_TEST(Conservation, HoldsDownToTheEmptyBodyAndAgain) {
         moving_problem(kuhn_box(2, 2, 1, 0.125, 0.2, seed), soft, seed), short_plan(seed));
     EXPECT_EQ(violation_of(result), "none");
     EXPECT_GT(result.refills, 0u);
+    EXPECT_GT(result.parts_split_off, 0u);
     EXPECT_GT(result.bodies_from_scratch, 3u);
     EXPECT_GE(result.operations(), 300u);
     for (const ConservedRow& r : result.rows) {
@@ -110,19 +111,32 @@ TYPED_TEST(Conservation, FailsWhenASpringCountsACellTooMany) {
 }
 
 TYPED_TEST(Conservation, FailsWhenARestLengthIsThatOfTheDeformedBody) {
-  const auto what = this->first_violation([](auto& body, auto& arrays) {
-    if (arrays.edges.empty()) return;
-    const auto [a, b] = arrays.edges[0].ends;
+  const auto what = this->first_violation([](auto& body, auto& views) {
+    if (views.cells.edges.empty()) return;
+    const auto [a, b] = views.cells.edges[0].ends;
     body.springs[0].rest_length = (body.vertices.position[a] - body.vertices.position[b]).norm();
   });
   EXPECT_TRUE(what.find("rest length") != std::string::npos || what.find("elastic") != std::string::npos) << what;
 }
 
 TYPED_TEST(Conservation, FailsWhenAnArrayIsStale) {
-  const auto what = this->first_violation([](auto&, auto& arrays) {
-    if (!arrays.edges.empty()) std::swap(arrays.edges[0].ends[0], arrays.edges[0].ends[1]);
+  const auto what = this->first_violation([](auto&, auto& views) {
+    auto& edges = views.cells.edges;
+    if (!edges.empty()) std::swap(edges[0].ends[0], edges[0].ends[1]);
   });
   EXPECT_NE(what.find("apply = rebuild"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenABoundaryIsStale) {
+  const auto what = this->first_violation([](auto&, auto& views) { views.boundary = {}; });
+  EXPECT_NE(what.find("boundary surface"), std::string::npos) << what;
+}
+
+TYPED_TEST(Conservation, FailsWhenComponentsAreStale) {
+  const auto what = this->first_violation([](auto&, auto& views) {
+    if (views.components.count() > 1) views.components = ComponentLabels();
+  });
+  EXPECT_NE(what.find("component"), std::string::npos) << what;
 }
 
 TYPED_TEST(Conservation, FailsWhenAPartOfAVertexIsLeftBehind) {
@@ -142,15 +156,15 @@ TYPED_TEST(Conservation, FailsWhenADampingIsForgotten) {
 TYPED_TEST(Conservation, NeitherMomentumNorEnergyChangesWithOneDissociation) {
   auto body = build_body<TypeParam, Held::by_every_dart>(moving_problem(kuhn_box(1, 1, 1, 0.125, 0.2, 3), soft, 7));
   for (auto& x : body.vertices.position) x += 0.01 * x.cwiseProduct(x);
-  CellArrays arrays;
-  arrays.rebuild(body);
-  const ConservedSums before = sums_of(body, arrays);
+  Views views;
+  views.rebuild(body);
+  const ConservedSums before = sums_of(body, views.cells);
   Dart d = no_dart;
   body.map.for_each_dart([&](Dart e) {
     if (!body.map.template is_free<3>(e)) d = e;
   });
-  follow(body, arrays, dissociate_face(body.map, d));
-  const ConservedSums after = sums_of(body, arrays);
+  follow(body, views, dissociate_face(body.map, d));
+  const ConservedSums after = sums_of(body, views.cells);
   EXPECT_GT(before[Conserved::elastic].value(), 0.0);
   for (std::size_t i = 0; i < conserved_count; ++i) {
     const auto c = static_cast<Conserved>(i);
@@ -165,8 +179,8 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   auto body = build_body<TypeParam, Held::by_every_dart>(start);
   RemainingCells cells(start.mesh);
   const MeshPlaces places(body, start.mesh, cells);
-  CellArrays arrays;
-  arrays.rebuild(body);
+  Views views;
+  views.rebuild(body);
   // two faces around an inner edge: it comes apart, its ends do not
   std::uint32_t edge = 0;
   while (cells.edge(edge).size() < 6) ++edge;
@@ -176,11 +190,11 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
     cells.dissociate(places.side_of[face.index]);
     change.append(dissociate_face(body.map, face));
   }
-  follow(body, arrays, change);
+  follow(body, views, change);
   ASSERT_GE(change.edges.size(), 1u);
   ASSERT_TRUE(change.vertices.empty());
 
-  const auto motion = compare_rebuilt_motion(body, arrays, start, places, cells, 10);
+  const auto motion = compare_rebuilt_motion(body, views.cells, start, places, cells, 10);
   EXPECT_EQ(motion.springs_side_by_side, change.edges.size());
   EXPECT_TRUE(motion.same_cells);
   EXPECT_TRUE(motion.same_bits);
@@ -189,7 +203,7 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   EXPECT_LT(motion.bound.position, 1e-9);
 
   body.springs[0].stiffness *= 1.0 + 1e-9;
-  EXPECT_FALSE(compare_rebuilt_motion(body, arrays, start, places, cells, 10).same_bits);
+  EXPECT_FALSE(compare_rebuilt_motion(body, views.cells, start, places, cells, 10).same_bits);
 }
 
 TEST(ConservationMeshes, MayHaveCellsOfAllKinds) {
@@ -201,8 +215,33 @@ TEST(ConservationMeshes, MayBeEmpty) {
   EXPECT_EQ(violation_of(validate_conservation<TetMap>(moving_problem(empty_mesh(), soft, 1), short_plan(1))), "none");
 }
 
-TEST(ConservationMeshes, MustBeSolid) {
+TEST(ConservationMeshes, MustHaveTheDimensionOfTheMap) {
   EXPECT_THROW(validate_conservation<Map3>(moving_problem(quad_sheet(2, 2, 1.0), soft, 1), short_plan(1)), InputError);
+  EXPECT_THROW(validate_conservation<Map2>(moving_problem(kuhn_box(1, 1, 1, 1.0), soft, 1), short_plan(1)), InputError);
+}
+
+TEST(ConservationOfSurfaces, HoldsDownToTheEmptyBodyAndAgain) {
+  std::uint64_t seed = 20;
+  for (const Mesh& mesh : {triangle_sheet(4, 3, 0.125), quad_sheet(4, 4, 0.125), torus_surface(5, 4), moebius_strip(9),
+                           klein_bottle(5, 4)}) {
+    ++seed;
+    const auto result = validate_conservation<Map2>(moving_problem(mesh, soft, seed), short_plan(seed));
+    EXPECT_EQ(violation_of(result), "none");
+    EXPECT_GT(result.refills, 0u);
+    EXPECT_GT(result.parts_split_off, 0u);
+    for (const ConservedRow& r : result.rows) EXPECT_GT(r.checks, 0u) << r.what;
+  }
+}
+
+TEST(ConservationOfSurfaces, FailsWhenAnEdgeCountsAFaceTooMany) {
+  const Follow<Map2> faulty = [](LiveBody<Map2>& body, Views& views, const TopologyChange& change) {
+    Followed followed = follow(body, views, change);
+    if (!body.springs.empty()) body.springs[0].stiffness += body.material.stiffness;
+    return followed;
+  };
+  const auto what = violation_of(
+      validate_conservation<Map2>(moving_problem(quad_sheet(4, 4, 0.125), soft, 3), short_plan(3), faulty));
+  EXPECT_NE(what.find("stiffness"), std::string::npos) << what;
 }
 
 TEST(TwofoldSums, KeepWhatAnAdditionLoses) {

@@ -27,7 +27,7 @@ bool sums_are_exact(const std::vector<double>& terms, double each_used) {
   return sum == 0.0 || sum < 0x1p52 * q;  // 2^52: `sum` itself is rounded
 }
 
-long euler_of(const std::array<std::size_t, 4>& n) {
+long euler_of(const CellCounts& n) {
   return static_cast<long>(n[0]) - static_cast<long>(n[1]) + static_cast<long>(n[2]) - static_cast<long>(n[3]);
 }
 
@@ -53,16 +53,20 @@ ConservationChecks<Map>::ConservationChecks(const Subject<Map>& subject, Conserv
 }
 
 template <class Map>
-std::array<std::size_t, 4> ConservationChecks<Map>::counts_of_body() const {
+CellCounts ConservationChecks<Map>::counts_of_body() const {
   const LiveBody<Map>& body = at_.body;
-  return {body.vertices.size(), body.springs.size(), body.face_dart.size(), body.cell_dart.size()};
+  if constexpr (Map::dimension == 2)
+    return {body.vertices.size(), body.springs.size(), body.cell_dart.size(), 0};
+  else
+    return {body.vertices.size(), body.springs.size(), body.face_dart.size(), body.cell_dart.size()};
 }
 
 template <class Map>
 ConservedSums ConservationChecks<Map>::all_sums() const {
-  ConservedSums sums = sums_of(at_.body, at_.arrays);
-  for (const Dart d : at_.body.face_dart)
-    if (at_.body.map.template is_free<3>(d)) sums[Conserved::boundary].add(at_.whole.area(at_.places.side_of[d.index]));
+  ConservedSums sums = sums_of(at_.body, at_.views.cells);
+  for (const Dart d : Map::dimension == 3 ? at_.body.face_dart : at_.body.edge_dart)
+    if (at_.body.map.template is_free<Map::dimension>(d))
+      sums[Conserved::boundary].add(at_.whole.measure(at_.places.side_of[d.index]));
   return sums;
 }
 
@@ -86,11 +90,11 @@ ConservedSums ConservationChecks<Map>::after_series(const BeforeSeries<Map>& bef
 }
 
 template <class Map>
-void ConservationChecks<Map>::columns_fit(std::array<std::size_t, 4> predicted) {
+void ConservationChecks<Map>::columns_fit(const CellCounts& predicted) {
   const auto n = counts_of_body();
   for (std::size_t i = 0; i < 4; ++i) ledger_.equal(counts, n[i], predicted[i], "dimension", i);
-  ledger_.equal(counts, n[3], at_.cells.count(), "dimension", 3);
-  ledger_.equal(euler, euler_of(n), euler_of(predicted), "dimension", 3);
+  ledger_.equal(counts, n[Map::dimension], at_.cells.count(), "dimension", Map::dimension);
+  ledger_.equal(euler, euler_of(n), euler_of(predicted), "dimension", Map::dimension);
   const LiveBody<Map>& body = at_.body;
   const VertexColumns& v = body.vertices;
   for (const std::size_t size : {v.inverse_mass.size(), v.viscosity.size(), v.position.size(), v.velocity.size(),
@@ -98,11 +102,10 @@ void ConservationChecks<Map>::columns_fit(std::array<std::size_t, 4> predicted) 
     ledger_.equal(counts, size, n[0], "column of dimension", 0);
   ledger_.equal(counts, body.edge_dart.size(), n[1], "column of dimension", 1);
   for (const std::size_t size : {body.cell_mass.size(), body.node_share.size()})
-    ledger_.equal(counts, size, n[3], "column of dimension", 3);
+    ledger_.equal(counts, size, n[Map::dimension], "column of dimension", Map::dimension);
   // the sums below read the arrays
-  const CellArrays& arrays = at_.arrays;
-  const std::array<std::size_t, 4> seen{arrays.vertices.size(), arrays.edges.size(), arrays.faces.size(),
-                                        arrays.volumes.size()};
+  const CellArrays& arrays = at_.views.cells;
+  const CellCounts seen{arrays.vertices.size(), arrays.edges.size(), arrays.faces.size(), arrays.volumes.size()};
   for (std::size_t i = 0; i < 4; ++i) ledger_.equal(counts, seen[i], n[i], "array of dimension", i);
 }
 
@@ -197,16 +200,32 @@ ConservedSums ConservationChecks<Map>::sums_are_conserved(const ConservedSums& b
 
 template <class Map>
 void ConservationChecks<Map>::everything() {
-  ledger_.equal(valid, check(at_.body.map), std::string(), "violation in a map of dimension", 3);
+  ledger_.equal(valid, check(at_.body.map), std::string(), "violation in a map of dimension", Map::dimension);
   all_vertices();
   if (!ledger_.broken()) all_edges();
   if (!ledger_.broken()) all_counts();
   if (ledger_.broken()) return;
-  CellArrays rebuilt;
-  rebuilt.rebuild(at_.body);
-  ledger_.require(views, at_.arrays == rebuilt, "cell arrays, volumes", rebuilt.volumes.size());
+  all_views();
   boundary();
   if (!ledger_.broken()) soup();
+}
+
+template <class Map>
+void ConservationChecks<Map>::all_views() {
+  const Views& now = at_.views;
+  Views rebuilt;
+  rebuilt.rebuild(at_.body);
+  const auto agree = [&](const char* name, bool same) {
+    ledger_.require(views, same, fmt::format("{}, cells", name).c_str(), at_.body.cell_dart.size());
+  };
+  agree("cell arrays", now.cells == rebuilt.cells);
+  agree("spring ends", now.ends == rebuilt.ends);
+  agree("vertex adjacency", now.adjacency == rebuilt.adjacency);
+  agree("sparse pattern", now.pattern == rebuilt.pattern);
+  agree("boundary surface", now.boundary == rebuilt.boundary);
+  agree("component labels", now.components == rebuilt.components);
+  ledger_.equal(views, now.components.count(), at_.cells.count_components(), "components of cells",
+                at_.body.cell_dart.size());
 }
 
 // Numbers and the witness's cells must be in one-to-one correspondence: all places of a cell have one number (in
@@ -240,29 +259,39 @@ void ConservationChecks<Map>::all_edges() {
 template <class Map>
 void ConservationChecks<Map>::all_counts() {
   const auto& map = at_.body.map;
-  std::array<std::size_t, 4> expected{0, 0, at_.cells.count_faces(), at_.cells.count()};
+  CellCounts expected{}, orbits{count_cells<0>(map), count_cells<1>(map), count_cells<2>(map), 0};
   at_.cells.for_each_vertex([&](std::uint32_t, auto) { ++expected[0]; });
   at_.cells.for_each_edge([&](std::uint32_t, auto) { ++expected[1]; });
-  const std::array<std::size_t, 4> orbits{count_cells<0>(map), count_cells<1>(map), count_cells<2>(map),
-                                          count_cells<3>(map)};
+  expected[Map::dimension] = at_.cells.count();
+  if constexpr (Map::dimension == 3) {
+    expected[2] = at_.cells.count_sides();
+    orbits[3] = count_cells<3>(map);
+  } else {
+    ledger_.equal(counts, at_.cells.count_sides(), expected[1], "sides, dimension", 1);
+  }
   const auto n = counts_of_body();
   for (std::size_t i = 0; i < 4; ++i) {
     ledger_.equal(counts, n[i], expected[i], "dimension", i);
     ledger_.equal(counts, n[i], orbits[i], "orbits, dimension", i);
   }
-  ledger_.equal(euler, euler_of(n), euler_of(expected), "dimension", 3);
+  ledger_.equal(euler, euler_of(n), euler_of(expected), "dimension", Map::dimension);
 }
 
 template <class Map>
 void ConservationChecks<Map>::boundary() {
-  TwofoldSum area;
+  TwofoldSum measure;
+  std::size_t sides = 0;
   for (std::uint32_t c = 0; c < at_.start.mesh.cell_count(); ++c)
     for (std::uint32_t s = at_.whole.first_side(c); at_.cells.is_there(c) && s < at_.whole.first_side(c + 1); ++s)
-      if (!at_.cells.is_joined(s)) area.add(at_.whole.area(s));
+      if (!at_.cells.is_joined(s)) {
+        measure.add(at_.whole.measure(s));
+        ++sides;
+      }
+  ledger_.equal(views, at_.views.boundary.facets().size(), sides, "boundary of cells", at_.cells.count());
   const TwofoldSum seen = all_sums()[Conserved::boundary];
-  ledger_.within(boundary_area, std::abs(seen.value() - area.value()),
-                 change_bound(Conserved::boundary, most_cells_, area, seen, {}), area.magnitude, seen.value(),
-                 area.value());
+  ledger_.within(boundary_area, std::abs(seen.value() - measure.value()),
+                 change_bound(Conserved::boundary, most_cells_, measure, seen, {}), measure.magnitude, seen.value(),
+                 measure.value());
 }
 
 // Masses are summed in the order of the darts there too, so the bits must agree. Springs between the same two vertices
@@ -277,7 +306,7 @@ void ConservationChecks<Map>::soup() {
 
   std::vector<double> stiffness(soup.springs.size(), 0.0), damping(stiffness);
   std::vector<std::size_t> together(soup.springs.size(), 0);
-  for (const EdgeEntry& e : at_.arrays.edges) {
+  for (const EdgeEntry& e : at_.views.cells.edges) {
     const auto [low, high] = std::minmax(e.ends[0], e.ends[1]);
     const auto found = std::lower_bound(soup.springs.begin(), soup.springs.end(), std::pair(low, high),
                                         [](const auto& s, const auto& ends) { return std::pair(s.a, s.b) < ends; });
@@ -301,8 +330,10 @@ void ConservationChecks<Map>::soup() {
   }
 }
 
+template struct Subject<Map2>;
 template struct Subject<Map3>;
 template struct Subject<TetMap>;
+template class ConservationChecks<Map2>;
 template class ConservationChecks<Map3>;
 template class ConservationChecks<TetMap>;
 

@@ -21,9 +21,12 @@ struct Subject {
   const Problem& start;
   RemainingCells whole, cells;  // at first, and now
   LiveBody<Map> fresh, body;
-  CellArrays arrays;
+  Views views;
   MeshPlaces places;
 };
+
+/// Numbers of cells by dimension; of a surface, the fourth is zero.
+using CellCounts = std::array<std::size_t, 4>;
 
 /// The body before a series of operations.
 template <class Map>
@@ -31,7 +34,7 @@ struct BeforeSeries {
   ConservedSums sums;
   VertexColumns vertices;
   decltype(LiveBody<Map>::vertex) number;
-  std::array<std::size_t, 4> counts;
+  CellCounts counts;
 };
 
 /// The comparisons, each written into the ledger.
@@ -41,7 +44,7 @@ class ConservationChecks {
   ConservationChecks(const Subject<Map>& subject, ConservationLedger& ledger);
 
   BeforeSeries<Map> before_series() const;
-  /// `removed` are the sums of what was removed, less the boundary area that appeared. Returns the sums now.
+  /// `removed` are the sums of what was removed, less the boundary that appeared. Returns the sums now.
   ConservedSums after_series(const BeforeSeries<Map>& before, const TopologyChange& change,
                              const ChangedEmbeddings& changed, const ConservedSums& removed);
   /// cost    O(cells log cells)
@@ -52,8 +55,8 @@ class ConservationChecks {
 
  private:
   ConservedSums all_sums() const;
-  std::array<std::size_t, 4> counts_of_body() const;
-  void columns_fit(std::array<std::size_t, 4> predicted);
+  CellCounts counts_of_body() const;
+  void columns_fit(const CellCounts& predicted);
   void columns_were_duplicated(const BeforeSeries<Map>& before);
   void changed_cells(const ChangedEmbeddings& changed);
   ConservedSums sums_are_conserved(const ConservedSums& before, const ConservedSums& removed);
@@ -63,6 +66,7 @@ class ConservationChecks {
   void all_vertices();
   void all_edges();
   void all_counts();
+  void all_views();
   void boundary();
   void soup();
 
@@ -73,8 +77,10 @@ class ConservationChecks {
   std::vector<std::uint32_t> numbers_;
 };
 
+extern template struct Subject<Map2>;
 extern template struct Subject<Map3>;
 extern template struct Subject<TetMap>;
+extern template class ConservationChecks<Map2>;
 extern template class ConservationChecks<Map3>;
 extern template class ConservationChecks<TetMap>;
 

@@ -18,7 +18,7 @@
 //     kinetic energy      n + 3   three products, two sums (3 in a row), times m; the half is exact
 //     stiffness, damping  1       one product, cells times kappa
 //     elastic energy      2       and one; the square of the elongation is data, the same bits in all parts
-//     boundary area       0       areas are data
+//     boundary            0       areas and lengths are data
 //
 // Sums are twofold: the result of N terms is off by at most u |s| + gamma_N^2 sum |t| (Ogita, Rump and Oishi 2005,
 // Sum2), below 2 u sum |t| for N < 2^25. With 2 more for after - before + removed:
@@ -28,6 +28,7 @@
 // Sums of whole multiples of one power of two q that stay below 2^53 q are exact: there the bound is zero.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -122,23 +123,23 @@ ConservedSums sums_of(const Body& body, const Walk& walk) {
   return sums;
 }
 
-/// The bound above for one quantity, with at most `most_cells` cells around a vertex; 1.001 covers the rounding of the
-/// magnitudes and of the bound itself.
+/// The bound above for one quantity, with at most `most_cells` cells around a vertex and `more` roundings in a term;
+/// 1.001 covers the rounding of the magnitudes and of the bound itself.
 inline double change_bound(Conserved c, std::size_t most_cells, const TwofoldSum& before, const TwofoldSum& after,
-                           const TwofoldSum& removed) {
-  std::size_t index = 0;
+                           const TwofoldSum& removed, std::size_t more = 0) {
+  std::size_t index = more;
   switch (c) {
-    case Conserved::mass: index = most_cells - 1; break;
+    case Conserved::mass: index += most_cells - 1; break;
     case Conserved::momentum_x:
     case Conserved::momentum_y:
-    case Conserved::momentum_z: index = most_cells; break;
+    case Conserved::momentum_z: index += most_cells; break;
     case Conserved::spin_x:
     case Conserved::spin_y:
-    case Conserved::spin_z: index = most_cells + 2; break;
-    case Conserved::kinetic: index = most_cells + 3; break;
+    case Conserved::spin_z: index += most_cells + 2; break;
+    case Conserved::kinetic: index += most_cells + 3; break;
     case Conserved::stiffness:
-    case Conserved::damping: index = 1; break;
-    case Conserved::elastic: index = 2; break;
+    case Conserved::damping: index += 1; break;
+    case Conserved::elastic: index += 2; break;
     case Conserved::boundary: break;
   }
   return 1.001 * gamma(index + 4) * (before.magnitude + after.magnitude + removed.magnitude);
@@ -152,5 +153,24 @@ inline double quantum(double x) {
   for (; digits % 2 == 0; digits /= 2) ++exponent;
   return std::ldexp(1.0, exponent);
 }
+
+/// What should be left of a total, in two doubles, and how far the body's was from it at most.
+class Drift {
+ public:
+  void begin(double total) {
+    expected_ = {};
+    expected_.add(total);
+    initial_ = total;
+  }
+  void remove(double part) { expected_.add(-part); }
+  void compare(double total) {
+    if (initial_ > 0.0) largest_ = std::max(largest_, std::abs(total - expected_.value()) / initial_);
+  }
+  double largest() const { return largest_; }
+
+ private:
+  TwofoldSum expected_;
+  double initial_ = 0.0, largest_ = 0.0;
+};
 
 }  // namespace dartboard

@@ -43,13 +43,13 @@ struct MeshPlaces {
       corner[corner_of[d.index]] = d;
       for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e)
         if (cells.ends(e).a == mesh.first[c] + here && cells.ends(e).b == mesh.first[c] + along) edge[e] = d;
-      // three neighbours on a side tell which one it is
-      const auto& sides = faces_of(mesh.kinds[c]);
+      // three neighbours on a side tell which one it is; two, on the edge of a polygon
+      const auto sides = sides_of(mesh.kinds[c]);
       for (std::uint32_t s = 0; s < sides.size(); ++s) {
         const auto has = [&](std::uint32_t k) {
           return std::find(sides[s].begin(), sides[s].end(), static_cast<int>(k)) != sides[s].end();
         };
-        if (!has(here) || !has(along) || !has(before)) continue;
+        if (!has(here) || !has(along) || (Body::dimension == 3 && !has(before))) continue;
         side_of[d.index] = cells.first_side(c) + s;
         side[side_of[d.index]] = d;
       }

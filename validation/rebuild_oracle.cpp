@@ -16,8 +16,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/operations/dissociate_face.h"
+#include "core/operations/dissociate_all.h"
 #include "core/time/runge_kutta_4.h"
+#include "reference/larger.h"
 #include "reference/rebuild.h"
 
 namespace dartboard {
@@ -49,10 +50,8 @@ void move(Body& body, const Walk& walk, double h, int steps) {
 
 double largest_difference(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const double difference = (a[k] - b[k]).lpNorm<Eigen::Infinity>();
-    if (!(difference <= largest)) largest = difference;  // NaN stays
-  }
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (int i = 0; i < 3; ++i) largest = reference::larger(largest, std::abs(a[k][i] - b[k][i]));
   return largest;
 }
 
@@ -106,14 +105,13 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   const RemainingCells touching(rest.mesh);
   const MeshPlaces scratch_places(scratch, rest.mesh, touching);
   const auto in_order = cells_by_dart(body);
-  TopologyChange change;
+  std::vector<Dart> apart;
   for (std::uint32_t k = 0; k < in_order.size(); ++k) {
     const std::uint32_t c = places.cell_of[in_order[k].index];
     for (std::uint32_t s = 0; s < touching.first_side(k + 1) - touching.first_side(k); ++s)
-      if (!cells.is_joined(cells.first_side(c) + s))
-        change.append(dissociate_face(scratch.map, scratch_places.side[touching.first_side(k) + s]));
+      if (!cells.is_joined(cells.first_side(c) + s)) apart.push_back(scratch_places.side[touching.first_side(k) + s]);
   }
-  adapt(scratch, change);
+  adapt(scratch, dissociate_all(scratch.map, apart));
   motion.vertices = scratch.vertices.size();
   motion.springs = scratch.springs.size();
   motion.same_cells = motion.vertices == body.vertices.size() && motion.springs == body.springs.size();
@@ -140,6 +138,8 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   return motion;
 }
 
+template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map2>&, const CellArrays&, const Problem&,
+                                              const MeshPlaces&, const RemainingCells&, int);
 template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map3>&, const CellArrays&, const Problem&,
                                               const MeshPlaces&, const RemainingCells&, int);
 template RebuiltMotion compare_rebuilt_motion(const LiveBody<TetMap>&, const CellArrays&, const Problem&,

@@ -28,6 +28,8 @@ template <class Map>
 RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
                                      const MeshPlaces& places, const RemainingCells& cells, int steps);
 
+extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map2>&, const CellArrays&, const Problem&,
+                                                     const MeshPlaces&, const RemainingCells&, int);
 extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map3>&, const CellArrays&, const Problem&,
                                                      const MeshPlaces&, const RemainingCells&, int);
 extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<TetMap>&, const CellArrays&, const Problem&,

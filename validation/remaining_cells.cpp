@@ -11,7 +11,8 @@
 namespace dartboard {
 namespace {
 
-double area_at_rest(const Mesh& mesh, std::span<const std::uint32_t> cycle) {
+double measure_at_rest(const Mesh& mesh, std::span<const std::uint32_t> cycle) {
+  if (cycle.size() == 2) return (mesh.points[cycle[1]] - mesh.points[cycle[0]]).norm();
   Eigen::Vector3d twice = Eigen::Vector3d::Zero();
   const Eigen::Vector3d& p = mesh.points[cycle[0]];
   for (std::size_t k = 2; k < cycle.size(); ++k)
@@ -19,7 +20,20 @@ double area_at_rest(const Mesh& mesh, std::span<const std::uint32_t> cycle) {
   return twice.norm() / 2.0;
 }
 
+std::vector<std::vector<int>> edges_of_polygon(int nodes) {
+  std::vector<std::vector<int>> edges;
+  for (int k = 0; k < nodes; ++k) edges.push_back({k, (k + 1) % nodes});
+  return edges;
+}
+
 }  // namespace
+
+std::span<const std::vector<int>> sides_of(CellKind kind) {
+  static const auto triangle = edges_of_polygon(3), quadrilateral = edges_of_polygon(4);
+  if (kind == CellKind::triangle) return triangle;
+  if (kind == CellKind::quadrilateral) return quadrilateral;
+  return faces_of(kind);
+}
 
 RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cell_count()), there_(count_, 1) {
   first_side_.push_back(0);
@@ -29,7 +43,7 @@ RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cel
   for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
     const std::uint32_t corner = mesh.first[c];
     for (std::size_t k = 0; k < mesh.cell(c).size(); ++k) cell_of_corner_.push_back(c);
-    for (const auto& cycle : faces_of(mesh.kinds[c])) {
+    for (const auto& cycle : sides_of(mesh.kinds[c])) {
       const auto side = static_cast<std::uint32_t>(opposite_.size());
       std::vector<std::uint32_t> points;
       for (std::size_t k = 0; k < cycle.size(); ++k) {
@@ -46,7 +60,7 @@ RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cel
       first_point_.push_back(static_cast<std::uint32_t>(side_points_.size()));
       cell_of_side_.push_back(c);
       opposite_.push_back(side);
-      area_.push_back(area_at_rest(mesh, points));
+      measure_.push_back(measure_at_rest(mesh, points));
       std::sort(points.begin(), points.end());
       const auto [found, is_new] = side_with.try_emplace(points, side);
       if (is_new) continue;
@@ -54,7 +68,7 @@ RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cel
       if (is_joined(other)) throw InputError(fmt::format("cell {} shares a side with two others", c));
       opposite_[side] = other;
       opposite_[other] = side;
-      area_[side] = area_[other];
+      measure_[side] = measure_[other];
     }
     first_side_.push_back(static_cast<std::uint32_t>(opposite_.size()));
     first_edge_.push_back(static_cast<std::uint32_t>(ends_.size()));
@@ -119,11 +133,39 @@ std::span<const std::uint32_t> RemainingCells::edge(std::uint32_t edge) const {
   return found_;
 }
 
-std::size_t RemainingCells::count_faces() const {
-  std::size_t faces = 0;
+std::vector<std::uint32_t> RemainingCells::component(std::uint32_t cell) const {
+  std::vector<char> met(there_.size(), 0);
+  return component(cell, met);
+}
+
+std::vector<std::uint32_t> RemainingCells::component(std::uint32_t cell, std::vector<char>& met) const {
+  std::vector<std::uint32_t> cells{cell};
+  met[cell] = 1;
+  for (std::size_t at = 0; at < cells.size(); ++at)
+    for (std::uint32_t side = first_side_[cells[at]]; side < first_side_[cells[at] + 1]; ++side) {
+      const std::uint32_t next = cell_of_side_[opposite_[side]];
+      if (!met[next]) cells.push_back(next);
+      met[next] = 1;
+    }
+  return cells;
+}
+
+std::size_t RemainingCells::count_components() const {
+  std::vector<char> met(there_.size(), 0);
+  std::size_t components = 0;
+  for (std::uint32_t c = 0; c < there_.size(); ++c) {
+    if (!there_[c] || met[c]) continue;
+    component(c, met);
+    ++components;
+  }
+  return components;
+}
+
+std::size_t RemainingCells::count_sides() const {
+  std::size_t sides = 0;
   for (std::uint32_t side = 0; side < opposite_.size(); ++side)
-    faces += there_[cell_of_side_[side]] && side <= opposite_[side] ? 1 : 0;
-  return faces;
+    sides += there_[cell_of_side_[side]] && side <= opposite_[side] ? 1 : 0;
+  return sides;
 }
 
 }  // namespace dartboard

@@ -10,10 +10,13 @@
 
 namespace dartboard {
 
+/// The sides of a cell of `kind`, each as a cycle of local nodes: the faces of a volume, the edges of a polygon.
+std::span<const std::vector<int>> sides_of(CellKind kind);
+
 /// The cells of a mesh that are still there, and the sides by which they still hold together.
 ///
 /// Two corners are one vertex where a chain of cells leads from one to the other through joined sides around the same
-/// mesh point; edges likewise. Corner k of cell c has the number mesh.first[c] + k; sides (the order of `faces_of`) and
+/// mesh point; edges likewise. Corner k of cell c has the number mesh.first[c] + k; sides (the order of `sides_of`) and
 /// edges (each once, in the order in which the sides show them) are numbered through in the same way.
 class RemainingCells {
  public:
@@ -36,7 +39,8 @@ class RemainingCells {
     std::uint32_t a, b;
   };
   Ends ends(std::uint32_t edge) const { return ends_[edge]; }
-  double area(std::uint32_t side) const { return area_[side]; }  // [m^2] at rest; the same bits on both sides
+  /// Of a side at rest, the same bits on both sides: its area [m^2], the length [m] of an edge of a surface.
+  double measure(std::uint32_t side) const { return measure_[side]; }
 
   /// The corners that are one vertex with `corner`, and the edges of cells that are one edge with `edge`.
   ///
@@ -56,7 +60,10 @@ class RemainingCells {
     for_each_class(
         first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
   }
-  std::size_t count_faces() const;
+  /// The cells that hang together with this one, itself included, by joined sides.   cost    O(mesh)
+  std::vector<std::uint32_t> component(std::uint32_t cell) const;
+  std::size_t count_components() const;
+  std::size_t count_sides() const;  // two joined ones are one
 
  private:
   std::span<const std::uint32_t> first_corner() const { return mesh_->first; }
@@ -76,6 +83,8 @@ class RemainingCells {
       }
   }
 
+  std::vector<std::uint32_t> component(std::uint32_t cell, std::vector<char>& met) const;
+
   const Mesh* mesh_;
   std::size_t count_;
   std::vector<char> there_;                             // by cell
@@ -83,7 +92,7 @@ class RemainingCells {
   std::vector<std::uint32_t> cell_of_corner_, cell_of_side_, cell_of_edge_;
   std::vector<std::uint32_t> opposite_;                   // by side; itself when nothing is there
   std::vector<std::uint32_t> first_point_, side_points_;  // the mesh points of side s: first_point_[s] .. [s + 1]
-  std::vector<double> area_;
+  std::vector<double> measure_;
   std::vector<Ends> ends_;
   mutable std::vector<std::uint32_t> found_;
 };

@@ -62,11 +62,44 @@ std::vector<Dart> seam_around(const Map& map, Dart start, const FaceFilter& filt
   return faces;
 }
 
+/// The fan of a face goes on from one of its two sides; this is a dart on the side from which the fan is nearer to the
+/// plane across the direction: the larger mean of |n . direction|, then fewer faces, and only then the lower dart.
+template <class Map>
+Dart better_side(const Body<Map>& body, Dart d, const Eigen::Vector3d& direction) {
+  struct Side {
+    double alignment;
+    std::size_t faces;
+    Dart dart;
+  };
+  const auto side = [&](Dart start) {
+    const std::vector<Dart> faces = fan(body.map, start);
+    std::vector<double> each;
+    for (const Dart face : faces) each.push_back(std::max(0.0, alignment(body, face, direction)));
+    std::sort(each.begin(), each.end());  // the order of the walk leaves no trace
+    double sum = 0.0;
+    for (const double a : each) sum += a;
+    return Side{rounded(sum / static_cast<double>(faces.size())), faces.size(), start};
+  };
+  const Side a = side(d), b = side(body.map.template alpha<3>(d));
+  if (a.alignment != b.alignment) return a.alignment > b.alignment ? a.dart : b.dart;
+  return a.faces < b.faces || (a.faces == b.faces && a.dart < b.dart) ? a.dart : b.dart;
+}
+
+/// How many places a vertex has: less once it came apart.
+template <class Map>
+std::size_t place_count(const Map& map, Dart d) {
+  Mark seen(map);
+  std::size_t count = 0;
+  for_each_place_of(map, Vertex{d}, seen, [&count](Dart) { ++count; });
+  return count;
+}
+
 /// A vertex above the threshold. A dart and not a number: numbers change when the body follows a tear.
 struct Stressed {
   double value;
   std::uint32_t number;
   DartId dart;
+  std::size_t places;
 };
 
 /// An upper bound of the eigenvalues: Gershgorin's, and what an eigenvalue may be off by rounding.
@@ -123,7 +156,10 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
     if (k > 0 && eigenvalue_bound(stress[k]) <= std::min(rule.threshold, torn.largest_stress)) continue;
     const double value = principal_stress(stress[k]).value;
     torn.largest_stress = k == 0 ? value : std::max(torn.largest_stress, value);
-    if (value > rule.threshold) stressed.push_back({rounded(value), k, body.map.id(body.vertices.dart[k])});
+    if (value > rule.threshold) {
+      const Dart d = body.vertices.dart[k];
+      stressed.push_back({rounded(value), k, body.map.id(d), place_count(body.map, d)});
+    }
   }
   torn.stressed = stressed.size();
   std::sort(stressed.begin(), stressed.end(), [](const Stressed& a, const Stressed& b) {
@@ -134,13 +170,14 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
     if (torn.tears == rule.most_per_step) break;
     const Dart d = vertex.dart.dart;
     if (!body.map.is_live(d) || body.map.id(d) != vertex.dart) continue;  // `follow` may remove cells
+    if (place_count(body.map, d) != vertex.places) continue;              // torn with a neighbour
     const std::uint32_t k = body.vertex(body.map, d);
     const PrincipalStress principal = principal_stress(vertex_stress(body, k));
     if (!(principal.value > rule.threshold)) continue;
     const Dart start = starting_face(body, k, principal.direction, filter, rule.least_alignment);
     if (start == no_dart) continue;
-    const TopologyChange change =
-        filter ? dissociate_all(body.map, seam_around(body.map, start, filter)) : tear_fan(body.map, start);
+    const TopologyChange change = filter ? dissociate_all(body.map, seam_around(body.map, start, filter))
+                                         : tear_fan(body.map, better_side(body, start, principal.direction));
     ++torn.tears;
     torn.faces += change.faces.size();
     follow(change);

@@ -52,8 +52,9 @@ struct TornVertices {
 /// Tear the body at every vertex whose principal stress is above the threshold, fixed ones too.
 ///
 /// In descending stress, equal ones (to 24 bits, as in `starting_face`) by their numbers. Each vertex is looked at
-/// again when its turn comes, on the map as earlier tears left it; the other parts of a vertex that came apart wait for
-/// the next call. Without a filter the fan of the starting face is torn (`tear_fan`). With one, a seam, it is the
+/// again when its turn comes, on the map as earlier tears left it; one that they took apart waits, all its parts, for
+/// the next call. Without a filter the fan of the starting face is torn (`tear_fan`), from the side of the face from
+/// which it keeps nearer to the plane across the stress, so that numbers do not choose it. With one, a seam, it is the
 /// accepted faces around the vertex that hang together with the starting face by edges at the vertex: where the seam is
 /// a surface, the piece of it there. A vertex that has no face to tear, such as that of a single cell, is passed over.
 ///

@@ -1,0 +1,60 @@
+#pragma once
+// Certified trajectories: the motion of a spring network as two independent codes find it, and how far they agree.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reference/ode_codes.h"
+
+namespace dartboard::reference {
+
+/// One code beside the reference.
+struct CodeAgreement {
+  std::string code;
+  double distance = 0.0;  // from the reference: max over checkpoints of E_x (error_norms.h) [mean edge lengths]
+  std::uint64_t evaluations = 0;
+  double cpu_s = 0.0;
+  std::string failure;  // why it found nothing; empty when it did
+};
+
+struct CertifyOptions {
+  double accepted = 2e-13;        // largest distance of the codes [mean edge lengths]
+  double step_times_rate = 0.25;  // of the coarser of two runs of Odeint; the finer has 0.7 times that
+  int refinements = 6;            // how often both may be refined, by 0.7, until they agree
+  double relative = 1e-13;        // tolerance of the codes of SUNDIALS
+  bool extrapolation = false;     // run Bulirsch-Stoer too, which is more accurate than codes in double
+  bool all_codes = true;          // false: stop at the first independent code that agrees
+  bool gain = true;               // run the twin
+};
+
+/// The reference of a scene.
+struct CertifiedMotion {
+  std::vector<PointState> states;     // at the checkpoints, by the points of their interval's network
+  std::vector<std::size_t> interval;  // of each checkpoint: which network is its
+  double edge = 1.0;                  // mean rest length at the start [m]
+  // The two finest runs of Odeint agree, and so does a code of SUNDIALS (where there is none: the extrapolation).
+  bool accepted = false;
+  double self_difference = 0.0;  // of the two finest runs of Odeint [mean edge lengths]
+  double agreement = 0.0;        // the smallest distance of any other code; infinite when all failed
+  // Errors below this are not measured: 100 times what is known of the reference's own error, the larger of the
+  // agreement and what the self-difference leaves to the finest run; at least 10 times the rounding of `states`.
+  double floor = 0.0;
+  std::vector<double> gain;          // at each checkpoint: growth of a disturbance of 1e-12 edges; empty without twin
+  std::vector<CodeAgreement> codes;  // Odeint's runs from the coarsest to the reference, then the others
+
+  double largest_gain() const;
+};
+
+/// Certify the motion: Odeint's finest run is the reference, and another code must find the same.
+///
+/// The others are ARKODE, CVODE and, if asked for or where there is no SUNDIALS, Odeint's Bulirsch-Stoer extrapolation:
+/// another kind of method than Runge-Kutta, but of the same library.
+/// throws  as check(motion)
+CertifiedMotion certify(const NetworkMotion& motion, const CertifyOptions& options = {});
+
+/// E_x (error_norms.h) of two states of a network, in units of `edge`. NaN where a number is not finite.
+double position_distance(const SpringNetwork& network, const std::vector<long double>& a,
+                         const std::vector<long double>& b, double edge);
+
+}  // namespace dartboard::reference

@@ -1,0 +1,98 @@
+#include "reference/spring_network.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/plain/error.h"
+#include "core/plain/random.h"
+
+namespace dartboard::reference {
+namespace {
+
+// The largest eigenvalue of M^-1 sum of w u u^T, w being the weights of the springs along their lines.
+template <class Weight>
+double largest_eigenvalue(const SpringNetwork& network, std::span<const Eigen::Vector3d> x, Weight&& weight) {
+  const std::size_t n = network.point_count();
+  std::vector<Eigen::Vector3d> now(n), next(n);
+  SplitMix64 random(1);
+  for (auto& p : now) p = random.next_in_ball();
+  double eigenvalue = 0.0;
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    double norm = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (network.fixed[i]) now[i].setZero();
+      norm += network.mass[i] * now[i].squaredNorm();
+    }
+    if (norm == 0.0) return 0.0;
+    std::fill(next.begin(), next.end(), Eigen::Vector3d::Zero());
+    for (const Spring& s : network.springs) {
+      const Eigen::Vector3d line = x[s.b] - x[s.a];
+      const double square = line.squaredNorm();
+      if (square == 0.0) continue;
+      const Eigen::Vector3d pull = weight(s) * (now[s.b] - now[s.a]).dot(line) / square * line;
+      next[s.a] -= pull;
+      next[s.b] += pull;
+    }
+    double product = 0.0;  // Rayleigh's quotient: at worst too low
+    for (std::size_t i = 0; i < n; ++i) {
+      product += now[i].dot(next[i]);
+      next[i] /= network.mass[i] * std::sqrt(norm);
+    }
+    eigenvalue = product / norm;
+    std::swap(now, next);
+  }
+  return eigenvalue;
+}
+
+}  // namespace
+
+SpringNetwork spring_network(const Problem& problem) {
+  Rebuilt body = rebuild(problem.mesh, problem.material);
+  SpringNetwork network;
+  network.mass = std::move(body.mass);
+  network.springs = std::move(body.springs);
+  network.viscosity = problem.material.viscosity;
+  network.gravity = problem.surroundings.gravity;
+  network.fixed.assign(network.mass.size(), 0);
+  for (const std::uint32_t i : problem.fixed) {
+    if (i >= network.fixed.size())
+      throw InputError(fmt::format("point {} is fixed, and there are {}", i, network.fixed.size()));
+    network.fixed[i] = 1;
+  }
+  check(network);
+  return network;
+}
+
+void check(const SpringNetwork& network) {
+  const std::size_t n = network.point_count();
+  if (network.fixed.size() != n)
+    throw InputError(fmt::format("{} points, {} of them told fixed or not", n, network.fixed.size()));
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(network.mass[i] > 0.0) || !std::isfinite(network.mass[i]))
+      throw InputError(fmt::format("point {} has a mass of {}, expected a positive one", i, network.mass[i]));
+  for (std::size_t e = 0; e < network.springs.size(); ++e) {
+    const Spring& s = network.springs[e];
+    if (s.a >= n || s.b >= n || s.a == s.b)
+      throw InputError(fmt::format("spring {} joins points {} and {} of {}", e, s.a, s.b, n));
+    if (!std::isfinite(s.stiffness) || !std::isfinite(s.damping) || !std::isfinite(s.rest_length))
+      throw InputError(fmt::format("spring {} has a number that is not finite", e));
+  }
+  if (!std::isfinite(network.viscosity) || !network.gravity.allFinite())
+    throw InputError("viscosity and gravity must be finite");
+}
+
+double mean_rest_length(const SpringNetwork& network) {
+  if (network.springs.empty()) return 1.0;
+  double sum = 0.0;
+  for (const Spring& s : network.springs) sum += s.rest_length;
+  return sum > 0.0 ? sum / static_cast<double>(network.springs.size()) : 1.0;
+}
+
+double fastest_rate(const SpringNetwork& network, std::span<const Eigen::Vector3d> x) {
+  const double omega = std::sqrt(largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.stiffness); }));
+  const double decay = largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.damping); });
+  return std::max(omega, decay + network.viscosity);
+}
+
+}  // namespace dartboard::reference

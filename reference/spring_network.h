@@ -1,0 +1,102 @@
+#pragma once
+// Masses and springs as plain lists, and the forces between them in any precision: the mechanics of the ODE oracle.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/plain/problem.h"
+#include "reference/rebuild.h"
+
+namespace dartboard::reference {
+
+/// Point masses joined by springs, in the mechanics of core/plain/problem.h.
+struct SpringNetwork {
+  std::vector<double> mass;          // [kg]
+  std::vector<std::uint8_t> fixed;   // by point; 1: keeps its velocity whatever acts on it
+  std::vector<Spring> springs;       // any order; several may join the same two points
+  double viscosity = 0.0;            // [1/s]
+  Eigen::Vector3d gravity{0, 0, 0};  // [m/s^2]
+
+  std::size_t point_count() const { return mass.size(); }
+};
+
+/// Those of a body at rest in the problem's mesh, by `rebuild`; points are the mesh's.
+///
+/// throws  InputError as rebuild does, and as `check` does
+SpringNetwork spring_network(const Problem& problem);
+
+/// throws  InputError, naming the first thing that is wrong: columns of different sizes, a mass that is not positive, a
+///         spring that names no point or one point twice, a number that is not finite
+void check(const SpringNetwork& network);
+
+/// Mean rest length of the springs [m]; 1 when that is zero or there are none.
+double mean_rest_length(const SpringNetwork& network);
+
+/// The fastest rate [1/s] at which a state near x changes: the largest omega of the undamped network, its springs taken
+/// as at their rest length, or the largest rate of decay, whichever is larger. By 200 steps of power iteration.
+double fastest_rate(const SpringNetwork& network, std::span<const Eigen::Vector3d> x);
+
+/// The right-hand side of y' = f(y), y = (x of all points, v of all points), three numbers each.
+template <class Real>
+class NetworkRates {
+ public:
+  explicit NetworkRates(const SpringNetwork& network)
+      : network_(&network), inverse_mass_(network.point_count()), viscosity_(network.viscosity) {
+    for (std::size_t i = 0; i < inverse_mass_.size(); ++i) inverse_mass_[i] = Real(1) / Real(network.mass[i]);
+    for (const Spring& s : network.springs)
+      springs_.push_back({3 * std::size_t{s.a}, 3 * std::size_t{s.b}, s.stiffness, s.damping, s.rest_length});
+  }
+
+  std::size_t size() const { return 6 * network_->point_count(); }
+
+  void operator()(const Real* y, Real* rate) const {
+    using std::sqrt;
+    const std::size_t n = 3 * network_->point_count();
+    const Real *x = y, *v = y + n;
+    Real *dx = rate, *dv = rate + n;
+    for (std::size_t i = 0; i < n; ++i) {
+      dx[i] = v[i];
+      dv[i] = Real(0);
+    }
+    // forces first, gathered where the accelerations will be
+    for (const Line& s : springs_) {
+      const Real e[3] = {x[s.b] - x[s.a], x[s.b + 1] - x[s.a + 1], x[s.b + 2] - x[s.a + 2]};
+      const Real length = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+      if (length == Real(0)) continue;
+      Real pull = s.stiffness * (length - s.rest_length);
+      if (s.damping != Real(0)) {
+        Real apart(0);
+        for (std::size_t k = 0; k < 3; ++k) apart += (v[s.b + k] - v[s.a + k]) * e[k];
+        pull += s.damping * apart / length;
+      }
+      pull /= length;
+      for (std::size_t k = 0; k < 3; ++k) {
+        dv[s.a + k] += pull * e[k];
+        dv[s.b + k] -= pull * e[k];
+      }
+    }
+    for (std::size_t i = 0; i < network_->point_count(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        Real& a = dv[3 * i + k];
+        a = network_->fixed[i] ? Real(0)
+                               : a * inverse_mass_[i] - viscosity_ * v[3 * i + k] +
+                                     Real(network_->gravity[static_cast<Eigen::Index>(k)]);
+      }
+  }
+
+ private:
+  struct Line {
+    std::size_t a, b;  // where the coordinates of the ends begin
+    Real stiffness, damping, rest_length;
+  };
+  const SpringNetwork* network_;
+  std::vector<Line> springs_;
+  std::vector<Real> inverse_mass_;
+  Real viscosity_;
+};
+
+}  // namespace dartboard::reference

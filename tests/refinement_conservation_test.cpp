@@ -1,0 +1,149 @@
+// The validator of refinements: it passes what is right and fails what is not.
+
+#include "validation/refinement_conservation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/mechanics/refine.h"
+#include "core/plain/error.h"
+#include "core/scene/mesh_generators.h"
+#include "validation/conserved_sums.h"
+#include "validation/subdivided_cells.h"
+
+namespace dartboard {
+namespace {
+
+constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
+
+std::string violation_of(const ConservationResult& result) {
+  return result.violation ? to_string(*result.violation) : "none";
+}
+
+ConservationPlan short_plan(std::uint64_t seed, std::size_t operations) {
+  ConservationPlan plan;
+  plan.seed = seed;
+  plan.operations = operations;
+  plan.everything_every = 1;
+  return plan;
+}
+
+template <class Map>
+struct RefinementConservation : testing::Test {
+  // The first violation when `fault` strikes once the body has been refined a little.
+  static std::string first_violation(const Tamper<Map>& fault) {
+    std::size_t series = 0;
+    const Tamper<Map> late = [&](LiveBody<Map>& body, Views& views) {
+      if (++series > 4) fault(body, views);
+    };
+    return violation_of(
+        validate_refinement<Map>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1), short_plan(4, 200), late));
+  }
+};
+using Solids = testing::Types<Map3, TetMap>;
+TYPED_TEST_SUITE(RefinementConservation, Solids);
+
+TYPED_TEST(RefinementConservation, HoldsDownToTheEmptyBodyAndAgain) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto result = validate_refinement<TypeParam>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, seed), soft, seed),
+                                                       short_plan(seed, 500));
+    EXPECT_EQ(violation_of(result), "none");
+    EXPECT_GT(result.refills, 0u);
+    EXPECT_GT(result.refinements, 50u);
+    EXPECT_GT(result.tears, 10u);
+    EXPECT_GT(result.removals, 50u);
+    for (const ConservedRow& r : result.rows) {
+      EXPECT_TRUE(r.holds) << r.what;
+      EXPECT_GT(r.checks, 0u) << r.what;
+    }
+  }
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenAVertexGetsHeavier) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (body.vertices.size() > 0) body.vertices.mass.back() *= 1.0 + 1e-9;
+  });
+  EXPECT_NE(what.find("mass"), std::string::npos) << what;
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenANewSpringIsTooStiff) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (!body.springs.empty()) body.springs.back().stiffness += 1e-9;
+  });
+  EXPECT_NE(what.find("stiffness"), std::string::npos) << what;
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenARestLengthIsNotThatOfTheRestShape) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (!body.springs.empty()) body.springs.back().rest_length *= 1.0 + 1e-9;
+  });
+  EXPECT_NE(what.find("rest length"), std::string::npos) << what;
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenACellHasNotItsShareOfTheMass) {
+  const auto what = this->first_violation([](auto& body, auto&) {
+    if (!body.cell_mass.empty()) body.cell_mass.back() *= 1.0 + 1e-9;
+  });
+  EXPECT_NE(what.find("mass of a refined cell"), std::string::npos) << what;
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenAViewIsStale) {
+  const auto what = this->first_violation([](auto&, auto& views) { views.pattern = {}; });
+  EXPECT_NE(what.find("views"), std::string::npos) << what;
+}
+
+TEST(RefinementConservationMeshes, MustBeOfTetrahedra) {
+  EXPECT_THROW(validate_refinement<Map3>(moving_problem(hexahedron_box(1, 1, 1, 1.0), soft, 1), short_plan(1, 1)),
+               InputError);
+}
+
+// A tetrahedron of 1/6 m^3, so 8 kg; its corner 0 moves at 1 m/s, the others rest. Into an edge at that corner a vertex
+// is put: s = 2, v - mean = +-1/2, and M / (8 s) sum |v - mean|^2 = 8/16 * 1/2 J. Some ten roundings in all.
+TEST(Refinements, LoseTheKineticEnergyOfMotionRelativeToTheMean) {
+  Problem problem;
+  problem.mesh = one_tetrahedron();
+  problem.material = {.density = 48.0, .stiffness = 1.0, .damping = 0.0, .viscosity = 0.0};
+  problem.initial_velocity.assign(4, Eigen::Vector3d(0, 0, 0));
+  problem.initial_velocity[0] = {0, 0, 1};
+  auto body = build_body<TetMap, Held::by_every_dart>(problem);
+  Views views;
+  views.rebuild(body);
+  const ConservedSums before = sums_of(body, views.cells);
+  EXPECT_NEAR(before[Conserved::kinetic].value(), 1.0, 0x1p-50);
+  Dart d = no_dart;
+  body.map.for_each_dart([&](Dart e) {
+    if (body.vertices.point[body.vertex(body.map, e)] == 0) d = e;
+  });
+  const auto changed = refine(body, Edge{d}, 0.0);
+  views.apply(body, TopologyChange{}, changed);
+  const ConservedSums after = sums_of(body, views.cells);
+  EXPECT_NEAR(after[Conserved::kinetic].value(), 0.75, 0x1p-50);
+  EXPECT_NEAR(after[Conserved::momentum_z].value(), 2.0, 0x1p-50);
+}
+
+// Kuhn's six tetrahedra of a unit cube, around its diagonal.
+TEST(SubdividedCells, ShareMassAndStiffnessAndKeepTheirVolume) {
+  SubdividedCells cells(kuhn_box(1, 1, 1, 1.0), 6.0);
+  std::uint32_t diagonal = 0;
+  const auto nodes = [](std::uint32_t e) {
+    return static_cast<std::uint8_t>(1u << SubdividedCells::ends[e][0] | 1u << SubdividedCells::ends[e][1]);
+  };
+  while (cells.around(0, nodes(diagonal)).size() < 6) ++diagonal;
+  const auto children = cells.subdivide(0, nodes(diagonal), 0.0);
+  ASSERT_EQ(children.size(), 12u);
+  EXPECT_EQ(cells.count(), 12u);
+  EXPECT_EQ(cells.count_boundary(), 12u);  // the surface is as it was
+  for (const auto& child : children) {
+    const auto& t = cells.cells()[child.cell];
+    EXPECT_EQ(t.mass, cells.cells()[child.parent].mass / 2.0);
+    EXPECT_NEAR(cells.volume(child.cell).first, 1.0 / 12.0, 0x1p-50);
+    // one half, twice as stiff; two edges without bracing; opposite edge shared by two; the other two are whole
+    double sum = 0.0;
+    for (const double share : t.share) sum += share;
+    EXPECT_EQ(sum, 2.0 + 2 * 0.0 + 0.5 + 2 * 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace dartboard
