@@ -40,6 +40,10 @@ int main(int argc, char** argv) {
   add_bench(app, outcome);
   add_simulate(app, outcome);
   add_scene(app, outcome);
+  add_tradeoff(app, outcome);
+  add_recommend(app, outcome);
+  add_extremes(app, outcome);
+  add_explain_dt(app, outcome);
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);

@@ -120,6 +120,8 @@ void print(const Report& r) {
         "(relative)\n",
         jumps.events, drift_text(jumps.mass), drift_text(jumps.momentum), drift_text(jumps.energy));
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
+  if (const auto& warning = r.simulation.step_warning())
+    fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
   if (r.result.divergence)
     fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
   if (!r.expected.empty()) {
@@ -176,6 +178,8 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
                           {"value", fmt::format("{:.17g}", d->value)}};
+  if (const auto& warning = r.simulation.step_warning())
+    json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)
     json["expected"].push_back(

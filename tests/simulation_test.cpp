@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/scene/scene_run.h"
 #include "core/time/integrators.h"
@@ -204,21 +206,18 @@ TEST(Simulation, DividesAStepThatIsTooLongWhereTheSceneSaysSo) {
 }
 
 TEST(Simulation, LooksAtTheStepAgainAfterAnEvent) {
-  // the step is stable for the whole box and not for one in single tetrahedra, whose vertices are lighter
-  Json scene = with_events(moving_box(), R"([{"at": 0.002, "tear_where_stressed": {"threshold": 1e-9}}])");
+  // with cells missing a vertex may be lighter by more than its springs are softer: the highest frequency rises
+  Json scene = with_events(moving_box(), R"([{"every": 1e-9, "remove": {"random": {"count": 1}}}])");
+  scene["material"]["stiffness"] = 6.4e7;
+  scene["step"] = 0.01;
+  scene["duration"] = 0.3;
+  scene["gravity"] = {0, 0, 0};
   scene["initial_velocity"] = {0, 0, 0};
-  const double whole = Simulation(parse(scene)).stable_step().safe_step(make_integrator("rk4")->scheme(), 0.0);
-  scene["step"] = 0.9 * whole;
-  scene["duration"] = 40 * whole;
-  scene["events"][0]["at"] = 2 * 0.9 * whole;
-  scene["events"] = Json::parse(R"([{"every": 1e-9, "remove": {"random": {"count": 1}}}])");
-  scene["unstable_step"] = "refuse";
   Simulation simulation(parse(scene));
-  EXPECT_EQ(simulation.stable_step().lower > 0.0, true);
-  const double before = simulation.stable_step().upper;
-  double highest = before;
-  for (int n = 0; n < 30 && !simulation.advance(); ++n) highest = std::max(highest, simulation.stable_step().upper);
-  EXPECT_GT(highest, before);
+  std::vector<double> bounds;
+  for (int n = 0; n < 30 && !simulation.advance(); ++n) bounds.push_back(simulation.stable_step().upper);
+  ASSERT_EQ(bounds.size(), 30u);
+  EXPECT_GT(*std::max_element(bounds.begin(), bounds.end()), 1.02 * bounds.front());
 }
 
 TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {

@@ -51,6 +51,10 @@ class Reader {
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
       scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
     scene.integrator = json.at("integrator").get<std::string>();
+    const Json& unstable = json.at("unstable_step");
+    scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
+                          : unstable == "substep" ? UnstableStep::substep
+                                                  : UnstableStep::warn;
     for (std::size_t k = 0; k < json.at("events").size(); ++k)
       scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
     require_consistent(scene.events);

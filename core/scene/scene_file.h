@@ -80,6 +80,9 @@ struct SceneEvent {
   std::string path;             // "/events/3"
 };
 
+/// What is done about a step that is too long to be stable.
+enum class UnstableStep { warn, refuse, substep };
+
 struct OutputPlan {
   std::optional<std::uint64_t> frame_steps, diagnostic_steps;  // steps from one to the next
 };
@@ -102,6 +105,7 @@ struct SceneFile {
   std::vector<VertexSelection> fixed;
   double step, duration;  // [s]
   std::string integrator;
+  UnstableStep unstable_step;
   std::vector<SceneEvent> events;
   OutputPlan output;
   Expectation expect;

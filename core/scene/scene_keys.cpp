@@ -46,6 +46,9 @@ std::vector<SceneKey> make_keys() {
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(), .standard = "\"rk4\"",
        .help = "how the equations of motion are integrated"},
+      {.shape = scene, .name = "unstable_step", .type = choice, .choices = {"warn", "refuse", "substep"},
+       .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
+                                       "each event: say so, stop, or divide it"},
       {.shape = scene, .name = "events", .type = objects, .of = event, .standard = "[]",
        .help = "what happens to the body; those due at one time happen in this order"},
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},

@@ -13,6 +13,8 @@ namespace dartboard {
 namespace {
 
 constexpr double speed_of_light = 299792458.0;  // [m/s]
+// A step divided into more parts than this is a mistake in a unit.
+constexpr double most_parts = 1e6;
 
 }  // namespace
 
@@ -22,13 +24,24 @@ struct Simulation::Sums {
   double size_of_momentum;  // sum of m |v|
 };
 
+std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
+  std::string text =
+      fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
+                  w.step == 0 ? "at the start" : fmt::format("after {} steps", w.step), step, integrator, w.stable);
+  if (w.parts > 1) text += fmt::format(", so each is taken in {} parts", w.parts);
+  return text;
+}
+
 std::string to_string(const Divergence& d) {
+  if (d.predicted)
+    return fmt::format("stopped before step {}, t = {:.6g} s: {}; at most {:.6g} s is stable", d.step, d.time,
+                       d.quantity, d.value);
   return fmt::format("diverged at step {}, t = {:.6g} s: {} of vertex {} is {:.6g}", d.step, d.time, d.quantity,
                      d.vertex, d.value);
 }
 
 Simulation::Simulation(const SceneFile& scene)
-    : step_(scene.step), step_count_(step_of_time(scene.duration, scene.step)) {
+    : step_(scene.step), step_count_(step_of_time(scene.duration, scene.step)), unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   try {
     body_ = make_simulated_body(problem, !scene.events.empty());
@@ -45,22 +58,80 @@ Simulation::Simulation(const SceneFile& scene)
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
+  look_at_step();
+  start_ = detector_.start(body_->system(), body_->motion(), step_);
 }
 
 Simulation::~Simulation() = default;
 
 std::optional<Divergence> Simulation::advance() {
-  const StepResult result = integrator_->step(body_->system(), body_->motion(), step_);
+  if (auto refusal = refused()) return refusal;
+  StepResult result = start_;
+  for (std::uint64_t part = 0; part < parts_ && result.ok(); ++part)
+    result = integrator_->step(body_->system(), body_->motion(), step_ / static_cast<double>(parts_));
   ++done_;
-  if (!result.ok())
-    return failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  if (auto found = diverged()) return found;
+  if (result.ok()) result = detector_.after_step(body_->system(), body_->motion());
+  if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
+  if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
+  if (auto found = diverged()) {
+    detector_.restore(body_->motion());
+    return found;
+  }
+  const std::size_t operations = operations_;
   try {
     happen();
+    if (operations_ != operations) {
+      look_at_step();
+      start_ = detector_.system_changed(body_->system(), body_->motion());
+    }
   } catch (const SolverError&) {
     return failure("stress", 0, body_->largest_stress());
   }
   return {};
+}
+
+// The run is as long as the scene; it must not amplify anything twofold that theory says it does not.
+void Simulation::look_at_step() {
+  const Horizon horizon{.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0};
+  const Scheme& scheme = integrator_->scheme();
+  limits_ = quick_stable_step(body_->system());
+  too_long_ = false;
+  parts_ = 1;
+  if (limits_.is_stable(scheme, step_, horizon)) return;
+  limits_ = estimate_.refresh(body_->system(), body_->vertices().position);
+  const double stable = limits_.safe_step(scheme, horizon);
+  too_long_ = step_ > stable;
+  if (too_long_ && unstable_step_ == UnstableStep::substep) {
+    // the more parts, the longer the run in steps, and the less each may amplify
+    double parts = std::ceil(step_ / stable);
+    for (int tries = 0; tries < 60 && parts <= most_parts; ++tries) {
+      const double allowed = limits_.safe_step(scheme, {.steps = horizon.steps * parts, .gain = horizon.gain});
+      if (step_ / parts <= allowed) break;
+      parts = std::ceil(std::max(parts * 1.2, std::min(step_ / allowed, parts * 4.0)));
+    }
+    too_long_ = !(parts <= most_parts);
+    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
+  }
+  if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
+}
+
+// A step that cannot be divided is refused too.
+std::optional<Divergence> Simulation::refused() const {
+  if (!too_long_ || unstable_step_ == UnstableStep::warn) return {};
+  Divergence d;
+  d.step = done_ + 1;
+  d.time = time();
+  d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
+  d.value = limits_.safe_step(integrator_->scheme(),
+                              {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
+  d.predicted = true;
+  return d;
+}
+
+Divergence Simulation::failure(const StepResult& result) {
+  Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
+  detector_.restore(body_->motion());
+  return d;
 }
 
 void Simulation::happen() {

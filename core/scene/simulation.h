@@ -12,20 +12,32 @@
 #include "core/scene/frame.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulated_body.h"
+#include "core/time/divergence.h"
 #include "core/time/integrator.h"
+#include "core/time/stable_step.h"
 
 namespace dartboard {
 
-/// Why a run had to stop: the motion is no longer one.
+/// Why a run had to stop: the motion is no longer one, or the scene refuses its step.
 struct Divergence {
   std::uint64_t step = 0;  // the one that failed
   double time = 0.0;       // [s] at its end
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
+  bool predicted = false;  // the step is too long, and was not taken; `value` is the longest that is stable
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
+
+/// A step that is too long to be stable, found before the first step or after an event.
+struct StepWarning {
+  std::uint64_t step = 0;   // after this many
+  double stable = 0.0;      // [s] the longest step that is
+  std::uint64_t parts = 1;  // that each step is divided into
+};
+/// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
+std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
 
 /// How much dissociations changed what they must not change: the largest over all events that only dissociate.
 struct EventJumps {
@@ -54,9 +66,16 @@ class Simulation {
 
   /// One step, then the events due at its end.
   ///
-  /// The motion has diverged when a position or velocity is not finite or a vertex moves faster than light, whose speed
-  /// no energy of the scene allows; the body is as it was then, of no further use.
+  /// The motion has diverged when a position or velocity is not finite, when a vertex moves faster than light, or when
+  /// there is more energy than anything in the scene can supply (DivergenceDetector); the body is then as it was in the
+  /// last good state, at most 80 steps ago. `unstable_step` says what is done about a step that is too long.
   std::optional<Divergence> advance();
+
+  /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
+  /// step is stable.
+  const StableStep& stable_step() const { return limits_; }
+  /// The first step found too long, and how it is divided now.
+  const std::optional<StepWarning>& step_warning() const { return warning_; }
 
   const SimulatedBody& body() const { return *body_; }
   std::size_t operations() const { return operations_; }
@@ -78,7 +97,10 @@ class Simulation {
   Sums sums() const;
   void happen();
   void compare(const Sums& before);
+  void look_at_step();
+  std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
+  Divergence failure(const StepResult& result);
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
@@ -89,6 +111,14 @@ class Simulation {
   std::size_t operations_ = 0;
   bool watch_ = false;
   EventJumps jumps_;
+  UnstableStep unstable_step_;
+  StableStepEstimate estimate_;
+  StableStep limits_;
+  std::optional<StepWarning> warning_;
+  std::uint64_t parts_ = 1;  // of a step
+  bool too_long_ = false;
+  StepResult start_;  // what the detector finds in the state before a step
+  DivergenceDetector detector_;
 };
 
 }  // namespace dartboard

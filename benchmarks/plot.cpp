@@ -1,0 +1,133 @@
+#include "benchmarks/plot.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "benchmarks/processes.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+// Within gnuplot's double quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
+
+// "#rrggbb" and how much of it shows, as gnuplot's #aarrggbb, where 00 is solid.
+std::string colour(const PlotSeries& series) {
+  const int clear = static_cast<int>(std::lround(255.0 * (1.0 - series.opacity)));
+  return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream << text;
+  stream.close();
+  if (!stream) throw IoError(fmt::format("{}: cannot be written", file.string()));
+}
+
+}  // namespace
+
+std::string plot_data(const PlotSeries& series) {
+  std::string text;
+  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, quoted(p.label));
+  return text;
+}
+
+std::string plot_script(const Plot& plot, const std::string& name) {
+  std::string script = fmt::format(
+      "set encoding utf8\n"
+      "set logscale xy\n"
+      "set format x \"10^{{%T}}\"\nset format y \"10^{{%T}}\"\n"
+      "set xrange [{:.17g}:{:.17g}]\nset yrange [{:.17g}:{:.17g}]\n"
+      "set title {} font \",17\" noenhanced offset 0,0.3\n"
+      "set xlabel {} font \",14\" noenhanced\nset ylabel {} font \",14\" noenhanced offset -0.5,0\n"
+      "set tics out nomirror\nset border 3 linewidth 1.2 linecolor rgb \"#404040\"\n"
+      "set mxtics 10\nset mytics 10\n"
+      "set grid xtics ytics linetype 1 linewidth 0.6 linecolor rgb \"#e4e4e4\"\n"
+      "set key outside right top vertical Left reverse noenhanced samplen 2.2 spacing 1.25 font \",12\"\n"
+      "set datafile separator whitespace\n",
+      plot.x_low, plot.x_high, plot.y_low, plot.y_high,
+      quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
+      quoted(plot.y_axis));
+  if (plot.y_last_tick > 0.0) {
+    // every decade, every second one where there are many
+    const double decades = std::log10(plot.y_last_tick / plot.y_low);
+    script +=
+        fmt::format("set ytics {:.17g},{},{:.17g}\nset mytics {}\n", std::pow(10.0, std::ceil(std::log10(plot.y_low))),
+                    decades > 9.0 ? 100 : 10, plot.y_last_tick, decades > 9.0 ? 2 : 10);
+    script += fmt::format(
+        "set arrow 1 from graph 0, first {0:.17g} to graph 1, first {0:.17g} nohead linewidth 0.8 dashtype \"-\" "
+        "linecolor rgb \"#a0a0a0\"\n",
+        plot.y_last_tick);
+  }
+  if (plot.shaded_below > plot.y_low) {
+    script += fmt::format(
+        "set object 1 rectangle from graph 0, graph 0 to graph 1, first {:.17g} behind fillcolor rgb \"#f0f0f0\" "
+        "fillstyle solid noborder\n",
+        plot.shaded_below);
+    script += fmt::format(
+        "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
+        quoted(plot.shaded_label));
+  }
+  std::string lines;
+  for (std::size_t k = 0; k < plot.series.size(); ++k) {
+    const PlotSeries& s = plot.series[k];
+    if (s.points.empty()) continue;
+    const std::string file = quoted(data_file(name, k));
+    const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
+    std::string look = s.width > 0.0 && s.symbol > 0 ? "linespoints" : s.width > 0.0 ? "lines" : "points";
+    look += " linecolor rgb " + colour(s);
+    if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
+    if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
+    if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
+    lines += fmt::format("{}{} using 1:2 with {} {}", lines.empty() ? "plot " : ", \\\n     ", file, look, title);
+    bool labelled = false;
+    for (const auto& p : s.points) labelled |= !p.label.empty();
+    if (labelled)
+      lines +=
+          fmt::format(", \\\n     {} using 1:2:3 with labels {} left noenhanced font \",9\" textcolor rgb {} notitle",
+                      file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
+  }
+  if (lines.empty()) lines = "plot NaN notitle";
+  for (const auto& [terminal, end] :
+       {std::pair(fmt::format("pngcairo size {},{} font \"DejaVu Sans,12\" background rgb \"white\"", plot.width,
+                              plot.height),
+                  "png"),
+        std::pair(fmt::format("svg size {},{} font \"DejaVu Sans,12\" background rgb \"white\" enhanced", plot.width,
+                              plot.height),
+                  "svg")})
+    script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
+                          quoted(fmt::format("{}.{}", name, end)), lines);
+  return script;
+}
+
+std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
+                 const std::string& gnuplot) {
+  if (!(plot.x_low > 0.0 && plot.x_low < plot.x_high && plot.y_low > 0.0 && plot.y_low < plot.y_high))
+    throw InputError("a logarithmic axis must be positive and ascending");
+  for (std::size_t k = 0; k < plot.series.size(); ++k)
+    if (!plot.series[k].points.empty()) write_file(folder / data_file(name, k), plot_data(plot.series[k]));
+  // the script names its files without a folder, so that they can be moved together
+  write_file(folder / (name + ".gnuplot"), plot_script(plot, name));
+  std::string said;
+  try {
+    run_program(gnuplot, {"-e", fmt::format("cd {}", quoted(folder.string())), name + ".gnuplot"},
+                [&](std::string_view line) { said += fmt::format(" {}", line); });
+  } catch (const ProcessError& error) {
+    return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
+  }
+  return "";
+}
+
+}  // namespace dartboard

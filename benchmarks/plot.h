@@ -1,0 +1,50 @@
+#pragma once
+// Diagrams on logarithmic axes, drawn by gnuplot from files that stay beside the picture.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dartboard {
+
+/// A set of points of one look.
+struct PlotSeries {
+  std::string title;  // in the legend; empty: not in it
+  struct Point {
+    double x, y;
+    std::string label{};  // beside the point
+  };
+  std::vector<Point> points;
+  std::string colour;  // "#rrggbb"
+  int symbol = 7;      // gnuplot's number of the point type; 0: none
+  double size = 1.0;   // of the symbols
+  double width = 0.0;  // of a line through the points in their order; 0: none
+  std::string dash{};  // "-", ".": gnuplot's dash type; empty: solid
+  double opacity = 1.0;
+  bool slanted = false;  // labels, above and at 45 degrees
+};
+
+struct Plot {
+  std::string title, subtitle, x_axis, y_axis;
+  double x_low = 1.0, x_high = 10.0, y_low = 1.0, y_high = 10.0;
+  std::vector<PlotSeries> series;  // drawn in this order
+  double y_last_tick = 0.0;        // none above it; 0: everywhere
+  double shaded_below = 0.0;       // of y; 0: nothing is
+  std::string shaded_label{};
+  int width = 1400, height = 900;  // pixels of the PNG
+};
+
+/// gnuplot's script; the data of series k are in "`name`-k.dat". Two pictures: `name`.svg and `name`.png.
+std::string plot_script(const Plot& plot, const std::string& name);
+/// The data of a series: x, y and label, one point a line.
+std::string plot_data(const PlotSeries& series);
+
+/// Write the data into files of `folder` and draw the pictures.
+///
+/// returns what went wrong, in a sentence, when gnuplot is missing or fails: data and script are kept then; empty when
+///         all is well
+/// throws  IoError when the files cannot be written; InputError for an axis that is not positive and ascending
+std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
+                 const std::string& gnuplot = "gnuplot");
+
+}  // namespace dartboard

@@ -1,0 +1,153 @@
+#include "core/time/divergence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/time/energy.h"
+#include "core/time/trial_state.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; gravity sets
+// vertices going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no energy,
+// but must be finite: zero times one that is not is not a number.
+double small_energy(const SpringSystem& system, Motion motion, double h) {
+  constexpr double place = 16 * std::numeric_limits<double>::epsilon();
+  double elastic = 0.0, mass = 0.0, driven = 0.0;
+  for (std::size_t s = 0; s < system.springs.size(); ++s) {
+    const auto [i, j] = system.ends[s];
+    const double moved = place * (motion.x[i].norm() + motion.x[j].norm() + system.springs[s].rest_length);
+    elastic += system.springs[s].stiffness * moved * moved + 0.0 * system.springs[s].damping;
+  }
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    mass += system.mass[i] + 0.0 * system.viscosity[i];
+    if (system.fixed[i]) driven = std::max(driven, motion.v[i].squaredNorm());
+  }
+  return elastic / 2 + mass * (h * h * system.gravity.squaredNorm() + 2.0 * driven);
+}
+
+}  // namespace
+
+DivergenceDetector::Sums DivergenceDetector::sums(const SpringSystem& system, Motion motion) const {
+  double twice = 0.0;
+  Vector3d moment(0, 0, 0);
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    twice += system.mass[i] * motion.v[i].squaredNorm();
+    moment += system.mass[i] * motion.x[i];
+  }
+  // a product with zero gravity keeps what is not finite
+  const double gravity = -system.gravity.dot(moment);
+  return {twice / 2, gravity, std::isfinite(twice) && std::isfinite(gravity)};
+}
+
+double DivergenceDetector::available(const Sums& now) const {
+  return energy_ + small_ + std::abs(now.gravity - gravity_);
+}
+
+double DivergenceDetector::energy_of_some_springs(const SpringSystem& system, Motion motion) {
+  const std::size_t count = system.springs.size(), stride = std::clamp<std::size_t>(count / 8, 1, spring_share);
+  first_spring_ = first_spring_ + 1 < stride ? first_spring_ + 1 : 0;
+  double twice = 0.0;
+  for (std::size_t s = first_spring_; s < count; s += stride) {
+    const auto [i, j] = system.ends[s];
+    const double stretch = (motion.x[j] - motion.x[i]).norm() - system.springs[s].rest_length;
+    twice += system.springs[s].stiffness * stretch * stretch;
+  }
+  return static_cast<double>(stride) * twice / 2;
+}
+
+void DivergenceDetector::keep(Motion motion) {
+  kept_x_.assign(motion.x.begin(), motion.x.end());
+  kept_v_.assign(motion.v.begin(), motion.v.end());
+  since_kept_ = 0;
+}
+
+StepResult DivergenceDetector::begin(const SpringSystem& system, Motion motion, double ceiling) {
+  const Sums now = sums(system, motion);
+  const double elastic = elastic_energy(system, motion.x);
+  const double floor = small_energy(system, motion, step_);
+  if (!now.finite || !std::isfinite(elastic) || !std::isfinite(floor)) return diagnose(system, motion);
+  energy_ = std::min(now.kinetic + elastic, ceiling);
+  small_ = floor;
+  gravity_ = now.gravity;
+  since_start_ = 0;
+  next_check_ = 1;
+  keep(motion);
+  return {};
+}
+
+StepResult DivergenceDetector::start(const SpringSystem& system, Motion motion, double h) {
+  step_ = h;
+  checks_ = 0;
+  return begin(system, motion, std::numeric_limits<double>::infinity());
+}
+
+StepResult DivergenceDetector::system_changed(const SpringSystem& system, Motion motion) {
+  return begin(system, motion, available(sums(system, motion)));
+}
+
+StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion motion) {
+  ++since_kept_;
+  if (++since_start_ < next_check_) return {};
+  next_check_ += std::min(since_start_, check_steps);
+  ++checks_;
+  const Sums now = sums(system, motion);
+  const double energy = available(now);
+  // comparisons that a NaN fails
+  if (!now.finite || !(now.kinetic <= gain * energy)) return diagnose(system, motion);
+  // a few springs may hold much of it: what they suggest is looked at
+  if (!(now.kinetic + energy_of_some_springs(system, motion) <= gain * energy))
+    if (const StepResult result = check_all(system, motion); !result.ok()) return result;
+  if (since_kept_ >= keep_steps && now.kinetic <= 2.0 * energy) keep(motion);
+  return {};
+}
+
+StepResult DivergenceDetector::check_all(const SpringSystem& system, Motion motion) {
+  ++checks_;
+  const Sums now = sums(system, motion);
+  if (now.finite && now.kinetic + elastic_energy(system, motion.x) <= gain * available(now)) return {};
+  return diagnose(system, motion);
+}
+
+StepResult DivergenceDetector::diagnose(const SpringSystem& system, Motion motion) const {
+  if (const StepResult state = check_finite(motion.x, motion.v); !state.ok()) return state;
+  for (std::size_t i = 0; i < system.mass.size(); ++i)
+    for (const auto& [quantity, value] : {std::pair{"mass", system.mass[i]}, {"viscosity", system.viscosity[i]}})
+      if (!std::isfinite(value))
+        return {StepCode::nonfinite, Witness::vertex, static_cast<std::uint32_t>(i), quantity, value};
+  for (std::size_t s = 0; s < system.springs.size(); ++s)
+    for (const double value : {system.springs[s].stiffness, system.springs[s].rest_length, system.springs[s].damping})
+      if (!std::isfinite(value))
+        return {StepCode::nonfinite, Witness::edge, static_cast<std::uint32_t>(s), "spring", value};
+  std::size_t most = 0;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < motion.v.size(); ++i) {
+    // speeds whose squares overflow are compared too
+    const double size = std::sqrt(system.mass[i]) * motion.v[i].stableNorm();
+    if (size > largest) {
+      largest = size;
+      most = i;
+    }
+  }
+  return {StepCode::unstable_step, Witness::vertex, static_cast<std::uint32_t>(most), "speed",
+          motion.v.empty() ? 0.0 : motion.v[most].stableNorm()};
+}
+
+StepResult DivergenceDetector::with_witness(const StepResult& result, const SpringSystem& system, Motion motion) const {
+  if (result.code != StepCode::nonfinite || result.witness != Witness::none) return result;
+  const StepResult found = diagnose(system, motion);
+  return found.code == StepCode::nonfinite ? found : result;
+}
+
+std::uint64_t DivergenceDetector::restore(Motion motion) const {
+  if (kept_x_.size() != motion.x.size()) return 0;
+  std::ranges::copy(kept_x_, motion.x.begin());
+  std::ranges::copy(kept_v_, motion.v.begin());
+  return since_kept_;
+}
+
+}  // namespace dartboard

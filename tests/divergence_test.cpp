@@ -1,0 +1,236 @@
+// Unstable runs are told from stable ones, early, by every explicit method; and numbers that are none are found.
+
+#include "core/time/divergence.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/time/energy.h"
+#include "core/time/integrators.h"
+#include "core/time/stable_step.h"
+#include "core/time/trial_state.h"
+#include "tests/spring_bodies_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+constexpr const char* explicit_methods[]{"symplectic-euler", "verlet", "blanes-moan-4", "rk4", "dormand-prince-54"};
+
+struct Watched {
+  StepResult result;
+  std::uint64_t steps = 0;
+};
+/// Steps of h until the detector, or the step itself, objects.
+Watched run(SpringArrays& body, Integrator& integrator, double h, std::uint64_t steps, DivergenceDetector& detector) {
+  Watched w;
+  w.result = detector.start(body.system(), body.motion(), h);
+  for (; w.result.ok() && w.steps < steps; ++w.steps) {
+    w.result = integrator.step(body.system(), body.motion(), h);
+    w.result = w.result.ok() ? detector.after_step(body.system(), body.motion())
+                             : detector.with_witness(w.result, body.system(), body.motion());
+  }
+  return w;
+}
+
+SpringArrays moving_grid(unsigned seed = 1) {
+  SpringArrays body = spring_grid(2, 2, 2);
+  disturb(body, 0.002, 0.05, seed);
+  return body;
+}
+
+double limit(const SpringArrays& body, const char* name) {
+  StableStepEstimate estimate;
+  const StableStep& step = estimate.refresh(body.system(), body.x);
+  return make_integrator(name)->scheme().imaginary_limit / step.lower;
+}
+
+TEST(Divergence, IsFoundWithin64StepsOfAnyUnstableRun) {
+  for (const char* name : explicit_methods)
+    for (const double factor : {1.2, 2.0, 10.0, 1e3, 1e6, 1e8}) {
+      // closer to the limit growth is slow, and may saturate as large motions soften the body;
+      // weak growth, or a gap of stability above the first limit: nothing to find within 64 steps
+      const std::string_view method = name;
+      if (factor < 4.0 && (method == "dormand-prince-54" || method == "blanes-moan-4")) continue;
+      SpringArrays body = moving_grid();
+      DivergenceDetector detector;
+      const auto integrator = make_integrator(name);
+      const Watched w = run(body, *integrator, factor * limit(body, name), 1000, detector);
+      EXPECT_FALSE(w.result.ok()) << name << " " << factor;
+      EXPECT_LE(w.steps, 64u) << name << " " << factor << ": " << to_string(w.result);
+      EXPECT_NE(w.result.witness, Witness::none) << name << " " << factor;
+      EXPECT_TRUE(w.result.code == StepCode::unstable_step || w.result.code == StepCode::nonfinite);
+    }
+}
+
+TEST(Divergence, IsNotFoundInAStableRunCloseToTheLimit) {
+  for (const char* name : explicit_methods) {
+    SpringArrays body = moving_grid();
+    DivergenceDetector detector;
+    const auto integrator = make_integrator(name);
+    EXPECT_TRUE(run(body, *integrator, 0.95 * limit(body, name), 3000, detector).result.ok()) << name;
+  }
+}
+
+TEST(Divergence, LeavesTheLastGoodStateToGoBackTo) {
+  SpringArrays body = moving_grid();
+  const double energy = total_energy(body.system(), body.x, body.v);
+  DivergenceDetector detector;
+  const auto integrator = make_integrator("verlet");
+  const Watched w = run(body, *integrator, 1.1 * limit(body, "verlet"), 1000, detector);
+  ASSERT_EQ(w.result.code, StepCode::unstable_step);
+  EXPECT_GT(kinetic_energy(body.system(), body.v), 50 * energy);
+  EXPECT_LE(detector.restore(body.motion()), w.steps);
+  EXPECT_LE(kinetic_energy(body.system(), body.v), 2 * energy * (1 + 1e-12));
+}
+
+TEST(Divergence, HappensBeforeAnythingOverflows) {
+  for (const double factor : {1.2, 5.0, 1e4, 1e8}) {
+    SpringArrays body = moving_grid();
+    DivergenceDetector detector;
+    const auto integrator = make_integrator("rk4");
+    run(body, *integrator, factor * limit(body, "rk4"), 1000, detector);
+    EXPECT_TRUE(std::isfinite(kinetic_energy(body.system(), body.v))) << factor;
+  }
+}
+
+TEST(Divergence, IsNotWhatGravityAndDrivenVerticesDo) {
+  for (const char* name : {"explicit-euler", "symplectic-euler", "verlet", "rk4"}) {
+    SpringArrays falling = spring_grid(1, 1, 1);
+    falling.gravity = {0, 0, -9.81};
+    DivergenceDetector detector;
+    const auto integrator = make_integrator(name);
+    EXPECT_TRUE(run(falling, *integrator, 1e-3, 200, detector).result.ok()) << name;
+
+    SpringArrays driven = spring_grid(2, 1, 1);
+    driven.fixed[0] = 1;
+    driven.v[0] = {3, 0, 0};
+    integrator->restart();
+    EXPECT_TRUE(run(driven, *integrator, 1e-3, 200, detector).result.ok()) << name;
+  }
+}
+
+TEST(Divergence, IsNotTheRoundingOfABodyAtRestFarAway) {
+  for (const double offset : {0.0, 1e3, 1e9}) {
+    SpringArrays body = spring_grid(2, 2, 2);
+    for (Eigen::Vector3d& p : body.x) p.array() += offset;
+    DivergenceDetector detector;
+    const auto integrator = make_integrator("verlet");
+    EXPECT_TRUE(run(body, *integrator, 1e-3, 500, detector).result.ok()) << offset;
+  }
+}
+
+TEST(Divergence, IsFoundWhenTheSystemChangesAfterEveryStep) {
+  SpringArrays body = moving_grid();
+  DivergenceDetector detector;
+  const auto integrator = make_integrator("verlet");
+  const double h = 1.1 * limit(body, "verlet");
+  StepResult result = detector.start(body.system(), body.motion(), h);
+  int steps = 0;
+  for (; result.ok() && steps < 1000; ++steps) {
+    result = integrator->step(body.system(), body.motion(), h);
+    if (result.ok()) result = detector.after_step(body.system(), body.motion());
+    if (result.ok()) result = detector.system_changed(body.system(), body.motion());
+  }
+  EXPECT_EQ(result.code, StepCode::unstable_step);
+  EXPECT_LE(steps, 64);
+}
+
+TEST(Divergence, NamesANumberThatIsNoneInjectedInMidRun) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, infinity, -infinity})
+    for (const bool position : {true, false})
+      for (const IntegratorEntry& entry : integrators()) {
+        SpringArrays body = moving_grid();
+        const auto integrator = entry.make();
+        DivergenceDetector detector;
+        ASSERT_TRUE(run(body, *integrator, 1e-4, 20, detector).result.ok()) << entry.name;
+        (position ? body.x : body.v)[5][1] = bad;
+        StepResult result;
+        for (int k = 0; k < 17 && result.ok(); ++k) {
+          result = integrator->step(body.system(), body.motion(), 1e-4);
+          result = result.ok() ? detector.after_step(body.system(), body.motion())
+                               : detector.with_witness(result, body.system(), body.motion());
+        }
+        EXPECT_FALSE(result.ok()) << entry.name << " " << bad;
+        EXPECT_NE(result.witness, Witness::none) << entry.name << " " << bad << " " << to_string(result);
+        detector.restore(body.motion());
+        EXPECT_TRUE(check_finite(body.x, body.v).ok()) << entry.name;
+      }
+}
+
+/// What a careless method does: it keeps the larger of two numbers, by which a NaN passes, and reports success.
+class Launderer : public Integrator {
+ public:
+  const Scheme& scheme() const override { return make_integrator("verlet")->scheme(); }
+  StepResult step(const SpringSystem&, Motion motion, double) override {
+    double residual = 0.0;
+    motion.v[3][2] = std::numeric_limits<double>::quiet_NaN();
+    for (const Eigen::Vector3d& v : motion.v) residual = std::max(residual, std::abs(v[2]));
+    return residual < 1e3 ? StepResult{} : StepResult{StepCode::newton_stalled, Witness::none, 0, "residual", residual};
+  }
+};
+
+TEST(Divergence, FindsANaNThatAMaximumHasLaundered) {
+  SpringArrays body = moving_grid();
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  Launderer launderer;
+  ASSERT_TRUE(launderer.step(body.system(), body.motion(), 1e-3).ok());
+  const StepResult result = detector.after_step(body.system(), body.motion());
+  EXPECT_EQ(result.code, StepCode::nonfinite);
+  EXPECT_EQ(result.number, 3u);
+  EXPECT_EQ(result.quantity, "velocity");
+}
+
+TEST(Divergence, RefusesToStartFromWhatIsNotFinite) {
+  SpringArrays body = moving_grid();
+  DivergenceDetector detector;
+  body.springs[4].stiffness = std::numeric_limits<double>::infinity();
+  const StepResult result = detector.start(body.system(), body.motion(), 1e-3);
+  EXPECT_EQ(result.code, StepCode::nonfinite);
+  EXPECT_EQ(result.witness, Witness::edge);
+  EXPECT_EQ(result.number, 4u);
+}
+
+TEST(Divergence, IsFoundInWhatIsOverdamped) {
+  // strong dampers let nothing move fast: the energy is that of the springs
+  SpringArrays body = spring_grid(2, 2, 2);
+  for (Spring& s : body.springs) s.damping = 1e3 * s.stiffness;
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  for (Eigen::Vector3d& p : body.x) p *= 3.0;
+  EXPECT_EQ(detector.after_step(body.system(), body.motion()).code, StepCode::unstable_step);
+  EXPECT_EQ(detector.check_all(body.system(), body.motion()).code, StepCode::unstable_step);
+}
+
+TEST(Divergence, IsNotFoundWhereOneSpringHoldsAllEnergyCloseToTheLimit) {
+  SpringArrays body = spring_grid(4, 4, 4);
+  body.springs[100].stiffness *= 1e4;
+  const double h = 0.95 * limit(body, "verlet");
+  body.x[body.ends[100][0]] += 0.001 * (body.x[body.ends[100][1]] - body.x[body.ends[100][0]]);
+  DivergenceDetector detector;
+  const auto integrator = make_integrator("verlet");
+  EXPECT_TRUE(run(body, *integrator, h, 2000, detector).result.ok());
+}
+
+TEST(Divergence, LooksAtOneStepInSixteen) {
+  SpringArrays body = moving_grid();
+  DivergenceDetector detector;
+  const auto integrator = make_integrator("verlet");
+  run(body, *integrator, 1e-4, 1600, detector);
+  EXPECT_LE(detector.checks(), 1600u / 16 + 5);
+  EXPECT_GE(detector.checks(), 1600u / 16);
+}
+
+TEST(Divergence, OfNothingIsNone) {
+  SpringArrays nothing;
+  DivergenceDetector detector;
+  EXPECT_TRUE(detector.start(nothing.system(), nothing.motion(), 1e-3).ok());
+  EXPECT_TRUE(detector.after_step(nothing.system(), nothing.motion()).ok());
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,127 @@
+#include "benchmarks/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "benchmarks/work_precision_plot.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PlotTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              ("dartboard-plot-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "-" +
+               std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  fs::path folder_;
+};
+
+Plot small_plot() {
+  Plot plot;
+  plot.title = "A \"quoted\" title";
+  plot.x_high = plot.y_high = 100.0;
+  PlotSeries line{.title = "line", .points = {{1.0, 100.0}, {10.0, 10.0}, {100.0, 1.0, "end"}}, .colour = "#ff0000"};
+  line.width = 2.0;
+  line.opacity = 0.5;
+  plot.series = {line, {.title = "empty", .points = {}, .colour = "#000000"}};
+  return plot;
+}
+
+TEST(PlotText, DataHoldEveryPointWithAllItsDigits) {
+  const PlotSeries series{.title = "", .points = {{1.0 / 3.0, 2.0, "a \"b\""}}, .colour = "#000000"};
+  EXPECT_EQ(plot_data(series), "0.33333333333333331 2 \"a \\\"b\\\"\"\n");
+}
+
+TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
+  const std::string script = plot_script(small_plot(), "figure");
+  EXPECT_NE(script.find("set output \"figure.png\""), std::string::npos);
+  EXPECT_NE(script.find("set output \"figure.svg\""), std::string::npos);
+  EXPECT_NE(script.find("\"figure-0.dat\" using 1:2 with linespoints linecolor rgb \"#80ff0000\""), std::string::npos);
+  EXPECT_EQ(script.find("figure-1.dat"), std::string::npos);
+  EXPECT_NE(script.find("A \\\"quoted\\\" title"), std::string::npos);
+}
+
+TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
+  const std::string trouble = draw(small_plot(), folder_, "figure", "no-such-gnuplot");
+  EXPECT_NE(trouble.find("no-such-gnuplot"), std::string::npos) << trouble;
+  EXPECT_NE(text("figure-0.dat").find("100 1 \"end\""), std::string::npos);
+  EXPECT_FALSE(text("figure.gnuplot").empty());
+}
+
+TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
+  const std::string trouble = draw(small_plot(), fs::relative(folder_), "figure");
+  if (trouble.find("cannot start") != std::string::npos) GTEST_SKIP() << trouble;
+  ASSERT_EQ(trouble, "");
+  EXPECT_EQ(text("figure.png").substr(1, 3), "PNG");
+  EXPECT_NE(text("figure.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(PlotTest, AnAxisThatHasNoLogarithmIsRefused) {
+  Plot plot = small_plot();
+  plot.x_low = 0.0;
+  EXPECT_THROW(draw(plot, folder_, "figure"), InputError);
+}
+
+WorkPoint run_of(const std::string& contender, std::uint64_t steps, double error, double cost) {
+  WorkPoint p;
+  p.contender = contender;
+  p.setting.steps = steps;
+  p.errors.x = error;
+  p.costs = {cost};
+  p.cost = cost;
+  return p;
+}
+
+TEST(WorkPrecisionPlot, AFailedRunStandsAtTheBorderWhereItWouldHaveEndedWithItsDiagnosis) {
+  WorkPrecision study;
+  study.scene = "scene";
+  study.reference.floor = 1e-9;
+  WorkPoint failed = run_of("verlet", 10, 0.0, 3.0);
+  failed.code = "NONFINITE";
+  study.points = {failed, run_of("verlet", 20, 1e-3, 40.0)};
+  classify(study.points, study.reference.floor);
+  const Plot plot = work_precision_plot(study);
+  bool found = false;
+  for (const PlotSeries& s : plot.series)
+    for (const auto& p : s.points)
+      if (p.label == "NONFINITE") {
+        found = true;
+        EXPECT_DOUBLE_EQ(p.x, 20.0);  // half the steps of the run that cost 40
+        EXPECT_GT(p.y, 1.0);
+        EXPECT_LT(p.y, plot.y_high);
+      }
+  EXPECT_TRUE(found);
+}
+
+TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
+  WorkPrecision study;
+  study.points = {run_of("rk4", 20, 1e-6, 100.0), run_of("verlet", 20, 1e-2, 10.0), run_of("verlet", 80, 1e-3, 400.0)};
+  classify(study.points, 0.0);
+  const Plot plot = work_precision_plot(study);
+  const auto front = std::find_if(plot.series.begin(), plot.series.end(),
+                                  [](const PlotSeries& s) { return s.title == "Pareto front"; });
+  ASSERT_NE(front, plot.series.end());
+  ASSERT_EQ(front->points.size(), 2u);
+  EXPECT_EQ(front->points[0].x, 10.0);
+  EXPECT_EQ(front->points[1].x, 100.0);
+}
+
+}  // namespace
+}  // namespace dartboard

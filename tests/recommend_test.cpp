@@ -1,0 +1,105 @@
+#include "validation/recommend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/plain/error.h"
+#include "core/time/integrators.h"
+
+namespace dartboard {
+namespace {
+
+/// A clock on which every look takes a microsecond: the same choices on every machine.
+CpuClock ticking() {
+  return [t = std::int64_t{0}]() mutable { return t += 1000; };
+}
+
+Candidate fourth_order() {
+  Candidate c;
+  c.confidence = Confidence::asymptotic;
+  c.order = 4;
+  c.limit_h = std::numeric_limits<double>::infinity();
+  c.pilot_h = 0.1;
+  c.error_at_pilot = 1e-2;
+  c.slope = 4.0;
+  c.step_cost = 6.0;
+  return c;
+}
+
+TEST(SolveForError, TheStepFollowsTheOrderWithItsSafety) {
+  Candidate c = fourth_order();
+  solve_for_error(c, 1e-6, 8.0, 8, 2e-6, {});
+  // (1e-4)^(1/4) = 1/10, times 0.9: h = 0.009, 111.1 steps in each of 8 intervals of 1 s
+  EXPECT_EQ(c.steps, 8u * 112u);
+  EXPECT_DOUBLE_EQ(c.h, 8.0 / 896.0);
+  EXPECT_NEAR(c.predicted_error, 1e-2 * std::pow(c.h / 0.1, 4), 1e-20);
+  EXPECT_DOUBLE_EQ(c.predicted_cost, 6.0 * 896.0);
+  EXPECT_DOUBLE_EQ(c.predicted_s, 2e-6 * c.predicted_cost);
+  EXPECT_FALSE(c.limited_by_stability);
+}
+
+TEST(SolveForError, TheStepStaysWithinTheStabilityLimit) {
+  Candidate c = fourth_order();
+  c.limit_h = 0.004;
+  solve_for_error(c, 1e-6, 8.0, 8, 2e-6, {});
+  EXPECT_LE(c.h, 0.95 * 0.004);
+  EXPECT_TRUE(c.limited_by_stability);
+}
+
+TEST(SolveForError, OrdersThatDoNotShowAskForLess) {
+  Candidate sure = fourth_order(), unsure = fourth_order();
+  unsure.confidence = Confidence::pre_asymptotic;
+  solve_for_error(sure, 1e-6, 8.0, 8, 2e-6, {});
+  solve_for_error(unsure, 1e-6, 8.0, 8, 2e-6, {});
+  EXPECT_GT(unsure.steps, sure.steps);
+}
+
+class RecommendChain : public ::testing::TestWithParam<double> {};
+
+TEST_P(RecommendChain, ThePickMeetsTheError) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const Recommendation r = recommend(scene, GetParam(), ticking());
+  const Candidate* pick = r.pick();
+  ASSERT_NE(pick, nullptr);
+  const SceneReference reference = reference_of(scene, ticking());
+  const Audit a = audit(scene, reference, r, {}, ticking());
+  EXPECT_TRUE(a.met()) << pick->contender << ": " << a.actual_error << " for " << a.error;
+  // asymptotic or not, the estimate is one and no bound of convenience
+  EXPECT_GT(a.actual_error, GetParam() / 1e3);
+  EXPECT_EQ(a.best, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Errors, RecommendChain, ::testing::Values(1e-3, 1e-5, 1e-8));
+
+TEST(Recommend, EveryIntegratorIsRankedOrLeftOutForAReason) {
+  const Recommendation r = recommend(chain_scene(8, 64.0), 1e-4, ticking());
+  ASSERT_EQ(r.candidates.size(), integrators().size());
+  double previous = 0.0;
+  for (const Candidate& c : r.candidates) {
+    if (!c.usable()) continue;
+    EXPECT_GE(c.predicted_cost, previous);
+    previous = c.predicted_cost;
+    if (!c.implicit) {
+      EXPECT_LE(c.h, c.limit_h);
+    }
+  }
+  EXPECT_GE(r.one_more_digit, 1.0);
+}
+
+TEST(Recommend, TheBracketOfOmegaHoldsTheKnownOne) {
+  const TradeoffScene scene = chain_scene(8, 16.0);
+  const Recommendation r = recommend(scene, 1e-2, ticking());
+  // omega_max of the chain is known; power iteration approaches it from below
+  EXPECT_LE(r.features.omega_low, scene.fastest_rate * (1.0 + 1e-12));
+  EXPECT_GE(r.features.omega_high, scene.fastest_rate);
+}
+
+TEST(Recommend, ANonsensicalErrorIsRefused) {
+  EXPECT_THROW(recommend(chain_scene(4, 4.0), 0.0, ticking()), InputError);
+  EXPECT_THROW(recommend(chain_scene(4, 4.0), std::nan(""), ticking()), InputError);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,204 @@
+// The bracket of the highest frequency against all eigenvalues, before and after random operations.
+
+#include "core/time/stable_step.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "core/time/integrators.h"
+#include "tests/random_operations.h"
+#include "tests/spring_bodies_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+const Scheme& scheme(const char* name) { return make_integrator(name)->scheme(); }
+
+/// omega_max with the exact tangent of the springs, from a matrix put together entry by entry here.
+double true_frequency(const SpringArrays& body) {
+  const auto n = static_cast<Eigen::Index>(3 * body.x.size());
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    const auto i = static_cast<Eigen::Index>(3 * body.ends[s][0]), j = static_cast<Eigen::Index>(3 * body.ends[s][1]);
+    const Eigen::Vector3d dx = body.x[body.ends[s][1]] - body.x[body.ends[s][0]];
+    const Eigen::Matrix3d along = dx * dx.transpose() / dx.squaredNorm();
+    const Eigen::Matrix3d block = body.springs[s].stiffness * (along + (1.0 - body.springs[s].rest_length / dx.norm()) *
+                                                                           (Eigen::Matrix3d::Identity() - along));
+    k.block<3, 3>(i, i) += block;
+    k.block<3, 3>(j, j) += block;
+    k.block<3, 3>(i, j) -= block;
+    k.block<3, 3>(j, i) -= block;
+  }
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const auto vertex = static_cast<std::size_t>(r / 3);
+    const double s = body.fixed[vertex] ? 0.0 : std::sqrt(body.inverse_mass[vertex]);
+    k.row(r) *= s;
+    k.col(r) *= s;
+  }
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+/// A grid with stiffnesses and masses over two decades, off its rest shape.
+SpringArrays random_body(unsigned seed) {
+  SplitMix64 random(seed);
+  SpringArrays body = spring_grid(1 + static_cast<int>(random.below(3)), 1 + static_cast<int>(random.below(3)),
+                                  1 + static_cast<int>(random.below(2)), 50.0, 0.0, 0.03);
+  const auto decades = [&random] { return std::exp(2.3 * random.next_signed()); };
+  for (Spring& s : body.springs) s.stiffness *= decades();
+  for (std::size_t i = 0; i < body.mass.size(); ++i) {
+    body.mass[i] *= decades();
+    body.inverse_mass[i] = 1.0 / body.mass[i];
+  }
+  disturb(body, 0.004, 0.0, seed);
+  return body;
+}
+
+TEST(StableStep, IsNeverAboveTheTrueLimitAndAtMostATenthBelow) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const SpringArrays body = random_body(seed);
+    StableStepEstimate estimate;
+    const StableStep& step = estimate.refresh(body.system(), body.x);
+    const double limit = 2.0 / true_frequency(body);
+    // the bisection for the limit ends 1e-9 of it away, and eigenvalues are rounded
+    EXPECT_LE(step.safe_step(scheme("verlet"), 0.0), limit * (1 + 1e-8)) << seed;
+    EXPECT_GE(step.safe_step(scheme("verlet"), 0.0), limit * 0.9) << seed;
+    EXPECT_LE(step.lower, step.upper) << seed;
+    EXPECT_LE(step.upper, step.any_state) << seed;
+  }
+}
+
+TEST(StableStep, FollowsRandomOperationsOnFiftyBodies) {
+  double most_gained = 0.0;
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    auto body = body_of<TetMap>(reference::kuhn_grid(2, 1 + static_cast<int>(seed % 2), 1, 0.1, 0.02, seed));
+    StableStepEstimate estimate;
+    const auto compare = [&] {
+      const SpringArrays arrays = arrays_of(body);
+      const double frequency = true_frequency(arrays);
+      const StableStep& step = estimate.follow(arrays.system(), arrays.x);
+      EXPECT_GE(step.upper, frequency * (1 - 1e-9)) << seed;
+      EXPECT_LE(step.upper, frequency / 0.9) << seed;
+      EXPECT_LE(step.lower, frequency * (1 + 1e-9)) << seed;
+    };
+    compare();
+    SplitMix64 random(seed);
+    for (int k = 0; k < 4 && body.map.dart_count() > 48; ++k) {
+      const double before = true_frequency(arrays_of(body));
+      adapt(body, do_something(body.map, random));
+      most_gained = std::max(most_gained, true_frequency(arrays_of(body)) / before);
+      estimate.refresh(arrays_of(body).system(), body.vertices.position);
+      compare();
+    }
+  }
+  // a vertex that comes apart is lighter, and the highest frequency rises: the reason to look again after a cut
+  EXPECT_GT(most_gained, 1.01);
+}
+
+TEST(StableStep, RisesWhenACutMakesAVertexLighter) {
+  // one mass between two springs becomes two, one of a tenth with half of the stiffness
+  SpringArrays whole = two_masses(1.0, 1.0, 100.0, 0.0), cut = two_masses(0.1, 1.0, 50.0, 0.0);
+  StableStepEstimate estimate;
+  const double before = estimate.refresh(whole.system(), whole.x).lower;
+  const double after = estimate.refresh(cut.system(), cut.x).lower;
+  EXPECT_NEAR(before, std::sqrt(200.0), 1e-9);
+  EXPECT_NEAR(after, std::sqrt(50.0 * 11.0), 1e-9);
+}
+
+TEST(StableStep, FollowsAFrequencyThatRisesWithTheState) {
+  // a rest shape that is pulled to twice its length gets stiff across the springs too
+  SpringArrays body = spring_grid(3, 2, 2);
+  StableStepEstimate estimate;
+  const double at_rest = estimate.refresh(body.system(), body.x).upper;
+  for (Eigen::Vector3d& p : body.x) p *= 4.0;
+  for (int k = 0; k < 200; ++k) estimate.follow(body.system(), body.x);
+  EXPECT_GT(estimate.latest().upper, at_rest);
+  EXPECT_GE(estimate.latest().upper, true_frequency(body) * (1 - 1e-9));
+  EXPECT_LE(estimate.latest().upper, estimate.latest().any_state);
+}
+
+TEST(StableStep, BoundsEveryStateByGershgorin) {
+  SpringArrays body = spring_grid(2, 2, 1);
+  StableStepEstimate estimate;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    disturb(body, 0.05, 0.0, seed);
+    EXPECT_LE(true_frequency(body), estimate.refresh(body.system(), body.x).any_state * (1 + 1e-12));
+  }
+}
+
+TEST(StableStep, CostsFewMultiplications) {
+  const SpringArrays body = spring_grid(4, 4, 4);
+  StableStepEstimate estimate;
+  estimate.refresh(body.system(), body.x);
+  // k = (asinh(sqrt(2 * 375) / 1e-9) / acosh(1.06) + 1) / 2 = 36.4, and a power iteration
+  EXPECT_LE(estimate.multiplications(), 38u);
+  const auto before = estimate.multiplications();
+  estimate.follow(body.system(), body.x);
+  EXPECT_EQ(estimate.multiplications(), before + 1);
+}
+
+TEST(StableStep, IsShorterThanTheLimitOfEveryFrequencyWithDamping) {
+  const SpringArrays damped = spring_grid(2, 2, 2, 50.0, 0.4);
+  StableStepEstimate estimate;
+  const StableStep& step = estimate.refresh(damped.system(), damped.x);
+  const double frequency = true_frequency(damped), zeta = 0.4 / 50.0 * frequency / 2;
+  EXPECT_LE(step.damping_ratio().lower, zeta * (1 + 1e-9));
+  EXPECT_GE(step.damping_ratio().upper, zeta * (1 - 1e-9));
+  for (const char* name : {"explicit-euler", "symplectic-euler", "verlet", "rk4", "blanes-moan-4"}) {
+    const double h = step.safe_step(scheme(name));
+    EXPECT_GT(h, 0.0) << name;
+    for (const double share : {0.05, 0.3, 0.7, 1.0})
+      EXPECT_LT(spectral_radius(scheme(name), h * share * frequency, zeta * share), 1 + 1e-8) << name << " " << share;
+  }
+}
+
+TEST(StableStep, IsQuicklyBoundedFromBelowByGershgorin) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const SpringArrays body = random_body(seed);
+    StableStepEstimate estimate;
+    const StableStep quick = quick_stable_step(body.system()), close = estimate.refresh(body.system(), body.x);
+    EXPECT_EQ(quick.upper, close.any_state);
+    const double h = quick.safe_step(scheme("rk4"), 0.0);
+    EXPECT_LE(h, close.safe_step(scheme("rk4"), 0.0));
+    EXPECT_TRUE(close.is_stable(scheme("rk4"), h));
+    EXPECT_FALSE(close.is_stable(scheme("rk4"), 2 * close.safe_step(scheme("rk4"), 0.0)));
+  }
+}
+
+TEST(StableStep, HasNoLimitWhereThereIsNone) {
+  SpringArrays body = spring_grid(1, 1, 1);
+  StableStepEstimate estimate;
+  EXPECT_EQ(estimate.refresh(body.system(), body.x).safe_step(scheme("backward-euler"), 0.0), Scheme::unlimited);
+  for (Spring& s : body.springs) s.stiffness = 0.0;
+  EXPECT_EQ(estimate.refresh(body.system(), body.x).safe_step(scheme("rk4"), 0.0), Scheme::unlimited);
+  SpringArrays nothing;
+  EXPECT_EQ(estimate.refresh(nothing.system(), nothing.x).upper, 0.0);
+}
+
+TEST(StableStep, AllowsNoStepWhereANumberIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int what = 0; what < 3; ++what) {
+    SpringArrays body = spring_grid(2, 2, 2);
+    if (what == 0) body.x[3][1] = nan;
+    if (what == 1) body.springs[5].stiffness = nan;
+    if (what == 2) body.inverse_mass[7] = 1.0 / 0.0;
+    StableStepEstimate estimate;
+    EXPECT_EQ(estimate.refresh(body.system(), body.x).safe_step(scheme("rk4"), 0.0), 0.0) << what;
+    EXPECT_EQ(quick_stable_step(body.system()).is_stable(scheme("rk4"), 1e-30), what == 0) << what;
+  }
+}
+
+TEST(StableStep, HoldsOverFortyDecades) {
+  for (const double k : {1e-20, 1e20}) {
+    SpringArrays body = spring_grid(3, 2, 2, k);
+    StableStepEstimate estimate;
+    const double true_value = true_frequency(body);
+    EXPECT_GE(estimate.refresh(body.system(), body.x).upper, true_value * (1 - 1e-9));
+    EXPECT_LE(estimate.latest().upper, true_value * 1.07);
+  }
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,229 @@
+#include "validation/work_precision.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/plain/error.h"
+#include "core/time/integrators.h"
+#include "validation/cvode_adams.h"
+#include "validation/order_scenes.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A clock on which every look takes a microsecond: costs are the same on every machine.
+CpuClock ticking() {
+  return [t = std::int64_t{0}]() mutable { return t += 1000; };
+}
+
+WorkPoint point(const std::string& contender, double error, std::vector<double> costs) {
+  WorkPoint p;
+  p.contender = contender;
+  p.setting.steps = 1;
+  p.errors.x = error;
+  p.costs = std::move(costs);
+  p.cost = p.costs[p.costs.size() / 2];
+  return p;
+}
+
+TEST(Classify, FrontUndecidedDominatedUselessAndFailed) {
+  std::vector<WorkPoint> points{point("a", 1e-3, {9, 10, 11}),       point("b", 1e-3, {10.5, 12, 13}),
+                                point("c", 1e-2, {14, 15, 16}),      point("d", 2.0, {1, 1, 1}),
+                                point("e", std::nan(""), {1, 1, 1}), point("f", 1e-9, {1, 1, 1})};
+  points[5].code = "NONFINITE";
+  classify(points, 0.0);
+  EXPECT_EQ(points[0].standing, Standing::front);
+  EXPECT_EQ(points[1].standing, Standing::undecided);  // 10.5 is not above 11
+  EXPECT_EQ(points[2].standing, Standing::dominated);
+  EXPECT_EQ(points[3].standing, Standing::useless);
+  EXPECT_EQ(points[4].standing, Standing::useless);  // a NaN is no small error
+  EXPECT_EQ(points[5].standing, Standing::failed);
+}
+
+TEST(Classify, ErrorsBelowTheFloorAreEqual) {
+  std::vector<WorkPoint> points{point("a", 1e-14, {20, 20, 20}), point("b", 1e-13, {10, 10, 10})};
+  classify(points, 1e-12);
+  EXPECT_EQ(points[0].standing, Standing::dominated);
+  EXPECT_EQ(points[1].standing, Standing::front);
+}
+
+TEST(CostAt, LiesBetweenTheStepsThatEncloseTheError) {
+  std::vector<WorkPoint> points{point("a", 1e-2, {10}), point("a", 1e-4, {1000}), point("b", 1e-3, {5})};
+  classify(points, 0.0);
+  EXPECT_NEAR(cost_at(points, "a", 1e-3), 100.0, 1e-10);  // halfway on both scales; a few roundings of pow
+  EXPECT_EQ(cost_at(points, "a", 1e-1), 10.0);
+  EXPECT_EQ(cost_at(points, "a", 1e-5), infinity);
+}
+
+TEST(CostAt, DoesNotInterpolateAcrossARunThatFailed) {
+  std::vector<WorkPoint> points{point("a", 1e-2, {10}), point("a", 0.0, {20}), point("a", 1e-4, {1000})};
+  points[1].code = "NONFINITE";
+  classify(points, 0.0);
+  EXPECT_EQ(cost_at(points, "a", 1e-3), 1000.0);
+}
+
+TEST(Winners, PeersDoNotTakePartAndHaveARegret) {
+  std::vector<WorkPoint> points{point("a", 1e-3, {10}), point("b", 1e-3, {30}), point("peer", 1e-3, {5})};
+  points[2].peer = true;
+  classify(points, 0.0);
+  const double errors[]{1e-3, 1e-6};
+  const auto best = winners(points, errors);
+  EXPECT_EQ(best[0].contender, "a");
+  EXPECT_EQ(best[0].runner_up, "b");
+  EXPECT_EQ(best[1].contender, "");
+  const auto all = regrets(points, errors);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1].of_error[0], 3.0);
+  EXPECT_EQ(all[1].worst, infinity);
+  EXPECT_EQ(all[2].of_error[0], 0.5);
+}
+
+TEST(RunTimed, TheChainConvergesToItsClosedForm) {
+  const TradeoffScene scene = chain_scene(6, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  EXPECT_EQ(reference.kind, ReferenceKind::closed_form);
+  const auto error = [&](std::uint64_t steps) {
+    const auto integrator = make_integrator("verlet");
+    const TimedRun run = run_timed(scene, *integrator, {.steps = steps}, ticking());
+    EXPECT_EQ(run.work.force_evaluations, steps);
+    return reference::motion_errors(scene.motion, run.states, reference.states).x;
+  };
+  // order 2 at h omega = 1/64, where the next term is (h omega)^2 of the first
+  EXPECT_NEAR(error(1024) / error(2048), 4.0, 0.01);
+}
+
+TEST(RunTimed, AToleranceNeedsAnIntegratorThatChoosesItsSteps) {
+  const TradeoffScene scene = chain_scene(4, 4.0, 2);
+  EXPECT_THROW(run_timed(scene, *make_integrator("verlet"), {.tolerance = 1e-3}, ticking()), InputError);
+  EXPECT_THROW(run_timed(scene, *make_integrator("verlet"), {}, ticking()), InputError);
+  const auto adaptive = make_integrator("dormand-prince-54");
+  EXPECT_EQ(run_timed(scene, *adaptive, {.tolerance = 1e-3}, ticking()).states.size(), 2u);
+}
+
+TEST(RunTimed, ARunThatTakesTooLongIsGivenUpWithADiagnosis) {
+  const TradeoffScene scene = chain_scene(4, 64.0, 2);
+  const TimedRun run = run_timed(scene, *make_integrator("verlet"), {.steps = 4096}, ticking(), {.cpu_ns = 10'000});
+  EXPECT_EQ(run.result.code, StepCode::budget);
+  EXPECT_LT(run.states.size(), 2u);
+}
+
+TEST(RunTimed, APrefixEndsAtItsCheckpoint) {
+  const TradeoffScene scene = chain_scene(4, 8.0, 4);
+  const auto whole = run_timed(scene, *make_integrator("rk4"), {.steps = 64}, ticking());
+  const auto part = run_timed(scene, *make_integrator("rk4"), {.steps = 64}, ticking(), {.checkpoints = 2});
+  ASSERT_EQ(part.states.size(), 2u);
+  EXPECT_EQ(part.states[1].x, whole.states[1].x);
+  EXPECT_EQ(part.work.steps, 32u);
+}
+
+TEST(RunTimed, ABodyIsCutAsRunSceneDoes) {
+  const PreparedScene prepared = prepare(order_scene(OrderCase::aligned_cut));
+  const TradeoffScene scene = tradeoff_scene("", order_scene(OrderCase::aligned_cut));
+  const auto one = make_integrator("blanes-moan-4"), two = make_integrator("blanes-moan-4");
+  const SceneRun expected = run_scene(prepared, *one, 32);
+  const TimedRun run = run_timed(scene, *two, {.steps = 32}, ticking());
+  ASSERT_EQ(run.states.size(), expected.states.size());
+  for (std::size_t c = 0; c < run.states.size(); ++c) {
+    EXPECT_EQ(run.states[c].x, expected.states[c].x);
+    EXPECT_EQ(run.states[c].v, expected.states[c].v);
+  }
+}
+
+TEST(Stiffen, BodyAndNetworkGetTheSameSprings) {
+  SpringScene plain = order_scene(OrderCase::damped);
+  PreparedScene scene = prepare(plain);
+  const double before = scene.fastest_rate;
+  std::vector<std::uint8_t> stiff(plain.problem.mesh.cell_count(), 0);
+  for (std::size_t c = 0; c < stiff.size(); c += 10) stiff[c] = 1;
+  stiffen(scene, plain.problem.mesh, stiff, 1e4);
+  EXPECT_GT(scene.fastest_rate, 10.0 * before);
+  SpringEndsView ends;
+  ends.rebuild(scene.body);
+  ASSERT_EQ(ends.ends.size(), scene.motion.network.springs.size());
+  std::size_t found = 0;
+  for (const reference::Spring& s : scene.motion.network.springs)
+    for (std::size_t k = 0; k < ends.ends.size(); ++k)
+      if (std::minmax(ends.ends[k][0], ends.ends[k][1]) == std::minmax(s.a, s.b)) {
+        ++found;
+        // whole multiples below 2^53 of the material's: exact in any order
+        EXPECT_EQ(scene.body.springs[k].stiffness, s.stiffness);
+        EXPECT_EQ(scene.body.springs[k].damping, s.damping);
+      }
+  EXPECT_EQ(found, ends.ends.size());
+}
+
+TEST(Stiffen, ABodyThatIsCutIsRefused) {
+  PreparedScene scene = prepare(order_scene(OrderCase::aligned_cut));
+  EXPECT_THROW(stiffen(scene, {}, {}, 2.0), InputError);
+}
+
+TEST(TradeoffScenes, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+  try {
+    make_tradeoff_scene("nonsense", "");
+    FAIL();
+  } catch (const InputError& error) {
+    for (const TradeoffEntry& entry : tradeoff_scenes())
+      EXPECT_NE(std::string(error.what()).find(entry.name), std::string::npos);
+  }
+}
+
+TEST(ErrorOfRest, IsTheSizeOfTheMotion) {
+  const TradeoffScene scene = chain_scene(6, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  double expected = 0.0;
+  for (const PointState& state : reference.states) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < state.x.size(); ++i) sum += (state.x[i] - scene.motion.start.x[i]).squaredNorm();
+    expected = std::max(expected, std::sqrt(sum / 8.0) / scene.edge);  // 6 masses and 2 walls, all equal
+  }
+  EXPECT_NEAR(error_of_rest(scene, reference), expected, 1e-13);
+}
+
+TEST(WorkPrecisionStudy, EveryContenderMeetsItsFailurePointAndConverges) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  WorkPrecisionOptions options;
+  options.fewest_repetitions = options.most_repetitions = 1;
+  options.most_s = 3e-4;  // on this clock a look takes a microsecond
+  std::vector<TradeoffContender> contenders;
+  for (const std::string name : {"verlet", "blanes-moan-4", "rk4"})
+    contenders.push_back({name, [name] { return make_integrator(name); }, false, false});
+  std::size_t seen = 0;
+  const WorkPrecision study =
+      work_precision(scene, reference, contenders, ticking(), options, [&](const WorkPoint&) { ++seen; });
+  EXPECT_EQ(seen, study.points.size());
+  for (const TradeoffContender& c : contenders) {
+    const double limit = c.make()->scheme().imaginary_limit;
+    double largest = 0.0, least = infinity;
+    for (const WorkPoint& p : study.points)
+      if (p.contender == c.name) {
+        largest = std::max(largest, p.h_omega);
+        if (!p.failed()) least = std::min(least, p.errors.x);
+      }
+    EXPECT_GT(largest, limit) << c.name;
+    EXPECT_LT(least, 1e-2) << c.name;
+  }
+}
+
+TEST(CvodeAdamsPeer, FollowsTheChainWithinItsTolerance) {
+  if (!CvodeAdams::available()) GTEST_SKIP() << "SUNDIALS was not found";
+  const TradeoffScene scene = chain_scene(6, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  const auto error = [&](double tolerance) {
+    CvodeAdams integrator;
+    const TimedRun run = run_timed(scene, integrator, {.tolerance = tolerance}, ticking());
+    EXPECT_TRUE(run.result.ok());
+    EXPECT_GT(run.work.force_evaluations, run.work.steps);
+    return reference::motion_errors(scene.motion, run.states, reference.states).x;
+  };
+  // The tolerance is per step. Over this run, some hundred steps, errors add up to a few hundred of them at most.
+  EXPECT_LT(error(1e-6), 1e-3);
+  EXPECT_LT(error(1e-10), 1e-7);
+}
+
+}  // namespace
+}  // namespace dartboard

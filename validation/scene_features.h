@@ -1,0 +1,35 @@
+#pragma once
+// What the choice of an integrator depends on: of a scene, and of this machine.
+
+#include <cstddef>
+
+#include "validation/scene_stage.h"
+
+namespace dartboard {
+
+/// What a choice depends on.
+struct SceneFeatures {
+  std::size_t vertices = 0, springs = 0, events = 0;
+  double omega_low = 0.0, omega_high = 0.0;  // [1/s] omega_max: power iteration below, Gershgorin above; over all times
+  double damping_ratio = 0.0;                // at omega_max, the largest of a spring's
+  double phase = 0.0;                        // duration times omega_max
+  double motion_rate = 0.0;                  // [1/s] of the motion: accelerations over velocities at the start
+  double motion_size = 0.0;                  // [edges] velocities over that rate
+  double force_s = 0.0;                      // seconds of a force evaluation here
+  double implicit_step_s = 0.0;              // seconds of a linearly implicit step here, its factor kept
+};
+
+/// All but `implicit_step_s`, which takes a factorisation to know.
+SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock);
+
+/// The less of the second and third of three linearly implicit steps of h [s], of which the first finds a factor;
+/// infinite when they fail.
+double implicit_step_seconds(const TradeoffScene& scene, double h, const CpuClock& clock);
+
+/// The largest stable step [s] of a method for a scene, over all rates up to omega_max and the damping ratios there,
+/// which are proportional to the rate; infinite for implicit methods.
+///
+/// What a run of that length can amplify counts (`stable_limit`), not what an endless one would.
+double stability_limit(const Scheme& scheme, const SceneFeatures& features, double duration);
+
+}  // namespace dartboard
