@@ -67,7 +67,6 @@ TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
 
 TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
   const std::string trouble = draw(small_plot(), fs::relative(folder_), "figure");
-  if (trouble.find("cannot start") != std::string::npos) GTEST_SKIP() << trouble;
   ASSERT_EQ(trouble, "");
   EXPECT_EQ(text("figure.png").substr(1, 3), "PNG");
   EXPECT_NE(text("figure.svg").find("<svg"), std::string::npos);

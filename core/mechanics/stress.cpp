@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
+#include <limits>
 
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
@@ -64,6 +65,15 @@ PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
   direction.cwiseAbs().maxCoeff(&largest);
   if (direction[largest] < 0.0) direction = -direction;
   return {solver.eigenvalues()[2], direction};
+}
+
+double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses) {
+  double largest = stresses.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
+  for (const Eigen::Matrix3d& sigma : stresses) {
+    if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, principal_stress(sigma).value);
+  }
+  return largest;
 }
 
 template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);

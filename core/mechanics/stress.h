@@ -58,6 +58,9 @@ struct PrincipalStress {
 /// throws  SolverError if the stress is not finite
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress);
 
+/// The largest principal stress [Pa] of a body's vertices: 0 when there is none, infinite where one is not finite.
+double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses);
+
 extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);
 extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map3, Held::by_every_dart>&, std::uint32_t);
 extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<TetMap, Held::by_every_dart>&, std::uint32_t);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "core/mechanics/stress.h"
@@ -96,12 +95,7 @@ double BodyOfColumns::boundary() const {
 double BodyOfColumns::largest_stress() const {
   std::vector<Eigen::Matrix3d> stress;
   vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress);
-  double largest = stress.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
-  for (const Eigen::Matrix3d& sigma : stress) {
-    if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, principal_stress(sigma).value);
-  }
-  return largest;
+  return largest_principal_stress(stress);
 }
 
 Frame BodyOfColumns::frame() const {

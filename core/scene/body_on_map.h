@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -121,12 +120,7 @@ class BodyOnMap final : public SimulatedBody {
     const VertexColumns& v = body_.vertices;
     std::vector<Eigen::Matrix3d> stress;
     vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress);
-    double largest = stress.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
-    for (const Eigen::Matrix3d& sigma : stress) {
-      if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
-      largest = std::max(largest, principal_stress(sigma).value);
-    }
-    return largest;
+    return largest_principal_stress(stress);
   }
 
   Frame frame() const override {
