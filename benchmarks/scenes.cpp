@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_io.h"
 
 namespace dartboard {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "benchmarks/scenes.h"
 #include "core/mechanics/embedding.h"
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_io.h"
 #include "core/topology/build.h"
 #include "core/topology/summary.h"
 

@@ -12,9 +12,9 @@
 #include "benchmarks/progress.h"
 #include "benchmarks/table.h"
 #include "benchmarks/verb_validate.h"
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
-#include "core/scene/mesh_io.h"
 #include "validation/conservation.h"
 #include "validation/refinement_conservation.h"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "validation/conserved_sums.h"
 #include "validation/rebuild_oracle.h"
 

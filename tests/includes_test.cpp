@@ -55,6 +55,9 @@ using Files = std::vector<std::string>;
 
 TEST(Includes, AreFoundAtAll) { EXPECT_GT(includes_of_project().size(), 100u); }
 TEST(Includes, OfThePlainTypesStayAmongThem) { EXPECT_EQ(forbidden("core/plain/", {"core/plain/"}), Files{}); }
+TEST(Includes, OfMeshesSeeThePlainTypesOnly) {
+  EXPECT_EQ(forbidden("core/meshes/", {"core/plain/", "core/meshes/"}), Files{});
+}
 TEST(Includes, OfTopologyKnowNoMechanics) {
   EXPECT_EQ(forbidden("core/topology/", {"core/plain/", "core/topology/"}), Files{});
 }

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_check.h"
+#include "core/meshes/mesh_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_generators.h"
+#include "core/meshes/mesh_generators.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_io.h"
 
 namespace dartboard::samples {
 

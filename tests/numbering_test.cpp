@@ -11,9 +11,9 @@
 #include <memory>
 #include <numeric>
 
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/random.h"
-#include "core/scene/mesh_generators.h"
-#include "core/scene/mesh_io.h"
 #include "tests/moving_box.h"
 
 namespace dartboard {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/mechanics/refine.h"
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "validation/conserved_sums.h"
 #include "validation/subdivided_cells.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/mechanics/adapt.h"
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"

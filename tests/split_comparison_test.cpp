@@ -6,8 +6,8 @@
 
 #include <array>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
-#include "core/scene/mesh_generators.h"
 
 namespace dartboard {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <map>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "core/time/runge_kutta_4.h"
 #include "tests/body_expectations.h"
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/mechanics/adapt.h"
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/scene/base64.h"
+#include "core/meshes/base64.h"
 #include "tests/mesh_samples.h"
 
 namespace dartboard {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/meshes/base64.h"
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/base64.h"
-#include "core/scene/mesh_generators.h"
-#include "core/scene/mesh_io.h"
 #include "core/scene/scene_output.h"
 #include "core/scene/simulated_body.h"
 #include "core/scene/write_pvd.h"

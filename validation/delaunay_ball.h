@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/mesh.h"
-#include "core/scene/mesh_generators.h"
 
 namespace dartboard {
 

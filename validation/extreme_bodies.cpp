@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
-#include "core/scene/mesh_generators.h"
 
 namespace dartboard {
 namespace {

@@ -10,12 +10,12 @@
 #include <optional>
 
 #include "core/mechanics/adapt.h"
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
-#include "core/scene/mesh_generators.h"
 #include "core/time/divergence.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/random.h"
-#include "core/scene/mesh_generators.h"
 
 namespace dartboard {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/mechanics/stress.h"
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
-#include "core/scene/mesh_io.h"
 #include "core/time/blanes_moan_4.h"
 #include "reference/closed_form.h"
 #include "validation/order_scenes.h"

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generators.h"
-#include "core/scene/mesh_io.h"
 #include "core/scene/scene_check.h"
 #include "core/scene/step_times.h"
 #include "core/scene/strict_json.h"

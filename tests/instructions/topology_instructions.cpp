@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
-#include "core/scene/mesh_generators.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_check.h"
+#include "core/meshes/mesh_check.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/scene/text_scanner.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace {

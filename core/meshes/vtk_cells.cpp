@@ -1,11 +1,11 @@
-#include "core/scene/vtk_cells.h"
+#include "core/meshes/vtk_cells.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <optional>
 
-#include "core/scene/text_scanner.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace {

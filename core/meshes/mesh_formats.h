@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/mesh_builder.h"
-#include "core/scene/text_scanner.h"
+#include "core/meshes/mesh_builder.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 

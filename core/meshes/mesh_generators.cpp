@@ -1,4 +1,4 @@
-#include "core/scene/mesh_generators.h"
+#include "core/meshes/mesh_generators.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/meshes/mesh_generator_parts.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_generator_parts.h"
 
 namespace dartboard {
 

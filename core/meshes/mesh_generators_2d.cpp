@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/scene/mesh_generator_parts.h"
-#include "core/scene/mesh_generators.h"
+#include "core/meshes/mesh_generator_parts.h"
+#include "core/meshes/mesh_generators.h"
 
 namespace dartboard {
 

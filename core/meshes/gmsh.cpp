@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/gmsh_elements.h"
-#include "core/scene/mesh_formats.h"
+#include "core/meshes/gmsh_elements.h"
+#include "core/meshes/mesh_formats.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/mesh_builder.h"
+#include "core/meshes/mesh_builder.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/scene/text_scanner.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/base64.h"
+#include "core/meshes/base64.h"
 
 #include <cstdint>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene/xml_scanner.h"
+#include "core/meshes/xml_scanner.h"
 
 namespace dartboard {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/meshes/mesh_io.h"
 #include "core/plain/mesh.h"
-#include "core/scene/mesh_io.h"
 
 namespace dartboard {
 

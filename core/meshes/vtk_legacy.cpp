@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/scene/mesh_formats.h"
-#include "core/scene/vtk_cells.h"
+#include "core/meshes/mesh_formats.h"
+#include "core/meshes/vtk_cells.h"
 
 namespace dartboard {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "core/scene/mesh_formats.h"
+#include "core/meshes/mesh_formats.h"
 
 namespace dartboard {
 namespace {

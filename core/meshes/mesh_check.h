@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/scene/mesh_io.h"
+#include "core/meshes/mesh_io.h"
 
 namespace dartboard {
 

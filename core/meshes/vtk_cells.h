@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/scene/mesh_builder.h"
+#include "core/meshes/mesh_builder.h"
 
 namespace dartboard {
 

@@ -1,10 +1,10 @@
-#include "core/scene/xml_scanner.h"
+#include "core/meshes/xml_scanner.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "core/scene/text_scanner.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/text_scanner.h"
+#include "core/meshes/text_scanner.h"
 
 #include <fmt/format.h>
 

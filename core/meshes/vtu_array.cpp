@@ -1,4 +1,4 @@
-#include "core/scene/vtu_array.h"
+#include "core/meshes/vtu_array.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/scene/base64.h"
-#include "core/scene/text_scanner.h"
+#include "core/meshes/base64.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace {

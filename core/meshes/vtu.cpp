@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/mesh_formats.h"
-#include "core/scene/vtk_cells.h"
-#include "core/scene/vtu_array.h"
+#include "core/meshes/mesh_formats.h"
+#include "core/meshes/vtk_cells.h"
+#include "core/meshes/vtu_array.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/gmsh_elements.h"
+#include "core/meshes/gmsh_elements.h"
 
 namespace dartboard {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/scene/mesh_formats.h"
+#include "core/meshes/mesh_formats.h"
 
 namespace dartboard {
 namespace {

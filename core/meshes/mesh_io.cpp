@@ -1,4 +1,4 @@
-#include "core/scene/mesh_io.h"
+#include "core/meshes/mesh_io.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "core/scene/mesh_builder.h"
-#include "core/scene/mesh_check.h"
-#include "core/scene/mesh_formats.h"
-#include "core/scene/text_scanner.h"
+#include "core/meshes/mesh_builder.h"
+#include "core/meshes/mesh_check.h"
+#include "core/meshes/mesh_formats.h"
+#include "core/meshes/text_scanner.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <memory>
 
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/mesh_io.h"
 
 namespace dartboard {
 namespace {
