@@ -10,7 +10,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/mechanics/stress.h"
-#include "core/meshes/cell_nodes.h"
+#include "core/scene/cell_nodes.h"
 #include "core/scene/scene_events.h"
 #include "core/scene/simulated_body.h"
 #include "core/topology/check.h"
