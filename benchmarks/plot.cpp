@@ -11,16 +11,6 @@
 namespace dartboard {
 namespace {
 
-// Within gnuplot's double quotes.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
 std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
 
 // "#rrggbb" and how much of it shows, as gnuplot's #aarrggbb, where 00 is solid.
@@ -38,9 +28,18 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
 
 }  // namespace
 
+std::string gnuplot_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
 std::string plot_data(const PlotSeries& series) {
   std::string text;
-  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, quoted(p.label));
+  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, gnuplot_text(p.label));
   return text;
 }
 
@@ -58,8 +57,8 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set key outside right top vertical Left reverse noenhanced samplen 2.2 spacing 1.25 font \",12\"\n"
       "set datafile separator whitespace\n",
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
-      quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
-      quoted(plot.y_axis));
+      gnuplot_text(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), gnuplot_text(plot.x_axis),
+      gnuplot_text(plot.y_axis));
   if (plot.y_last_tick > 0.0) {
     // every decade, every second one where there are many
     const double decades = std::log10(plot.y_last_tick / plot.y_low);
@@ -78,14 +77,14 @@ std::string plot_script(const Plot& plot, const std::string& name) {
         plot.shaded_below);
     script += fmt::format(
         "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
-        quoted(plot.shaded_label));
+        gnuplot_text(plot.shaded_label));
   }
   std::string lines;
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const PlotSeries& s = plot.series[k];
     if (s.points.empty()) continue;
-    const std::string file = quoted(data_file(name, k));
-    const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
+    const std::string file = gnuplot_text(data_file(name, k));
+    const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_text(s.title);
     std::string look = s.width > 0.0 && s.symbol > 0 ? "linespoints" : s.width > 0.0 ? "lines" : "points";
     look += " linecolor rgb " + colour(s);
     if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
@@ -100,16 +99,32 @@ std::string plot_script(const Plot& plot, const std::string& name) {
                       file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
   }
   if (lines.empty()) lines = "plot NaN notitle";
-  for (const auto& [terminal, end] :
-       {std::pair(fmt::format("pngcairo size {},{} font \"DejaVu Sans,12\" background rgb \"white\"", plot.width,
-                              plot.height),
-                  "png"),
-        std::pair(fmt::format("svg size {},{} font \"DejaVu Sans,12\" background rgb \"white\" enhanced", plot.width,
-                              plot.height),
-                  "svg")})
-    script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
-                          quoted(fmt::format("{}.{}", name, end)), lines);
+  return script + for_both_pictures(lines, name, plot.width, plot.height);
+}
+
+std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height) {
+  std::string script;
+  for (const char* kind : {"png", "svg"})
+    script += fmt::format(
+        "set terminal {} size {},{} font \"DejaVu Sans,12\" background rgb \"white\"{}\nset output {}\n{}\nunset "
+        "output\n",
+        kind == std::string_view("png") ? "pngcairo" : "svg", width, height,
+        kind == std::string_view("png") ? "" : " enhanced", gnuplot_text(fmt::format("{}.{}", name, kind)), commands);
   return script;
+}
+
+std::string run_gnuplot(const std::filesystem::path& folder, const std::string& name, const std::string& script,
+                        const std::string& gnuplot) {
+  // the script names its files without a folder, so that they can be moved together
+  write_file(folder / (name + ".gnuplot"), script);
+  std::string said;
+  try {
+    run_program(gnuplot, {"-e", fmt::format("cd {}", gnuplot_text(folder.string())), name + ".gnuplot"},
+                [&](std::string_view line) { said += fmt::format(" {}", line); });
+  } catch (const ProcessError& error) {
+    return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
+  }
+  return "";
 }
 
 std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
@@ -118,16 +133,7 @@ std::string draw(const Plot& plot, const std::filesystem::path& folder, const st
     throw InputError("a logarithmic axis must be positive and ascending");
   for (std::size_t k = 0; k < plot.series.size(); ++k)
     if (!plot.series[k].points.empty()) write_file(folder / data_file(name, k), plot_data(plot.series[k]));
-  // the script names its files without a folder, so that they can be moved together
-  write_file(folder / (name + ".gnuplot"), plot_script(plot, name));
-  std::string said;
-  try {
-    run_program(gnuplot, {"-e", fmt::format("cd {}", quoted(folder.string())), name + ".gnuplot"},
-                [&](std::string_view line) { said += fmt::format(" {}", line); });
-  } catch (const ProcessError& error) {
-    return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
-  }
-  return "";
+  return run_gnuplot(folder, name, plot_script(plot, name), gnuplot);
 }
 
 }  // namespace dartboard

@@ -21,8 +21,7 @@ Entries entries_of(std::string_view kind) {
   if (kind == "contenders")
     for (const Contender& c : contenders()) entries.emplace_back(c.id, c.what);
   if (kind == "integrators")
-    for (const IntegratorEntry& i : integrators())
-      entries.emplace_back(i.name, i.make()->scheme().what);
+    for (const IntegratorEntry& i : integrators()) entries.emplace_back(i.name, i.make()->scheme().what);
   if (kind == "claims")
     for (const PaperClaim& c : paper_claims())
       entries.emplace_back(c.id, fmt::format("(section {}) {}", c.section, c.text));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "benchmarks/body_picture.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/manifest.h"
@@ -25,7 +26,7 @@ namespace {
 
 struct Options {
   std::string scene, out;
-  bool json = false, quick = false;
+  bool json = false, quick = false, picture = false;
   std::optional<std::uint64_t> steps, seed;
 
   std::optional<std::uint64_t> most_steps() const {
@@ -34,10 +35,32 @@ struct Options {
   }
 };
 
+/// The body at the start, after one and two thirds of the run, and at its end.
+class Album {
+ public:
+  Album(const Simulation& simulation, std::uint64_t steps) : steps_(steps) { take(simulation); }
+  void stepped(const Simulation& simulation) {
+    const std::uint64_t n = simulation.steps_done();
+    if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
+  }
+  /// The last good state of a run that ended before its time.
+  void ended(const Simulation& simulation) {
+    if (panels_.back().frame.time < simulation.time()) take(simulation);
+  }
+  const std::vector<BodyPanel>& panels() const { return panels_; }
+
+ private:
+  void take(const Simulation& simulation) {
+    panels_.push_back({simulation.frame(), simulation.body().vertices().point});
+  }
+  std::uint64_t steps_;
+  std::vector<BodyPanel> panels_;
+};
+
 class Watcher : public RunWatcher {
  public:
-  Watcher(SceneOutput* output, Progress& progress, std::uint64_t steps_per_report)
-      : output_(output), progress_(progress), steps_per_report_(steps_per_report) {}
+  Watcher(SceneOutput* output, Album* album, Progress& progress, std::uint64_t steps_per_report)
+      : output_(output), album_(album), progress_(progress), steps_per_report_(steps_per_report) {}
   void frame(const Frame& frame) override {
     if (output_ != nullptr) output_->write(frame);
   }
@@ -45,12 +68,14 @@ class Watcher : public RunWatcher {
     if (output_ != nullptr) output_->write(diagnostics);
   }
   void stepped(const Simulation& simulation) override {
+    if (album_ != nullptr) album_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
 
  private:
   SceneOutput* output_;
+  Album* album_;
   Progress& progress_;
   std::uint64_t steps_per_report_;
 };
@@ -65,6 +90,7 @@ struct Report {
   double wall_s, cpu_s;
   std::string folder;
   std::size_t frames;
+  std::string picture;  // what became of it
 
   bool holds() const {
     return !result.divergence &&
@@ -133,6 +159,7 @@ void print(const Report& r) {
   }
   if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
   if (!r.folder.empty()) fmt::print("\n{} frames, frames.pvd and diagnostics.csv written to {}.\n", r.frames, r.folder);
+  if (!r.picture.empty()) fmt::print("{}\n", r.picture);
 }
 
 // JSON has no infinity: a number that is not finite is left null.
@@ -219,11 +246,13 @@ void simulate(const Options& options, Outcome& outcome) {
   const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
   const double removed_at_start = simulation.body().removed_mass();
+  std::optional<Album> album;
+  if (options.picture) album.emplace(simulation, steps);
   RunResult result;
   const auto wall = steady_wall_ns(), cpu = thread_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
-    Watcher watcher(output ? &*output : nullptr, progress, steps_per_report);
+    Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
     result = run_scene(simulation, scene.output, watcher, options.most_steps());
   }
   Report report{.scene = scene,
@@ -235,6 +264,7 @@ void simulate(const Options& options, Outcome& outcome) {
                 .cpu_s = static_cast<double>(thread_cpu_ns() - cpu) * 1e-9,
                 .folder = output ? output->folder().string() : "",
                 .frames = output ? output->frame_count() : 0,
+                .picture = "",
                 .removed_at_start = removed_at_start};
   if (simulation.steps_done() < simulation.step_count() && !result.divergence)
     report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
@@ -244,6 +274,11 @@ void simulate(const Options& options, Outcome& outcome) {
     report.expected = compare_with_expectation(scene.expect, simulation);
 
   outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
+  if (album) {
+    album->ended(simulation);
+    const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");
+    report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
+  }
   if (output) {
     write_whole(output->folder() / "summary.json", to_json(report).dump(2) + "\n");
     finish_manifest(manifest);
@@ -261,7 +296,9 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
-  verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
+  auto* out =
+      verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
+  verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]");
