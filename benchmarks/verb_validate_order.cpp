@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "benchmarks/claim.h"
+#include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
+#include "benchmarks/run_folder.h"
 #include "benchmarks/table.h"
 #include "benchmarks/verb_validate.h"
 #include "core/plain/error.h"
@@ -15,12 +19,14 @@
 #include "validation/cut_jump.h"
 #include "validation/discrete_exact.h"
 #include "validation/force_gradient.h"
+#include "validation/implicit_gains.h"
 
 namespace dartboard {
 namespace {
 
 struct Options {
   std::vector<std::string> integrators;
+  std::string out;
   bool json = false, quick = false;
 };
 
@@ -28,6 +34,9 @@ constexpr double quick_error = 0.05;          // upper end of the window of a qu
 constexpr double accepted_agreement = 2e-13;  // mean edge lengths
 constexpr double discrete_gate = 1e-10;
 constexpr double jump_gate = 1e-14;
+constexpr double drift_gate = 1e-11;
+constexpr std::uint64_t savings_gate = 10;
+constexpr double kept_difference = 1e-3;  // of the error of the step
 
 struct Results {
   std::vector<OrderStage> stages;
@@ -36,6 +45,8 @@ struct Results {
   std::vector<std::string> no_discrete;  // integrators that do not state their amplification
   ForceGradient force;
   std::vector<CutJump> jumps;
+  EnergyDrift drift;
+  KeptFactor factor;
 };
 
 std::vector<const IntegratorEntry*> wanted(const Options& options) {
@@ -51,7 +62,7 @@ std::vector<const IntegratorEntry*> wanted(const Options& options) {
 Results run(const Options& options) {
   Results results;
   const auto entries = wanted(options);
-  Progress progress("validate order", std::size(order_cases) * (entries.size() + 1) + entries.size(), options.json);
+  Progress progress("validate order", std::size(order_cases) * (entries.size() + 1) + entries.size() + 2, options.json);
   OrderOptions order;
   if (options.quick) order.most_error = quick_error;  // methods of order 1 get there two halvings earlier
   for (const OrderCase which : order_cases) {
@@ -76,6 +87,10 @@ Results run(const Options& options) {
         results.discrete.push_back(compare_with_discrete_map(*entry, zeta, options.quick ? 10000 : 100000));
     progress.advance(fmt::format("discrete map: {}", entry->name));
   }
+  results.drift = measure_energy_drift(options.quick ? 1000 : 10000, 20.0);
+  progress.advance("energy-momentum at large steps");
+  results.factor = compare_kept_factor(100, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  progress.advance("a factor that is kept");
   return results;
 }
 
@@ -167,6 +182,25 @@ std::vector<Claim> claims_of(const Results& results) {
                     .paper_value = fmt::format("<= {:.0e} relative", jump_gate),
                     .measured = fmt::format("{:.1e}", jump),
                     .verdict = verdict(jump <= jump_gate)});
+  const EnergyDrift& drift = results.drift;
+  claims.push_back({.id = "energy-momentum-drift",
+                    .text = fmt::format("the energy-momentum scheme keeps the energy at h omega = {:g}, across a cut",
+                                        drift.h_omega),
+                    .paper_value = fmt::format("<= {:.0e} relative", drift_gate),
+                    .measured = fmt::format("{:.1e} in {} steps", drift.drift, drift.steps),
+                    .verdict = verdict(drift.diagnosis.empty() && drift.drift <= drift_gate),
+                    .reason = drift.diagnosis});
+  const KeptFactor& factor = results.factor;
+  claims.push_back(
+      {.id = "kept-factor",
+       .text = "a factor that is kept saves factorisations at the same error (backward Euler, stiff inclusions)",
+       .paper_value = fmt::format(">= {} times fewer", savings_gate),
+       .measured = fmt::format("{} instead of {} in {} steps", factor.kept, factor.fresh, factor.steps),
+       .bound_or_interval =
+           fmt::format("{:.1e} edges apart; the error of the step is {:.1e}", factor.difference, factor.step_error),
+       .verdict = verdict(factor.diagnosis.empty() && factor.fresh >= savings_gate * factor.kept &&
+                          factor.difference <= kept_difference * factor.step_error),
+       .reason = factor.diagnosis});
   return claims;
 }
 
@@ -286,6 +320,16 @@ nlohmann::ordered_json to_json(const Results& results, const std::vector<Claim>&
                    {"bound", results.force.bound},
                    {"ratio", number(results.force.ratio)},
                    {"largest_force", results.force.largest_force}};
+  json["energy_drift"] = {{"steps", results.drift.steps},
+                          {"h_omega", results.drift.h_omega},
+                          {"drift", number(results.drift.drift)},
+                          {"diagnosis", results.drift.diagnosis}};
+  json["kept_factor"] = {{"steps", results.factor.steps},
+                         {"fresh", results.factor.fresh},
+                         {"kept", results.factor.kept},
+                         {"difference", number(results.factor.difference)},
+                         {"step_error", number(results.factor.step_error)},
+                         {"diagnosis", results.factor.diagnosis}};
   for (const CutJump& jump : results.jumps)
     json["jumps"].push_back({{"time", jump.time},
                              {"vertices_before", jump.vertices_before},
@@ -297,9 +341,27 @@ nlohmann::ordered_json to_json(const Results& results, const std::vector<Claim>&
 }
 
 void validate(const Options& options, Outcome& outcome) {
+  std::optional<RunFolder> folder;
+  nlohmann::json manifest;
+  if (!options.out.empty()) {
+    folder.emplace(options.out);
+    RunFacts facts;
+    facts.command_line = {outcome.command_line};
+    manifest = begin_manifest(facts);
+    folder->write_manifest(manifest);
+  }
   const Results results = run(options);
   const std::vector<Claim> claims = claims_of(results);
   outcome.exit_code = exit_code(claims) == 0 ? exit_agrees : exit_disagrees;
+  if (folder) {
+    folder->write_json("order.json", to_json(results, claims));
+    folder->write_table("orders", "Observed orders", order_table(results));
+    folder->write_table("references", "References, by independent codes", oracle_table(results));
+    folder->write_table("discrete", "Against the exact maps of the methods", discrete_table(results));
+    folder->write_claims(claims);
+    finish_manifest(manifest);
+    folder->write_manifest(manifest);
+  }
   if (options.json) {
     fmt::print("{}\n", to_json(results, claims).dump(2));
     return;
@@ -322,6 +384,7 @@ void add_validate_order(CLI::App& validate_verb, Outcome& outcome) {
   auto* verb = validate_verb.add_subcommand(
       "order", "Observed orders of the time integrators, against certified references and exact discrete maps.");
   verb->add_option("--integrator", options->integrators, "only these [all]");
+  verb->add_option("--out", options->out, "folder for the report, new or empty [nothing is written]");
   verb->add_flag("--quick", options->quick, "fewer halvings and steps, a wider window of errors");
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options, &outcome] { validate(*options, outcome); });
