@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   add_recommend(app, outcome);
   add_extremes(app, outcome);
   add_explain_dt(app, outcome);
+  add_gallery(app, outcome);
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);

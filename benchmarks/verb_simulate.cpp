@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "benchmarks/body_picture.h"
+#include "benchmarks/album.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/manifest.h"
@@ -33,28 +33,6 @@ struct Options {
     if (steps) return steps;
     return quick ? std::optional<std::uint64_t>(100) : std::nullopt;
   }
-};
-
-/// The body at the start, after one and two thirds of the run, and at its end.
-class Album {
- public:
-  Album(const Simulation& simulation, std::uint64_t steps) : steps_(steps) { take(simulation); }
-  void stepped(const Simulation& simulation) {
-    const std::uint64_t n = simulation.steps_done();
-    if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
-  }
-  /// The last good state of a run that ended before its time.
-  void ended(const Simulation& simulation) {
-    if (panels_.back().frame.time < simulation.time()) take(simulation);
-  }
-  const std::vector<BodyPanel>& panels() const { return panels_; }
-
- private:
-  void take(const Simulation& simulation) {
-    panels_.push_back({simulation.frame(), simulation.body().vertices().point});
-  }
-  std::uint64_t steps_;
-  std::vector<BodyPanel> panels_;
 };
 
 class Watcher : public RunWatcher {
