@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "benchmarks/clock.h"
+#include "benchmarks/statistics.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/scene/simulation.h"
 #include "core/time/accelerations.h"
@@ -14,16 +18,16 @@
 namespace dartboard {
 namespace {
 
-/// The shortest of some runs [ns per call]: a run that was disturbed is longer, never shorter.
+/// The median of some runs [ns per call]: what the run of a scene will take on a machine as busy as now.
 template <class F>
-double least_ns(int runs, int calls, F&& f) {
-  double least = std::numeric_limits<double>::infinity();
+double median_ns(int runs, int calls, F&& f) {
+  std::vector<double> ns;
   for (int run = 0; run < runs; ++run) {
     const std::int64_t start = thread_cpu_ns();
     for (int k = 0; k < calls; ++k) f();
-    least = std::min(least, static_cast<double>(thread_cpu_ns() - start) / calls);
+    ns.push_back(static_cast<double>(thread_cpu_ns() - start) / calls);
   }
-  return least;
+  return median(ns);
 }
 
 /// So many calls that they take a millisecond.
@@ -38,66 +42,83 @@ int calls_for(F&& f) {
 template <class F>
 double cost_of(F&& f) {
   const int calls = calls_for(f);  // a first call, which also takes the memory
-  return least_ns(7, calls, f);
+  return median_ns(7, calls, f);
 }
 
-/// A step on arrays, from the same state every few steps, so that none runs away.
-double step_cost(const std::string& name, const SpringSystem& system, const SystemArrays& start, double h) {
-  const auto integrator = make_integrator(name);
-  auto x = start.x, v = start.v;
-  const Motion motion{x, v};
-  int k = 0;
-  return cost_of([&] {
-    if (k++ % 64 == 0) {
-      std::ranges::copy(start.x, x.begin());
-      std::ranges::copy(start.v, v.begin());
+/// The same for several calls that are compared: by turns, so that what disturbs one disturbs all.
+std::vector<double> costs_of(std::vector<std::function<void()>> calls) {
+  std::vector<int> times;
+  for (const auto& call : calls) times.push_back(calls_for(call));
+  std::vector<std::vector<double>> ns(calls.size());
+  for (int round = 0; round < 9; ++round)
+    for (std::size_t k = 0; k < calls.size(); ++k) ns[k].push_back(median_ns(1, times[k], calls[k]));
+  std::vector<double> medians;
+  for (const auto& of_call : ns) medians.push_back(median(of_call));
+  return medians;
+}
+
+/// A step on arrays of its own, from the same state every few steps, so that none runs away.
+std::function<void()> stepper(const std::string& name, const SpringSystem& system, const SystemArrays& start,
+                              double h) {
+  struct State {
+    std::unique_ptr<Integrator> integrator;
+    std::vector<Eigen::Vector3d> x, v;
+    int steps = 0;
+  };
+  const auto state = std::make_shared<State>(State{make_integrator(name), start.x, start.v});
+  return [state, system, &start, h] {
+    if (state->steps++ % 64 == 0) {
+      std::ranges::copy(start.x, state->x.begin());
+      std::ranges::copy(start.v, state->v.begin());
     }
-    integrator->step(system, motion, h);
-  });
+    state->integrator->step(system, {state->x, state->v}, h);
+  };
 }
 
 void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays) {
   const SpringSystem whole = arrays.system();
-  auto undamped_springs = arrays.springs;
-  for (Spring& spring : undamped_springs) spring.damping = 0.0;
-  const bool damped = std::ranges::any_of(arrays.springs, [](const Spring& s) { return s.damping != 0.0; });
-
-  std::vector<Eigen::Vector3d> a(arrays.x.size());
-  SpringSystem system = whole;
-  system.springs = undamped_springs;
-  system.viscosity = {};
-  system.fixed = {};
-  costs.force = cost_of([&] { accelerations(system, {}, arrays.x, arrays.v, a); });
-
-  // term after term, from none to all
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   if (scheme.implicit) {
-    costs.solver = step_cost(scene.integrator, whole, arrays, scene.step);
+    costs.solver = cost_of(stepper(scene.integrator, whole, arrays, scene.step));
   } else {
-    double before = step_cost(scene.integrator, system, arrays, scene.step);
-    costs.evaluations = scheme.stages;
-    costs.stages = before - costs.evaluations * costs.force;
-    const auto add = [&](bool present, double& cost, auto&& change) {
+    auto undamped = arrays.springs;
+    for (Spring& spring : undamped) spring.damping = 0.0;
+    std::vector<Eigen::Vector3d> a(arrays.x.size());
+    SpringSystem system = whole;
+    system.springs = undamped;
+    system.viscosity = {};
+    system.fixed = {};
+    // term after term, from none to all
+    std::vector<std::function<void()>> calls{[&, system] { accelerations(system, {}, arrays.x, arrays.v, a); },
+                                             stepper(scene.integrator, system, arrays, scene.step)};
+    std::vector<double*> of;
+    const auto add = [&](bool present, double& cost) {
       if (!present) return;
-      change();
-      const double now = step_cost(scene.integrator, system, arrays, scene.step);
-      cost = now - before;
-      before = now;
+      of.push_back(&cost);
+      calls.push_back(stepper(scene.integrator, system, arrays, scene.step));
     };
-    add(!whole.fixed.empty(), costs.fixed, [&] { system.fixed = whole.fixed; });
-    add(!whole.viscosity.empty(), costs.viscosity, [&] { system.viscosity = whole.viscosity; });
-    add(damped, costs.damping, [&] { system.springs = whole.springs; });
+    system.fixed = whole.fixed;
+    add(!whole.fixed.empty(), costs.fixed);
+    system.viscosity = whole.viscosity;
+    add(!whole.viscosity.empty(), costs.viscosity);
+    system.springs = whole.springs;
+    add(terms_of(whole).damping, costs.damping);
+    const std::vector<double> ns = costs_of(std::move(calls));
+    costs.force = ns[0];
+    costs.evaluations = scheme.stages;
+    costs.stages = ns[1] - costs.evaluations * costs.force;
+    for (std::size_t k = 0; k < of.size(); ++k) *of[k] = ns[k + 2] - ns[k + 1];
   }
 
   DivergenceDetector detector;
   if (detector.start(whole, arrays.motion(), scene.step).ok())
-    costs.detector = least_ns(3, 512, [&] { detector.after_step(whole, arrays.motion()); });
+    costs.detector = median_ns(3, 512, [&] { detector.after_step(whole, arrays.motion()); });
   volatile bool slower = false;
   costs.speed_check = cost_of([&] { slower = all_slower(arrays.v, 3e8); });
 
   const double steps = std::max(1.0, std::ceil(scene.duration / scene.step));
   const Horizon horizon{.steps = steps, .gain = 2.0};
-  costs.look = least_ns(2, 1, [&] {
+  costs.look = median_ns(2, 1, [&] {
     StableStep limits = quick_stable_step(whole);
     if (!limits.is_stable(scheme, scene.step, horizon))
       limits = StableStepEstimate().refresh(whole, arrays.x), limits.safe_step(scheme, horizon);

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
 #include "benchmarks/unit_costs.h"
 #include "core/scene/measured_plan.h"
@@ -30,18 +29,18 @@ struct Measured {
   double ns = 0.0;  // per step, events and output included; nothing is written
 };
 
-/// The shorter of two runs: one that was disturbed is longer.
+/// The median of three runs.
 double measured_ns(const SceneFile& scene) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < 2; ++run) {
+  std::vector<double> runs;
+  for (int run = 0; run < 3; ++run) {
     Simulation simulation(scene);
     RunWatcher nobody;
     const std::int64_t start = thread_cpu_ns();
     run_scene(simulation, scene.output, nobody);
     const auto ns = static_cast<double>(thread_cpu_ns() - start);
-    least = std::min(least, ns / std::max(1.0, static_cast<double>(simulation.steps_done())));
+    runs.push_back(ns / std::max(1.0, static_cast<double>(simulation.steps_done())));
   }
-  return least;
+  return median(runs);
 }
 
 Measured measure(const SceneFile& scene, const ScenePlan& plan) {
