@@ -29,6 +29,7 @@ void add_scene(CLI::App& app, Outcome& outcome);
 void add_tradeoff(CLI::App& app, Outcome& outcome);
 void add_recommend(CLI::App& app, Outcome& outcome);
 void add_extremes(CLI::App& app, Outcome& outcome);
+void add_explain(CLI::App& app, Outcome& outcome);
 void add_explain_dt(CLI::App& app, Outcome& outcome);
 void add_gallery(CLI::App& app, Outcome& outcome);
 void add_mesh(CLI::App& app, Outcome& outcome);

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_tradeoff(app, outcome);
   add_recommend(app, outcome);
   add_extremes(app, outcome);
+  add_explain(app, outcome);
   add_explain_dt(app, outcome);
   add_gallery(app, outcome);
   add_mesh(app, outcome);

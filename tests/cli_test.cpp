@@ -51,7 +51,8 @@ TEST(CommandLine, WithAnUnknownVerbIsAUsageErrorThatNamesIt) {
 }
 
 TEST(CommandLine, HelpOfEveryVerbSucceeds) {
-  for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list", "simulate", "scene", "bench operations"}) {
+  for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list", "simulate", "scene", "explain",
+                           "bench operations", "bench ablation"}) {
     const Answer answer = run(std::string(verb) + " --help");
     EXPECT_EQ(answer.status, 0) << verb;
     EXPECT_NE(answer.out.find("Usage"), std::string::npos) << answer.out;
@@ -150,6 +151,38 @@ TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
 }
 
 TEST(Simulate, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("simulate /nowhere/scene.json").status, 3); }
+
+TEST(Explain, PlansEveryByteOfAScene) {
+  const Answer answer = run("explain --measure --json " + scenes + "sheet_cut.json", "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("map"), "2-g-map");
+  EXPECT_EQ(json.at("measured").at("bytes"), json.at("bytes"));
+  for (const auto& item : json.at("plan")) {
+    EXPECT_EQ(item.at("bytes"), item.at("measured_bytes")) << item;
+    EXPECT_FALSE(item.at("why").get<std::string>().empty()) << item;
+  }
+  EXPECT_GT(json.at("ns_per_step"), 0.0);
+}
+
+TEST(Explain, SaysWhatIsLeftOutAndWhy) {
+  const TemporaryFile scene(
+      "bare.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [2, 1, 1], "spacing": 1}}}, "step": 0.001,
+                                "duration": 0.01, "material": {"damping": 0}})");
+  const Answer answer = run("explain " + scene.path.string());
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  for (const char* words : {"no map", "/events: none changes the topology", "/material/damping: 0.0",
+                            "/integrator: rk4 (the default) is explicit", "/fixed: none"})
+    EXPECT_NE(answer.out.find(words), std::string::npos) << words << " is not in\n" << answer.out;
+}
+
+TEST(Explain, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("explain /nowhere/scene.json").status, 3); }
+
+TEST(Explain, OfAMisspeltKeyIsAUsageError) {
+  const TemporaryFile scene("misspelt.json", R"({"name": "x", "boby": {}})");
+  EXPECT_EQ(run("explain " + scene.path.string()).status, 2);
+}
 
 TEST(Scene, SchemaIsJson) {
   const Answer answer = run("scene --schema", "");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/scene/scene_run.h"
@@ -133,6 +134,20 @@ TEST(SceneRun, StopsAfterAsManyStepsAsAsked) {
 }
 
 // ---- divergence
+
+TEST(AllSlower, IsFalseForASpeedThatIsTooHighOrNoNumber) {
+  std::vector<Eigen::Vector3d> v(11, Eigen::Vector3d(1, -2, 2));  // of length 3; 99 is the sum of the squares
+  EXPECT_TRUE(all_slower(v, 10.0));
+  EXPECT_FALSE(all_slower(v, 2.9));
+  EXPECT_TRUE(all_slower({}, 1.0));
+  for (const std::size_t place : {0u, 2u, 10u}) {
+    auto bad = v;
+    bad[place][1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(all_slower(bad, 10.0)) << place;
+    bad[place][1] = -20.0;
+    EXPECT_FALSE(all_slower(bad, 10.0)) << place;
+  }
+}
 
 TEST(SceneRun, StopsWithADiagnosisWhenTheMotionDiverges) {
   Json scene = moving_box();

@@ -49,15 +49,23 @@ Numbers below(std::size_t count, const List& numbers) {
   return list;
 }
 
-/// Put the last element in place k and drop the last.
+/// Put the last element in place k and drop the last. A column that is empty has been left out (duplicate too).
 template <class... Column>
 void move_last(std::uint32_t k, Column&... columns) {
-  ((columns[k] = columns.back(), columns.pop_back()), ...);
+  const auto move = [k](auto& column) {
+    if (column.empty()) return;
+    column[k] = column.back();
+    column.pop_back();
+  };
+  (move(columns), ...);
 }
 
 template <class... Column>
 void duplicate(std::uint32_t k, Column&... columns) {
-  (columns.push_back(columns[k]), ...);
+  const auto copy = [k](auto& column) {
+    if (!column.empty()) column.push_back(column[k]);
+  };
+  (copy(columns), ...);
 }
 
 /// One dart for each place of a cell: what a single walk around it finds, and all that its embedding follows from.

@@ -76,7 +76,7 @@ class Refinement {
     VertexColumns& v = body_.vertices;
     vertex_ = static_cast<std::uint32_t>(v.size());
     Eigen::Vector3d position(0, 0, 0), velocity(0, 0, 0);
-    bool fixed = true;
+    bool fixed = !v.fixed.empty();  // left out: none is
     for (std::size_t n = 0; n < 4; ++n)
       if (is_of_cell(0, n)) {
         const std::uint32_t k = old_[0].vertices[n];
@@ -87,8 +87,8 @@ class Refinement {
     for (auto* column : {&v.mass, &v.inverse_mass, &v.viscosity}) column->push_back(0.0);
     v.position.push_back(position / count());
     v.velocity.push_back(velocity / count());
-    v.force.emplace_back(0, 0, 0);
-    v.fixed.push_back(fixed);
+    if (!v.force.empty()) v.force.emplace_back(0, 0, 0);
+    if (!v.fixed.empty()) v.fixed.push_back(fixed);
     v.point.push_back(no_point);
     v.dart.push_back(s_.vertex());
   }

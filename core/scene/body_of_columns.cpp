@@ -1,10 +1,10 @@
 #include "core/scene/body_of_columns.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <utility>
 
 #include "core/mechanics/stress.h"
+#include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/topology/hash.h"
 #include "core/views/boundary_surface.h"
@@ -12,18 +12,16 @@
 
 namespace dartboard {
 
-BodyOfColumns::BodyOfColumns(const Problem& problem) {
-  const auto& kinds = problem.mesh.kinds;
-  if (problem.mesh.dimension() == 2)
-    take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh);
-  else if (std::all_of(kinds.begin(), kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; }))
-    take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh);
-  else
-    take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh);
+BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs) {
+  switch (needs.storage) {
+    case Storage::surface: take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh, needs); break;
+    case Storage::tetrahedra: take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh, needs); break;
+    case Storage::any_cells: take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh, needs); break;
+  }
 }
 
 template <class Map>
-void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh) {
+void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs) {
   SpringEndsView ends;
   ends.rebuild(body);
   ComponentLabels components;
@@ -47,12 +45,30 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   for (const std::uint32_t p : mesh.nodes) cells_.nodes.push_back(vertex_of[p]);
 
   vertices_ = std::move(body.vertices);
-  vertices_.dart = std::vector<Dart>();
+  vertices_.dart.clear();
+  vertices_.force.clear();
+  if (!needs.viscosity) vertices_.viscosity.clear();
+  if (!needs.fixed) vertices_.fixed.clear();
   springs_ = std::move(body.springs);
   ends_ = std::move(ends.ends);
   cell_mass_ = std::move(body.cell_mass);
   gravity_ = body.surroundings.gravity;
   density_ = body.material.density;
+  // columns that grew by doubling give back what they do not use
+  VertexColumns& v = vertices_;
+  const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
+  fit(v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point, v.dart, springs_, ends_);
+  fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
+}
+
+MemoryReport BodyOfColumns::memory() const {
+  const VertexColumns& v = vertices_;
+  return {{Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force, v.dart)},
+          {Part::viscosity, bytes_of(v.viscosity)},
+          {Part::fixed, bytes_of(v.fixed)},
+          {Part::springs, bytes_of(springs_, ends_)},
+          {Part::output_cells,
+           bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_)}};
 }
 
 SpringSystem BodyOfColumns::system() const {

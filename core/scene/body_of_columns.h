@@ -15,7 +15,8 @@ namespace dartboard {
 class BodyOfColumns final : public SimulatedBody {
  public:
   /// throws  InputError as build_body does
-  explicit BodyOfColumns(const Problem& problem);
+  explicit BodyOfColumns(const Problem& problem) : BodyOfColumns(problem, body_needs(problem, false)) {}
+  BodyOfColumns(const Problem& problem, const BodyNeeds& needs);
 
   std::string map_name() const override { return "no map"; }
   const VertexColumns& vertices() const override { return vertices_; }
@@ -32,12 +33,13 @@ class BodyOfColumns final : public SimulatedBody {
   Frame frame() const override;
   std::uint64_t state_hash() const override;
   std::string violation() const override { return {}; }
+  MemoryReport memory() const override;
 
  private:
   template <class Map>
-  void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh);
+  void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
-  VertexColumns vertices_;  // without darts
+  VertexColumns vertices_;  // without darts and forces; viscosity and fixed only where there is some
   std::vector<Spring> springs_;
   std::vector<SpringEnds> ends_;
   Eigen::Vector3d gravity_{0, 0, 0};

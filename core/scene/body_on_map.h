@@ -10,6 +10,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/mechanics/stress.h"
+#include "core/plain/bytes.h"
 #include "core/scene/cell_nodes.h"
 #include "core/scene/scene_events.h"
 #include "core/scene/simulated_body.h"
@@ -29,6 +30,10 @@ class BodyOnMap final : public SimulatedBody {
     ends_.rebuild(body_);
     components_.rebuild(body_);
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
+    // forces are for walks; integrators over arrays keep their own
+    body_.vertices.force.clear();
+    if (problem.fixed.empty()) body_.vertices.fixed.clear();
+    fit_columns();
   }
 
   // ---- for events
@@ -140,7 +145,50 @@ class BodyOnMap final : public SimulatedBody {
   std::uint64_t state_hash() const override { return body_.state_hash(); }
   std::string violation() const override { return check(body_.map); }
 
+  MemoryReport memory() const override {
+    const VertexColumns& v = body_.vertices;
+    const Map& map = body_.map;
+    // every live slot has its alphas and a generation, every dead one a place on a list
+    const std::size_t slots = Map::tetrahedral ? map.capacity() / 24 : map.capacity();
+    const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
+    const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
+    return {{Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
+            {Part::marks, mark_bytes()},
+            {Part::embeddings, body_.embedding_bytes()},
+            {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
+            {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
+                              bytes_of(body_.edge_share)},
+            {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
+                                   (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
+            {Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force)},
+            {Part::viscosity, bytes_of(v.viscosity)},
+            {Part::fixed, bytes_of(v.fixed)},
+            {Part::springs, bytes_of(body_.springs, ends_.ends)}};
+  }
+
  private:
+  /// Columns that grew by doubling give back what they do not use.
+  void fit_columns() {
+    const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
+    VertexColumns& v = body_.vertices;
+    fit(v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point, v.dart);
+    fit(body_.springs, body_.edge_dart, body_.face_dart, body_.cell_mass, body_.node_share, body_.cell_dart);
+    fit(body_.cell_inside_out, mesh_cell_);
+  }
+
+  /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is
+  /// a new one, without a stamp.
+  std::size_t mark_bytes() const {
+    std::size_t bytes = 0;
+    std::vector<MarkPool::Stamps*> taken;
+    do {
+      taken.push_back(&body_.map.marks().take(0));
+      bytes += bytes_of(taken.back()->stamp);
+    } while (!taken.back()->stamp.empty());
+    for (MarkPool::Stamps* stamps : taken) stamps->in_use = false;
+    return bytes;
+  }
+
   Body body_;
   SpringEndsView ends_;
   ComponentLabels components_;

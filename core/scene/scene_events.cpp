@@ -16,6 +16,7 @@
 #include "core/operations/remove_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/operations/tear_fan.h"
+#include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body_on_map.h"
 
@@ -67,6 +68,7 @@ class ReadyFaces : public ReadyEvent {
       if (map.is_live(id.dart) && map.id(id.dart) == id) live.push_back(id.dart);
     return follow_dissociation(on_, dissociate_all(on_.body().map, live));
   }
+  std::size_t bytes() const override { return bytes_of(found_); }
 
  private:
   std::vector<Dart> find(const std::array<std::uint32_t, Map::dimension>& points) const {
@@ -142,6 +144,11 @@ class CellChooser {
     return cells;
   }
 
+  std::size_t bytes() const {
+    const auto* by_id = std::get_if<IdSelection>(&selection_);
+    return by_id == nullptr ? 0 : bytes_of(by_id->ids) + ids_.size() * sizeof(std::uint32_t);
+  }
+
  private:
   bool is_chosen(std::uint32_t k) const {
     if (!ids_.empty()) return ids_.contains(on_.mesh_cell()[k]);
@@ -200,6 +207,7 @@ class ReadyRemoval : public ReadyEvent {
     on_.count_removed(mass);
     return cells.size();
   }
+  std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:
   BodyOnMap<Map>& on_;
@@ -228,6 +236,7 @@ class ReadyRefinement : public ReadyEvent {
     }
     return count;
   }
+  std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:
   /// At rest; of equal ones, the edge with the lowest number.
@@ -308,6 +317,10 @@ class ReadyStress : public ReadyEvent {
                on_.body(), on_.ends(), rule_, filter_, [this](const TopologyChange& change) { on_.follow(change); },
                stress_)
         .faces;
+  }
+  // of a seam, a bit for each face slot of a cell
+  std::size_t bytes() const override {
+    return bytes_of(stress_) + (filter_ ? (on_.body().map.template slot_count<2>() + 7) / 8 : 0);
   }
 
  private:

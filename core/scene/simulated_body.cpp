@@ -1,19 +1,22 @@
 #include "core/scene/simulated_body.h"
 
-#include <algorithm>
-
 #include "core/scene/body_of_columns.h"
 #include "core/scene/body_on_map.h"
 
 namespace dartboard {
 
-std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes) {
-  if (!topology_changes) return std::make_unique<BodyOfColumns>(problem);
-  const auto& kinds = problem.mesh.kinds;
-  if (problem.mesh.dimension() == 2) return std::make_unique<BodyOnMap<Map2>>(problem);
-  if (std::all_of(kinds.begin(), kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; }))
-    return std::make_unique<BodyOnMap<TetMap>>(problem);
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
+  if (!needs.topology_changes) return std::make_unique<BodyOfColumns>(problem, needs);
+  switch (needs.storage) {
+    case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem);
+    case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem);
+    case Storage::any_cells: break;
+  }
   return std::make_unique<BodyOnMap<Map3>>(problem);
+}
+
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes) {
+  return make_simulated_body(problem, body_needs(problem, topology_changes));
 }
 
 }  // namespace dartboard

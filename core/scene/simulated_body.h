@@ -10,6 +10,8 @@
 #include "core/plain/random.h"
 #include "core/scene/diagnostics.h"
 #include "core/scene/frame.h"
+#include "core/scene/memory.h"
+#include "core/scene/needs.h"
 #include "core/scene/scene_file.h"
 #include "core/time/integrator.h"
 
@@ -24,6 +26,8 @@ class ReadyEvent {
   /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
   /// throws   SolverError if a stress is not finite
   virtual std::size_t apply() = 0;
+  /// Memory that it keeps (core/scene/memory.h).
+  virtual std::size_t bytes() const { return 0; }
 };
 
 class SimulatedBody {
@@ -54,12 +58,15 @@ class SimulatedBody {
   virtual std::uint64_t state_hash() const = 0;
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
+  /// What its parts take now.
+  virtual MemoryReport memory() const = 0;
 };
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
 /// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not: columns, and no map.
 ///
 /// throws  InputError as build_body does
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes);
 
 }  // namespace dartboard

@@ -35,9 +35,10 @@ void add_spring_forces(const SpringSystem& system, std::span<const Vector3d> x, 
 template <bool viscous>
 void divide_by_mass(const SpringSystem& system, std::span<const Vector3d> v, std::span<Vector3d> a) {
   const Vector3d gravity = system.gravity;
+  [[maybe_unused]] const double* const viscosity = system.viscosity.data();
   for (std::size_t i = 0; i < a.size(); ++i) {
     if constexpr (viscous)
-      a[i] = (a[i] - system.viscosity[i] * v[i]) * system.inverse_mass[i] + gravity;
+      a[i] = (a[i] - viscosity[i] * v[i]) * system.inverse_mass[i] + gravity;
     else
       a[i] = a[i] * system.inverse_mass[i] + gravity;
   }
@@ -57,8 +58,9 @@ void accelerations(const SpringSystem& system, const Terms& terms, std::span<con
   terms.damping ? add_spring_forces<true>(system, x, v, a) : add_spring_forces<false>(system, x, v, a);
   terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
   if (!terms.fixed) return;
+  const std::uint8_t* const fixed = system.fixed.data();
   for (std::size_t i = 0; i < a.size(); ++i)
-    if (system.fixed[i]) a[i].setZero();
+    if (fixed[i]) a[i].setZero();
 }
 
 double frequency_bound(const SpringSystem& system) {
@@ -67,7 +69,7 @@ double frequency_bound(const SpringSystem& system) {
     for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
   double highest = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
-    if (system.fixed.empty() || !system.fixed[i]) highest = std::max(highest, 2.0 * sum[i] * system.inverse_mass[i]);
+    if (!system.fixed[i]) highest = std::max(highest, 2.0 * sum[i] * system.inverse_mass[i]);
   return std::sqrt(highest);
 }
 

@@ -21,6 +21,7 @@ class BaraffWitkin : public ImplicitIntegrator {
     terms_.forget();
   }
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  std::size_t bytes() const override { return ImplicitIntegrator::bytes() + bytes_of(right_, solution_); }
 
  private:
   KnownTerms terms_;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/plain/error.h"
 #include "core/time/nan_proof.h"
 
 // Present where OpenBLAS is the BLAS.
@@ -538,6 +539,19 @@ double Cholesky::factor_nonzeros() const {
 double Cholesky::factor_flops() const { return implementation_->flops; }
 std::uint32_t Cholesky::failed_node() const { return implementation_->failed; }
 const CholeskyCounters& Cholesky::counters() const { return implementation_->counters; }
+std::size_t Cholesky::bytes() const {
+  const Implementation& i = *implementation_;
+  return bytes_of(i.b, i.column_start, i.row, i.order, i.inverse) +
+         (i.factored ? sizeof(double) * static_cast<std::size_t>(factor_nonzeros()) : 0);
+}
+
+std::size_t Cholesky::predicted_nonzeros(const NodePattern& pattern, std::size_t rows_per_node,
+                                         const CholeskyOptions& options) {
+  Implementation analysis(options);
+  analysis.rows_per_node = rows_per_node;
+  if (!analysis.analyse(ScalarMatrix{pattern, {}, {}})) throw SolverError("a matrix could not be analysed");
+  return static_cast<std::size_t>(analysis.nonzeros);
+}
 
 namespace {
 

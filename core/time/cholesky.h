@@ -115,6 +115,13 @@ class Cholesky {
   /// After not_positive_definite: the vertex of the first bad pivot.
   std::uint32_t failed_node() const;
   const CholeskyCounters& counters() const;
+  /// The numbers of L and the columns beside it; not the indices, copies and workspace of the library.
+  std::size_t bytes() const;
+  /// How many numbers L will have, from the pattern alone: ordered and analysed, nothing factored. With one row for
+  /// each vertex, or three.
+  /// throws  SolverError where the library has not the memory for it
+  static std::size_t predicted_nonzeros(const NodePattern& pattern, std::size_t rows_per_node,
+                                        const CholeskyOptions& options);
 
  private:
   struct Implementation;

@@ -37,6 +37,8 @@ class ConjugateGradients {
   ConjugateGradientsResult solve(const StepMatrix& matrix, Cholesky& factor, std::span<const Eigen::Vector3d> b,
                                  std::span<Eigen::Vector3d> x, const ConjugateGradientsOptions& options);
 
+  std::size_t bytes() const { return bytes_of(inverse_, r_, p_, q_); }
+
  private:
   std::vector<Eigen::Matrix3d> inverse_;  // of the diagonal blocks
   std::vector<Eigen::Vector3d> r_, p_, q_;

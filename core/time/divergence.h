@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/plain/bytes.h"
 #include "core/time/integrator.h"
 
 namespace dartboard {
@@ -54,6 +55,7 @@ class DivergenceDetector {
   std::uint64_t restore(Motion motion) const;
 
   std::uint64_t checks() const { return checks_; }
+  std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
 
  private:
   struct Sums {

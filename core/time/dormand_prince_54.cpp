@@ -68,6 +68,13 @@ void DormandPrince54::restart() {
   last_error_ = 1.0;
 }
 
+std::size_t DormandPrince54::bytes() const {
+  std::size_t sum = end_.bytes() + bytes_of(stage_x_);
+  for (const auto* columns : {&stage_v_, &stage_a_})
+    for (const Column& column : *columns) sum += bytes_of(column);
+  return sum;
+}
+
 void DormandPrince54::resize(std::size_t n) {
   end_.resize(n);
   stage_x_.resize(n);

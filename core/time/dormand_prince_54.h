@@ -14,6 +14,7 @@ class DormandPrince54 : public AdaptiveIntegrator {
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   StepResult advance(const SpringSystem& system, Motion motion, double duration, const Tolerance& tolerance) override;
   void restart() override;
+  std::size_t bytes() const override;
 
   /// The step size `advance` will try first; 0 when it is to choose one.
   double next_step() const { return next_step_; }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/plain/bytes.h"
 #include "core/time/accelerations.h"
 
 namespace dartboard {
@@ -19,6 +20,7 @@ double one_minus_exp_of_minus(double z);
 class FrozenDamping {
  public:
   void forget() { flow_step_ = 0.0; }
+  std::size_t bytes() const { return bytes_of(along_, mobility_, impulse_, remains_); }
 
   /// Take the directions of the springs from x.
   void freeze(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> x);

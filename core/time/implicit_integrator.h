@@ -17,6 +17,8 @@ class ImplicitIntegrator : public Integrator {
   explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}
 
   void restart() override { stage_.system_changed(); }
+  std::size_t bytes() const override { return stage_.bytes() + end_.bytes(); }
+  std::size_t solver_bytes() const override { return stage_.solver_bytes(); }
   const ImplicitOptions& options() const { return stage_.options(); }
   /// What became of the factor, and which rule acted.
   const CholeskyCounters& factor_work() { return stage_.solver().cholesky().counters(); }

@@ -15,11 +15,21 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Force on the first end between the length vectors d0 and d1 of a spring: Gonzalez's discrete gradient, which for a
 // spring is k (lm - L) along (d0 + d1) / (l0 + l1), lm the mean length; without cancellation. Damping acts along it.
+template <bool damped>
 Vector3d discrete_force(const Spring& spring, const Vector3d& d0, const Vector3d& d1, const Vector3d& dw) {
   const double sum = std::sqrt(d0.squaredNorm()) + std::sqrt(d1.squaredNorm());
   if (sum == 0.0) return Vector3d::Zero();
   const Vector3d along = (d0 + d1) / sum;
-  return (spring.stiffness * (0.5 * sum - spring.rest_length) + spring.damping * dw.dot(along)) * along;
+  double tension = spring.stiffness * (0.5 * sum - spring.rest_length);
+  if constexpr (damped) tension += spring.damping * dw.dot(along);
+  return tension * along;
+}
+
+// Without a damper, what spring_force gives for one of zero.
+Vector3d undamped_force(const Spring& spring, const Vector3d& dx) {
+  const double length = std::sqrt(dx.squaredNorm());
+  if (length == 0.0) return Vector3d::Zero();
+  return (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
 }
 
 SpringTangent discrete_tangent(const Spring& spring, const Vector3d& d0, const Vector3d& d1, Compression compression) {
@@ -32,19 +42,30 @@ SpringTangent discrete_tangent(const Spring& spring, const Vector3d& d0, const V
 
 }  // namespace
 
-void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, WorkCounters& work) {
+template <bool damped>
+void ImplicitStage::subtract_forces(const Problem& p, std::span<const Vector3d> w) {
   const SpringSystem& s = p.system;
-  ++work.force_evaluations;
-  residual_.assign(w.size(), Vector3d::Zero());
   const bool discrete = p.force == StageForce::discrete_gradient;
   for (std::size_t e = 0; e < s.springs.size(); ++e) {
     const auto [a, b] = s.ends[e];
     const Vector3d dw = w[b] - w[a], d0 = p.xh[b] - p.xh[a];
-    const Vector3d f = discrete ? discrete_force(s.springs[e], d0, d0 + (2.0 * p.tau) * dw, dw)
-                                : spring_force(s.springs[e], d0 + p.tau * dw, dw);
+    const auto at_end = [&] {
+      if constexpr (damped)
+        return spring_force(s.springs[e], d0 + p.tau * dw, dw);
+      else
+        return undamped_force(s.springs[e], d0 + p.tau * dw);
+    };
+    const Vector3d f = discrete ? discrete_force<damped>(s.springs[e], d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
     residual_[a] -= f;
     residual_[b] += f;
   }
+}
+
+void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, WorkCounters& work) {
+  const SpringSystem& s = p.system;
+  ++work.force_evaluations;
+  residual_.assign(w.size(), Vector3d::Zero());
+  terms_.of(s).damping ? subtract_forces<true>(p, w) : subtract_forces<false>(p, w);
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (s.fixed[i]) {
       residual_[i].setZero();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/time/step_solver.h"
+#include "core/time/trial_state.h"
 
 namespace dartboard {
 
@@ -33,7 +34,10 @@ class ImplicitStage {
   explicit ImplicitStage(const ImplicitOptions& options) : options_(options), solver_(options) {}
 
   void begin_step() { solver_.begin_step(); }
-  void system_changed() { solver_.system_changed(); }
+  void system_changed() {
+    solver_.system_changed();
+    terms_.forget();
+  }
 
   /// Find w, starting from the w given. Fixed vertices keep the velocity they have in vh.
   ///
@@ -43,6 +47,8 @@ class ImplicitStage {
                    double tau, StageForce force, std::span<Eigen::Vector3d> w, WorkCounters& work);
 
   StepSolver& solver() { return solver_; }
+  std::size_t bytes() const { return solver_.bytes() + bytes_of(residual_, direction_, trial_, allowed_); }
+  std::size_t solver_bytes() const { return solver_.bytes(); }
   const ImplicitOptions& options() const { return options_; }
 
  private:
@@ -53,6 +59,8 @@ class ImplicitStage {
     StageForce force;
   };
   void set_residual(const Problem& p, std::span<const Eigen::Vector3d> w, WorkCounters& work);
+  template <bool damped>
+  void subtract_forces(const Problem& p, std::span<const Eigen::Vector3d> w);
   void set_allowed(const Problem& p, std::span<const Eigen::Vector3d> w);
   double excess() const;
   double residual_norm(const Problem& p) const;
@@ -65,6 +73,7 @@ class ImplicitStage {
 
   ImplicitOptions options_;
   StepSolver solver_;
+  KnownTerms terms_;
   std::vector<Eigen::Vector3d> residual_, direction_, trial_;
   std::vector<double> allowed_;
 };

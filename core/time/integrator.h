@@ -83,6 +83,11 @@ class Integrator {
   /// Forget what was kept from earlier steps: the system has changed.
   virtual void restart() {}
 
+  /// Memory that it keeps between steps, in bytes (core/plain/bytes.h); none before the first step.
+  virtual std::size_t bytes() const { return 0; }
+  /// How much of that are matrices, a factor, and what solves with it.
+  virtual std::size_t solver_bytes() const { return 0; }
+
   const WorkCounters& work() const { return work_; }
   void reset_work() { work_ = {}; }
 

@@ -18,6 +18,7 @@ struct NodeMatrix {
   std::vector<Entry> below;     // by entry of the pattern
 
   std::size_t node_count() const { return diagonal.size(); }
+  std::size_t bytes() const { return pattern.bytes() + bytes_of(diagonal, below); }
   const Entry& diagonal_block(std::size_t i) const { return diagonal[i]; }
 
   /// y = A x.

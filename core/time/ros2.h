@@ -22,6 +22,9 @@ class Ros2 : public ImplicitIntegrator {
     terms_.forget();
   }
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  std::size_t bytes() const override {
+    return ImplicitIntegrator::bytes() + bytes_of(right_, k1x_, k1v_, kx_, kv_, rx_, rv_);
+  }
 
  private:
   bool solve_stage(const SpringSystem& system, double tau);

@@ -16,6 +16,9 @@ class Sdirk2 : public ImplicitIntegrator {
 
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  std::size_t bytes() const override {
+    return ImplicitIntegrator::bytes() + start_.bytes() + error_.bytes() + bytes_of(slope_x_, slope_v_);
+  }
 
   /// The estimated error of the last step that was taken: the difference from the embedded result.
   std::span<const Eigen::Vector3d> position_error() const { return error_.x; }

@@ -36,8 +36,11 @@ StepMatrix::Block StepMatrix::block_of(const SpringSystem& system, std::size_t e
 void StepMatrix::set_inertia(const SpringSystem& system) {
   const std::size_t n = system.vertex_count();
   inertia_.resize(n);
-  fixed_.assign(system.fixed.begin(), system.fixed.end());
-  for (std::size_t i = 0; i < n; ++i) inertia_[i] = fixed_[i] ? 1.0 : system.mass[i] + tau_ * system.viscosity[i];
+  fixed_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    fixed_[i] = system.fixed[i];
+    inertia_[i] = fixed_[i] ? 1.0 : system.mass[i] + tau_ * system.viscosity[i];
+  }
 }
 
 void StepMatrix::sum_diagonal() {

@@ -28,6 +28,7 @@ class StepMatrix {
   void evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau);
 
   std::size_t node_count() const { return inertia_.size(); }
+  std::size_t bytes() const { return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_); }
   double tau() const { return tau_; }
   const Eigen::Matrix3d& diagonal_block(std::size_t i) const { return diagonal_[i]; }
   /// m + tau * viscosity by vertex; 1 for fixed ones.

@@ -73,6 +73,10 @@ class StepSolver {
   /// The tangents that the matrix was made of.
   std::span<const SpringTangent> tangents() const { return tangents_; }
   const Cholesky& cholesky() const { return cholesky_; }
+  std::size_t bytes() const {
+    return cholesky_.bytes() + conjugate_gradients_.bytes() + matrix_.bytes() + factored_.bytes() + pattern_.bytes() +
+           blocks_.bytes() + scalars_.bytes() + bytes_of(tangents_);
+  }
 
  private:
   SolveStatus factorise(std::span<const RankOneTerm> terms, bool follow, WorkCounters& work);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/plain/bytes.h"
 #include "core/time/accelerations.h"
 #include "core/time/integrator.h"
 
@@ -21,6 +22,7 @@ struct TrialState {
     x.resize(n);
     v.resize(n);
   }
+  std::size_t bytes() const { return bytes_of(x, v); }
   /// Copy it into the motion and count a step, or diagnose it and count a failed step.
   StepResult commit(Motion motion, WorkCounters& work) const;
 };

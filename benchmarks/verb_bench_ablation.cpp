@@ -1,0 +1,269 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/ablation_study.h"
+#include "benchmarks/manifest.h"
+#include "benchmarks/plot.h"
+#include "benchmarks/processes.h"
+#include "benchmarks/progress.h"
+#include "benchmarks/run_folder.h"
+#include "benchmarks/verb_bench.h"
+#include "core/scene/measured_plan.h"
+
+namespace dartboard {
+namespace {
+
+void add_measure_ablation(CLI::App& app) {
+  auto options = std::make_shared<AblationOptions>();
+  auto* verb =
+      app.add_subcommand("measure-ablation", "Time features on and off in this process (used by bench).")->group("");
+  verb->add_option("--process", options->process);
+  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--steps", options->steps)->check(CLI::PositiveNumber);
+  verb->add_option("--seed", options->seed);
+  verb->callback([options] {
+    study_ablation(*options, [](const Sample& sample) { fmt::print("{}\n", nlohmann::json(sample).dump()); });
+  });
+}
+
+// ---- what the variants hold
+
+struct Bytes {
+  std::size_t total = 0, tetrahedra = 0, springs = 0;
+  std::size_t not_asked_for = 0;  // of parts that a bare scene does not need
+  double per_tetrahedron() const { return static_cast<double>(total) / static_cast<double>(tetrahedra); }
+};
+
+/// Asked of the built objects, with nothing of the plan but its names.
+std::map<std::string, Bytes> bytes_of_variants() {
+  std::map<std::string, Bytes> all;
+  for (const AblationVariant& variant : ablation_variants()) {
+    const ScenePlan plan = plan_scene(variant.scene, make_problem(variant.scene));
+    const std::vector<std::size_t> found = measured_bytes(variant.scene, plan);
+    Bytes bytes{.tetrahedra = plan.counts.cells, .springs = plan.counts.edges};
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      bytes.total += found[k];
+      const Part part = plan.items[k].part;
+      const bool needed = part == Part::vertices || part == Part::springs || part == Part::integrator ||
+                          part == Part::detector || part == Part::output_cells;
+      if (!needed) bytes.not_asked_for += found[k];
+    }
+    all[variant.name] = bytes;
+  }
+  return all;
+}
+
+// ---- tables
+
+struct Results {
+  std::vector<Sample> samples;
+  std::map<std::string, Bytes> bytes;
+  int steps;
+
+  double step_us(const std::string& task) const { return times_of(samples, task).cpu_median / steps / 1e3; }
+};
+
+std::string percent(double ratio) { return fmt::format("{:+.2f} %", 100.0 * (ratio - 1.0)); }
+std::string percent(const Interval& i) {
+  return fmt::format("[{:+.2f}, {:+.2f}] at {:.1f} %", 100.0 * (i.low - 1.0), 100.0 * (i.high - 1.0),
+                     100.0 * i.coverage);
+}
+
+Table features_table(const Results& r) {
+  Table table({{"feature"},
+               {"switched"},
+               {"bytes per tetrahedron", Align::right},
+               {"us per step", Align::right},
+               {"of a step", Align::right},
+               {"interval", Align::right}});
+  const auto rows = [&](const std::vector<AblationPair>& pairs, const char* switched) {
+    for (const AblationPair& pair : pairs) {
+      const Ratio ratio = paired_ratio(r.samples, pair.task, pair.baseline);
+      table.add_row({pair.feature, switched,
+                     fmt::format("{:+.1f}",
+                                 r.bytes.at(pair.task).per_tetrahedron() - r.bytes.at(pair.baseline).per_tetrahedron()),
+                     fmt::format("{:+.2f}", r.step_us(pair.task) - r.step_us(pair.baseline)), percent(ratio.cpu.median),
+                     percent(ratio.cpu.interval)});
+    }
+  };
+  rows(switched_on(), "on, from bare");
+  rows(switched_off(), "off, from full");
+  return table;
+}
+
+Table staircase_table(const Results& r) {
+  Table table({{"not asked for, or always there"},
+               {"task"},
+               {"over"},
+               {"us per step", Align::right},
+               {"of a step", Align::right},
+               {"interval", Align::right}});
+  for (const AblationPair& pair : staircase()) {
+    const Ratio ratio = paired_ratio(r.samples, pair.task, pair.baseline);
+    table.add_row({pair.feature, pair.task, pair.baseline, fmt::format("{:.2f}", r.step_us(pair.task)),
+                   percent(ratio.cpu.median), percent(ratio.cpu.interval)});
+  }
+  return table;
+}
+
+const char* const note =
+    "Each feature in a scene of the paper's body, undamped and at rest but for a spin where bare. Ratios are paired "
+    "within rounds, intervals are over processes. The map and the watch on stress are those of events that never "
+    "happen "
+    "within the run: nothing but their presence is timed. Frames and diagnostics: every tenth step, in memory. Bytes "
+    "are "
+    "asked of the built objects: the elements of all containers at the start. On a map, frames are read off its darts; "
+    "with it "
+    "the full scene pays for that too.";
+
+// ---- claims
+
+Claim target(std::string id, std::string text, std::string bound, std::string measured, std::string interval,
+             bool holds, std::string reason) {
+  return {.id = std::move(id),
+          .text = std::move(text),
+          .section = "",
+          .paper_value = std::move(bound),
+          .measured = std::move(measured),
+          .bound_or_interval = std::move(interval),
+          .verdict = holds ? Verdict::holds : Verdict::falls_short,
+          .reason = holds ? "" : std::move(reason)};
+}
+
+std::vector<Claim> claims_of(const Results& r) {
+  std::vector<Claim> claims;
+  const Ratio all = paired_ratio(r.samples, "simulation", "loop");
+  claims.push_back(target("bare-scene-speed",
+                          "a scene without topological events over the same integrator on plain arrays in a loop",
+                          "<= 1.02", fmt::format("{:.4f}", all.cpu.median), to_string(all.cpu.interval),
+                          all.cpu.median <= 1.02, "the staircase shows where"));
+  // what is held by a map, and columns of terms that are zero
+  const Bytes bare = r.bytes.at("bare");
+  claims.push_back(target("bare-scene-holds-no-dart",
+                          "such a scene holds no dart, and no column of what it does not ask for", "0 bytes",
+                          fmt::format("{} bytes", bare.not_asked_for), "exact", bare.not_asked_for == 0, ""));
+  claims.push_back(target("unasked-damping-bytes", "damping that is not asked for takes no byte", "0 bytes",
+                          fmt::format("{} bytes, {} for each of {} springs", bare.springs * sizeof(Spring::damping),
+                                      sizeof(Spring::damping), bare.springs),
+                          "exact", false, "rest length, stiffness and damping of a spring are stored side by side"));
+  const std::map<std::string, std::string> ids{{"loop", "unasked-terms-time"},
+                                               {"loop and detector", "detector-time"},
+                                               {"watched loop", "speed-check-time"},
+                                               {"simulation", "unasked-events-and-output-time"}};
+  for (const AblationPair& pair : staircase()) {
+    if (pair.task == "simulation" && pair.baseline == "loop") continue;
+    const Ratio ratio = paired_ratio(r.samples, pair.task, pair.baseline);
+    claims.push_back(target(ids.at(pair.task), fmt::format("{}: time when not asked for", pair.feature),
+                            "<= 0.5 % of a step", percent(ratio.cpu.median), percent(ratio.cpu.interval),
+                            ratio.cpu.median <= 1.005, fmt::format("'{}' over '{}'", pair.task, pair.baseline)));
+  }
+  return claims;
+}
+
+// ---- the picture: what each variant takes, time across and bytes up
+
+Plot plot_of(const Results& r) {
+  Plot plot;
+  plot.title = "Features on from a bare scene (blue), and off from a full one (red)";
+  plot.x_axis = "microseconds per step";
+  plot.y_axis = "bytes per tetrahedron";
+  double x_low = 1e300, x_high = 0.0, y_low = 1e300, y_high = 0.0;
+  for (const AblationVariant& variant : ablation_variants()) {
+    const double x = r.step_us(variant.name), y = r.bytes.at(variant.name).per_tetrahedron();
+    // points lie close: a number beside each, and its name in the legend
+    const std::string number = fmt::format("{}", plot.series.size() + 1);
+    const bool on = variant.name.starts_with("bare");
+    plot.series.push_back({.title = number + "  " + variant.name,
+                           .points = {{x, y, number}},
+                           .colour = on ? "#1f77b4" : "#d62728",
+                           .symbol = on ? 7 : 5,
+                           .size = 1.4});
+    x_low = std::min(x_low, x);
+    x_high = std::max(x_high, x);
+    y_low = std::min(y_low, y);
+    y_high = std::max(y_high, y);
+  }
+  plot.x_low = 0.7 * x_low;
+  plot.x_high = 1.4 * x_high;
+  plot.y_low = 0.7 * y_low;
+  plot.y_high = 1.4 * y_high;
+  return plot;
+}
+
+// ---- the verb
+
+struct Options {
+  bool json = false, quick = false;
+  std::string out;
+  std::uint64_t seed = 1;
+};
+
+void bench_ablation(const Options& options, Outcome& outcome) {
+  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
+  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
+  const RunFolder folder(options.out.empty() ? new_run_path(results_root, "ablation")
+                                             : std::filesystem::path(options.out));
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  facts.seeds = {{"order of the tasks", options.seed}};
+  facts.input_files = {std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes" / "liver564.mesh"};
+  auto manifest = begin_manifest(facts);
+  manifest["quick"] = options.quick;
+  folder.write_manifest(manifest);
+
+  const int processes = options.quick ? 6 : 11, rounds = options.quick ? 3 : 12, steps = options.quick ? 20 : 60;
+  Results results{.samples = {}, .bytes = bytes_of_variants(), .steps = steps};
+  say(fmt::format("{} scenes and {} loops, {} steps each time, in {} processes", results.bytes.size(), 5, steps,
+                  processes));
+  auto lines = folder.json_lines("samples.jsonl");
+  {
+    Progress progress("timing", static_cast<std::size_t>(processes), options.json);
+    for (int process = 0; process < processes; ++process) {
+      run_self({"measure-ablation", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
+                std::to_string(steps), "--seed", std::to_string(options.seed)},
+               [&](std::string_view line) {
+                 const auto json = nlohmann::json::parse(line);
+                 lines.append(json);
+                 results.samples.push_back(json.get<Sample>());
+               });
+      progress.advance();
+    }
+  }
+
+  const auto claims = claims_of(results);
+  say("\n" + to_text(features_table(results)) + "\n" + note + "\n");
+  say("The bare scene, with less and less around its loop\n\n" + to_text(staircase_table(results)));
+  say("Targets\n\n" + to_text(claims));
+  folder.write_claims(claims);
+  folder.write_table("features", "Features on and off", features_table(results), note);
+  folder.write_table("staircase", "The bare scene, with less and less around its loop", staircase_table(results));
+  if (const std::string trouble = draw(plot_of(results), folder.path(), "ablation"); !trouble.empty()) say(trouble);
+  finish_manifest(manifest);
+  folder.write_manifest(manifest);
+  outcome.exit_code = exit_code(claims);
+  if (options.json) fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}}.dump(2));
+  say(fmt::format("{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
+                  outcome.exit_code == exit_agrees ? "Every target holds." : "Some target is missed: see above.",
+                  folder.path().string()));
+}
+
+}  // namespace
+
+void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<Options>();
+  auto* verb = bench.add_subcommand(
+      "ablation", "Each feature of a scene on from a bare one and off from a full one: bytes, and time per step.");
+  verb->add_flag("--quick", options->quick, "fewer rounds, fewer processes");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [results/ablation-TIME]");
+  verb->add_option("--seed", options->seed, "of the order of the tasks [1]");
+  verb->add_flag("--json", options->json,
+                 "print claims and manifest as JSON on standard output, the rest on standard error");
+  verb->callback([options, &outcome] { bench_ablation(*options, outcome); });
+  add_measure_ablation(app);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "benchmarks/cli.h"
+#include "benchmarks/clock.h"
+#include "benchmarks/statistics.h"
+#include "benchmarks/table.h"
+#include "benchmarks/unit_costs.h"
+#include "core/scene/measured_plan.h"
+#include "core/scene/scene_run.h"
+
+namespace dartboard {
+namespace {
+
+struct Options {
+  std::string scene;
+  bool measure = false, json = false;
+};
+
+/// What --measure adds: the bytes of each item, and the time of the run.
+struct Measured {
+  std::vector<std::size_t> bytes;  // by item of the plan
+  bool equal = true;
+  std::size_t total = 0;
+  double ns = 0.0;  // per step, events and output included; nothing is written
+};
+
+/// The median of three runs.
+double measured_ns(const SceneFile& scene) {
+  std::vector<double> runs;
+  for (int run = 0; run < 3; ++run) {
+    Simulation simulation(scene);
+    RunWatcher nobody;
+    const std::int64_t start = thread_cpu_ns();
+    run_scene(simulation, scene.output, nobody);
+    const auto ns = static_cast<double>(thread_cpu_ns() - start);
+    runs.push_back(ns / std::max(1.0, static_cast<double>(simulation.steps_done())));
+  }
+  return median(runs);
+}
+
+Measured measure(const SceneFile& scene, const ScenePlan& plan) {
+  Measured m;
+  m.bytes = measured_bytes(scene, plan);
+  for (std::size_t k = 0; k < plan.items.size(); ++k) {
+    m.total += m.bytes[k];
+    m.equal = m.equal && m.bytes[k] == plan.items[k].bytes;
+  }
+  m.ns = measured_ns(scene);
+  return m;
+}
+
+std::string counted(const ScenePlan& plan) {
+  return fmt::format("{} vertices, {} edges, {} faces, {} cells, {} darts", plan.counts.vertices, plan.counts.edges,
+                     plan.counts.faces, plan.counts.cells, plan.counts.darts);
+}
+
+std::string time_text(double ns) { return ns == 0.0 ? "" : fmt::format("{:.0f}", ns); }
+
+void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Measured>& measured) {
+  fmt::print("{}\n{}; {}; {} steps of {:.6g} s\n\n", scene.name, plan.map, counted(plan), plan.steps, scene.step);
+  std::vector<Column> columns{{"part", Align::left}, {"bytes", Align::right}};
+  if (measured) columns.push_back({"measured", Align::right});
+  columns.insert(columns.end(), {{"ns per step", Align::right}, {"what", Align::left}, {"why", Align::left}});
+  Table table(columns);
+  const auto row = [&](const std::string& part, std::size_t bytes, std::size_t found, const std::string& ns,
+                       const std::string& what, const std::string& why) {
+    std::vector<std::string> cells{part, fmt::format("{}", bytes)};
+    if (measured) cells.push_back(fmt::format("{}{}", found, found == bytes ? "" : " DIFFERS"));
+    cells.insert(cells.end(), {ns, what, why});
+    table.add_row(cells);
+  };
+  for (std::size_t k = 0; k < plan.items.size(); ++k) {
+    const PlanItem& item = plan.items[k];
+    row(std::string(name(item.part)), item.bytes, measured ? measured->bytes[k] : 0, time_text(item.ns), item.what,
+        item.why);
+  }
+  row("in all", plan.bytes(), measured ? measured->total : 0, time_text(plan.ns()), "", "");
+  Table without({{"left out", Align::left}, {"because", Align::left}});
+  for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
+  fmt::print("{}\n{}\n", to_text(table), to_text(without));
+  fmt::print(
+      "Bytes are those of the elements of all containers that live as long as the run, at the start; of a factor, its "
+      "numbers.\nTimes are estimates from unit costs measured just now on arrays of this size, averaged over the run, "
+      "output in memory included.\nNot in them: building the body, writing files, what stress tears.\n");
+  if (!measured) return;
+  fmt::print("\nmeasured: {:.0f} ns per step, {:+.1f} % from the estimate; bytes {}\n", measured->ns,
+             100.0 * (measured->ns / plan.ns() - 1.0), measured->equal ? "exactly as planned" : "DIFFER");
+}
+
+nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, const std::optional<Measured>& measured) {
+  nlohmann::ordered_json json{{"scene", scene.name},
+                              {"map", plan.map},
+                              {"integrator", scene.integrator},
+                              {"steps", plan.steps},
+                              {"counts",
+                               {{"vertices", plan.counts.vertices},
+                                {"edges", plan.counts.edges},
+                                {"faces", plan.counts.faces},
+                                {"cells", plan.counts.cells},
+                                {"darts", plan.counts.darts}}},
+                              {"bytes", plan.bytes()},
+                              {"ns_per_step", plan.ns()}};
+  json["plan"] = json["left_out"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < plan.items.size(); ++k) {
+    const PlanItem& item = plan.items[k];
+    json["plan"].push_back({{"part", name(item.part)},
+                            {"what", item.what},
+                            {"why", item.why},
+                            {"bytes", item.bytes},
+                            {"ns_per_step", item.ns}});
+    if (measured) json["plan"].back()["measured_bytes"] = measured->bytes[k];
+  }
+  for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
+  if (measured)
+    json["measured"] = {
+        {"bytes", measured->total}, {"bytes_as_planned", measured->equal}, {"ns_per_step", measured->ns}};
+  return json;
+}
+
+void explain(const Options& options, Outcome& outcome) {
+  const SceneFile scene = read_scene(options.scene);
+  const Problem problem = make_problem(scene);
+  ScenePlan plan = plan_scene(scene, problem);
+  add_times(plan, scene, measure_unit_costs(scene, problem, plan));
+  std::optional<Measured> measured;
+  if (options.measure) measured = measure(scene, plan);
+  outcome.exit_code = !measured || measured->equal ? exit_agrees : exit_disagrees;
+  if (options.json)
+    fmt::print("{}\n", to_json(scene, plan, measured).dump(2));
+  else
+    print(scene, plan, measured);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand(
+      "explain",
+      "The plan of a scene before it runs: what will be there and why, its bytes and time, what is left out.");
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_flag("--measure", options->measure, "build it, run it, and print what it took beside the plan");
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->callback([options, &outcome] { explain(*options, outcome); });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,46 @@
+#pragma once
+// The parts that a running scene is made of, and the memory each takes: the plan predicts it, the objects report it.
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace dartboard {
+
+/// Bytes are those of the elements of every container that lives as long as the run: its size times that of an element
+/// (core/plain/bytes.h), and the numbers of a factor. Objects of fixed size are not counted, nor what containers and
+/// libraries set aside beyond that. It is the memory at the start, before the first operation, after a step that had
+/// something to solve.
+enum class Part {
+  map,           // alphas and generations
+  marks,         // stamps by dart
+  embeddings,    // the number of the embedding at every dart
+  cell_darts,    // the lowest dart of each vertex, edge, face and cell
+  cells,         // masses of cells, and what of them changes follow from
+  components,    // the connected component of each cell
+  vertices,      // mass, 1/mass, position, velocity, point of the mesh
+  viscosity,     // by vertex
+  fixed,         // by vertex
+  springs,       // rest length, stiffness and damping, and the two ends
+  damping,       // a force term: time only
+  gravity,       // likewise
+  integrator,    // columns kept between steps
+  solver,        // matrices, factor and vectors of implicit methods
+  detector,      // the last good state
+  speed_check,   // time only
+  event,         // what one event looked up at the start
+  step_check,    // looking at the step after operations: time only
+  output_cells,  // cells and boundary by vertex numbers, for frames and diagnostics of a body without a map
+  frames,        // time only
+  diagnostics,   // time only
+};
+std::string_view name(Part part);
+
+struct MemoryItem {
+  Part part;
+  std::size_t bytes;
+  std::size_t event = 0;  // of Part::event: which one
+};
+using MemoryReport = std::vector<MemoryItem>;
+
+}  // namespace dartboard

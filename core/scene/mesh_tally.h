@@ -1,0 +1,36 @@
+#pragma once
+// What a map of a mesh will consist of, counted from the mesh: no map is built.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/plain/mesh.h"
+#include "core/views/spring_ends.h"
+
+namespace dartboard {
+
+/// The counts of the map of a mesh, and its edges by the numbers that a body will give them.
+///
+/// Bodies number vertices and edges by their lowest dart (`build_body`), and darts are made cell by cell in the order
+/// of `faces_of`: so these numbers are those of a first meeting. It is a count of points and not of vertices of the
+/// map; where a point is several vertices, the mesh makes no body.
+struct MeshTally {
+  std::size_t vertices = 0, edges = 0, faces = 0, cells = 0;  // cells: volumes, or the faces of a surface
+  std::size_t darts = 0;
+  std::size_t components = 0;
+  std::size_t boundary_facets = 0, boundary_corners = 0;  // faces of a solid, edges of a surface, with one cell
+
+  std::vector<std::uint32_t> point;                          // by vertex: its point of the mesh
+  std::vector<SpringEnds> ends;                              // by edge
+  std::vector<std::uint32_t> cells_of_edge;                  // by edge: how many cells are around it
+  std::vector<std::uint8_t> edge_on_boundary;                // by edge
+  std::vector<std::array<std::uint32_t, 2>> cells_of_facet;  // of those between two cells
+};
+
+/// pre     cells name points of the mesh
+/// cost    O(darts), some 0.2 microseconds per dart
+MeshTally tally_of(const Mesh& mesh);
+
+}  // namespace dartboard

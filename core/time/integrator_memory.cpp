@@ -1,0 +1,100 @@
+#include "core/time/integrator_memory.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "core/plain/error.h"
+#include "core/time/accelerations.h"
+#include "core/time/integrators.h"
+#include "core/time/local_global.h"
+#include "core/time/node_pattern.h"
+#include "core/time/step_solver.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::size_t vector = sizeof(Eigen::Vector3d), block = sizeof(Eigen::Matrix3d);
+
+/// What a method holds beside its matrices: columns of vectors by vertex, and where there is something to damp, the
+/// directions of the springs and factors of their flow.
+struct Columns {
+  std::string_view integrator;
+  std::size_t vectors;                    // by vertex
+  std::size_t vectors_damped = 0;         // more of them with damping or viscosity
+  bool directions = false, flow = false;  // of a splitting: by spring, and by spring and vertex
+  std::size_t numbers = 0;                // by vertex: what an implicit stage allows of its residual
+};
+
+// The columns of the classes of these names; an implicit stage has residual, direction and trial, and every method the
+// position and velocity it ends with.
+constexpr std::array table{
+    Columns{"explicit-euler", 2},
+    Columns{"symplectic-euler", 3, 0, true, true},
+    Columns{"verlet", 3, 0, true, true},
+    Columns{"blanes-moan-4", 3, 1, true},
+    Columns{"rk4", 5},
+    Columns{"dormand-prince-54", 17},
+    Columns{.integrator = "backward-euler", .vectors = 5, .numbers = 1},
+    Columns{"baraff-witkin", 4},
+    Columns{.integrator = "local-global", .vectors = 5, .numbers = 1},
+    Columns{"ros2", 9},
+    Columns{.integrator = "sdirk2", .vectors = 11, .numbers = 1},
+    Columns{.integrator = "implicit-midpoint", .vectors = 5, .numbers = 1},
+    Columns{.integrator = "energy-momentum", .vectors = 5, .numbers = 1},
+    Columns{.integrator = "bdf2", .vectors = 9, .numbers = 1},
+};
+
+}  // namespace
+
+SystemCounts counts_of(const SpringSystem& system) {
+  const Terms terms = terms_of(system);
+  SystemCounts counts{.vertices = system.vertex_count(),
+                      .springs = system.springs.size(),
+                      .damping = terms.damping,
+                      .viscosity = terms.viscosity};
+  for (const auto& [a, b] : system.ends) {
+    if (a == b || (system.fixed[a] && system.fixed[b])) continue;
+    ++(system.fixed[a] || system.fixed[b] ? counts.anchors : counts.links);
+  }
+  return counts;
+}
+
+std::size_t predicted_integrator_bytes(std::string_view integrator, const SystemCounts& c) {
+  for (const Columns& columns : table) {
+    if (columns.integrator != integrator) continue;
+    const bool damped = c.damping || c.viscosity;
+    std::size_t bytes = c.vertices * (vector * columns.vectors + sizeof(double) * columns.numbers);
+    if (damped) bytes += c.vertices * vector * columns.vectors_damped;
+    if (columns.directions && c.damping) bytes += c.springs * vector;
+    if (columns.flow && damped) bytes += c.vertices * sizeof(double);       // inverse masses, 0 where fixed
+    if (columns.flow && c.damping) bytes += c.springs * sizeof(double);     // what each spring relaxes
+    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);  // what is left of each velocity
+    return bytes;
+  }
+  throw InputError(fmt::format("the memory of an integrator '{}' is not known", integrator));
+}
+
+std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSystem& system) {
+  if (!make_integrator(integrator)->scheme().implicit) return 0;
+  const bool scalar = integrator == "local-global";
+  const ImplicitOptions options = scalar ? LocalGlobal::with_iterations(20) : ImplicitOptions{};
+  const SystemCounts c = counts_of(system);
+  const NodePattern pattern = node_pattern_of(system);
+  const std::size_t entries = pattern.row.size();
+  // the springs' blocks with what they were made of, inertia and diagonal: once as they are, once as they were factored
+  const std::size_t springs_form = c.vertices * (sizeof(double) + 1 + block) +
+                                   c.springs * (sizeof(SpringEnds) + vector + 4 * sizeof(double)) +
+                                   (c.links + c.anchors) * sizeof(std::uint32_t);
+  const std::size_t rows = scalar ? 1 : 3, capacity = c.vertices + options.cholesky.spare_nodes;
+  std::size_t bytes = 2 * springs_form + sizeof(SpringTangent) * c.springs;
+  bytes += 2 * pattern.bytes() + (c.vertices + entries) * block;  // the pattern, and the matrix on a copy of it
+  bytes += scalar ? pattern.bytes() + (c.vertices + entries) * sizeof(double) : NodePattern().bytes();
+  if (!scalar) bytes += 3 * c.vertices * vector;  // conjugate gradients
+  bytes += bytes_of(pattern.column_start, pattern.row) + capacity * (1 + rows) * sizeof(int);
+  bytes += 3 * capacity * sizeof(double);  // the right-hand side
+  return bytes + sizeof(double) * Cholesky::predicted_nonzeros(pattern, rows, options.cholesky);
+}
+
+}  // namespace dartboard
