@@ -11,6 +11,7 @@
 #include "benchmarks/clock.h"
 #include "benchmarks/table.h"
 #include "validation/recommend.h"
+#include "validation/scene_of_file.h"
 
 namespace dartboard {
 namespace {
@@ -143,7 +144,8 @@ void recommend_verb(const Options& options, Outcome& outcome) {
     std::fflush(options.json ? stderr : stdout);
   };
   const TradeoffScene scene =
-      make_tradeoff_scene(options.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+      find_scene(options.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  for (const std::string& omission : scene.omissions) say(omission);
   const CpuClock clock = thread_cpu_ns;
   nlohmann::json report = nlohmann::json::array();
   std::vector<Recommendation> all;
@@ -214,7 +216,7 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   std::string known;
   for (const TradeoffEntry& entry : tradeoff_scenes())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  verb->add_option("SCENE", options->scene, known)->required();
+  verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known)->required();
   verb->add_option("--error", options->errors, "largest error of positions, in mean edge lengths; several may be given")
       ->required()
       ->check(CLI::PositiveNumber);
