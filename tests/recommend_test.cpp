@@ -7,6 +7,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "validation/recommendation_audit.h"
 
 namespace dartboard {
 namespace {

@@ -197,6 +197,7 @@ TradeoffScene scene_of_file(const SceneFile& file) {
       throw SolverError(fmt::format("{}: {}", file.file, error.what()));
     }
   }();
+  if (!(made.fastest_rate > 0.0)) made.fastest_rate = 1.0 / file.duration;  // nothing but flight
   // the name of the file: it names files in turn
   made.name = std::filesystem::path(file.file).stem().string();
   made.what = file.about.empty() ? file.name : file.about;
