@@ -147,9 +147,14 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
   c.slope = std::clamp(c.observed_order, 0.3, 1.1);
   c.error_at_pilot = change.back() / (std::pow(10.0, c.slope) - 1.0);
   take_cost(c, runs.back());
-  c.pilot_steps = static_cast<double>(runs.back().run.work.steps);
-  const double before = static_cast<double>(runs[runs.size() - 2].run.work.steps);
-  c.steps_slope = std::clamp(std::log10(c.pilot_steps / before), 0.0, 0.5);
+  const auto steps_of = [&](std::size_t back) {
+    return static_cast<double>(runs[runs.size() - 1 - back].run.work.steps);
+  };
+  c.pilot_steps = steps_of(0);
+  // coarse steps are short for stability's sake; the finer, the nearer the number of steps comes to its power
+  const double last = std::log10(steps_of(0) / steps_of(1)), before = std::log10(steps_of(1) / steps_of(2));
+  const double power = 1.0 / c.order;
+  c.steps_slope = std::clamp(std::min(last + 0.5 * std::max(last - before, 0.0), std::max(last, power)), 0.0, 0.5);
   c.full_length = true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace dartboard {
 
@@ -38,7 +39,7 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
   // a neighbour only ever makes things slower: the least times are compared
   PilotRun pilot;
   double least_s = std::numeric_limits<double>::infinity(), total_s = 0.0;
-  for (int k = 0; k < 5 && (k < 2 || total_s < 0.02); ++k) {
+  for (int k = 0; k < 5 && total_s < 0.005; ++k) {
     force_ns_ = std::min(force_ns_, force_.measure());
     const auto integrator = candidate.make();
     pilot.run = run_timed(scene, *integrator, setting, clock_,
@@ -46,7 +47,7 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
     const double s = 1e-9 * static_cast<double>(pilot.run.cpu_ns);
     least_s = std::min(least_s, s);
     total_s += s;
-    if (s > 0.1 || total_s > 0.2 * limit_s || !pilot.run.result.ok()) break;  // long enough to be timed once
+    if (!pilot.run.result.ok()) break;
   }
   force_ns_ = std::min(force_ns_, force_.measure());
   pilot.cpu_s = least_s;
@@ -55,6 +56,30 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
   pilot.step_cost = std::max(1e9 * least_s / force_ns_, static_cast<double>(work.force_evaluations)) /
                     static_cast<double>(std::max<std::uint64_t>(work.steps, 1));
   return pilot;
+}
+
+double Pilots::step_cost(const Candidate& candidate) {
+  constexpr double run_s = 0.008, all_s = 0.15;
+  // sixteen steps at least; a run that is short anyway is timed whole, with all that belongs to its start
+  const double steps = static_cast<double>(candidate.steps);
+  const double part = std::min(1.0, std::max(run_s / candidate.predicted_s, 16.0 / steps));
+  std::optional<TradeoffScene> shorter;
+  if (part < 1.0) shorter = first_part(scene_, part, 4);
+  const TradeoffScene& scene = shorter ? *shorter : scene_;
+  const RunSetting setting{.steps = part < 1.0 ? whole_steps(scene, candidate.h) : candidate.steps};
+  std::vector<double> costs;
+  double before = force_.measure();
+  const std::int64_t start = clock_();
+  for (int k = 0; k < 9 && (k < 3 || 1e-9 * static_cast<double>(clock_() - start) < all_s); ++k) {
+    const auto integrator = candidate.make();
+    const TimedRun run = run_timed(scene, *integrator, setting, clock_);
+    const double after = force_.measure();
+    if (!run.result.ok()) return candidate.step_cost;
+    costs.push_back(static_cast<double>(run.cpu_ns) / (0.5 * (before + after) * static_cast<double>(run.work.steps)));
+    before = after;
+  }
+  std::sort(costs.begin(), costs.end());
+  return std::max(costs[costs.size() / 2], candidate.step_evaluations);
 }
 
 std::vector<double> differences(const TradeoffScene& scene, const TimedRun& a, const TimedRun& b) {

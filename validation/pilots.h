@@ -34,6 +34,10 @@ class Pilots {
   PilotRun run(const Candidate& candidate, const TradeoffScene& scene, const RunSetting& setting,
                std::size_t checkpoints = std::numeric_limits<std::size_t>::max());
 
+  /// What a step of a candidate's fixed setting costs in force evaluations: the median of short runs, each between two
+  /// timings of the forces.   pre  the candidate has been solved for an error
+  double step_cost(const Candidate& candidate);
+
   double spent_s() const;
   /// What is left for pilots; at least `most_pilot_s` for the next one as long as nothing is predicted.
   double left_s() const;

@@ -75,6 +75,7 @@ class Search {
       }
     rank(r_.candidates);
     confirm();
+    time_the_best();
     look_around();
     r_.pilot_s = pilots_->spent_s();
     return std::move(r_);
@@ -151,7 +152,7 @@ class Search {
     else if (fixed->predicted_s > hope * pilots_->cheapest_s())
       c.pruned =
           fmt::format("with fixed steps it costs {:.1f} times the best", fixed->predicted_s / pilots_->cheapest_s());
-    else if (2.0 * fixed->predicted_s > pilots_->left_s())
+    else if (1.5 * fixed->predicted_s > pilots_->left_s())
       c.pruned = "its pilots would take too long";
     else
       pilot_tolerances(c, *pilots_, error_);
@@ -177,6 +178,17 @@ class Search {
       if (outcome != Longer::skipped) solve(*next);
       rank(r_.candidates);
     }
+  }
+
+  /// The pilots of the best two were timed once each, and by the way: look again.
+  void time_the_best() {
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, r_.candidates.size()); ++k) {
+      Candidate& c = r_.candidates[k];
+      if (!c.usable() || c.adaptive || c.implicit || c.predicted_cost > 1.5 * r_.candidates[0].predicted_cost) continue;
+      c.step_cost = pilots_->step_cost(c);
+      solve(c);
+    }
+    rank(r_.candidates);
   }
 
   /// What one more digit would cost, and what real time would allow.

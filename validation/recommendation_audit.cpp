@@ -28,16 +28,15 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
   a.predicted_evaluations = pick->predicted_evaluations;
   a.pilot_s = recommendation.pilot_s;
   ForceTimer force(scene, clock);
-  std::vector<double> costs, seconds, force_s;
+  std::vector<double> costs, seconds;
   double before = force.measure(), total = 0.0;
-  for (int k = 0; k < 9 && (k < 3 || total < 0.3) && total < 4.0; ++k) {
+  for (int k = 0; k < 15 && (k < 3 || total < 0.3) && total < 4.0; ++k) {
     const auto integrator = pick->make();
     const TimedRun run = run_timed(scene, *integrator, pick->setting(), clock);
     const double after = force.measure();
-    force_s.push_back(0.5e-9 * (before + after));
-    before = after;
     seconds.push_back(1e-9 * static_cast<double>(run.cpu_ns));
-    costs.push_back(seconds.back() / force_s.back());
+    costs.push_back(static_cast<double>(run.cpu_ns) / (0.5 * (before + after)));
+    before = after;
     total += seconds.back();
     a.actual_evaluations = static_cast<double>(run.work.force_evaluations);
     a.actual_error =
@@ -45,7 +44,7 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
   }
   a.actual_cost = median_of(costs);
   a.actual_s = median_of(seconds);
-  a.predicted_s = a.predicted_cost * median_of(force_s);
+  a.predicted_s = a.predicted_cost * a.actual_s / a.actual_cost;  // forces and run timed in turn
   const double errors[]{recommendation.error};
   const Winner winner = winners(sweep, errors)[0];
   a.best = winner.contender;
