@@ -92,7 +92,7 @@ void add_measure(CLI::App& app, Outcome&) {
   verb->add_option("CONTENDER:STEPS", options->tasks)->required();
   verb->callback([options] {
     const Problem problem = scene(options->scene).make();
-    std::vector<std::unique_ptr<Simulation>> simulations;
+    std::vector<std::unique_ptr<ContenderBody>> simulations;
     std::vector<TimedTask> tasks;
     std::map<std::string, int> steps_of;
     for (const std::string& task : options->tasks) {
@@ -101,7 +101,7 @@ void add_measure(CLI::App& app, Outcome&) {
       const int steps = colon == std::string::npos ? 0 : std::atoi(task.c_str() + colon + 1);
       if (steps < 1) throw InputError(fmt::format("'{}' is not CONTENDER:STEPS with at least one step", task));
       simulations.push_back(contender(id).make(problem));
-      Simulation& s = *simulations.back();
+      ContenderBody& s = *simulations.back();
       auto start = std::make_shared<PointState>(s.state());
       steps_of[id] = steps;
       tasks.push_back({id, [&s, start] { s.set_state(*start); }, [&s, steps] { s.step(steps); },

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/clock.h"
+#include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/scene/simulation.h"
 #include "core/time/integrators.h"
@@ -221,13 +223,18 @@ nlohmann::ordered_json to_json(const Explanation& e) {
 }
 
 void explain_dt(const Options& options, Outcome& outcome) {
-  const SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(options.scene);
+  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   const Explanation explanation = explain(scene);
   outcome.exit_code = scene.step <= explanation.safe ? exit_agrees : exit_disagrees;
-  if (options.json)
-    fmt::print("{}\n", to_json(explanation).dump(2));
-  else
+  if (options.json) {
+    nlohmann::ordered_json json = to_json(explanation);
+    if (settled) json["settled"] = nlohmann::json(*settled);
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    if (settled) fmt::print("{}\n", to_string(*settled));
     print(explanation);
+  }
 }
 
 }  // namespace

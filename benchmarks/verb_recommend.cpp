@@ -10,7 +10,10 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/table.h"
-#include "validation/recommend.h"
+#include "benchmarks/verb_recommend.h"
+#include "core/plain/error.h"
+#include "validation/recommendation_audit.h"
+#include "validation/scene_of_file.h"
 
 namespace dartboard {
 namespace {
@@ -18,7 +21,8 @@ namespace {
 struct Options {
   std::string scene;
   std::vector<double> errors;
-  bool realtime = false, verify = false, json = false;
+  bool realtime = false, verify = false, json = false, audit = false;
+  AuditOptions auditing;
 };
 
 nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
@@ -29,6 +33,7 @@ nlohmann::json json_of(const Candidate& c) {
     json["pruned"] = c.pruned;
     return json;
   }
+  if (c.adaptive) json["tolerance"] = c.tolerance;
   json.update({{"confidence", name(c.confidence)},
                {"full_length_pilots", c.full_length},
                {"observed_order", number(c.observed_order)},
@@ -38,7 +43,8 @@ nlohmann::json json_of(const Candidate& c) {
                {"h", c.h},
                {"predicted_error", number(c.predicted_error)},
                {"predicted_seconds", number(c.predicted_s)},
-               {"predicted_cost", number(c.predicted_cost)}});
+               {"predicted_cost", number(c.predicted_cost)},
+               {"predicted_evaluations", number(c.predicted_evaluations)}});
   return json;
 }
 
@@ -74,6 +80,8 @@ nlohmann::json json_of(const Audit& a) {
           {"met", a.met()},
           {"actual_cost", number(a.actual_cost)},
           {"predicted_cost", number(a.predicted_cost)},
+          {"actual_evaluations", number(a.actual_evaluations)},
+          {"predicted_evaluations", number(a.predicted_evaluations)},
           {"actual_s", a.actual_s},
           {"best", a.best},
           {"best_cost", number(a.best_cost)},
@@ -94,13 +102,15 @@ Table candidates_table(const Recommendation& r) {
                {"confidence"}});
   for (const Candidate& c : r.candidates)
     if (c.usable())
-      table.add_row(
-          {c.contender, std::to_string(c.steps), fmt::format("{:.4g}", 1e3 * c.h),
-           std::isfinite(c.limit_h) ? fmt::format("{:.4g}", 1e3 * c.limit_h) : "none",
-           fmt::format("{:.1e}", c.predicted_error), fmt::format("{:.0f}", c.predicted_cost),
-           milliseconds(c.predicted_s),
-           c.confidence == Confidence::sufficient ? "-" : fmt::format("{:.2f} of {}", c.observed_order, c.order),
-           fmt::format("{}{}", name(c.confidence), c.full_length ? ", full length" : "")});
+      table.add_row({c.contender, fmt::format("{}{}", c.adaptive ? "about " : "", c.steps),
+                     fmt::format("{:.4g}", 1e3 * c.h),
+                     std::isfinite(c.limit_h) ? fmt::format("{:.4g}", 1e3 * c.limit_h) : "none",
+                     fmt::format("{:.1e}", c.predicted_error), fmt::format("{:.0f}", c.predicted_cost),
+                     milliseconds(c.predicted_s),
+                     c.confidence == Confidence::sufficient ? "-"
+                     : c.adaptive                           ? fmt::format("{:.2f} of the tolerance", c.observed_order)
+                                                            : fmt::format("{:.2f} of {}", c.observed_order, c.order),
+                     fmt::format("{}{}", name(c.confidence), c.full_length ? ", full length" : "")});
   return table;
 }
 
@@ -115,8 +125,10 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   const Candidate* pick = r.pick();
   if (pick == nullptr) return text + "\nNothing can be recommended.\n";
-  text += fmt::format("\nTake {} with h = {:.4g} s ({} steps{}): error {:.1e}, {} here ({:.0f} force evaluations).\n",
-                      pick->contender, pick->h, pick->steps,
+  text += fmt::format("\nTake {} with {}{}: error {:.1e}, {} here ({:.0f} force evaluations).\n", pick->contender,
+                      pick->adaptive
+                          ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
+                          : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
                       pick->limited_by_stability ? ", all that stability allows" : "", pick->predicted_error,
                       milliseconds(pick->predicted_s), pick->predicted_cost);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
@@ -124,7 +136,8 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,
                         second->predicted_cost / pick->predicted_cost);
   text += fmt::format("One more digit costs {:.2f} times as much, with {}.\n", r.one_more_digit, r.one_more_digit_by);
-  text += fmt::format("The pilots took {}.\n", milliseconds(r.pilot_s));
+  text += fmt::format("The pilots took {}, {:.3g} times the run.\n", milliseconds(r.pilot_s),
+                      r.pilot_s / pick->predicted_s);
   if (realtime) {
     text +=
         fmt::format("Real time: {:.4g} s are simulated in {}, {:.2f} times real time{}.\n", duration,
@@ -138,12 +151,22 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
 }
 
 void recommend_verb(const Options& options, Outcome& outcome) {
+  if (options.audit) {
+    if (!options.scene.empty() || !options.errors.empty())
+      throw InputError("--audit draws its scenes and errors itself: give neither SCENE nor --error");
+    AuditOptions auditing = options.auditing;
+    auditing.json = options.json;
+    audit_recommendations(auditing, outcome);
+    return;
+  }
+  if (options.scene.empty() || options.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
   const auto say = [&](const std::string& text) {
     fmt::print(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
   const TradeoffScene scene =
-      make_tradeoff_scene(options.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+      find_scene(options.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  for (const std::string& omission : scene.omissions) say(omission);
   const CpuClock clock = thread_cpu_ns;
   nlohmann::json report = nlohmann::json::array();
   std::vector<Recommendation> all;
@@ -214,13 +237,17 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   std::string known;
   for (const TradeoffEntry& entry : tradeoff_scenes())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  verb->add_option("SCENE", options->scene, known)->required();
+  verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known);
   verb->add_option("--error", options->errors, "largest error of positions, in mean edge lengths; several may be given")
-      ->required()
       ->check(CLI::PositiveNumber);
   verb->add_flag("--realtime", options->realtime,
                  "say whether that is as fast as the motion itself, and what would be");
   verb->add_flag("--verify", options->verify, "run it, against the oracle and a sweep of all methods");
+  verb->add_flag("--audit", options->audit,
+                 "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
+  verb->add_option("--seed", options->auditing.seed, "of the audit [20261121]");
+  verb->add_flag("--quick", options->auditing.quick, "audit a few small scenes only");
+  verb->add_option("--out", options->auditing.out, "folder of the audit, new or empty [results/recommend-TIME]");
   verb->add_flag("--json", options->json, "print the report as JSON on standard output, the rest on standard error");
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }

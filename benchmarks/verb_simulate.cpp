@@ -13,6 +13,7 @@
 #include "benchmarks/clock.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
+#include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/plain/error.h"
 #include "core/scene/atomic_file.h"
@@ -63,6 +64,7 @@ struct Report {
   const SceneFile& scene;
   const Simulation& simulation;
   const RunResult& result;
+  std::optional<SettledAccuracy> settled;  // where the scene asks for an accuracy
   std::vector<ExpectedRow> expected;
   std::string unjudged;  // why there is no verdict; empty where there is one
   double wall_s, cpu_s;
@@ -113,6 +115,10 @@ Table summary_of(const Report& r) {
 void print(const Report& r) {
   fmt::print("{}\n{}, {}, h = {:.6g} s\n\n{}\n", r.scene.name, r.simulation.body().map_name(), r.scene.integrator,
              r.scene.step, to_text(summary_of(r)));
+  if (r.settled) {
+    fmt::print("{}\n", to_string(*r.settled));
+    for (const std::string& omission : r.settled->omissions) fmt::print("  {}\n", omission);
+  }
   const double steps = std::max(1.0, static_cast<double>(r.simulation.steps_done()));
   fmt::print("wall {:.3g} s, processor {:.3g} s, {:.3g} microseconds per step, events and output included\n", r.wall_s,
              r.cpu_s, r.cpu_s / steps * 1e6);
@@ -189,6 +195,7 @@ nlohmann::ordered_json to_json(const Report& r) {
   for (const ExpectedRow& row : r.expected)
     json["expected"].push_back(
         {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
+  if (r.settled) json["settled"] = nlohmann::json(*r.settled);
   if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
   if (!r.folder.empty()) json["folder"] = r.folder;
   return json;
@@ -207,6 +214,7 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
 void simulate(const Options& options, Outcome& outcome) {
   SceneFile scene = read_scene(options.scene);
   if (options.seed) reseed(scene, *options.seed);
+  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   Simulation simulation(scene);
   simulation.watch_events(true);
   // the folder comes last: a scene that is wrong leaves nothing behind
@@ -218,6 +226,7 @@ void simulate(const Options& options, Outcome& outcome) {
   if (!options.out.empty()) {
     output.emplace(options.out);
     manifest = manifest_of(scene, options, outcome);
+    if (settled) manifest["settled"] = *settled;
     write_manifest();
   }
 
@@ -236,6 +245,7 @@ void simulate(const Options& options, Outcome& outcome) {
   Report report{.scene = scene,
                 .simulation = simulation,
                 .result = result,
+                .settled = settled,
                 .expected = {},
                 .unjudged = {},
                 .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,

@@ -13,6 +13,7 @@
 #include "benchmarks/run_folder.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
+#include "validation/scene_of_file.h"
 #include "validation/work_precision.h"
 
 namespace dartboard {
@@ -173,7 +174,7 @@ constexpr std::string_view reading =
 WorkPrecision study_scene(const std::string& scene_name, const Options& options, const RunFolder& folder,
                           JsonLines& samples, const std::function<void(const std::string&)>& say) {
   const TradeoffScene scene =
-      make_tradeoff_scene(scene_name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+      find_scene(scene_name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
   say(fmt::format("{}: {}; T omega_max = {:.4g}", scene.name, scene.what, scene.duration * scene.fastest_rate));
   const CpuClock clock = thread_cpu_ns;
   const SceneReference reference = reference_of(
@@ -243,7 +244,9 @@ void tradeoff(const Options& options, Outcome& outcome) {
     std::fflush(options.json ? stderr : stdout);
   };
   std::vector<std::string> names;
-  if (options.all == !options.scene.empty()) throw InputError("give the name of a scene, or --all");
+  if (options.all == !options.scene.empty()) throw InputError("give the name of a scene, a scene file, or --all");
+  const bool file = options.scene.ends_with(".json");
+  if (file) names.push_back(options.scene);
   for (const TradeoffEntry& entry : tradeoff_scenes())
     if (options.all || entry.name == options.scene) names.emplace_back(entry.name);
   if (names.empty()) make_tradeoff_scene(options.scene, "");  // tells which there are
@@ -255,6 +258,7 @@ void tradeoff(const Options& options, Outcome& outcome) {
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of the integrators", options.seed}};
   facts.input_files = {std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes" / "liver564.mesh"};
+  if (file) facts.input_files = {options.scene};
   auto manifest = begin_manifest(facts);
   manifest["quick"] = options.quick;
   folder.write_manifest(manifest);
@@ -277,7 +281,7 @@ void add_tradeoff(CLI::App& app, Outcome& outcome) {
   std::string known;
   for (const TradeoffEntry& entry : tradeoff_scenes())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  verb->add_option("SCENE", options->scene, known);
+  verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known);
   verb->add_flag("--all", options->all, "all scenes");
   verb->add_option("--only", options->only, "names of the integrators that take part [all]");
   verb->add_flag("--quick", options->quick, "short runs, few repetitions");

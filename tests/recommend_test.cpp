@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "validation/recommendation_audit.h"
 
 namespace dartboard {
 namespace {
@@ -14,6 +16,13 @@ namespace {
 /// A clock on which every look takes a microsecond: the same choices on every machine.
 CpuClock ticking() {
   return [t = std::int64_t{0}]() mutable { return t += 1000; };
+}
+
+/// Eight seconds, a checkpoint at each.
+reference::NetworkMotion eight_seconds() {
+  reference::NetworkMotion motion;
+  for (int c = 1; c <= 8; ++c) motion.checkpoints.push_back(c);
+  return motion;
 }
 
 Candidate fourth_order() {
@@ -30,12 +39,12 @@ Candidate fourth_order() {
 
 TEST(SolveForError, TheStepFollowsTheOrderWithItsSafety) {
   Candidate c = fourth_order();
-  solve_for_error(c, 1e-6, 8.0, 8, 2e-6, {});
-  // (1e-4)^(1/4) = 1/10, times 0.9: h = 0.009, 111.1 steps in each of 8 intervals of 1 s
-  EXPECT_EQ(c.steps, 8u * 112u);
-  EXPECT_DOUBLE_EQ(c.h, 8.0 / 896.0);
+  solve_for_error(c, 1e-6, eight_seconds(), 2e-6, {});
+  // (1e-4)^(1/4) = 1/10, times 0.93: h = 0.0093, 107.5 steps in each of 8 intervals of 1 s
+  EXPECT_EQ(c.steps, 8u * 108u);
+  EXPECT_DOUBLE_EQ(c.h, 8.0 / 864.0);
   EXPECT_NEAR(c.predicted_error, 1e-2 * std::pow(c.h / 0.1, 4), 1e-20);
-  EXPECT_DOUBLE_EQ(c.predicted_cost, 6.0 * 896.0);
+  EXPECT_DOUBLE_EQ(c.predicted_cost, 6.0 * 864.0);
   EXPECT_DOUBLE_EQ(c.predicted_s, 2e-6 * c.predicted_cost);
   EXPECT_FALSE(c.limited_by_stability);
 }
@@ -43,7 +52,7 @@ TEST(SolveForError, TheStepFollowsTheOrderWithItsSafety) {
 TEST(SolveForError, TheStepStaysWithinTheStabilityLimit) {
   Candidate c = fourth_order();
   c.limit_h = 0.004;
-  solve_for_error(c, 1e-6, 8.0, 8, 2e-6, {});
+  solve_for_error(c, 1e-6, eight_seconds(), 2e-6, {});
   EXPECT_LE(c.h, 0.95 * 0.004);
   EXPECT_TRUE(c.limited_by_stability);
 }
@@ -51,9 +60,41 @@ TEST(SolveForError, TheStepStaysWithinTheStabilityLimit) {
 TEST(SolveForError, OrdersThatDoNotShowAskForLess) {
   Candidate sure = fourth_order(), unsure = fourth_order();
   unsure.confidence = Confidence::pre_asymptotic;
-  solve_for_error(sure, 1e-6, 8.0, 8, 2e-6, {});
-  solve_for_error(unsure, 1e-6, 8.0, 8, 2e-6, {});
+  solve_for_error(sure, 1e-6, eight_seconds(), 2e-6, {});
+  solve_for_error(unsure, 1e-6, eight_seconds(), 2e-6, {});
   EXPECT_GT(unsure.steps, sure.steps);
+}
+
+TEST(SolveForError, StepsThatEndAtEventsAreCounted) {
+  reference::NetworkMotion motion = eight_seconds();
+  motion.events.push_back({2.7505, {}, {}});
+  Candidate c = fourth_order();
+  c.step_evaluations = 6.0;
+  solve_for_error(c, 1e-6, motion, 2e-6, {});
+  // 108 steps a second: 81.1 before the event and 26.9 after it make 82 and 27
+  EXPECT_EQ(c.steps, 8u * 108u);
+  EXPECT_DOUBLE_EQ(c.predicted_evaluations, 6.0 * (864.0 + 1.0));
+}
+
+TEST(SolveForError, ATolerancePromisesAnErrorAndANumberOfSteps) {
+  Candidate c;
+  c.adaptive = true;
+  c.confidence = Confidence::asymptotic;
+  c.order = 5;
+  c.pilot_tolerance = 1e-6;
+  c.error_at_pilot = 1e-4;
+  c.slope = 1.0;
+  c.pilot_steps = 100.0;
+  c.steps_slope = 0.2;
+  c.step_cost = 6.5;
+  solve_for_error(c, 1e-6, eight_seconds(), 2e-6, {});
+  // the error falls with the tolerance; 0.93^5 of safety; a hundredth of the error takes 100^0.2 the steps
+  const double safety = std::pow(0.93, 5);
+  EXPECT_NEAR(c.tolerance, 1e-8 * safety, 1e-20);
+  EXPECT_NEAR(c.predicted_error, 1e-6 * safety, 1e-18);
+  EXPECT_NEAR(c.predicted_cost, 650.0 * std::pow(100.0 / safety, 0.2), 1e-9);
+  EXPECT_EQ(c.setting().steps, 0u);
+  EXPECT_EQ(c.setting().tolerance, c.tolerance);
 }
 
 class RecommendChain : public ::testing::TestWithParam<double> {};
@@ -75,13 +116,13 @@ INSTANTIATE_TEST_SUITE_P(Errors, RecommendChain, ::testing::Values(1e-3, 1e-5, 1
 
 TEST(Recommend, EveryIntegratorIsRankedOrLeftOutForAReason) {
   const Recommendation r = recommend(chain_scene(8, 64.0), 1e-4, ticking());
-  ASSERT_EQ(r.candidates.size(), integrators().size());
+  ASSERT_EQ(r.candidates.size(), integrators().size() + 1);  // and one that chooses its steps
   double previous = 0.0;
   for (const Candidate& c : r.candidates) {
     if (!c.usable()) continue;
     EXPECT_GE(c.predicted_cost, previous);
     previous = c.predicted_cost;
-    if (!c.implicit) {
+    if (!c.implicit && !c.adaptive) {
       EXPECT_LE(c.h, c.limit_h);
     }
   }
@@ -94,6 +135,39 @@ TEST(Recommend, TheBracketOfOmegaHoldsTheKnownOne) {
   // omega_max of the chain is known; power iteration approaches it from below
   EXPECT_LE(r.features.omega_low, scene.fastest_rate * (1.0 + 1e-12));
   EXPECT_GE(r.features.omega_high, scene.fastest_rate);
+}
+
+TEST(Recommend, ConsidersOneIntegratorOnlyWhereOneIsNamed) {
+  RecommendOptions options;
+  options.only = "verlet";
+  const Recommendation r = recommend(chain_scene(8, 64.0), 1e-4, ticking(), options);
+  ASSERT_EQ(r.candidates.size(), 1u);
+  EXPECT_EQ(r.candidates[0].contender, "verlet");
+  EXPECT_NE(r.pick(), nullptr);
+}
+
+TEST(Recommend, AToleranceMeetsTheErrorToo) {
+  RecommendOptions options;
+  options.only = "dormand-prince-54";
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  Recommendation r = recommend(scene, 1e-5, ticking(), options);
+  std::erase_if(r.candidates, [](const Candidate& c) { return !c.adaptive; });
+  ASSERT_NE(r.pick(), nullptr) << r.candidates.at(0).pruned;
+  const Audit a = audit(scene, reference_of(scene, ticking()), r, {}, ticking());
+  EXPECT_TRUE(a.met()) << a.actual_error;
+  // steps vary over the motion, and the last of an interval is cut short
+  EXPECT_NEAR(a.predicted_evaluations / a.actual_evaluations, 1.0, 0.15);
+}
+
+TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
+  // every look at the clock takes a tenth of a second: a few are all there is time for
+  const CpuClock slow = [t = std::int64_t{0}]() mutable { return t += 100'000'000; };
+  RecommendOptions options;
+  options.pilot_part = 0.0;
+  const Recommendation r = recommend(chain_scene(8, 64.0), 1e-4, slow, options);
+  ASSERT_NE(r.pick(), nullptr);
+  EXPECT_TRUE(
+      std::ranges::any_of(r.candidates, [](const Candidate& c) { return c.pruned == "the time for pilots is up"; }));
 }
 
 TEST(Recommend, ANonsensicalErrorIsRefused) {

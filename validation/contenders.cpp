@@ -20,9 +20,9 @@ namespace {
 
 /// A body of the core and one way to walk it.
 template <class Map, Held held, class Walk>
-class CoreSimulation : public Simulation {
+class CoreContender : public ContenderBody {
  public:
-  explicit CoreSimulation(const Problem& problem) : body_(build_body<Map, held>(problem)), h_(problem.h) {
+  explicit CoreContender(const Problem& problem) : body_(build_body<Map, held>(problem)), h_(problem.h) {
     if constexpr (requires { walk_.rebuild(body_); }) walk_.rebuild(body_);
   }
   void step(int n) override {
@@ -50,10 +50,10 @@ class CoreSimulation : public Simulation {
 
 /// A witness from reference/, which speaks the same language under its own class.
 template <class Body>
-class ReferenceSimulation : public Simulation {
+class ReferenceContender : public ContenderBody {
  public:
   template <class... Arguments>
-  explicit ReferenceSimulation(const Arguments&... arguments) : body_(arguments...) {}
+  explicit ReferenceContender(const Arguments&... arguments) : body_(arguments...) {}
   void step(int n) override { body_.step(n); }
   PointState state() const override { return body_.state(); }
   void set_state(const PointState& state) override { body_.set_state(state); }
@@ -64,17 +64,17 @@ class ReferenceSimulation : public Simulation {
 };
 
 template <class Map, Held held, class Walk>
-std::unique_ptr<Simulation> core(const Problem& problem) {
-  return std::make_unique<CoreSimulation<Map, held, Walk>>(problem);
+std::unique_ptr<ContenderBody> core(const Problem& problem) {
+  return std::make_unique<CoreContender<Map, held, Walk>>(problem);
 }
 
-std::unique_ptr<Simulation> graph(const Problem& problem) {
-  return std::make_unique<ReferenceSimulation<reference::AdjacencyGraph>>(problem);
+std::unique_ptr<ContenderBody> graph(const Problem& problem) {
+  return std::make_unique<ReferenceContender<reference::AdjacencyGraph>>(problem);
 }
 
 template <reference::CgalWalk walk>
-std::unique_ptr<Simulation> cgal(const Problem& problem) {
-  return std::make_unique<ReferenceSimulation<reference::CgalBody>>(problem, walk);
+std::unique_ptr<ContenderBody> cgal(const Problem& problem) {
+  return std::make_unique<ReferenceContender<reference::CgalBody>>(problem, walk);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/plain/problem.h"
-#include "validation/simulation.h"
+#include "validation/contender_body.h"
 
 namespace dartboard {
 
@@ -20,7 +20,7 @@ struct Contender {
   std::string section;  // of the paper; empty for what the paper does not have
   double paper_ms;      // per step, section 5; 0 where the paper gives none
   Carrier carrier;      // the walks of the core must agree bit for bit, the others within the summation bound
-  std::function<std::unique_ptr<Simulation>(const Problem&)> make;
+  std::function<std::unique_ptr<ContenderBody>(const Problem&)> make;
 };
 
 /// All of them, in the order in which they are printed; the baseline of every ratio is `graph`.

@@ -52,8 +52,10 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock) {
     f.omega_low = std::max(f.omega_low, reference::fastest_rate(network, x));
     f.omega_high = std::max(f.omega_high, gershgorin(network));
   }
+  // without springs, the scale of time is that of the scene
+  if (!(f.omega_low > 0.0)) f.omega_low = f.omega_high = 1.0 / scene.duration;
   for (const reference::Spring& s : start.springs)
-    f.damping_ratio = std::max(f.damping_ratio, 0.5 * f.omega_low * s.damping / s.stiffness);
+    if (s.stiffness > 0.0) f.damping_ratio = std::max(f.damping_ratio, 0.5 * f.omega_low * s.damping / s.stiffness);
   f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
   f.phase = scene.duration * f.omega_low;
 

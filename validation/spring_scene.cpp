@@ -81,7 +81,7 @@ PreparedScene prepare(const SpringScene& scene) {
                                           static_cast<double>(scene.checkpoints));
 
   for (const TimedCut& event : scene.events) {
-    if (!(event.time > 0.0 && event.time < scene.duration))
+    if (!(event.time >= 0.0 && event.time < scene.duration))
       throw InputError(fmt::format("an event at {} s of {} s", event.time, scene.duration));
     prepared.faces.push_back(event.faces(body));
   }
@@ -92,14 +92,25 @@ PreparedScene prepare(const SpringScene& scene) {
       const std::uint32_t side = places.side_of[d.index];
       if (cells.is_joined(side)) cells.dissociate(side);
     }
-    adapt(body, dissociate_all(body.map, std::span<const Dart>(prepared.faces[k])));
+    const std::span<const Dart> faces(prepared.faces[k]);
+    adapt(body, dissociate_all(body.map, faces));
     const std::vector<std::uint32_t> after = vertex_of_corners(body, places);
     require_same_vertices(body, cells, after);
+    if (scene.events[k].time == 0.0) {  // the motion starts after it
+      adapt(prepared.body, dissociate_all(prepared.body.map, faces));
+      prepared.motion.start = {start.position, start.velocity};
+      prepared.fastest_rate = 0.0;
+      prepared.motion.network = network_now();
+      before = after;
+      continue;
+    }
     std::vector<std::uint32_t> from(body.vertices.size());
     for (std::size_t corner = 0; corner < after.size(); ++corner) from[after[corner]] = before[corner];
     prepared.motion.events.push_back({scene.events[k].time, network_now(), std::move(from)});
     before = after;
   }
+  const auto at_start = std::ranges::count(scene.events, 0.0, &TimedCut::time);
+  prepared.faces.erase(prepared.faces.begin(), prepared.faces.begin() + at_start);
   check(prepared.motion);
   return prepared;
 }

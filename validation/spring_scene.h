@@ -15,8 +15,8 @@ namespace dartboard {
 
 using TetBody = MassSpringBody<TetMap, Held::by_every_dart>;
 
-/// Faces come apart at a time. Which ones is asked once, of the body at rest: the same in every run, however wrong its
-/// positions are by then.
+/// Faces come apart at a time, at 0 before the motion starts. Which ones is asked once, of the body at rest: the same
+/// in every run, however wrong its positions are by then.
 struct TimedCut {
   double time;  // [s]
   std::function<std::vector<Dart>(const TetBody& at_rest)> faces;
@@ -31,7 +31,7 @@ struct SpringScene {
   std::string name;
   Problem problem;                                  // at rest in its mesh; tetrahedra; `h` is not used
   std::vector<Eigen::Vector3d> initial_position{};  // [m] by mesh point; empty for rest
-  std::vector<TimedCut> events{};                 // ascending in time
+  std::vector<TimedCut> events{};                   // ascending in time
   double duration = 1.0;                            // [s]
   std::size_t checkpoints = 8;                      // at equal distances, the last at the end
 };

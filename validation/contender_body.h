@@ -10,9 +10,9 @@
 namespace dartboard {
 
 /// A body in motion, spoken to in the order of the mesh's points.
-class Simulation {
+class ContenderBody {
  public:
-  virtual ~Simulation() = default;
+  virtual ~ContenderBody() = default;
   /// Advance by n steps of the problem's h with the classical Runge-Kutta method.
   virtual void step(int n) = 0;
   virtual PointState state() const = 0;

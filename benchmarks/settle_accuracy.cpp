@@ -1,0 +1,85 @@
+#include "benchmarks/settle_accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/plain/error.h"
+#include "core/scene/step_times.h"
+#include "validation/recommend.h"
+#include "validation/scene_of_file.h"
+
+namespace dartboard {
+
+std::string to_string(const SettledAccuracy& s) {
+  return fmt::format(
+      "for an accuracy of {:.3g} edges: {}{} with h = {:.6g} s; expected error {:.1e} edges{}, expected time {:.3g} s; "
+      "the choice took {:.3g} s",
+      s.accuracy, s.integrator, s.integrator_named ? " (named by the scene)" : "", s.step, s.predicted_error,
+      s.omissions.empty() ? "" : fmt::format(", {} things aside", s.omissions.size()), s.predicted_s, s.pilot_s);
+}
+
+void to_json(nlohmann::json& json, const SettledAccuracy& s) {
+  json = {{"accuracy", s.accuracy},
+          {"integrator", s.integrator},
+          {"integrator_named", s.integrator_named},
+          {"step", s.step},
+          {"recommended_step", s.recommended_step},
+          {"predicted_error", s.predicted_error},
+          {"predicted_s", s.predicted_s},
+          {"pilot_s", s.pilot_s},
+          {"omissions", s.omissions}};
+}
+
+double step_fitting_times(const SceneFile& scene, double largest) {
+  std::vector<double> times;
+  for (const SceneEvent& event : scene.events) times.push_back(event.from);
+  for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time})
+    if (every && *every < scene.duration) times.push_back(*every);
+  const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));
+  // a quarter more steps, or few enough to cost nothing
+  const double most = std::max(1.25 * least, 128.0);
+  for (double n = least; n <= std::min(most, least + 1e5); ++n)
+    if (std::ranges::all_of(times, [&](double t) { return step_at(t, scene.duration / n).has_value(); }))
+      return scene.duration / n;
+  return scene.duration / least;
+}
+
+std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock) {
+  if (!scene.accuracy) return {};
+  SettledAccuracy settled;
+  settled.accuracy = *scene.accuracy;
+  settled.integrator_named = !scene.integrator.empty();
+  if (scene.duration > 0.0) {
+    const TradeoffScene studied = scene_of_file(scene);
+    RecommendOptions options;
+    options.adaptive = false;  // a simulation has one step throughout
+    options.only = scene.integrator;
+    const Recommendation r = recommend(studied, *scene.accuracy, clock, options);
+    const Candidate* pick = r.pick();
+    if (pick == nullptr)
+      throw InputError(
+          fmt::format("{}: /accuracy: is {} mean edge lengths, and no step{} was found to meet it; "
+                      "expected a larger one, or 'step' in its place",
+                      scene.file, *scene.accuracy, settled.integrator_named ? " of " + scene.integrator : ""));
+    scene.integrator = pick->contender;
+    scene.step = step_fitting_times(scene, pick->h);
+    settled.recommended_step = pick->h;
+    settled.predicted_error = pick->predicted_error * std::pow(scene.step / pick->h, pick->slope);
+    settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);
+    settled.pilot_s = r.pilot_s;
+    settled.omissions = studied.omissions;
+  } else {
+    // nothing moves: any will do
+    scene.step = 1.0;
+    if (scene.integrator.empty()) scene.integrator = "rk4";
+  }
+  settled.integrator = scene.integrator;
+  settled.step = scene.step;
+  scene.output = scene.output.in_steps_of(scene.step);
+  return settled;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,189 @@
+// dartboard recommend --audit: unseen scenes, their recommendations, and what happens when they are followed.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/audit_report.h"
+#include "benchmarks/clock.h"
+#include "benchmarks/manifest.h"
+#include "benchmarks/progress.h"
+#include "benchmarks/run_folder.h"
+#include "benchmarks/verb_recommend.h"
+#include "core/plain/random.h"
+#include "validation/random_scenes.h"
+
+namespace dartboard {
+namespace {
+
+/// How much is audited.
+struct Extent {
+  std::uint64_t scenes, errors;            // and errors of each
+  std::uint64_t long_scenes, long_errors;  // whose runs take seconds; without a sweep
+};
+constexpr Extent full{14, 3, 2, 2}, quick{4, 2, 0, 0};
+
+nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
+
+nlohmann::json json_of(const AuditedPair& p) {
+  const Audit& a = p.audit;
+  return {{"scene", p.scene},
+          {"what", p.what},
+          {"vertices", p.vertices},
+          {"springs", p.springs},
+          {"omega_phase", number(p.omega_phase)},
+          {"reference", p.reference},
+          {"floor", number(p.floor)},
+          {"error", a.error},
+          {"pick", p.pick},
+          {"confidence", p.confidence},
+          {"steps", p.setting.steps},
+          {"tolerance", p.setting.tolerance},
+          {"told", p.told()},
+          {"actual_error", number(a.actual_error)},
+          {"predicted_error", number(a.predicted_error)},
+          {"actual_evaluations", number(a.actual_evaluations)},
+          {"predicted_evaluations", number(a.predicted_evaluations)},
+          {"actual_cost", number(a.actual_cost)},
+          {"predicted_cost", number(a.predicted_cost)},
+          {"actual_s", number(a.actual_s)},
+          {"predicted_s", number(a.predicted_s)},
+          {"pilot_s", number(a.pilot_s)},
+          {"swept", p.swept},
+          {"best", a.best},
+          {"best_cost", number(a.best_cost)}};
+}
+
+/// Errors between 1e-2 and 1e-8, one in each of `count` equal parts on the logarithmic scale.
+std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
+  std::vector<double> errors;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const double u = 0.5 * (random.next_signed() + 1.0);
+    errors.push_back(std::pow(10.0, -2.0 - 6.0 * (static_cast<double>(k) + u) / static_cast<double>(count)));
+  }
+  return errors;
+}
+
+std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vector<double>& errors,
+                                     const ReferenceOptions& how_certain, bool sweep_too) {
+  const CpuClock clock = thread_cpu_ns;
+  std::vector<Recommendation> all;
+  double longest = 0.0;
+  for (const double error : errors) {
+    all.push_back(recommend(scene, error, clock));
+    if (const Candidate* pick = all.back().pick()) longest = std::max(longest, pick->predicted_s);
+  }
+  const SceneReference reference = reference_of(scene, clock, how_certain);
+  WorkPrecision sweep;
+  if (sweep_too) {
+    // what takes longer than the dearest pick cannot be cheaper than it
+    WorkPrecisionOptions how;
+    how.most_s = std::max(1.5 * longest, 0.005);
+    how.fewest_repetitions = 2;
+    how.repetitions_s = 0.02;
+    sweep = work_precision(scene, reference, tradeoff_contenders(), clock, how);
+  }
+  std::vector<AuditedPair> pairs;
+  for (const Recommendation& r : all) {
+    AuditedPair p;
+    p.scene = scene.name;
+    p.what = scene.what;
+    p.reference = name(reference.kind);
+    p.floor = reference.floor;
+    p.omega_phase = scene.duration * scene.fastest_rate;
+    p.vertices = scene.motion.network.point_count();
+    p.springs = scene.motion.network.springs.size();
+    p.swept = sweep_too;
+    p.audit.error = r.error;
+    if (const Candidate* pick = r.pick()) {
+      p.pick = pick->contender;
+      p.confidence = fmt::format("{}{}", name(pick->confidence), pick->full_length ? ", full length" : "");
+      p.setting = pick->setting();
+      p.audit = audit(scene, reference, r, sweep.points, clock);
+    }
+    pairs.push_back(std::move(p));
+  }
+  return pairs;
+}
+
+constexpr std::string_view reading =
+    "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, from the reference. The seconds that "
+    "were predicted are the predicted cost in force evaluations times what one takes around the run, so that a machine "
+    "that is busier than during the pilots does not count. Regret is the cost of the pick over that of the cheapest "
+    "setting of a sweep of all methods, interpolated between steps; the sweep leaves out what takes longer than 1.5 "
+    "times the dearest pick of the scene.";
+
+}  // namespace
+
+void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
+  const auto say = [&](const std::string& text) {
+    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    std::fflush(options.json ? stderr : stdout);
+  };
+  const RunFolder folder(options.out.empty()
+                             ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "recommend")
+                             : std::filesystem::path(options.out));
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  facts.seeds = {{"scenes and errors", options.seed}};
+  auto manifest = begin_manifest(facts);
+  manifest["quick"] = options.quick;
+  folder.write_manifest(manifest);
+  auto samples = folder.json_lines("samples.jsonl");
+
+  const Extent extent = options.quick ? quick : full;
+  SplitMix64 random(options.seed + 77);
+  std::vector<AuditedPair> pairs;
+  const std::int64_t start = thread_cpu_ns();
+  {
+    Progress progress("audit", extent.scenes + extent.long_scenes, options.json);
+    for (std::uint64_t k = 0; k < extent.scenes + extent.long_scenes; ++k) {
+      const bool is_long = k >= extent.scenes;
+      RandomSceneOptions drawn;
+      if (options.quick) drawn = {.most_points = 400, .most_work = 5e4};
+      if (is_long) drawn = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
+      const TradeoffScene scene = random_scene(options.seed, k, drawn);
+      const auto errors = draw_errors(random, is_long ? extent.long_errors : extent.errors);
+      const auto some = audit_scene(
+          scene, errors, {.oracle_s = is_long ? 2.0 : 30.0, .self_converged_s = 12.0, .gain = false}, !is_long);
+      for (const AuditedPair& p : some) {
+        samples.append(json_of(p));
+        pairs.push_back(p);
+      }
+      progress.advance(scene.what);
+    }
+  }
+  const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
+  manifest["cpu_s"] = cpu_s;
+  const std::vector<Claim> claims = audit_claims(pairs);
+  const Table table = audit_table(pairs);
+  Table scenes({{"scene"}, {"what was drawn"}, {"vertices", Align::right}, {"T omega_max", Align::right}});
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (k == 0 || pairs[k].scene != pairs[k - 1].scene)
+      scenes.add_row({pairs[k].scene, pairs[k].what, std::to_string(pairs[k].vertices),
+                      fmt::format("{:.0f}", pairs[k].omega_phase)});
+  folder.write_claims(claims);
+  folder.write_table("audit", "Recommendations and what happened", table, reading);
+  folder.write_table("scenes", "The scenes", scenes);
+  if (const std::string trouble =
+          draw(audit_plot(pairs,
+                          fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
+               folder.path(), "audit");
+      !trouble.empty())
+    say(trouble);
+  finish_manifest(manifest);
+  folder.write_manifest(manifest);
+
+  say(to_text(scenes) + "\n" + to_text(table) + "\n" + to_text(claims));
+  say(fmt::format("{:.0f} s of processor time. Written to {}.", cpu_s, folder.path().string()));
+  if (options.json) {
+    nlohmann::json report{{"claims", claims}, {"pairs", nlohmann::json::array()}, {"manifest", manifest}};
+    for (const AuditedPair& p : pairs) report["pairs"].push_back(json_of(p));
+    fmt::print("{}\n", report.dump(2));
+  }
+  outcome.exit_code = exit_code(claims);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,112 @@
+#include "benchmarks/settle_accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/plain/error.h"
+#include "core/scene/scene_verdict.h"
+#include "tests/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+
+/// A clock on which every look takes a microsecond: the same choices on every machine.
+CpuClock ticking() {
+  return [t = std::int64_t{0}]() mutable { return t += 1000; };
+}
+
+Json accurate_box(double accuracy) {
+  Json scene = moving_box();
+  scene.erase("step");
+  scene["duration"] = 0.1;
+  scene["accuracy"] = accuracy;
+  return scene;
+}
+
+TEST(StepFittingTimes, DividesTheDuration) {
+  SceneFile scene = parse(accurate_box(1e-3));
+  EXPECT_EQ(step_fitting_times(scene, 0.05), 0.1 / 2);
+  EXPECT_EQ(step_fitting_times(scene, 0.04), 0.1 / 3);
+  EXPECT_EQ(step_fitting_times(scene, 3.0), 0.1);
+}
+
+TEST(StepFittingTimes, DividesTheTimesOfEventsAndOutputToo) {
+  Json json = with_events(accurate_box(1e-3), R"([{"at": 0.03, "remove": {"ids": [5]}}])");
+  json["output"] = {{"frames_every", 0.02}};
+  SceneFile scene = parse(json);
+  EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 10);
+  EXPECT_EQ(step_fitting_times(scene, 0.0099), 0.1 / 20);
+  // a time that no number of steps meets costs no steps
+  scene.events[0].from = scene.events[0].until = 0.0314159265358979;
+  EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 9);
+}
+
+TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
+  SceneFile scene = parse(accurate_box(1e-4)), fine = scene;
+  const auto settled = settle_accuracy(scene, ticking());
+  ASSERT_TRUE(settled);
+  EXPECT_EQ(scene.step, settled->step);
+  EXPECT_EQ(scene.integrator, settled->integrator);
+  EXPECT_FALSE(settled->integrator_named);
+  EXPECT_LE(settled->step, settled->recommended_step);
+  Simulation simulation(scene);
+  run(simulation);
+  // a run of order 4 with h omega of 0.02 or so is off by its fourth power at most, 2e-7
+  fine.integrator = "blanes-moan-4";
+  fine.step = 0x1p-12 * 0.1;
+  Simulation certain(fine);
+  run(certain);
+  for (std::size_t k = 0; k < 27; ++k)
+    EXPECT_LT((simulation.body().vertices().position[k] - certain.body().vertices().position[k]).norm(),
+              2e-4 * 0.125)  // twice the root mean square over all
+        << k;
+  EXPECT_NE(to_string(*settled).find(scene.integrator), std::string::npos);
+  EXPECT_EQ(nlohmann::json(*settled).at("step"), scene.step);
+}
+
+TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {
+  Json json = accurate_box(1e-3);
+  json["integrator"] = "verlet";
+  SceneFile scene = parse(json);
+  const auto settled = settle_accuracy(scene, ticking());
+  EXPECT_EQ(scene.integrator, "verlet");
+  EXPECT_TRUE(settled->integrator_named);
+}
+
+TEST(SettleAccuracy, LeavesASceneWithAStepAlone) {
+  SceneFile scene = parse(moving_box());
+  EXPECT_FALSE(settle_accuracy(scene, ticking()));
+  EXPECT_EQ(scene.step, 0.001);
+}
+
+TEST(SettleAccuracy, SettlesASceneThatDoesNotMove) {
+  Json json = accurate_box(1e-3);
+  json["duration"] = 0;
+  SceneFile scene = parse(json);
+  EXPECT_TRUE(settle_accuracy(scene, ticking()));
+  EXPECT_EQ(Simulation(scene).step_count(), 0u);
+}
+
+TEST(SettleAccuracy, ScenesOfTheProjectThatAskForOneEndAsTheyExpect) {
+  namespace fs = std::filesystem;
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {
+    SceneFile scene = read_scene(entry.path());
+    if (!settle_accuracy(scene, ticking())) continue;
+    ++count;
+    EXPECT_FALSE(scene.expect.empty()) << entry.path();
+    EXPECT_FALSE(scene.expect.hash) << entry.path() << ": the step depends on the machine";
+    Simulation simulation(scene);
+    run(simulation);
+    for (const ExpectedRow& row : compare_with_expectation(scene.expect, simulation))
+      EXPECT_TRUE(row.holds) << entry.path() << ": " << row.what << " is " << row.actual;
+  }
+  EXPECT_GE(count, 1u);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,72 @@
+#pragma once
+// What is predicted of one method on one scene: its errors, its costs, and the setting for an error.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/time/integrator.h"
+#include "validation/scene_stage.h"
+
+namespace dartboard {
+
+struct RecommendOptions {
+  double safety = 0.93;        // of the step
+  double stability = 0.95;     // of the limit of stability
+  double pilot_part = 0.1;     // of the cheapest predicted run that all pilots together may take,
+  double pilot_floor_s = 0.5;  // beyond this
+  double most_pilot_s = 4.0;   // of one pilot, as long as nothing is predicted
+  bool adaptive = true;        // may the method choose its steps?
+  std::string only{};          // the one integrator to consider; empty for all
+};
+
+/// How far a prediction can be trusted.
+enum class Confidence : std::uint8_t {
+  asymptotic,      // the errors of the pilots fall as the order says
+  pre_asymptotic,  // they do not yet: a smaller order is used, and less than the error aimed at
+  sufficient,      // the coarsest stable steps are accurate enough by far; no order was looked for
+  none             // the pilots failed
+};
+std::string_view name(Confidence confidence);
+
+/// What is predicted of one method.
+struct Candidate {
+  std::string contender;  // as in tradeoff_contenders(): "rk4", "dormand-prince-54, adaptive"
+  bool implicit = false, adaptive = false;
+  std::string pruned;  // why it was left out before or after its pilots; empty when it was not
+  Confidence confidence = Confidence::none;
+  bool full_length = false;  // pilots over the whole duration confirm it
+  int order = 1;
+  double observed_order = 0.0;  // of an adaptive one, the power of the tolerance
+  double limit_h = 0.0;         // [s] the predicted limit of stability; infinite when there is none
+
+  // error(h) = error_at_pilot (h / pilot_h)^slope, over the whole duration
+  double pilot_h = 0.0, error_at_pilot = 0.0, slope = 1.0;
+  // force evaluations that a step is worth (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
+  double step_cost = 0.0, step_slope = 0.0, step_evaluations = 0.0;
+  // An adaptive one: error(tolerance) = error_at_pilot (tolerance / pilot_tolerance)^slope, and the steps that it takes
+  // = pilot_steps (tolerance / pilot_tolerance)^-steps_slope.
+  double pilot_tolerance = 0.0, pilot_steps = 0.0, steps_slope = 0.0;
+
+  // for the error asked for
+  std::uint64_t steps = 0;
+  double h = 0.0, tolerance = 0.0;  // [s], of an adaptive one the mean; [edges] 0 for fixed steps
+  double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in force evaluations
+  double predicted_evaluations = 0.0;                                     // counted ones
+  bool limited_by_stability = false;
+
+  bool usable() const { return pruned.empty(); }
+  RunSetting setting() const { return adaptive ? RunSetting{.tolerance = tolerance} : RunSetting{.steps = steps}; }
+  /// The integrator to run it with.
+  std::unique_ptr<Integrator> make() const;
+};
+
+/// The step or tolerance that meets an error, and what it costs, by a candidate's fits; sets the last group of its
+/// members.
+///
+/// Steps are whole between checkpoints; those split at the times of events are counted.
+void solve_for_error(Candidate& candidate, double error, const reference::NetworkMotion& motion, double force_s,
+                     const RecommendOptions& options);
+
+}  // namespace dartboard
