@@ -32,14 +32,6 @@ void expect_agreement(const Mesh& mesh, const FuzzPlan& p) {
   EXPECT_GT(result.applied, p.operations / 3);
 }
 
-TEST(RandomNumbers, AreThoseOfSplitmix64OnEveryPlatform) {
-  RandomNumbers numbers(1234567);
-  EXPECT_EQ(numbers.next(), 6457827717110365317u);
-  EXPECT_EQ(numbers.next(), 3203168211198807973u);
-  EXPECT_EQ(numbers.next(), 9817491932198370423u);
-  for (int k = 0; k < 1000; ++k) EXPECT_LT(numbers.below(7), 7u);
-}
-
 // ---- ours against CGAL's
 
 TEST(Fuzz, TetrahedraAgreeWithBothOraclesWhileTheyStayOriented) {

@@ -7,16 +7,9 @@
 #include <utility>
 
 #include "core/plain/error.h"
+#include "core/plain/random.h"
 
 namespace dartboard {
-
-std::uint64_t RandomNumbers::next() {
-  state_ += 0x9E3779B97F4A7C15u;
-  std::uint64_t z = state_;
-  z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-  return z ^ z >> 31;
-}
 
 std::string to_string(const Disagreement& d) {
   return fmt::format("{}: {}: {}; {}", d.line.empty() ? "at rest" : fmt::format("after \"{}\"", d.line), d.what, d.ours,
@@ -340,14 +333,14 @@ class Proposals {
 
   Operation next() {
     const std::size_t darts = lockstep_.live().size();
-    if (darts == 0 || (darts < 2 * start_size_ + 96 && random_.percent(5)))
-      return {.kind = Operation::Kind::add, .cell = kinds_[random_.below(kinds_.size())]};
-    if (darts > start_size_ / 2 && random_.percent(5)) return {.kind = Operation::Kind::remove, .a = any()};
-    const std::uint32_t dice = random_.below(100);
+    if (darts == 0 || (darts < 2 * start_size_ + 96 && percent(5)))
+      return {.kind = Operation::Kind::add, .cell = kinds_[below(kinds_.size())]};
+    if (darts > start_size_ / 2 && percent(5)) return {.kind = Operation::Kind::remove, .a = any()};
+    const std::uint32_t dice = below(100);
     if (dice < 36) return take_apart(n_);
     if (dice < 64 && !memory_.empty()) return sew_again();
     if (dice < 78) return sew_strangers();
-    const auto i = static_cast<int>(random_.below(static_cast<std::size_t>(n_) + 1));
+    const auto i = static_cast<int>(below(static_cast<std::size_t>(n_) + 1));
     if (dice < 90 && i < n_ && lockstep_.carries_unsew(i)) return take_apart(i);
     const Dart a = any(), b = any();       // one after the other: the order of arguments is the compiler's
     return sew(dice < 94 ? n_ : i, a, b);  // mostly illegal
@@ -357,18 +350,23 @@ class Proposals {
   static Operation sew(int i, Dart a, Dart b) {
     return {.kind = Operation::Kind::sew, .i = static_cast<std::int8_t>(i), .a = a, .b = b};
   }
-  Dart any() { return lockstep_.live()[random_.below(lockstep_.live().size())]; }
+  // By the high bits, where SplitMix64::below takes the low ones: so a seed still draws what it drew when it was
+  // reported.
+  std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>((random_.next() >> 32) * n >> 32); }
+  bool percent(unsigned chance) { return below(100) < chance; }
+
+  Dart any() { return lockstep_.live()[below(lockstep_.live().size())]; }
 
   Operation take_apart(int i) {
     Dart d = any();
     for (int attempt = 0; attempt < 8 && lockstep_.ours().alpha(i, d) == d; ++attempt) d = any();
     const Dart opposite = lockstep_.ours().alpha(i, d);
     if (opposite != d) memory_.push_back(sew(i, d, opposite));
-    if (i == n_ && random_.percent(50)) return {.kind = Operation::Kind::dissociate, .a = d};
+    if (i == n_ && percent(50)) return {.kind = Operation::Kind::dissociate, .a = d};
     return {.kind = Operation::Kind::unsew, .i = static_cast<std::int8_t>(i), .a = d};
   }
   Operation sew_again() {
-    const std::uint32_t k = random_.below(memory_.size());
+    const std::uint32_t k = below(memory_.size());
     const Operation again = memory_[k];
     memory_[k] = memory_.back();
     memory_.pop_back();
@@ -378,7 +376,7 @@ class Proposals {
     const MapTwin& map = lockstep_.ours();
     constexpr std::size_t most = 24;
     if (strangers_.size() >= most) {
-      Operation& pair = strangers_[random_.below(strangers_.size())];
+      Operation& pair = strangers_[below(strangers_.size())];
       const Operation old = pair;
       const bool live = map.is_live(old.a) && map.is_live(old.b);
       if (live && map.alpha(n_, old.a) == old.b) return {.kind = Operation::Kind::dissociate, .a = old.a};
@@ -394,7 +392,7 @@ class Proposals {
     return strangers_.back();
   }
 
-  RandomNumbers random_;
+  SplitMix64 random_;
   const Lockstep& lockstep_;
   int n_;
   std::size_t start_size_;

@@ -18,19 +18,6 @@
 
 namespace dartboard {
 
-/// Numbers that are the same on every platform (splitmix64).
-class RandomNumbers {
- public:
-  explicit RandomNumbers(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next();
-  /// 0 .. n - 1, n < 2^32.   pre  n > 0
-  std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>((next() >> 32) * n >> 32); }
-  bool percent(unsigned chance) { return below(100) < chance; }
-
- private:
-  std::uint64_t state_;
-};
-
 /// What two carriers of the same map say differently.
 struct Disagreement {
   std::size_t operation = 0;  // how many operations went before the one after which it was seen

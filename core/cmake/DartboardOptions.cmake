@@ -4,12 +4,17 @@ add_library(dartboard_options INTERFACE)
 target_compile_features(dartboard_options INTERFACE cxx_std_20)
 target_include_directories(dartboard_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(dartboard_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
-  # The walks promise equal bits. Fusing a*b+c changes bits, and is the one such transform on by default ...
-  -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+# The walks promise equal bits. Fusing a*b+c changes bits, and is the one such transform on by default ...
+set(equal_bits -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
-  target_compile_options(dartboard_options INTERFACE -fno-tree-slp-vectorize)
+  list(APPEND equal_bits -fno-tree-slp-vectorize)
+endif()
+if(DARTBOARD_EQUAL_BITS)
+  target_compile_options(dartboard_options INTERFACE ${equal_bits})
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # false alarms on "literal" + std::string at -O3 (GCC bug 105651)
   target_compile_options(dartboard_options INTERFACE -Wno-restrict)
 endif()
@@ -29,4 +34,8 @@ function(dartboard_library name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PUBLIC dartboard_options ${ARG_LINK})
+  if(DARTBOARD_PRECOMPILE)
+    target_precompile_headers(${name} PRIVATE <algorithm> <functional> <map> <span> <string> <vector>
+      <fmt/format.h> <Eigen/Geometry>)
+  endif()
 endfunction()

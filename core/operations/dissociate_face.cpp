@@ -87,7 +87,7 @@ TopologyChange dissociate_face(Map& map, Dart d) {
   if (!folded) change.faces.push_back({pairs[0].a, pairs[0].b});
 
   // Edges first: each is met by its two darts on the face, and walked around from the first.
-  const auto find = [&](Dart x) {
+  const auto find = [&pairs = pairs](Dart x) {  // clang 14 captures no structured binding otherwise
     return static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Pair& p) { return p.has(x); }) -
                                     pairs.begin());
   };

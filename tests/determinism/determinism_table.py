@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Do runs end in the same bits whatever compiler and flags the program was built with?
+
+Builds `state_hashes` once for each row of a table, in folders of its own, runs it twice, and compares what it prints
+with the pinned hashes. Writes determinism.md and determinism.json. Builds are kept in the work folder, so that an
+interrupted table goes on where it was. Some 25 minutes of one core with two compilers.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import platform
+import re
+import shutil
+import subprocess
+import sys
+
+NATIVE = "-O3 -DNDEBUG -march=native"
+# name, flags, protected, sanitized
+ROWS = [
+    ("debug", "-g -O0", True, False),
+    ("O1", "-O1", True, False),
+    ("O2", "-O2", True, False),
+    ("release", "-O3 -DNDEBUG", True, False),
+    ("bench", NATIVE, True, False),
+    ("asan", "-O1 -g", True, True),
+    ("unprotected", NATIVE, False, False),
+]
+# GCC only: one of the two flags is not enough
+ROWS_OF_GCC = [("contract-only", NATIVE + " -ffp-contract=off", False, False)]
+
+
+def output(command, **options):
+    return subprocess.run(command, capture_output=True, text=True, **options)
+
+
+def build(options, compiler, row):
+    """Build state_hashes; returns the program."""
+    name, flags, protected, sanitized = row
+    folder = options.work / f"{pathlib.Path(compiler).name}-{name}"
+    cmake = ["cmake", "-S", str(options.source), "-B", str(folder), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+             f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_CXX_FLAGS={flags}", "-DDARTBOARD_PRECOMPILE=ON",
+             f"-DDARTBOARD_EQUAL_BITS={'ON' if protected else 'OFF'}",
+             f"-DDARTBOARD_SANITIZE={'ON' if sanitized else 'OFF'}"]
+    for command in (cmake, ["cmake", "--build", str(folder), "--target", "state_hashes", "-j", str(options.jobs)]):
+        result = output(command)
+        if result.returncode != 0:
+            sys.exit(f"{' '.join(command)} failed:\n{result.stdout[-4000:]}{result.stderr[-4000:]}")
+    return folder / "tests" / "determinism" / "state_hashes"
+
+
+def hashes(program, *arguments, **environment):
+    """What the program prints, by name of the run. Status 1 says that some hash is not the pinned one."""
+    result = output([str(program), *arguments], env={**os.environ, **environment})
+    if result.returncode not in (0, 1) or result.stderr:
+        sys.exit(f"{program} ended with status {result.returncode}:\n{result.stderr}")
+    found = dict(reversed(line.split(" ", 1)) for line in result.stdout.splitlines())
+    return found, result.returncode == 0
+
+
+def facts(options):
+    cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    commit = output(["git", "-C", str(options.source), "rev-parse", "HEAD"]).stdout.strip()
+    changed = output(["git", "-C", str(options.source), "status", "--porcelain", "--untracked-files=no"]).stdout != ""
+    return {"commit": commit + (" with changes" if changed else ""), "cpu": cpu.group(1) if cpu else platform.machine(),
+            "libc": " ".join(platform.libc_ver())}
+
+
+def blas_of(program):
+    """The library that BLAS calls go to."""
+    found = re.search(r"libblas\S* => (\S+)", output(["ldd", str(program)]).stdout)
+    return pathlib.Path(found.group(1)).resolve().parent.name if found else "unknown"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--source", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
+    parser.add_argument("--work", type=pathlib.Path, required=True, help="folder for the builds")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder to write to, new or empty")
+    parser.add_argument("--compilers", nargs="+", default=["g++", "clang++", "clang++-14"], help="those there are")
+    parser.add_argument("--rows", nargs="+", help="names of the rows [all]")
+    parser.add_argument("--jobs", type=int, default=1)
+    options = parser.parse_args()
+    if options.out.exists() and any(options.out.iterdir()):
+        sys.exit(f"{options.out} is not empty: nothing is overwritten")
+
+    rows, right, blas = [], True, None
+    for compiler in options.compilers:
+        if not shutil.which(compiler):
+            continue
+        version = output([compiler, "--version"]).stdout.splitlines()[0]
+        for row in ROWS + (ROWS_OF_GCC if "g++" == compiler[:3] else []):
+            name, flags, protected, sanitized = row
+            if options.rows and name not in options.rows:
+                continue
+            program = build(options, compiler, row)
+            first, pinned = hashes(program)
+            again, _ = hashes(program)
+            rows.append({"compiler": version, "name": name, "flags": flags, "protected": protected,
+                         "sanitized": sanitized, "equals_pinned": pinned, "repeats": first == again, "hashes": first})
+            right = right and first == again and (pinned or not protected)
+            print(f"{version}, {name}: {'equal' if pinned else 'DIFFERS'}", flush=True)
+            if blas is None and protected:
+                # What takes no supernodal factor must not see which kernels the BLAS has chosen.
+                other = {"OPENBLAS_CORETYPE": "Nehalem"}
+                blas = {"library": blas_of(program), "simplicial_sees_kernels": hashes(program, **other)[0] != first,
+                        "supernodal_sees_kernels":
+                            hashes(program, "--supernodal")[0] != hashes(program, "--supernodal", **other)[0]}
+                right = right and not blas["simplicial_sees_kernels"]
+    if not rows:
+        sys.exit("no compiler, or no row of that name")
+
+    about = facts(options)
+    reference = next((row["hashes"] for row in rows if row["equals_pinned"]), rows[0]["hashes"])
+    lines = ["# Equal bits, by compiler and flags", "",
+             f"{len(reference)} runs in each row, all of them twice; {about['cpu']}, {about['libc']}.", "",
+             "| compiler | flags | protective flags | runs that end in the pinned bits | repeats |", "|---|---|---|---:|---|"]
+    for row in rows:
+        equal = sum(row["hashes"].get(run) == value for run, value in reference.items())
+        guard = "yes" if row["protected"] else "no"
+        flags = row["flags"] + (" -fsanitize=address,undefined" if row["sanitized"] else "")
+        lines.append(f"| {row['compiler']} | `{flags}` | {guard} | {equal} of {len(reference)} | "
+                     f"{'yes' if row['repeats'] else 'NO'} |")
+    lines += ["", "Protective flags: `-ffp-contract=off`, and with GCC `-fno-tree-slp-vectorize` "
+              "(`core/cmake/DartboardOptions.cmake` says why). Rows without them show what they are for.", ""]
+    if blas:
+        says = {True: "other bits", False: "the same bits"}
+        lines += [f"BLAS: {blas['library']}. With `OPENBLAS_CORETYPE=Nehalem` the runs above end in "
+                  f"{says[blas['simplicial_sees_kernels']]}, a run with a supernodal factor in "
+                  f"{says[blas['supernodal_sees_kernels']]}.", ""]
+    lines += ["Not covered: other processors than this one, other C libraries (step-size control and `stable_step` call "
+              "`pow` and `log`), supernodal factors, whose bits are those of the BLAS and its kernels. Nothing runs in "
+              "threads.", "", "| run | hash |", "|---|---|"]
+    lines += [f"| {run} | `{value}` |" for run, value in reference.items()]
+    options.out.mkdir(parents=True, exist_ok=True)
+    (options.out / "determinism.md").write_text("\n".join(lines) + "\n")
+    (options.out / "determinism.json").write_text(json.dumps({**about, "blas": blas, "rows": rows}, indent=1) + "\n")
+    print(f"{'Equal wherever promised.' if right else 'NOT equal everywhere.'} Written to {options.out}.")
+    return 0 if right else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
