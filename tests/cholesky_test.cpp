@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/time/backward_error.h"
 #include "core/time/nan_proof.h"
 #include "tests/spring_bodies_for_tests.h"
 

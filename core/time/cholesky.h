@@ -35,6 +35,7 @@ struct FactorRates {
   double supernodal_nonzero = 1.2e-8;
   double simplicial_flop = 3.8e-10;
   double update_flop = 1.5e-10;
+  double row_flop = 3e-10;     // of a row that is replaced
   double conversion = 8.5e-9;  // of a supernodal factor to a simplicial one, per nonzero
   double analysis = 2.5e-8;    // per unknown and per entry of the matrix, with a given ordering
 };
@@ -46,7 +47,9 @@ struct CholeskyOptions {
   std::uint32_t spare_nodes = 0;  // rows kept for vertices to come, so that they can enter by updates
   double order_again = 1.2;       // when nnz(L) grows by this factor, a fresh ordering is found
   std::uint32_t renew_after =
-      1500;                        // rank-one updates: their rounding adds up, so `follow` factors again after as many
+      1500;                   // rank-one updates: their rounding adds up, so `follow` factors again after as many
+  double cancellation = 1e3;  // where an update would take away more than so many times what it leaves of a diagonal
+                              // entry, `follow` factors again: the update would lose as many digits
   bool ready_for_updates = false;  // convert supernodal factors at once: an update is then three to five times cheaper
   FactorRates rates = {};
 };
@@ -59,6 +62,7 @@ struct CholeskyCounters {
   std::uint64_t solves = 0;
   std::uint64_t refinements = 0;
   std::uint64_t rank_one_updates = 0;
+  std::uint64_t rows_replaced = 0;
   std::uint64_t update_chosen = 0;    // `follow` updated
   std::uint64_t refactor_chosen = 0;  // `follow` factored again because that was cheaper, or there was no room
   std::uint64_t update_failed = 0;    // `follow` updated, lost definiteness, and factored again
@@ -127,12 +131,5 @@ class Cholesky {
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-
-/// max_i |b - A x|_i / (|A| |x| + |b|)_i, the least relative change of entries that makes x exact; NaN if anything is.
-///
-/// The residual is summed in extended precision. Rows where nothing is there to divide by must have no residual.
-/// source  Oettli, Prager 1964; Higham, Accuracy and Stability of Numerical Algorithms, theorem 7.3
-double backward_error(const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
-                      std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard
