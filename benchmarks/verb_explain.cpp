@@ -12,6 +12,7 @@
 #include "benchmarks/unit_costs.h"
 #include "core/scene/measured_plan.h"
 #include "core/scene/scene_run.h"
+#include "core/scene/simulation.h"
 
 namespace dartboard {
 namespace {
@@ -86,7 +87,8 @@ void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Me
   fmt::print(
       "Bytes are those of the elements of all containers that live as long as the run, at the start; of a factor, its "
       "numbers.\nTimes are estimates from unit costs measured just now on arrays of this size, averaged over the run, "
-      "output in memory included.\nNot in them: building the body, writing files, what stress tears.\n");
+      "output in memory included.\nNot in them: building the body, writing files, what stress tears, steps divided by "
+      "/unstable_step.\n");
   if (!measured) return;
   fmt::print("\nmeasured: {:.0f} ns per step, {:+.1f} % from the estimate; bytes {}\n", measured->ns,
              100.0 * (measured->ns / plan.ns() - 1.0), measured->equal ? "exactly as planned" : "DIFFER");
@@ -127,6 +129,8 @@ void explain(const Options& options, Outcome& outcome) {
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
+  // the plan is made: what the body or an event of the scene refuses is found by building them
+  { const Simulation refuses_or_not(with_events_held_back(scene)); }
   std::optional<Measured> measured;
   if (options.measure) measured = measure(scene, plan);
   outcome.exit_code = !measured || measured->equal ? exit_agrees : exit_disagrees;

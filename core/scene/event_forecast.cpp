@@ -41,13 +41,13 @@ double facets_across(const PlaneSelection& plane, const Mesh& mesh, const MeshTa
 
 std::uint64_t step_count(const SceneFile& scene) { return step_of_time(scene.duration, scene.step); }
 
-/// f(step) for every time an event is due.
+/// f(step) for every time an event is due, until it returns false.
 template <class F>
 void for_each_time(const SceneEvent& event, const SceneFile& scene, F&& f) {
   EventClock clock(event.from, event.until, event.every, scene.step);
   std::uint64_t last = EventClock::never;
   for (; clock.next() <= step_count(scene); clock.advance()) {
-    if (clock.next() != last) f(clock.next());  // several times within one step are one
+    if (clock.next() != last && !f(clock.next())) return;  // several times within one step are one
     last = clock.next();
   }
 }
@@ -62,13 +62,13 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
   auto left = static_cast<double>(counts.cells);
   for (const SceneEvent& event : scene.events) {
     EventForecast f;
-    // counted and not enumerated where an event is due at every step
-    if (!event.every && event.until > event.from) {
-      const std::uint64_t from = step_of_time(event.from, scene.step), until = step_until(event.until, scene.step);
-      f.times = until >= from ? until - from + 1 : 0;
-    } else {
-      for_each_time(event, scene, [&f](std::uint64_t) { ++f.times; });
-    }
+    // counted and not enumerated where there are many
+    constexpr double many = 1e5;
+    const double every = event.every ? std::max(*event.every, scene.step) : scene.step;
+    if (const double times = (event.until - event.from) / every; times > many)
+      f.times = static_cast<std::uint64_t>(times * (1 + 0x1p-50)) + 1;
+    else
+      for_each_time(event, scene, [&f](std::uint64_t) { return ++f.times > 0; });
     const auto times = static_cast<double>(f.times);
     const auto of_cells = [&](const CellSelection& cells, double most) {
       const double each = std::min(selected(cells, mesh), most);
@@ -98,10 +98,11 @@ MeanSizes mean_sizes(const SceneFile& scene, const Mesh& mesh, const MeshTally& 
   for (const SceneEvent& event : scene.events)
     if (const auto* remove = std::get_if<Remove>(&event.action)) {
       const double each = selected(remove->cells, mesh);
-      bool first = true;
+      double sum = 0.0;
       for_each_time(event, scene, [&](std::uint64_t step) {
-        if (first || repeats(remove->cells)) removed[step] += each;
-        first = false;
+        removed[step] += each;
+        sum += each;
+        return repeats(remove->cells) && sum < static_cast<double>(counts.cells);
       });
     }
   MeanSizes mean;
