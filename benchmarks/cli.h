@@ -19,6 +19,10 @@ struct Outcome {
   std::string command_line;
 };
 
+/// A check for options: a finite number above 0. CLI11's own prints the limits of a double to who gets it wrong, and
+/// lets NaN pass.
+CLI::Validator positive_number();
+
 // Each adds a verb whose callback does the work and leaves its exit code in `outcome`, which must outlive the parse.
 void add_reproduce(CLI::App& app, Outcome& outcome);
 void add_measure(CLI::App& app, Outcome& outcome);

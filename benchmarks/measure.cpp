@@ -87,7 +87,7 @@ void add_measure(CLI::App& app, Outcome&) {
   auto* verb = app.add_subcommand("measure", "Time contenders in this process (used by reproduce).")->group("");
   verb->add_option("--scene", options->scene)->required();
   verb->add_option("--process", options->paired.process);
-  verb->add_option("--rounds", options->paired.rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->paired.rounds)->check(positive_number());
   verb->add_option("--seed", options->paired.seed);
   verb->add_option("CONTENDER:STEPS", options->tasks)->required();
   verb->callback([options] {

@@ -7,13 +7,12 @@
 #include <optional>
 #include <set>
 
-#include "benchmarks/manifest.h"
+#include "benchmarks/bench_run.h"
 #include "benchmarks/operation_study.h"
 #include "benchmarks/paired.h"
 #include "benchmarks/paper_claims.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/run_folder.h"
 #include "benchmarks/scenes.h"
 #include "benchmarks/verb_bench.h"
 
@@ -29,7 +28,7 @@ void add_measure_operations(CLI::App& app) {
   auto* verb = app.add_subcommand("measure-operations", "Time operations on one body in this process (used by bench).")
                    ->group("");
   verb->add_option("--process", options->study.process);
-  verb->add_option("--times", options->study.times)->check(CLI::PositiveNumber);
+  verb->add_option("--times", options->study.times)->check(positive_number());
   verb->add_option("--seed", options->study.seed);
   verb->add_option("BODY", options->body)->required();
   verb->callback([options] {
@@ -197,31 +196,20 @@ std::vector<Claim> claims_of(const Results& r, const std::vector<std::string>& b
 
 // ---- the verb
 
-struct Options {
-  bool json = false, quick = false;
-  std::string out;
-  std::uint64_t seed = 1;
-};
-
-void bench_operations(const Options& options, Outcome& outcome) {
-  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, "operations")
-                                             : std::filesystem::path(options.out));
+void bench_operations(const BenchOptions& options, Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"places of operations", options.seed}};
   facts.input_files = {scene("liver").mesh};
-  auto manifest = begin_manifest(facts);
-  manifest["quick"] = options.quick;
-  folder.write_manifest(manifest);
+  BenchRun run(options, "operations", facts);
 
   std::vector<std::string> bodies = operation_bodies();
   if (options.quick) bodies = {"liver564", "kuhn-2058"};
   const int processes = options.quick ? 3 : 6, times = options.quick ? 50 : 200;
-  say(fmt::format("{} bodies, each in {} processes, each operation up to {} times", bodies.size(), processes, times));
+  run.say(
+      fmt::format("{} bodies, each in {} processes, each operation up to {} times", bodies.size(), processes, times));
   Progress progress("timing", static_cast<std::size_t>(processes) * bodies.size());
-  auto lines = folder.json_lines("samples.jsonl");
+  auto lines = run.folder().json_lines("samples.jsonl");
   Results results;
   for (int process = 0; process < processes; ++process)
     for (const std::string& body : bodies) {
@@ -242,34 +230,24 @@ void bench_operations(const Options& options, Outcome& outcome) {
     }
 
   const auto claims = claims_of(results, bodies);
-  say("\n" + to_text(operations_table(results, bodies)) + "\n" + note + "\n");
-  say("Views: following a change, and starting again\n\n" + to_text(views_table(results, bodies)));
-  say("Targets\n\n" + to_text(claims));
-  folder.write_claims(claims);
-  folder.write_table("operations", "Operations, one by one", operations_table(results, bodies), note);
-  folder.write_table("views", "Views: following a change, and starting again", views_table(results, bodies));
-  finish_manifest(manifest);
-  folder.write_manifest(manifest);
+  run.say("\n" + to_text(operations_table(results, bodies)) + "\n" + note + "\n");
+  run.say("Views: following a change, and starting again\n\n" + to_text(views_table(results, bodies)));
+  run.say("Targets\n\n" + to_text(claims));
+  run.folder().write_claims(claims);
+  run.folder().write_table("operations", "Operations, one by one", operations_table(results, bodies), note);
+  run.folder().write_table("views", "Views: following a change, and starting again", views_table(results, bodies));
   // that the paper's sentence does not hold here is a finding about the paper, and no failure of the program
   outcome.exit_code = exit_code(std::span(claims).first(claims.size() - 1));
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}}.dump(2));
-  say(fmt::format("{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
-                  outcome.exit_code == exit_agrees ? "Every target holds." : "Some target is missed: see above.",
-                  folder.path().string()));
+  run.finish(claims, outcome.exit_code == exit_agrees, "Some target is missed: see above.");
 }
 
 }  // namespace
 
 void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome) {
-  auto options = std::make_shared<Options>();
   auto* verb = bench.add_subcommand(
       "operations",
       "Dissociate, remove, tear, refine, split off, undo: by size of the body, beside the time of a step.");
-  verb->add_flag("--quick", options->quick, "small bodies, fewer processes");
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/operations-TIME]");
-  verb->add_option("--seed", options->seed, "of the places of the operations [1]");
-  verb->add_flag("--json", options->json,
-                 "print claims and manifest as JSON on standard output, the rest on standard error");
+  const auto options = add_bench_options(*verb, "small bodies, fewer processes", "the places of the operations");
   verb->callback([options, &outcome] { bench_operations(*options, outcome); });
   add_measure_operations(app);
 }

@@ -6,11 +6,10 @@
 #include <optional>
 #include <set>
 
-#include "benchmarks/manifest.h"
+#include "benchmarks/bench_run.h"
 #include "benchmarks/paired.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/run_folder.h"
 #include "benchmarks/scenes.h"
 #include "benchmarks/topology_tasks.h"
 #include "benchmarks/verb_bench.h"
@@ -48,7 +47,7 @@ void add_measure_topology(CLI::App& app) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("measure-topology", "Time topology in this process (used by bench).")->group("");
   verb->add_option("--process", options->paired.process);
-  verb->add_option("--rounds", options->paired.rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->paired.rounds)->check(positive_number());
   verb->add_option("--seed", options->paired.seed);
   verb->add_option("BODY:FIGURE", options->groups)->required();
   verb->callback([options] {
@@ -325,35 +324,23 @@ std::vector<Claim> claims_of(const Results& r) {
 
 // ---- the verb
 
-struct Options {
-  bool json = false, quick = false;
-  std::string out;
-  std::uint64_t seed = 1;
-};
-
-void bench_topology(const Options& options, Outcome& outcome) {
-  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, "topology")
-                                             : std::filesystem::path(options.out));
+void bench_topology(const BenchOptions& options, Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of tasks, random faces", options.seed}};
   facts.libraries = {{"CGAL", reference::cgal_version()}};
   facts.input_files = {scene("liver").mesh};
-  auto manifest = begin_manifest(facts);
-  manifest["quick"] = options.quick;
-  folder.write_manifest(manifest);
+  BenchRun run(options, "topology", facts);
 
   // No timing without agreement.
   Results results;
   const std::vector<std::string> groups = agreed_groups(results, options.seed);
-  for (const std::string& d : results.disagreements) say("They disagree: " + d);
+  for (const std::string& d : results.disagreements) run.say("They disagree: " + d);
 
   const int processes = options.quick ? 6 : 11, rounds = options.quick ? 3 : 6;
-  say(fmt::format("{} figures; {} processes, {} interleaved rounds each", groups.size(), processes, rounds));
+  run.say(fmt::format("{} figures; {} processes, {} interleaved rounds each", groups.size(), processes, rounds));
   Progress progress("timing", static_cast<std::size_t>(processes) * groups.size());
-  auto lines = folder.json_lines("samples.jsonl");
+  auto lines = run.folder().json_lines("samples.jsonl");
   std::string last;
   repeat_self(
       processes,
@@ -374,35 +361,25 @@ void bench_topology(const Options& options, Outcome& outcome) {
 
   const std::string peers_heading = "Peers, by others on another machine (+-30 %): context, not a comparison";
   const auto claims = claims_of(results);
-  say("\n" + to_text(figures_table(results)) + "\n" + note + "\n");
-  say("How unsewing scales\n\n" + to_text(scaling_table(results)));
-  say(peers_heading + "\n\n" + to_text(peers_table()));
-  say("Targets\n\n" + to_text(claims));
-  folder.write_claims(claims);
-  folder.write_table("figures", "Topology, side by side with CGAL", figures_table(results), note);
-  folder.write_table("scaling", "How unsewing scales", scaling_table(results));
-  folder.write_table("peers", peers_heading, peers_table());
-  finish_manifest(manifest);
-  folder.write_manifest(manifest);
-
+  run.say("\n" + to_text(figures_table(results)) + "\n" + note + "\n");
+  run.say("How unsewing scales\n\n" + to_text(scaling_table(results)));
+  run.say(peers_heading + "\n\n" + to_text(peers_table()));
+  run.say("Targets\n\n" + to_text(claims));
+  run.folder().write_claims(claims);
+  run.folder().write_table("figures", "Topology, side by side with CGAL", figures_table(results), note);
+  run.folder().write_table("scaling", "How unsewing scales", scaling_table(results));
+  run.folder().write_table("peers", peers_heading, peers_table());
   outcome.exit_code = results.disagreements.empty() ? exit_code(claims) : exit_disagrees;
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}}.dump(2));
-  say(fmt::format("{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
-                  outcome.exit_code == exit_agrees ? "Every target holds." : "Something does not hold: see above.",
-                  folder.path().string()));
+  run.finish(claims, outcome.exit_code == exit_agrees, "Something does not hold: see above.");
 }
 
 }  // namespace
 
 void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome) {
-  auto options = std::make_shared<Options>();
   auto* topology =
       bench.add_subcommand("topology", "Memory, walks, checks, building and unsewing, side by side with CGAL.");
-  topology->add_flag("--quick", options->quick, "fewer processes and rounds");
-  topology->add_option("--out", options->out, "folder to write to, new or empty [results/topology-TIME]");
-  topology->add_option("--seed", options->seed, "of the order of turns and the random faces [1]");
-  topology->add_flag("--json", options->json,
-                     "print claims and manifest as JSON on standard output, the rest on standard error");
+  const auto options =
+      add_bench_options(*topology, "fewer processes and rounds", "the order of turns and the random faces");
   topology->callback([options, &outcome] { bench_topology(*options, outcome); });
   add_measure_topology(app);
 }

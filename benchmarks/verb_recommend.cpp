@@ -239,7 +239,7 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
   verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known);
   verb->add_option("--error", options->errors, "largest error of positions, in mean edge lengths; several may be given")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   verb->add_flag("--realtime", options->realtime,
                  "say whether that is as fast as the motion itself, and what would be");
   verb->add_flag("--verify", options->verify, "run it, against the oracle and a sweep of all methods");

@@ -50,6 +50,14 @@ TEST(CommandLine, WithAnUnknownVerbIsAUsageErrorThatNamesIt) {
   EXPECT_NE(answer.out.find("simulcate"), std::string::npos) << answer.out;
 }
 
+TEST(CommandLine, WithAnOptionThatMustBePositiveSaysSo) {
+  for (const std::string value : {"-1", "0", "nan", "inf", "much"}) {
+    const Answer answer = run("recommend liver --error " + value);
+    EXPECT_EQ(answer.status, 2) << value;
+    EXPECT_NE(answer.out.find("--error: '" + value + "' is not a number above 0"), std::string::npos) << answer.out;
+  }
+}
+
 TEST(CommandLine, HelpOfEveryVerbSucceeds) {
   for (const char* verb : {"", "reproduce", "mesh", "mesh info", "list", "simulate", "scene", "explain",
                            "bench operations", "bench ablation"}) {
@@ -134,16 +142,18 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
 }
 
 TEST(Simulate, ExitsWithOneWhenTheSceneExpectsSomethingElse) {
-  const TemporaryFile scene("wrong.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
+  const TemporaryFile scene(
+      "wrong.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
                                 "duration": 0.01, "expect": {"cells": 7}})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 1) << answer.out;
 }
 
 TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
-  const TemporaryFile scene("misspelt.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
+  const TemporaryFile scene(
+      "misspelt.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;

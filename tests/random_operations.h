@@ -103,4 +103,18 @@ void operate_at_random(AdaptedBody<Map>& body, std::uint64_t seed, int dissociat
   while (body.map.dart_count() > 0) adapt_and_follow(do_something(body.map, random));
 }
 
+/// A view that has followed many random operations, until nothing was left of the body; expect(view, body) after each.
+template <class View, class Map, class Expect>
+View followed_until_nothing_is_left(AdaptedBody<Map> body, std::uint64_t seed, int dissociations_first,
+                                    Expect&& expect) {
+  View view;
+  view.rebuild(body);
+  operate_at_random(body, seed, dissociations_first,
+                    [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
+                      view.apply(now, changed);
+                      expect(view, now);
+                    });
+  return view;
+}
+
 }  // namespace dartboard

@@ -30,13 +30,12 @@ List walked(const Body& body, std::uint32_t vertex) {
   return list;
 }
 
-template <class Body>
-void expect_rebuilt(const VertexAdjacency& view, const Body& body) {
+const auto expect_rebuilt = [](const VertexAdjacency& view, const auto& body) {
   VertexAdjacency rebuilt;
   rebuilt.rebuild(body);
   ASSERT_EQ(view, rebuilt);
   for (std::uint32_t v = 0; v < body.vertices.size(); ++v) ASSERT_EQ(around(view, v), walked(body, v));
-}
+};
 
 template <class Map>
 struct VertexAdjacencyOf : testing::Test {};
@@ -78,39 +77,22 @@ TYPED_TEST(VertexAdjacencyOf, ABodyMayHaveParallelEdges) {
 
 TYPED_TEST(VertexAdjacencyOf, FollowsEveryOperationUntilNothingIsLeft) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    auto body = body_of<TypeParam>(kuhn_grid(3, 2, 2, 0.125));
-    VertexAdjacency view;
-    view.rebuild(body);
-    operate_at_random(body, seed, seed == 1 ? 150 : 20,
-                      [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
-                        view.apply(now, changed);
-                        expect_rebuilt(view, now);
-                      });
+    const auto view = followed_until_nothing_is_left<VertexAdjacency>(body_of<TypeParam>(kuhn_grid(3, 2, 2, 0.125)),
+                                                                      seed, seed == 1 ? 150 : 20, expect_rebuilt);
     EXPECT_EQ(view.vertex_count(), 0u);
   }
 }
 
 TEST(VertexAdjacencyOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
-  auto body = body_of<Map3>(hexahedron_grid(3, 2, 2, 1.0));
-  VertexAdjacency view;
-  view.rebuild(body);
-  operate_at_random(body, 1, 30, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
-    view.apply(now, changed);
-    expect_rebuilt(view, now);
-  });
+  const auto view = followed_until_nothing_is_left<VertexAdjacency>(body_of<Map3>(hexahedron_grid(3, 2, 2, 1.0)), 1, 30,
+                                                                    expect_rebuilt);
   EXPECT_EQ(view.vertex_count(), 0u);
 }
 
 TEST(VertexAdjacencyOfASurface, FollowsEveryOperationUntilNothingIsLeft) {
-  for (const Mesh& mesh : surfaces()) {
-    auto body = body_of<Map2>(mesh);
-    VertexAdjacency view;
-    view.rebuild(body);
-    operate_at_random(body, 2, 60, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
-      view.apply(now, changed);
-      expect_rebuilt(view, now);
-    });
-  }
+  for (const Mesh& mesh : surfaces())
+    EXPECT_EQ(
+        followed_until_nothing_is_left<VertexAdjacency>(body_of<Map2>(mesh), 2, 60, expect_rebuilt).vertex_count(), 0u);
 }
 
 }  // namespace

@@ -11,6 +11,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
   list(APPEND equal_bits -fno-tree-slp-vectorize)
 endif()
+# Eigen calls fused instructions by itself where the target has them, which no flag of the compiler stops, and sums as
+# many numbers at once as fit the target's registers. So it is shown a target that has SSE alone.
+include(CheckCXXSourceCompiles)
+check_cxx_source_compiles("#if !defined(__AVX__) && !defined(__FMA__)\n#error none\n#endif\nint main() {}"
+  DARTBOARD_WIDE_VECTORS)
+if(DARTBOARD_WIDE_VECTORS)
+  list(APPEND equal_bits -U__AVX__ -U__AVX2__ -U__AVX512F__ -U__FMA__)
+endif()
 if(DARTBOARD_EQUAL_BITS)
   target_compile_options(dartboard_options INTERFACE ${equal_bits})
 endif()

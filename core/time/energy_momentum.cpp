@@ -23,18 +23,7 @@ const Scheme scheme_of_energy_momentum{
 const Scheme& EnergyMomentum::scheme() const { return scheme_of_energy_momentum; }
 
 StepResult EnergyMomentum::step(const SpringSystem& system, Motion motion, double h) {
-  const std::size_t n = motion.x.size();
-  end_.resize(n);
-  stage_.begin_step();
-  for (std::size_t i = 0; i < n; ++i) end_.v[i] = motion.v[i];
-  const StepResult result =
-      stage_.solve(system, motion.x, motion.v, h / 2, StageForce::discrete_gradient, end_.v, work_);
-  if (!result.ok()) return fail(result);
-  for (std::size_t i = 0; i < n; ++i) {
-    end_.x[i] = motion.x[i] + h * end_.v[i];
-    end_.v[i] = 2.0 * end_.v[i] - motion.v[i];
-  }
-  return end_.commit(motion, work_);
+  return midpoint_step(system, motion, h, StageForce::discrete_gradient);
 }
 
 }  // namespace dartboard

@@ -27,8 +27,13 @@ ROWS = [
     ("asan", "-O1 -g", True, True),
     ("unprotected", NATIVE, False, False),
 ]
-# GCC only: one of the two flags is not enough
-ROWS_OF_GCC = [("contract-only", NATIVE + " -ffp-contract=off", False, False)]
+# one protective flag left out at a time, by compiler
+SSE = " -U__AVX__ -U__AVX2__ -U__AVX512F__ -U__FMA__"
+ROWS_OF = {
+    "clang": [("wide-eigen", NATIVE + " -ffp-contract=off", False, False)],
+    "g++": [("wide-eigen", NATIVE + " -ffp-contract=off -fno-tree-slp-vectorize", False, False),
+            ("slp", NATIVE + " -ffp-contract=off" + SSE, False, False)],
+}
 
 
 def output(command, **options):
@@ -90,7 +95,7 @@ def main():
         if not shutil.which(compiler):
             continue
         version = output([compiler, "--version"]).stdout.splitlines()[0]
-        for row in ROWS + (ROWS_OF_GCC if "g++" == compiler[:3] else []):
+        for row in ROWS + ROWS_OF["clang" if "clang" in version else "g++"]:
             name, flags, protected, sanitized = row
             if options.rows and name not in options.rows:
                 continue
@@ -122,8 +127,9 @@ def main():
         flags = row["flags"] + (" -fsanitize=address,undefined" if row["sanitized"] else "")
         lines.append(f"| {row['compiler']} | `{flags}` | {guard} | {equal} of {len(reference)} | "
                      f"{'yes' if row['repeats'] else 'NO'} |")
-    lines += ["", "Protective flags: `-ffp-contract=off`, and with GCC `-fno-tree-slp-vectorize` "
-              "(`core/cmake/DartboardOptions.cmake` says why). Rows without them show what they are for.", ""]
+    lines += ["", "Protective flags: `-ffp-contract=off`, with GCC `-fno-tree-slp-vectorize`, and where the target has AVX or "
+              f"FMA `{SSE.strip()}` (`core/cmake/DartboardOptions.cmake` says why). Rows without them, or with some of "
+              "them only, show what they are for.", ""]
     if blas:
         says = {True: "other bits", False: "the same bits"}
         lines += [f"BLAS: {blas['library']}. With `OPENBLAS_CORETYPE=Nehalem` the runs above end in "
