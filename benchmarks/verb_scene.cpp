@@ -12,12 +12,20 @@ namespace dartboard {
 namespace {
 
 void check_scene(const std::string& file) {
-  const SceneFile scene = read_scene(file);
+  SceneFile scene = read_scene(file);
+  if (scene.accuracy) {
+    // all but the step can be checked; any will do for that
+    scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
+    if (scene.integrator.empty()) scene.integrator = "rk4";
+  }
   const Simulation simulation(scene);
   const CellCounts n = simulation.body().counts();
-  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {} components; {} steps of {:.6g} s, {} events\n",
-             file, simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, n.components,
-             simulation.step_count(), scene.step, scene.events.size());
+  const std::string steps = scene.accuracy
+                                ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
+                                : fmt::format("{} steps of {:.6g} s", simulation.step_count(), scene.step);
+  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {} components; {}, {} events\n", file,
+             simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, n.components, steps,
+             scene.events.size());
 }
 
 }  // namespace

@@ -79,6 +79,28 @@ TEST(SceneFile, CountsOutputInStepsWhicheverWayItIsGiven) {
   EXPECT_EQ(parse(json).output.diagnostic_steps, 7u);
 }
 
+TEST(SceneFile, MayAskForAnAccuracyInsteadOfAStep) {
+  Json json = smallest();
+  json.erase("step");
+  json["accuracy"] = 1e-3;
+  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every_steps", 7}};
+  SceneFile scene = parse(json);
+  EXPECT_EQ(scene.accuracy, 1e-3);
+  EXPECT_EQ(scene.step, 0.0);
+  EXPECT_EQ(scene.integrator, "");
+  json["integrator"] = "verlet";
+  EXPECT_EQ(parse(json).integrator, "verlet");
+  // what depends on the step waits for it
+  EXPECT_EQ(scene.output.in_steps_of(0.125).frame_steps, 4u);
+  EXPECT_EQ(scene.output.in_steps_of(0.125).diagnostic_steps, 7u);
+}
+
+TEST(SceneFile, AsksForExactlyOneOfStepAndAccuracy) {
+  Json json = smallest();
+  json["accuracy"] = 1e-3;
+  EXPECT_EQ(refusal(json.dump()), "file: /: has 'step', 'accuracy'; expected exactly one of 'step', 'accuracy'");
+}
+
 TEST(SceneFile, ReseedsRandomSelectionsOnly) {
   Json json = smallest();
   json["events"] = Json::parse(R"([{"at": 0, "remove": {"random": {"count": 1, "seed": 40}}},
@@ -160,7 +182,7 @@ TEST(SceneSchema, NamesEveryKeyOfTheTableAndAllowsNoOther) {
     EXPECT_EQ(shape.at("additionalProperties"), false);
   }
   EXPECT_EQ(schema.at("$defs").at("material").at("properties").at("density").at("exclusiveMinimum"), 0.0);
-  EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "body", "step", "duration"])"));
+  EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "body", "duration"])"));
 }
 
 TEST(SceneReference, HasALineForEveryKey) {
@@ -206,7 +228,7 @@ TEST(SceneFile, TakesTimesFarBeyondItsEnd) {
   json["output"] = {{"frames_every", 1e300}};
   json["events"] = Json::parse(R"([{"every": 1e300, "until": 1e300, "remove": {"ids": [0]}}])");
   const SceneFile scene = parse(json);
-  EXPECT_GT(scene.output.frame_steps, 4u);
+  EXPECT_GT(scene.output.frame_steps, 4u);  // a number above that of all steps
   const SceneEvent& event = scene.events.at(0);
   EXPECT_EQ(steps_of({event.from, event.until, event.every, scene.step}), Steps{0});
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/plain/error.h"
 #include "core/scene/scene_run.h"
 #include "core/time/integrators.h"
 #include "tests/moving_box.h"
@@ -55,6 +56,36 @@ TEST(Simulation, RepeatsAnEvent) {
     left.push_back(cells(simulation));
   }
   EXPECT_EQ(left, (std::vector<std::size_t>{44, 44, 40, 40, 36, 36}));
+}
+
+// ---- an accuracy in place of a step
+
+Json with_accuracy() {
+  Json scene = moving_box();
+  scene.erase("step");
+  scene["accuracy"] = 1e-3;
+  return scene;
+}
+
+TEST(Simulation, RefusesAnAccuracyThatNoStepHasBeenChosenFor) {
+  try {
+    const Simulation simulation(parse(with_accuracy()));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "file: /accuracy: is 0.001 mean edge lengths, and no step has been chosen for it; expected 'step' in its "
+              "place");
+  }
+}
+
+TEST(Simulation, RunsASceneWithAnAccuracyOnceItHasAStep) {
+  SceneFile scene = parse(with_accuracy());
+  scene.step = 0.001;
+  scene.integrator = "rk4";
+  Simulation chosen(scene), given(parse(moving_box()));
+  run(chosen);
+  run(given);
+  EXPECT_EQ(chosen.body().state_hash(), given.body().state_hash());
 }
 
 // ---- the smallest map

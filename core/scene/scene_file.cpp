@@ -35,9 +35,10 @@ class Reader {
     scene.file = name_;
     scene.name = json.at("name").get<std::string>();
     scene.about = json.at("about").get<std::string>();
-    scene.step = json.at("step");
     scene.duration = json.at("duration");
-    if (scene.duration / scene.step > most_steps)
+    if (json.contains("accuracy")) scene.accuracy = json.at("accuracy").get<double>();
+    if (json.contains("step")) scene.step = json.at("step");
+    if (!scene.accuracy && scene.duration / scene.step > most_steps)
       fail("/duration", fmt::format("is {} s, {:.3g} steps", scene.duration, scene.duration / scene.step),
            fmt::format("at most {:.0e} steps", most_steps));
     scene.body = body(json.at("body"));
@@ -50,7 +51,7 @@ class Reader {
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
       scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
-    scene.integrator = json.at("integrator").get<std::string>();
+    scene.integrator = json.value("integrator", scene.accuracy ? "" : "rk4");
     const Json& unstable = json.at("unstable_step");
     scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
                           : unstable == "substep" ? UnstableStep::substep
@@ -59,8 +60,14 @@ class Reader {
       scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
     require_consistent(scene.events);
     const Json& output = json.at("output");
-    scene.output.frame_steps = every(output, "frames_every", scene);
-    scene.output.diagnostic_steps = every(output, "diagnostics_every", scene);
+    const auto take = [&output](const char* key, auto& into) {
+      if (output.contains(key)) into = output.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
+    };
+    take("frames_every", scene.output.frame_time);
+    take("frames_every_steps", scene.output.frame_steps);
+    take("diagnostics_every", scene.output.diagnostic_time);
+    take("diagnostics_every_steps", scene.output.diagnostic_steps);
+    if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
     scene.expect = expectation(json.at("expect"));
     return scene;
   }
@@ -198,16 +205,6 @@ class Reader {
            "no refinement where a seam is given");
   }
 
-  static std::optional<std::uint64_t> every(const Json& json, const std::string& key, const SceneFile& scene) {
-    if (json.contains(key + "_steps")) return json.at(key + "_steps").get<std::uint64_t>();
-    if (json.contains(key)) {
-      // no step lies beyond the duration, and a number of steps must fit
-      const double time = std::min(json.at(key).get<double>(), scene.duration + scene.step);
-      return std::max<std::uint64_t>(1, step_of_time(time, scene.step));
-    }
-    return {};
-  }
-
   Expectation expectation(const Json& json) const {
     Expectation e;
     const auto take = [&json](const char* key, auto& into) {
@@ -250,6 +247,19 @@ Mesh generate(const SheetMesh& sheet) {
 Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
 
 }  // namespace
+
+OutputPlan OutputPlan::in_steps_of(double step) const {
+  const auto steps = [step](const std::optional<std::uint64_t>& given, const std::optional<double>& time) {
+    if (given || !time) return given;
+    // far beyond the end of any run, and a number of steps must fit
+    const double in_reach = std::min(*time, 2.0 * most_steps * step);
+    return std::optional(std::max<std::uint64_t>(1, step_of_time(in_reach, step)));
+  };
+  return {.frame_steps = steps(frame_steps, frame_time),
+          .diagnostic_steps = steps(diagnostic_steps, diagnostic_time),
+          .frame_time = {},
+          .diagnostic_time = {}};
+}
 
 bool Expectation::empty() const {
   return !vertices && !edges && !faces && !cells && !components && !components_at_least && !operations && !mass &&

@@ -84,7 +84,12 @@ struct SceneEvent {
 enum class UnstableStep { warn, refuse, substep };
 
 struct OutputPlan {
-  std::optional<std::uint64_t> frame_steps, diagnostic_steps;  // steps from one to the next
+  std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{};  // steps from one to the next
+  std::optional<double> frame_time{}, diagnostic_time{};           // [s] the same where the scene has no step yet
+
+  /// The same plan with times turned into steps.
+  /// pre  step > 0
+  OutputPlan in_steps_of(double step) const;
 };
 
 struct Expectation {
@@ -103,8 +108,12 @@ struct SceneFile {
   Eigen::Vector3d gravity;
   InitialVelocity initial_velocity;
   std::vector<VertexSelection> fixed;
-  double step, duration;  // [s]
-  std::string integrator;
+  // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,
+  // and an integrator where it names none
+  double step = 0.0;               // [s]; 0 until then
+  std::optional<double> accuracy;  // [mean edge lengths]
+  double duration = 0.0;           // [s]
+  std::string integrator;          // empty until then
   UnstableStep unstable_step;
   std::vector<SceneEvent> events;
   OutputPlan output;

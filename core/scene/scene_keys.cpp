@@ -40,12 +40,15 @@ std::vector<SceneKey> make_keys() {
        .standard = "[0, 0, 0]", .help = "velocity at the start, one for all vertices or linear in their place"},
       {.shape = scene, .name = "fixed", .type = objects, .of = vertex_selection, .standard = "[]",
        .help = "vertices held still, by where they are at rest: those in any of the selections"},
-      {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .required = true,
-       .help = "time step"},
+      {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
+      {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
+       .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
+               "none is named"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
-      {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(), .standard = "\"rk4\"",
-       .help = "how the equations of motion are integrated"},
+      {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
+       .help = "how the equations of motion are integrated; left out, 'rk4', or with an accuracy the cheapest that is "
+               "expected to meet it"},
       {.shape = scene, .name = "unstable_step", .type = choice, .choices = {"warn", "refuse", "substep"},
        .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
                                        "each event: say so, stop, or divide it"},
@@ -244,6 +247,7 @@ std::span<const SceneKey> scene_keys() {
 std::span<const SceneRule> scene_rules() {
   using enum SceneRule::Kind;
   static const std::vector<SceneRule> rules{
+      {exactly_one, Shape::scene, {"step", "accuracy"}},
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},

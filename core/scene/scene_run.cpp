@@ -4,8 +4,9 @@
 
 namespace dartboard {
 
-RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
+RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps) {
+  const OutputPlan plan = times.in_steps_of(simulation.step());
   const std::uint64_t end = std::min(simulation.step_count(), most_steps.value_or(simulation.step_count()));
   RunResult result;
   result.first = result.last = simulation.diagnostics();

@@ -16,6 +16,14 @@ constexpr double speed_of_light = 299792458.0;  // [m/s]
 // A step divided into more parts than this is a mistake in a unit.
 constexpr double most_parts = 1e6;
 
+double settled_step(const SceneFile& scene) {
+  if (scene.accuracy && (!(scene.step > 0.0) || scene.integrator.empty()))
+    throw InputError(fmt::format(
+        "{}: /accuracy: is {} mean edge lengths, and no {} has been chosen for it; expected 'step' in its place",
+        scene.file, *scene.accuracy, scene.step > 0.0 ? "integrator" : "step"));
+  return scene.step;
+}
+
 }  // namespace
 
 struct Simulation::Sums {
@@ -41,7 +49,9 @@ std::string to_string(const Divergence& d) {
 }
 
 Simulation::Simulation(const SceneFile& scene)
-    : step_(scene.step), step_count_(step_of_time(scene.duration, scene.step)), unstable_step_(scene.unstable_step) {
+    : step_(settled_step(scene)),
+      step_count_(step_of_time(scene.duration, step_)),
+      unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   try {
     body_ = make_simulated_body(problem, !scene.events.empty());

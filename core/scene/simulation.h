@@ -51,8 +51,8 @@ struct EventJumps {
 /// the end of each step.
 class Simulation {
  public:
-  /// throws  InputError naming the path of the key for a scene that its mesh does not fit; IoError for a mesh that
-  ///         cannot be read
+  /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
+  ///         and has not been given a step and an integrator; IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
   ~Simulation();
   Simulation(const Simulation&) = delete;
@@ -61,6 +61,7 @@ class Simulation {
   /// Steps in all: the run is over at the first multiple of the step that is not before the duration.
   std::uint64_t step_count() const { return step_count_; }
   std::uint64_t steps_done() const { return done_; }
+  double step() const { return step_; }  // [s]
   /// [s] steps_done() * step
   double time() const { return static_cast<double>(done_) * step_; }
 
