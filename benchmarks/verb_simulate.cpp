@@ -44,6 +44,9 @@ class Watcher : public RunWatcher {
   void diagnostics(const Diagnostics& diagnostics) override {
     if (output_ != nullptr) output_->write(diagnostics);
   }
+  void probes(const ProbeRow& row) override {
+    if (output_ != nullptr) output_->write(row);
+  }
   void stepped(const Simulation& simulation) override {
     if (simulation.steps_done() % steps_per_report_ == 0)
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
@@ -132,7 +135,9 @@ void print(const Report& r) {
     fmt::print("\n{}", to_text(table));
   }
   if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
-  if (!r.folder.empty()) fmt::print("\n{} frames, frames.pvd and diagnostics.csv written to {}.\n", r.frames, r.folder);
+  if (!r.folder.empty())
+    fmt::print("\n{} frames, frames.pvd, diagnostics.csv{} written to {}.\n", r.frames,
+               r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
 }
 
 // JSON has no infinity: a number that is not finite is left null.
@@ -211,7 +216,7 @@ void simulate(const Options& options, Outcome& outcome) {
     if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
   };
   if (!options.out.empty()) {
-    output.emplace(options.out);
+    output.emplace(options.out, scene.probes);
     manifest = manifest_of(scene, options, outcome);
     write_manifest();
   }
@@ -241,7 +246,7 @@ void simulate(const Options& options, Outcome& outcome) {
   else if (options.seed)
     report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
   else if (!result.divergence)
-    report.expected = compare_with_expectation(scene.expect, simulation);
+    report.expected = compare_with_expectation(scene, simulation, result);
 
   outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
   if (output) {

@@ -1,7 +1,11 @@
 #include "core/scene/body_of_columns.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/mechanics/stress.h"
@@ -20,6 +24,41 @@ BodyOfColumns::BodyOfColumns(const Problem& problem) {
     take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh);
   else
     take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh);
+}
+
+BodyOfColumns::BodyOfColumns(const Problem& problem, std::span<const SpringEnds> links)
+    : ends_(links.begin(), links.end()),
+      gravity_(problem.surroundings.gravity),
+      density_(problem.material.density),
+      counts_{.vertices = problem.mesh.points.size(), .edges = links.size(), .components = 1} {
+  const auto& points = problem.mesh.points;
+  const Material& material = problem.material;
+  vertices_.position = points;
+  vertices_.mass.assign(points.size(), 0.0);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const double length = (points[links[k][1]] - points[links[k][0]]).norm(), mass = material.density * length;
+    if (!(std::min(length, mass) > 0.0 && std::isfinite(length) && std::isfinite(mass)))
+      throw InputError(
+          fmt::format("link {} has a length of {} m and a mass of {} kg; expected numbers > 0", k, length, mass));
+    springs_.push_back({length, material.stiffness, material.damping});
+    cell_mass_.push_back(mass);
+    for (const std::uint32_t end : links[k]) vertices_.mass[end] += mass / 2;
+  }
+  vertices_.velocity = problem.initial_velocity;
+  vertices_.velocity.resize(points.size(), Eigen::Vector3d(0, 0, 0));
+  vertices_.force.assign(points.size(), Eigen::Vector3d(0, 0, 0));
+  vertices_.fixed.assign(points.size(), 0);
+  for (const std::uint32_t p : problem.fixed) {
+    vertices_.fixed[p] = 1;
+    vertices_.velocity[p].setZero();
+  }
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (!vertices_.velocity[p].allFinite())
+      throw InputError(fmt::format("the initial velocity of point {} is not finite", p));
+    vertices_.inverse_mass.push_back(1.0 / vertices_.mass[p]);
+    vertices_.viscosity.push_back(material.viscosity * vertices_.mass[p]);
+    vertices_.point.push_back(p);
+  }
 }
 
 template <class Map>
@@ -92,7 +131,19 @@ double BodyOfColumns::boundary() const {
   return sum;
 }
 
+double BodyOfColumns::largest_tension() const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    const double length = (vertices_.position[ends_[k][1]] - vertices_.position[ends_[k][0]]).norm();
+    const double tension = springs_[k].stiffness * (length - springs_[k].rest_length);
+    if (!std::isfinite(tension)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, tension);
+  }
+  return largest;
+}
+
 double BodyOfColumns::largest_stress() const {
+  if (counts_.cells == 0) return largest_tension();
   std::vector<Eigen::Matrix3d> stress;
   vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress);
   return largest_principal_stress(stress);
@@ -106,6 +157,7 @@ Frame BodyOfColumns::frame() const {
   frame.mass = vertices_.mass;
   for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
   frame.component = component_;
+  if (counts_.cells == 0) frame.links = ends_;
   return frame;
 }
 

@@ -2,6 +2,7 @@
 // A simulated body whose topology never changes: columns and arrays, and no dart once it is built.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/plain/mesh.h"
@@ -16,6 +17,13 @@ class BodyOfColumns final : public SimulatedBody {
  public:
   /// throws  InputError as build_body does
   explicit BodyOfColumns(const Problem& problem);
+
+  /// A network of springs between the points of the problem, which has no cells: each link is a spring of the
+  /// material's stiffness and damping, and gives half its mass, density times length, to each of its ends.
+  ///
+  /// pre     the ends are points; the links join all of them
+  /// throws  InputError for a link whose length or mass is not a number above 0, and for a velocity that is not finite
+  BodyOfColumns(const Problem& problem, std::span<const SpringEnds> links);
 
   std::string map_name() const override { return "no map"; }
   const VertexColumns& vertices() const override { return vertices_; }
@@ -34,6 +42,7 @@ class BodyOfColumns final : public SimulatedBody {
   std::string violation() const override { return {}; }
 
  private:
+  double largest_tension() const;  // [N] of the links of a network; 0 where none is stretched
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh);
 
@@ -45,8 +54,8 @@ class BodyOfColumns final : public SimulatedBody {
 
   // for frames and diagnostics: the cells and the boundary by vertex numbers
   CellCounts counts_;
-  Mesh cells_;  // its points are not used
-  std::vector<double> cell_mass_;
+  Mesh cells_;                                              // its points are not used
+  std::vector<double> cell_mass_;                           // of a network, by link
   std::vector<std::uint32_t> component_;                    // by cell
   std::vector<std::uint32_t> facet_first_{0}, facet_node_;  // corners of the facets of the boundary
 };

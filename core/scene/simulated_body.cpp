@@ -16,4 +16,11 @@ std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool 
   return std::make_unique<BodyOnMap<Map3>>(problem);
 }
 
+std::unique_ptr<SimulatedBody> make_simulated_body(const SceneFile& scene, const Problem& problem) {
+  if (!scene.is_chain()) return make_simulated_body(problem, !scene.events.empty());
+  std::vector<SpringEnds> links;
+  for (std::uint32_t k = 0; k + 1 < problem.mesh.points.size(); ++k) links.push_back({k, k + 1});
+  return std::make_unique<BodyOfColumns>(problem, links);
+}
+
 }  // namespace dartboard

@@ -2,8 +2,11 @@
 // A body that moves and changes, whatever map it is on: the one place where scenes do not know the type of the map.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/problem.h"
@@ -38,6 +41,12 @@ class SimulatedBody {
   /// Positions and velocities; valid until the next event.
   virtual Motion motion() = 0;
 
+  /// Follow a vertex from now on, wherever its number goes: `tracked` has one more. None of it changes the body.
+  void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
+  /// The numbers now of the vertices tracked; `no_vertex` for those removed.
+  std::span<const std::uint32_t> tracked() const { return tracked_; }
+  static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+
   /// throws  InputError "/events/3/...: ..." if it cannot happen to this body
   virtual std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) = 0;
 
@@ -54,6 +63,9 @@ class SimulatedBody {
   virtual std::uint64_t state_hash() const = 0;
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
+
+ protected:
+  std::vector<std::uint32_t> tracked_;
 };
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
@@ -61,5 +73,8 @@ class SimulatedBody {
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes);
+
+/// What a scene asks for, on the problem it makes: a chain, or the above.
+std::unique_ptr<SimulatedBody> make_simulated_body(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

@@ -54,17 +54,20 @@ Simulation::Simulation(const SceneFile& scene)
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   try {
-    body_ = make_simulated_body(problem, !scene.events.empty());
+    body_ = make_simulated_body(scene, problem);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: /body: {}", scene.file, error.what()));
   }
   try {
+    driven_ = DrivenVertices(scene, problem.mesh.points, step_);
+    track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator);
     for (const SceneEvent& event : scene.events)
       events_.push_back(
           {body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
            !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action)});
     happen();
+    drive();
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
@@ -90,7 +93,7 @@ std::optional<Divergence> Simulation::advance() {
   const std::size_t operations = operations_;
   try {
     happen();
-    if (operations_ != operations) {
+    if (drive() || operations_ != operations) {
       look_at_step();
       start_ = detector_.system_changed(body_->system(), body_->motion());
     }
@@ -159,6 +162,12 @@ void Simulation::happen() {
   if (operations > 0) integrator_->restart();
 }
 
+bool Simulation::drive() {
+  const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
+  if (changed) integrator_->restart();
+  return changed;
+}
+
 Simulation::Sums Simulation::sums() const {
   const SpringSystem system = body_->system();
   const VertexColumns& v = body_->vertices();
@@ -214,6 +223,15 @@ Diagnostics Simulation::diagnostics() const {
   d.largest_stress = body_->largest_stress();
   d.operations = operations_;
   return d;
+}
+
+ProbeRow Simulation::probes() const {
+  const VertexColumns& v = body_->vertices();
+  ProbeRow row{time(), {}};
+  for (const std::uint32_t k : body_->tracked())
+    row.probes.push_back(k == SimulatedBody::no_vertex ? std::nullopt
+                                                       : std::optional(VertexMotion{v.position[k], v.velocity[k]}));
+  return row;
 }
 
 Frame Simulation::frame() const {
