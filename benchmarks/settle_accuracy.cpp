@@ -36,7 +36,7 @@ void to_json(nlohmann::json& json, const SettledAccuracy& s) {
 double step_fitting_times(const SceneFile& scene, double largest) {
   std::vector<double> times;
   for (const SceneEvent& event : scene.events) times.push_back(event.from);
-  for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time})
+  for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time, scene.output.probe_time})
     if (every && *every < scene.duration) times.push_back(*every);
   const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));
   // a quarter more steps, or few enough to cost nothing

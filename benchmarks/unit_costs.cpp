@@ -136,7 +136,10 @@ struct Standard {
 
   Standard(const Problem& of, const BodyNeeds& needs) {
     const double spacing = 0.1;
-    problem.mesh = needs.storage == Storage::surface      ? triangle_sheet(24, 24, spacing)
+    if (needs.storage == Storage::links)
+      for (int k = 0; k < 500; ++k) problem.mesh.points.emplace_back(k * spacing, 0, 0);
+    else
+      problem.mesh = needs.storage == Storage::surface      ? triangle_sheet(24, 24, spacing)
                    : needs.storage == Storage::tetrahedra ? kuhn_box(6, 6, 6, spacing)
                                                           : mixed_box(8, 8, 8, spacing);
     problem.material = of.material;
@@ -162,7 +165,7 @@ void measure_output(UnitCosts& costs, const Problem& problem, const ScenePlan& p
   volatile double sink = 0.0;
   const double springs = over(plan.counts.edges, s.counts.edges),
                vertices = over(plan.counts.vertices, s.counts.vertices),
-               cells = over(plan.counts.cells, s.counts.cells);
+               cells = plan.counts.cells == 0 ? springs : over(plan.counts.cells, s.counts.cells);
   const double facets = plan.needs.body.topology_changes ? over(plan.counts.faces, s.counts.faces)
                                                          : over(plan.counts.boundary_facets, s.counts.boundary_facets);
   costs.row = vertices * cost_of([&] { sink = s.body->largest_stress(); }) +
@@ -252,7 +255,7 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
 
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
   UnitCosts costs;
-  if (plan.counts.cells == 0) return costs;
+  if (plan.counts.edges == 0) return costs;
   SystemArrays arrays(problem, plan.counts);
   measure_step(costs, scene, arrays);
   measure_output(costs, problem, plan);
@@ -298,6 +301,9 @@ void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& c) {
       case Part::fixed: item.ns = m.vertices * c.fixed; break;
       case Part::integrator: item.ns = m.vertices * c.stages; break;
       case Part::solver: item.ns = m.springs * c.solver; break;
+      case Part::driven:  // a term of one spring more for each
+        item.ns = static_cast<double>(plan.driven_springs) / static_cast<double>(plan.counts.edges) * c.force;
+        break;
       case Part::detector: item.ns = m.vertices * c.detector; break;
       case Part::speed_check: item.ns = m.vertices * c.speed_check; break;
       case Part::step_check: item.ns = changes / steps * m.springs * c.look; break;

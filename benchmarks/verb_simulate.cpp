@@ -46,6 +46,9 @@ class Watcher : public RunWatcher {
   void diagnostics(const Diagnostics& diagnostics) override {
     if (output_ != nullptr) output_->write(diagnostics);
   }
+  void probes(const ProbeRow& row) override {
+    if (output_ != nullptr) output_->write(row);
+  }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
@@ -142,7 +145,9 @@ void print(const Report& r) {
     fmt::print("\n{}", to_text(table));
   }
   if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
-  if (!r.folder.empty()) fmt::print("\n{} frames, frames.pvd and diagnostics.csv written to {}.\n", r.frames, r.folder);
+  if (!r.folder.empty())
+    fmt::print("\n{} frames, frames.pvd, diagnostics.csv{} written to {}.\n", r.frames,
+               r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
   if (!r.picture.empty()) fmt::print("{}\n", r.picture);
 }
 
@@ -224,7 +229,7 @@ void simulate(const Options& options, Outcome& outcome) {
     if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
   };
   if (!options.out.empty()) {
-    output.emplace(options.out);
+    output.emplace(options.out, scene.probes);
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
     write_manifest();
@@ -259,7 +264,7 @@ void simulate(const Options& options, Outcome& outcome) {
   else if (options.seed)
     report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
   else if (!result.divergence)
-    report.expected = compare_with_expectation(scene.expect, simulation);
+    report.expected = compare_with_expectation(scene, simulation, result);
 
   outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
   if (album) {

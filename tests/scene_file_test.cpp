@@ -101,6 +101,35 @@ TEST(SceneFile, AsksForExactlyOneOfStepAndAccuracy) {
   EXPECT_EQ(refusal(json.dump()), "file: /: has 'step', 'accuracy'; expected exactly one of 'step', 'accuracy'");
 }
 
+TEST(SceneFile, MakesBallsAndChainsOnTheSpot) {
+  Json json = smallest();
+  json["body"] = Json::parse(R"({"generate": {"ball": {"layers": 2, "radius": 3}}, "translate": [1, 0, 0]})");
+  const Mesh ball = make_mesh(parse(json));
+  EXPECT_EQ(ball.cell_count(), 64u);
+  EXPECT_EQ(ball.points.front(), Eigen::Vector3d(1, 0, -3));
+  EXPECT_FALSE(parse(json).is_chain());
+  json["body"] = Json::parse(R"({"generate": {"chain": {"links": 3, "spacing": 0.5}}, "scale": 2})");
+  const Mesh chain = make_mesh(parse(json));
+  EXPECT_EQ(chain.cell_count(), 0u);
+  EXPECT_EQ(chain.points, (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
+  EXPECT_TRUE(parse(json).is_chain());
+}
+
+TEST(SceneFile, DrivesVerticesFromTheStartToTheEndUnlessItSaysOtherwise) {
+  Json json = smallest();
+  json["driven"] = Json::parse(R"([{"ids": [3], "velocity": [1, 2, 3]},
+                                   {"ids": [4], "velocity": [0, 0, 1], "from": 0.5, "until": 9, "reverse_every": 0.25}])");
+  const SceneFile scene = parse(json);
+  EXPECT_EQ(scene.driven.at(0).from, 0.0);
+  EXPECT_FALSE(scene.driven.at(0).until);
+  EXPECT_EQ(scene.driven.at(0).velocity.at({7, 7, 7}), Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(scene.driven.at(0).reverse_every);
+  EXPECT_EQ(scene.driven.at(1).from, 0.5);
+  EXPECT_FALSE(scene.driven.at(1).until);  // beyond the duration of 1 s
+  EXPECT_EQ(scene.driven.at(1).reverse_every, 0.25);
+  EXPECT_EQ(make_problem(scene).fixed, (std::vector<std::uint32_t>{3, 4}));
+}
+
 TEST(SceneFile, ReseedsRandomSelectionsOnly) {
   Json json = smallest();
   json["events"] = Json::parse(R"([{"at": 0, "remove": {"random": {"count": 1, "seed": 40}}},

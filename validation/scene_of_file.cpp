@@ -170,6 +170,9 @@ TradeoffScene scene_of_file(const SceneFile& file) {
   if (!(file.duration > 0.0)) fail("/duration", "is 0 s", "a motion to study");
   if (file.material.stiffness == 0.0 && file.material.damping > 0.0)
     fail("/material/stiffness", "is 0 N/m beside a damping", "springs, or nothing between the vertices");
+  // the networks of the references come from cells, and hold still what is fixed
+  if (file.is_chain()) fail("/body/generate/chain", "is a chain", "a body of cells, to compare with references");
+  if (!file.driven.empty()) fail("/driven", "moves vertices", "none driven, to compare with references");
   const Problem problem = make_problem(file);
   if (problem.mesh.points.empty()) fail("/body", "has no points", "a body that moves");
 

@@ -249,6 +249,7 @@ std::span<const NamedMesh> test_meshes() {
       {"solid_torus", "a ring of twelve blocks of tetrahedra", [] { return solid_torus(12); }},
       {"pinched_body", "Fig. 3b: a vertex whose neighbourhood is no ball", [] { return pinched_body(); }},
       {"pinched_drum", "a pinched body of sixteen tetrahedra", [] { return pinched_body(8); }},
+      {"tetrahedron_ball", "a ball of four layers of tetrahedra", [] { return tetrahedron_ball(4, 0.5); }},
       {"several_components", "five boxes of different length", [] { return several_components(5); }},
       {"triangle_sheet", "a flat sheet of 8 x 5 x 2 triangles", [] { return triangle_sheet(8, 5, 0.1); }},
       {"quad_sheet", "a flat sheet of 8 x 5 squares", [] { return quad_sheet(8, 5, 0.1); }},

@@ -81,6 +81,14 @@ Mesh pinched_body(int sides = 3);
 /// Component i = 0 .. k-1 is a kuhn_box of 1 x 1 x (i + 1) unit cubes; k >= 0.
 Mesh several_components(int k);
 
+/// 8 layers^3 tetrahedra in a ball around the origin, layers >= 1, 0 < radius < infinity.
+///
+/// The octahedron |x| + |y| + |z| <= layers is cut along the planes of its layers, octant by octant, into tetrahedra
+/// and octahedra, these into four tetrahedra around their shortest diagonal; then each layer is pushed out to a sphere.
+/// No cell has two faces on the surface, which would flatten it. Volumes lie between 0.32 and 1.9 times the mean, and
+/// the shape 12 (3 V)^(2/3) / (sum of squared edges), 1 for a regular tetrahedron, above 0.69 (12 layers).
+Mesh tetrahedron_ball(int layers, double radius);
+
 // ---- all of them
 
 struct NamedMesh {

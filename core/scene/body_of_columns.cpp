@@ -1,6 +1,10 @@
 #include "core/scene/body_of_columns.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/mechanics/stress.h"
@@ -14,9 +18,44 @@ namespace dartboard {
 
 BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs) {
   switch (needs.storage) {
+    case Storage::links: link(problem, needs); break;
     case Storage::surface: take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh, needs); break;
     case Storage::tetrahedra: take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh, needs); break;
     case Storage::any_cells: take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh, needs); break;
+  }
+}
+
+void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
+  const auto& points = problem.mesh.points;
+  const Material& material = problem.material;
+  gravity_ = problem.surroundings.gravity;
+  density_ = material.density;
+  counts_ = {.vertices = points.size(), .edges = points.size() - 1, .components = 1};
+  vertices_.position = points;
+  vertices_.mass.assign(points.size(), 0.0);
+  for (std::uint32_t k = 0; k + 1 < points.size(); ++k) {
+    const double length = (points[k + 1] - points[k]).norm(), mass = material.density * length;
+    if (!(std::min(length, mass) > 0.0 && std::isfinite(length) && std::isfinite(mass)))
+      throw InputError(
+          fmt::format("link {} has a length of {} m and a mass of {} kg; expected numbers > 0", k, length, mass));
+    ends_.push_back({k, k + 1});
+    springs_.push_back({length, material.stiffness, material.damping});
+    cell_mass_.push_back(mass);
+    for (const std::uint32_t end : ends_.back()) vertices_.mass[end] += mass / 2;
+  }
+  vertices_.velocity = problem.initial_velocity;
+  vertices_.velocity.resize(points.size(), Eigen::Vector3d(0, 0, 0));
+  if (needs.fixed) vertices_.fixed.assign(points.size(), 0);
+  for (const std::uint32_t p : problem.fixed) {
+    vertices_.fixed[p] = 1;
+    vertices_.velocity[p].setZero();
+  }
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (!vertices_.velocity[p].allFinite())
+      throw InputError(fmt::format("the initial velocity of point {} is not finite", p));
+    vertices_.inverse_mass.push_back(1.0 / vertices_.mass[p]);
+    if (needs.viscosity) vertices_.viscosity.push_back(material.viscosity * vertices_.mass[p]);
+    vertices_.point.push_back(p);
   }
 }
 
@@ -108,7 +147,19 @@ double BodyOfColumns::boundary() const {
   return sum;
 }
 
+double BodyOfColumns::largest_tension() const {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < ends_.size(); ++k) {
+    const double length = (vertices_.position[ends_[k][1]] - vertices_.position[ends_[k][0]]).norm();
+    const double tension = springs_[k].stiffness * (length - springs_[k].rest_length);
+    if (!std::isfinite(tension)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, tension);
+  }
+  return largest;
+}
+
 double BodyOfColumns::largest_stress() const {
+  if (counts_.cells == 0) return largest_tension();
   std::vector<Eigen::Matrix3d> stress;
   vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress);
   return largest_principal_stress(stress);
@@ -122,6 +173,7 @@ Frame BodyOfColumns::frame() const {
   frame.mass = vertices_.mass;
   for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
   frame.component = component_;
+  if (counts_.cells == 0) frame.links = ends_;
   return frame;
 }
 

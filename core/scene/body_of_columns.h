@@ -2,6 +2,7 @@
 // A simulated body whose topology never changes: columns and arrays, and no dart once it is built.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/plain/mesh.h"
@@ -14,7 +15,11 @@ namespace dartboard {
 /// it moves with the same bits; the map and all that was held by darts is then let go.
 class BodyOfColumns final : public SimulatedBody {
  public:
-  /// throws  InputError as build_body does
+  /// Of a mesh without cells, a chain: each link from a point to the next is a spring of the material's stiffness and
+  /// damping, and gives half its mass, density times length, to each of its ends.
+  ///
+  /// throws  InputError as build_body does; for a link whose length or mass is not a number above 0, and for a velocity
+  ///         that is not finite
   explicit BodyOfColumns(const Problem& problem) : BodyOfColumns(problem, body_needs(problem, false)) {}
   BodyOfColumns(const Problem& problem, const BodyNeeds& needs);
 
@@ -36,6 +41,8 @@ class BodyOfColumns final : public SimulatedBody {
   MemoryReport memory() const override;
 
  private:
+  void link(const Problem& problem, const BodyNeeds& needs);
+  double largest_tension() const;  // [N] of the links of a chain; 0 where none is stretched
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
@@ -47,8 +54,8 @@ class BodyOfColumns final : public SimulatedBody {
 
   // for frames and diagnostics: the cells and the boundary by vertex numbers
   CellCounts counts_;
-  Mesh cells_;  // its points are not used
-  std::vector<double> cell_mass_;
+  Mesh cells_;                                              // its points are not used
+  std::vector<double> cell_mass_;                           // of a chain, by link
   std::vector<std::uint32_t> component_;                    // by cell
   std::vector<std::uint32_t> facet_first_{0}, facet_node_;  // corners of the facets of the boundary
 };

@@ -46,6 +46,8 @@ class BodyOnMap final : public SimulatedBody {
   /// Let embeddings and views follow a change of the map.
   void follow(const TopologyChange& change) {
     const ChangedEmbeddings changed = adapt(body_, change);
+    for (const auto [from, to] : changed.moved_vertices)
+      for (std::uint32_t& vertex : tracked_) vertex = vertex == to ? no_vertex : vertex == from ? to : vertex;
     for (const auto [from, to] : changed.moved_cells) {
       mesh_cell_[to] = mesh_cell_[from];
       mesh_cell_.pop_back();

@@ -2,6 +2,7 @@
 // One picture of a moving body: what a file of a frame holds.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Frame {
   std::vector<double> mass;               // [kg] by point
   std::vector<std::uint32_t> mesh_cell;   // by cell: its number in the mesh that the body came from
   std::vector<std::uint32_t> component;   // by cell
+  // of a chain, which has no cells: the ends of each link, which files count as a cell of component 0
+  std::vector<std::array<std::uint32_t, 2>> links;
 };
 
 }  // namespace dartboard

@@ -13,6 +13,7 @@ std::string_view name(Part part) {
     case Part::vertices: return "vertices";
     case Part::viscosity: return "viscosity";
     case Part::fixed: return "fixed vertices";
+    case Part::driven: return "driven vertices";
     case Part::springs: return "springs";
     case Part::damping: return "damping";
     case Part::gravity: return "gravity";
@@ -24,6 +25,7 @@ std::string_view name(Part part) {
     case Part::step_check: return "stable step";
     case Part::output_cells: return "cells for output";
     case Part::frames: return "frames";
+    case Part::probes: return "probes";
     case Part::diagnostics: return "diagnostics";
   }
   return "?";

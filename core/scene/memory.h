@@ -21,6 +21,7 @@ enum class Part {
   vertices,      // mass, 1/mass, position, velocity, point of the mesh
   viscosity,     // by vertex
   fixed,         // by vertex
+  driven,        // paths of driven vertices, and what their work is summed over
   springs,       // rest length, stiffness and damping, and the two ends
   damping,       // a force term: time only
   gravity,       // likewise
@@ -32,6 +33,7 @@ enum class Part {
   step_check,    // looking at the step after operations: time only
   output_cells,  // cells and boundary by vertex numbers, for frames and diagnostics of a body without a map
   frames,        // time only
+  probes,        // the vertices followed
   diagnostics,   // time only
 };
 std::string_view name(Part part);

@@ -59,9 +59,23 @@ class Together {
   std::size_t sets_;
 };
 
+MeshTally tally_of_chain(const Mesh& mesh) {
+  MeshTally t;
+  t.vertices = mesh.points.size();
+  t.edges = t.vertices - 1;
+  t.components = 1;
+  t.point.resize(t.vertices);
+  std::iota(t.point.begin(), t.point.end(), 0u);
+  for (std::uint32_t k = 0; k < t.edges; ++k) t.ends.push_back({k, k + 1});
+  t.cells_of_edge.assign(t.edges, 1);  // a link is a cell of its own
+  t.edge_on_boundary.assign(t.edges, 0);
+  return t;
+}
+
 }  // namespace
 
 MeshTally tally_of(const Mesh& mesh) {
+  if (mesh.cell_count() == 0 && !mesh.points.empty()) return tally_of_chain(mesh);
   MeshTally t;
   t.cells = mesh.cell_count();
   std::vector<std::uint32_t> vertex_of(mesh.points.size(), none), last_cell;  // last_cell: by edge

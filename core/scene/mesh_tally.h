@@ -29,6 +29,8 @@ struct MeshTally {
   std::vector<std::array<std::uint32_t, 2>> cells_of_facet;  // of those between two cells
 };
 
+/// A mesh of points alone is a chain in their order.
+///
 /// pre     cells name points of the mesh
 /// cost    O(darts), some 0.2 microseconds per dart
 MeshTally tally_of(const Mesh& mesh);

@@ -7,6 +7,7 @@
 namespace dartboard {
 
 Storage storage_of(const Mesh& mesh) {
+  if (mesh.cell_count() == 0 && !mesh.points.empty()) return Storage::links;
   if (mesh.dimension() == 2) return Storage::surface;
   return std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; })
              ? Storage::tetrahedra
@@ -15,6 +16,7 @@ Storage storage_of(const Mesh& mesh) {
 
 std::string_view map_name(Storage storage) {
   switch (storage) {
+    case Storage::links: return "no map";
     case Storage::surface: return "2-g-map";
     case Storage::tetrahedra: return "tetrahedral 3-g-map";
     case Storage::any_cells: break;

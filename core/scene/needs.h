@@ -9,10 +9,10 @@
 
 namespace dartboard {
 
-/// The smallest storage that can hold a mesh.
-enum class Storage { surface, tetrahedra, any_cells };
+/// The smallest storage that can hold a mesh. Points without cells are a chain in their order: links, and no map.
+enum class Storage { links, surface, tetrahedra, any_cells };
 Storage storage_of(const Mesh& mesh);
-/// "2-g-map", "tetrahedral 3-g-map", "3-g-map"
+/// "no map", "2-g-map", "tetrahedral 3-g-map", "3-g-map"
 std::string_view map_name(Storage storage);
 
 /// What a body must have.

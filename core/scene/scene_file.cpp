@@ -51,6 +51,8 @@ class Reader {
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
       scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
+    for (std::size_t k = 0; k < json.at("driven").size(); ++k)
+      scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
     scene.integrator = json.value("integrator", scene.accuracy ? "" : "rk4");
     const Json& unstable = json.at("unstable_step");
     scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
@@ -58,7 +60,7 @@ class Reader {
                                                   : UnstableStep::warn;
     for (std::size_t k = 0; k < json.at("events").size(); ++k)
       scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
-    require_consistent(scene.events);
+    require_consistent(scene);
     const Json& output = json.at("output");
     const auto take = [&output](const char* key, auto& into) {
       if (output.contains(key)) into = output.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
@@ -67,8 +69,12 @@ class Reader {
     take("frames_every_steps", scene.output.frame_steps);
     take("diagnostics_every", scene.output.diagnostic_time);
     take("diagnostics_every_steps", scene.output.diagnostic_steps);
+    take("probes_every", scene.output.probe_time);
+    take("probes_every_steps", scene.output.probe_steps);
+    for (std::size_t k = 0; k < output.at("probes").size(); ++k)
+      scene.probes.push_back(probe(output.at("probes")[k], fmt::format("/output/probes/{}", k), scene.probes));
     if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
-    scene.expect = expectation(json.at("expect"));
+    scene.expect = expectation(json.at("expect"), scene);
     return scene;
   }
 
@@ -93,9 +99,13 @@ class Reader {
       source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
-    } else {
+    } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
+    } else if (generate.contains("ball")) {
+      source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
+    } else {
+      source.mesh = ChainMesh{generate.at("chain").at("links"), generate.at("chain").at("spacing")};
     }
     return source;
   }
@@ -141,6 +151,35 @@ class Reader {
     if (!(d.norm() > 0.0) || !std::isfinite(d.norm()))
       fail(path, "is " + shown(json), "a direction, of a length other than 0");
     return d.normalized();
+  }
+
+  SceneDrive drive(const Json& json, const std::string& path, const SceneFile& scene) const {
+    SceneDrive drive{
+        region<VertexSelection>(json, path).value(), velocity(json.at("velocity")), json.at("from"), {}, {}, path};
+    if (json.contains("reverse_every")) drive.reverse_every = json.at("reverse_every").get<double>();
+    if (drive.from >= scene.duration)
+      fail(path + "/from", fmt::format("is {} s", drive.from),
+           fmt::format("a time before the duration of {} s", scene.duration));
+    const double until = json.value("until", scene.duration);
+    if (json.contains("until") && until <= scene.duration) drive.until = until;
+    if (until <= drive.from ||
+        (drive.until && !scene.accuracy && step_of_time(until, scene.step) == step_of_time(drive.from, scene.step)))
+      fail(path + "/until", fmt::format("leaves the time from {} to {} s", drive.from, until), "at least one step");
+    return drive;
+  }
+
+  Probe probe(const Json& json, const std::string& path, const std::vector<Probe>& others) const {
+    Probe probe{json.at("name").get<std::string>(), {}, path};
+    for (const Probe& other : others)
+      if (other.name == probe.name)
+        fail(path + "/name", fmt::format("is {}, like {}/name", shown(json.at("name")), other.path),
+             "a name of its own");
+    if (probe.name.empty()) fail(path + "/name", "is empty", "a name");
+    if (json.contains("vertex"))
+      probe.vertex = json.at("vertex").get<std::uint32_t>();
+    else
+      probe.vertex = point(json.at("near"));
+    return probe;
   }
 
   SceneEvent event(const Json& json, const std::string& path, const SceneFile& scene) const {
@@ -192,10 +231,19 @@ class Reader {
     return tear;
   }
 
-  // A seam is a set of faces of the body at rest, and refinement replaces faces.
-  void require_consistent(const std::vector<SceneEvent>& events) const {
+  static std::string_view key_of(const Action& action) {
+    constexpr std::string_view keys[] = {"dissociate", "remove", "tear", "tear_where_stressed", "refine"};
+    return keys[action.index()];
+  }
+
+  // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex between driven ones would
+  // have no path of its own.
+  void require_consistent(const SceneFile& scene) const {
     const SceneEvent *seam = nullptr, *refinement = nullptr;
-    for (const SceneEvent& event : events) {
+    for (const SceneEvent& event : scene.events) {
+      if (scene.is_chain())
+        fail(fmt::format("{}/{}", event.path, key_of(event.action)), "is meant for cells, and a chain has none",
+             "no events");
       const auto* stress = std::get_if<TearWhereStressed>(&event.action);
       if (stress != nullptr && stress->seam) seam = &event;
       if (std::holds_alternative<Refine>(event.action)) refinement = &event;
@@ -203,10 +251,21 @@ class Reader {
     if (seam != nullptr && refinement != nullptr)
       fail(refinement->path + "/refine", fmt::format("stands beside {}/tear_where_stressed/plane", seam->path),
            "no refinement where a seam is given");
+    if (refinement != nullptr && !scene.driven.empty())
+      fail(refinement->path + "/refine", "stands beside /driven", "no refinement where vertices are driven");
   }
 
-  Expectation expectation(const Json& json) const {
+  ExpectedPlace place(const Json& json, const std::string& path, const std::vector<Probe>& probes) const {
+    const auto name = json.at("probe").get<std::string>();
+    for (std::size_t k = 0; k < probes.size(); ++k)
+      if (probes[k].name == name) return {k, point(json.at("position")), json.at("within")};
+    fail(path + "/probe", "is " + shown(json.at("probe")), "the name of one of /output/probes");
+  }
+
+  Expectation expectation(const Json& json, const SceneFile& scene) const {
     Expectation e;
+    for (std::size_t k = 0; k < json.at("places").size(); ++k)
+      e.places.push_back(place(json.at("places")[k], fmt::format("/expect/places/{}", k), scene.probes));
     const auto take = [&json](const char* key, auto& into) {
       if (json.contains(key)) into = json.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
     };
@@ -218,6 +277,18 @@ class Reader {
     take("components_at_least", e.components_at_least);
     take("operations", e.operations);
     take("mass", e.mass);
+    take("kinetic_at_most", e.kinetic_at_most);
+    take("energy_drift_at_most", e.energy_drift_at_most);
+    if (e.energy_drift_at_most) {
+      const char* taker = scene.material.damping > 0.0     ? "/material/damping"
+                          : scene.material.viscosity > 0.0 ? "/material/viscosity"
+                          : !scene.driven.empty()          ? "/driven"
+                          : !scene.events.empty()          ? "/events"
+                                                           : nullptr;
+      if (taker != nullptr)
+        fail("/expect/energy_drift_at_most", fmt::format("stands beside {}, which changes the energy", taker),
+             "damping and viscosity of 0, and no driven vertices or events");
+    }
     if (json.contains("hash")) {
       const auto digits = json.at("hash").get<std::string>();
       std::uint64_t value = 0;
@@ -244,6 +315,12 @@ Mesh generate(const SheetMesh& sheet) {
   const auto [nx, ny] = sheet.cells;
   return sheet.kind == "triangles" ? triangle_sheet(nx, ny, sheet.spacing) : quad_sheet(nx, ny, sheet.spacing);
 }
+Mesh generate(const BallMesh& ball) { return tetrahedron_ball(ball.layers, ball.radius); }
+Mesh generate(const ChainMesh& chain) {
+  Mesh mesh;
+  for (int k = 0; k <= chain.links; ++k) mesh.points.emplace_back(k * chain.spacing, 0, 0);
+  return mesh;
+}
 Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
 
 }  // namespace
@@ -257,13 +334,15 @@ OutputPlan OutputPlan::in_steps_of(double step) const {
   };
   return {.frame_steps = steps(frame_steps, frame_time),
           .diagnostic_steps = steps(diagnostic_steps, diagnostic_time),
+          .probe_steps = steps(probe_steps, probe_time),
           .frame_time = {},
-          .diagnostic_time = {}};
+          .diagnostic_time = {},
+          .probe_time = {}};
 }
 
 bool Expectation::empty() const {
   return !vertices && !edges && !faces && !cells && !components && !components_at_least && !operations && !mass &&
-         !hash;
+         !kinetic_at_most && !energy_drift_at_most && places.empty() && !hash;
 }
 
 SceneFile parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
@@ -305,6 +384,12 @@ Problem make_problem(const SceneFile& scene) {
   problem.h = scene.step;
   try {
     problem.fixed = select_points(scene.fixed, problem.mesh.points);
+    for (const SceneDrive& drive : scene.driven) {
+      const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
+      problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
+    }
+    std::sort(problem.fixed.begin(), problem.fixed.end());
+    problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }

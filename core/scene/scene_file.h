@@ -30,10 +30,19 @@ struct SheetMesh {
   double spacing;
   std::string kind;  // triangles, quadrilaterals
 };
+struct BallMesh {
+  int layers;
+  double radius;
+};
+/// Points and springs between neighbours; there are no cells.
+struct ChainMesh {
+  int links;
+  double spacing;
+};
 
 /// The mesh of a body: a file or a generator, then scaled, then moved.
 struct BodySource {
-  std::variant<std::filesystem::path, BoxMesh, SheetMesh> mesh;
+  std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh> mesh;
   double scale;
   Eigen::Vector3d translate;
 };
@@ -45,6 +54,16 @@ struct InitialVelocity {
   Eigen::Vector3d centre{0, 0, 0};
 
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return constant + linear * (x - centre); }
+};
+
+/// Vertices that move at a velocity of their own, turning round every so often, and are held still at other times.
+struct SceneDrive {
+  VertexSelection vertices;
+  InitialVelocity velocity;             // by place at rest
+  double from;                          // [s]
+  std::optional<double> until;          // [s] nothing: to the end
+  std::optional<double> reverse_every;  // [s]
+  std::string path;                     // "/driven/3"
 };
 
 // ---- events
@@ -84,17 +103,33 @@ struct SceneEvent {
 enum class UnstableStep { warn, refuse, substep };
 
 struct OutputPlan {
-  std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{};  // steps from one to the next
-  std::optional<double> frame_time{}, diagnostic_time{};           // [s] the same where the scene has no step yet
+  std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{}, probe_steps{};  // steps from one to the next
+  std::optional<double> frame_time{}, diagnostic_time{}, probe_time{};  // [s] the same where the scene has no step yet
 
   /// The same plan with times turned into steps.
   /// pre  step > 0
   OutputPlan in_steps_of(double step) const;
 };
 
+/// A vertex whose motion is recorded: a point of the mesh, or the one nearest to a place at rest.
+struct Probe {
+  std::string name;
+  std::variant<std::uint32_t, Eigen::Vector3d> vertex;
+  std::string path;  // "/output/probes/3"
+};
+
+struct ExpectedPlace {
+  std::size_t probe;  // its place in the list of probes
+  Eigen::Vector3d position;
+  double within;  // [m]
+};
+
 struct Expectation {
   std::optional<std::uint64_t> vertices, edges, faces, cells, components, components_at_least, operations;
-  std::optional<double> mass;  // [kg]
+  std::optional<double> mass;                  // [kg]
+  std::optional<double> kinetic_at_most;       // [J]
+  std::optional<double> energy_drift_at_most;  // of the largest kinetic plus elastic energy
+  std::vector<ExpectedPlace> places;
   std::optional<std::uint64_t> hash;
 
   bool empty() const;
@@ -108,6 +143,7 @@ struct SceneFile {
   Eigen::Vector3d gravity;
   InitialVelocity initial_velocity;
   std::vector<VertexSelection> fixed;
+  std::vector<SceneDrive> driven;
   // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,
   // and an integrator where it names none
   double step = 0.0;               // [s]; 0 until then
@@ -117,7 +153,10 @@ struct SceneFile {
   UnstableStep unstable_step;
   std::vector<SceneEvent> events;
   OutputPlan output;
+  std::vector<Probe> probes;
   Expectation expect;
+
+  bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
 };
 
 /// A scene from a text; `name` stands for the file in errors, and paths are relative to `folder`.
@@ -128,12 +167,13 @@ SceneFile parse_scene(std::string_view text, const std::string& name, const std:
 /// throws  IoError if the file cannot be read, InputError if it is wrong
 SceneFile read_scene(const std::filesystem::path& path);
 
-/// The mesh of the body.
+/// The mesh of the body; of a chain its points alone.
 ///
 /// throws  IoError if its file cannot be read, InputError for a generator that cannot make it
 Mesh make_mesh(const SceneFile& scene);
 
-/// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first.
+/// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first. Driven vertices are fixed
+/// here: how they move is told by DrivenVertices alone.
 ///
 /// throws  as make_mesh; InputError for an id that is no point of the mesh
 Problem make_problem(const SceneFile& scene);

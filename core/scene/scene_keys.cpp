@@ -40,6 +40,8 @@ std::vector<SceneKey> make_keys() {
        .standard = "[0, 0, 0]", .help = "velocity at the start, one for all vertices or linear in their place"},
       {.shape = scene, .name = "fixed", .type = objects, .of = vertex_selection, .standard = "[]",
        .help = "vertices held still, by where they are at rest: those in any of the selections"},
+      {.shape = scene, .name = "driven", .type = objects, .of = driven, .standard = "[]",
+       .help = "vertices that are moved along, whatever acts on them"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
@@ -68,6 +70,10 @@ std::vector<SceneKey> make_keys() {
       {.shape = generate, .name = "box", .type = object, .of = box_mesh, .help = "a box with a corner at the origin"},
       {.shape = generate, .name = "sheet", .type = object, .of = sheet_mesh,
        .help = "a rectangle in the plane z = 0 with a corner at the origin"},
+      {.shape = generate, .name = "ball", .type = object, .of = ball_mesh,
+       .help = "a ball of tetrahedra around the origin"},
+      {.shape = generate, .name = "chain", .type = object, .of = chain_mesh,
+       .help = "a row of point masses and springs along x from the origin"},
       {.shape = box_mesh, .name = "cells", .type = integer_triple, .range = {1, 10000}, .required = true,
        .help = "cubes along x, y and z"},
       {.shape = box_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
@@ -84,14 +90,23 @@ std::vector<SceneKey> make_keys() {
        .help = "edge of a square"},
       {.shape = sheet_mesh, .name = "kind", .type = choice, .choices = {"triangles", "quadrilaterals"},
        .standard = "\"triangles\"", .help = "two triangles per square, or one quadrilateral"},
+      {.shape = ball_mesh, .name = "layers", .type = integer, .range = {1, 300}, .required = true,
+       .help = "of tetrahedra from the centre to the surface: 8 layers^3 of them in all"},
+      {.shape = ball_mesh, .name = "radius", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "of the ball; the points of its surface lie on it"},
+      {.shape = chain_mesh, .name = "links", .type = integer, .range = {1, 1000000}, .required = true,
+       .help = "springs; there is one point mass more"},
+      {.shape = chain_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "length of a link at rest"},
 
       // ---- what it is made of and how it moves
       {.shape = material, .name = "density", .type = real, .unit = "kg/m^3", .range = positive, .standard = "1000",
-       .help = "mass per volume; of a surface, per area [kg/m^2]"},
+       .help = "mass per volume; of a surface, per area [kg/m^2]; of a chain, per length [kg/m], half of a link's at each "
+               "end"},
       {.shape = material, .name = "stiffness", .type = real, .unit = "N/m", .range = not_negative, .standard = "50",
-       .help = "of the spring that a cell contributes to each of its edges"},
+       .help = "of the spring that a cell contributes to each of its edges; of a chain, of a link"},
       {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
-       .help = "of the damper that a cell contributes to each of its edges"},
+       .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
        .help = "ambient drag over mass and velocity"},
       {.shape = velocity, .name = "constant", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
@@ -108,6 +123,19 @@ std::vector<SceneKey> make_keys() {
       {.shape = vertex_selection, .name = "plane", .type = object, .of = plane,
        .help = "the vertices on a plane or on the side that its normal points to"},
       {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
+      {.shape = driven, .name = "ids", .type = integers, .range = number, .help = "these points of the mesh"},
+      {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
+      {.shape = driven, .name = "plane", .type = object, .of = plane,
+       .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
+      {.shape = driven, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere at rest"},
+      {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
+       .help = "that they keep, one for all or linear in their place at rest"},
+      {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
+       .help = "time they start at; they are held still before"},
+      {.shape = driven, .name = "until", .type = real, .unit = "s", .range = positive,
+       .help = "time they stop at, and are held still from; left out, they move to the end"},
+      {.shape = driven, .name = "reverse_every", .type = real, .unit = "s", .range = positive,
+       .help = "time after which they turn round, again and again; left out, never"},
       {.shape = cell_selection, .name = "ids", .type = integers, .range = number,
        .help = "these cells of the mesh, as far as they are still there"},
       {.shape = cell_selection, .name = "box", .type = object, .of = box,
@@ -177,6 +205,15 @@ std::vector<SceneKey> make_keys() {
        .help = "time between rows of diagnostics; the first and the last state always get one"},
       {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
        .help = "steps between rows of diagnostics"},
+      {.shape = output, .name = "probes", .type = objects, .of = probe, .standard = "[]",
+       .help = "vertices whose motion is recorded in probes.csv"},
+      {.shape = output, .name = "probes_every", .type = real, .unit = "s", .range = positive,
+       .help = "time between rows of probes; left out, that of the diagnostics"},
+      {.shape = output, .name = "probes_every_steps", .type = integer, .range = count_from_1,
+       .help = "steps between rows of probes"},
+      {.shape = probe, .name = "name", .type = text, .required = true, .help = "heads its columns; no two the same"},
+      {.shape = probe, .name = "vertex", .type = integer, .range = number, .help = "this point of the mesh"},
+      {.shape = probe, .name = "near", .type = point, .unit = "m", .help = "the vertex that is nearest to it at rest"},
       {.shape = expect, .name = "vertices", .type = integer, .range = number, .help = "vertices"},
       {.shape = expect, .name = "edges", .type = integer, .range = number, .help = "edges"},
       {.shape = expect, .name = "faces", .type = integer, .range = number, .help = "faces"},
@@ -188,8 +225,20 @@ std::vector<SceneKey> make_keys() {
        .help = "faces dissociated, cells removed, vertices put in by refinement"},
       {.shape = expect, .name = "mass", .type = real, .unit = "kg", .range = not_negative,
        .help = "total mass, to 12 digits"},
+      {.shape = expect, .name = "kinetic_at_most", .type = real, .unit = "J", .range = not_negative,
+       .help = "kinetic energy: the motion has come to rest"},
+      {.shape = expect, .name = "energy_drift_at_most", .type = real, .range = not_negative,
+       .help = "largest change of the total energy in any row of the diagnostics, over the largest sum of kinetic and "
+               "elastic energy; only where nothing takes or supplies energy: no damping, viscosity, driven vertices or "
+               "events"},
+      {.shape = expect, .name = "places", .type = objects, .of = expected_place, .standard = "[]",
+       .help = "where probes are"},
       {.shape = expect, .name = "hash", .type = text,
        .help = "of positions and velocities, 16 hexadecimal digits: equal bits only"},
+      {.shape = expected_place, .name = "probe", .type = text, .required = true, .help = "the name of a probe"},
+      {.shape = expected_place, .name = "position", .type = point, .unit = "m", .required = true, .help = "its place"},
+      {.shape = expected_place, .name = "within", .type = real, .unit = "m", .range = not_negative, .required = true,
+       .help = "distance from there that is allowed"},
   };
   // clang-format on
 }
@@ -212,9 +261,19 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::generate, "generate", "A mesh made on the spot."},
       {Shape::box_mesh, "box_mesh", "A box of cubes."},
       {Shape::sheet_mesh, "sheet_mesh", "A rectangle of squares."},
+      {Shape::ball_mesh, "ball_mesh",
+       "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
+      {Shape::chain_mesh, "chain_mesh",
+       "A chain has links and no cells, so nothing can happen to it but motion: no events. Its largest stress is the "
+       "largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
+      {Shape::driven, "driven",
+       "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are "
+       "never "
+       "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
+       "work, so energy and momentum of the body change."},
       {Shape::cell_selection, "cell_selection", "Some of the cells: volumes, or the faces of a surface."},
       {Shape::box, "box", "A box with faces across the axes, its surface included."},
       {Shape::plane, "plane", "A plane; its positive side is where the normal points to."},
@@ -232,7 +291,11 @@ std::span<const ShapeHelp> scene_shapes() {
        "stiffer, "
        "and without it a vertex at a centre moves freely."},
       {Shape::output, "output", "What is recorded. None of it changes a bit of the trajectory."},
+      {Shape::probe, "probe",
+       "One vertex, wherever it goes: its position and velocity. Of a vertex that comes apart it follows the part that "
+       "keeps its number; once that is removed, the fields are empty."},
       {Shape::expect, "expect", "What must be true at the end."},
+      {Shape::expected_place, "expected_place", "Where a probe is at the end."},
   };
   return shapes;
 }
@@ -249,8 +312,10 @@ std::span<const SceneRule> scene_rules() {
   static const std::vector<SceneRule> rules{
       {exactly_one, Shape::scene, {"step", "accuracy"}},
       {exactly_one, Shape::body, {"mesh", "generate"}},
-      {exactly_one, Shape::generate, {"box", "sheet"}},
+      {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},
+      {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
+      {exactly_one, Shape::probe, {"vertex", "near"}},
       {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "random"}},
       {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine"}},
       {excludes, Shape::event, {"at", "every", "from", "until"}},
@@ -258,6 +323,7 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::tear, {"vertex", "near"}},
       {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
       {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},
+      {at_most_one, Shape::output, {"probes_every", "probes_every_steps"}},
       {at_most_one, Shape::expect, {"components", "components_at_least"}},
   };
   return rules;

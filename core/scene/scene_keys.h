@@ -17,9 +17,12 @@ enum class Shape {
   generate,
   box_mesh,
   sheet_mesh,
+  ball_mesh,
+  chain_mesh,
   material,
   velocity,
   vertex_selection,
+  driven,
   cell_selection,
   box,
   plane,
@@ -31,7 +34,9 @@ enum class Shape {
   stress,
   refine,
   output,
+  probe,
   expect,
+  expected_place,
 };
 
 struct ShapeHelp {

@@ -31,12 +31,15 @@ void require_empty_folder(const fs::path& folder) {
 
 }  // namespace
 
-SceneOutput::SceneOutput(fs::path folder) : folder_(std::move(folder)) {
+SceneOutput::SceneOutput(fs::path folder, std::span<const Probe> probes) : folder_(std::move(folder)) {
   require_empty_folder(folder_);
-  const fs::path file = folder_ / "diagnostics.csv";
-  diagnostics_.open(file, std::ios::binary);
-  diagnostics_ << diagnostics_header() << std::flush;
-  if (!diagnostics_) throw IoError(fmt::format("{}: cannot be written", file.string()));
+  const auto begin = [this](std::ofstream& out, const char* name, const std::string& header) {
+    out.open(folder_ / name, std::ios::binary);
+    out << header << std::flush;
+    if (!out) throw IoError(fmt::format("{}: cannot be written", (folder_ / name).string()));
+  };
+  begin(diagnostics_, "diagnostics.csv", diagnostics_header());
+  if (!probes.empty()) begin(probes_, "probes.csv", probes_header(probes));
 }
 
 void SceneOutput::write(const Frame& frame) {
@@ -47,10 +50,16 @@ void SceneOutput::write(const Frame& frame) {
 }
 
 void SceneOutput::write(const Diagnostics& diagnostics) {
-  diagnostics_ << diagnostics_row(diagnostics) << std::flush;
-  if (!diagnostics_)
-    throw IoError(
-        fmt::format("{}: a row could not be written; is the disk full?", (folder_ / "diagnostics.csv").string()));
+  write_row(diagnostics_, "diagnostics.csv", diagnostics_row(diagnostics));
+}
+
+void SceneOutput::write(const ProbeRow& row) {
+  if (probes_.is_open()) write_row(probes_, "probes.csv", probes_row(row));
+}
+
+void SceneOutput::write_row(std::ofstream& out, const char* name, const std::string& row) const {
+  out << row << std::flush;
+  if (!out) throw IoError(fmt::format("{}: a row could not be written; is the disk full?", (folder_ / name).string()));
 }
 
 }  // namespace dartboard

@@ -3,33 +3,40 @@
 
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/scene/diagnostics.h"
 #include "core/scene/frame.h"
+#include "core/scene/probes.h"
 #include "core/scene/write_pvd.h"
 
 namespace dartboard {
 
-/// frame_000000.vtu, frame_000001.vtu ..., frames.pvd and diagnostics.csv. All of them are valid at any moment: frames
-/// appear whole, the list names only those that are there, rows are flushed one by one.
+/// frame_000000.vtu, frame_000001.vtu ..., frames.pvd and diagnostics.csv; probes.csv where there are probes. All of
+/// them are valid at any moment: frames appear whole, the list names only those that are there, rows are flushed one by
+/// one.
 class SceneOutput {
  public:
   /// Creates the folder, and those above it.
   /// throws  IoError if it exists and is not an empty folder, or cannot be created
-  explicit SceneOutput(std::filesystem::path folder);
+  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {});
 
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);
   void write(const Diagnostics& diagnostics);
+  void write(const ProbeRow& row);
 
   const std::filesystem::path& folder() const { return folder_; }
   std::size_t frame_count() const { return frames_.size(); }
 
  private:
+  void write_row(std::ofstream& out, const char* name, const std::string& row) const;
+
   std::filesystem::path folder_;
   std::vector<FrameFile> frames_;
-  std::ofstream diagnostics_;
+  std::ofstream diagnostics_, probes_;
 };
 
 }  // namespace dartboard

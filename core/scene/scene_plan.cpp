@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plain/bytes.h"
+#include "core/scene/driven_vertices.h"
 #include "core/scene/event_forecast.h"
 #include "core/scene/scene_keys.h"
 #include "core/scene/step_times.h"
+#include "core/time/divergence.h"
 #include "core/time/integrator_memory.h"
 
 namespace dartboard {
@@ -30,7 +32,8 @@ std::string told(std::string_view path, Shape shape, std::string_view key, const
 std::string source_of(const SceneFile& scene) {
   if (const auto* file = std::get_if<std::filesystem::path>(&scene.body.mesh))
     return fmt::format("/body/mesh: {}", file->filename().string());
-  return std::holds_alternative<BoxMesh>(scene.body.mesh) ? "/body/generate/box" : "/body/generate/sheet";
+  constexpr const char* keys[] = {"box", "sheet", "ball", "chain"};  // after the file, in the order of the variant
+  return fmt::format("/body/generate/{}", keys[scene.body.mesh.index() - 1]);
 }
 
 std::string key_of(const Action& action) {
@@ -61,9 +64,12 @@ class Planner {
   ScenePlan plan() {
     if (plan_.needs.body.topology_changes)
       map();
+    else if (scene_.is_chain())
+      leave_out("map, darts and cells", source_of(scene_) + ": links alone");
     else
       leave_out("map, marks, embeddings and every dart once the body is built", "/events: none changes the topology");
     columns();
+    driven();
     forces();
     integrator();
     watch();
@@ -126,11 +132,28 @@ class Planner {
     if (!plan_.needs.body.viscosity)
       leave_out(on_map ? "term of viscosity" : "column and term of viscosity", viscosity);
     if (plan_.needs.body.fixed)
-      add(Part::fixed, fmt::format("{} of {} vertices are held still", problem_.fixed.size(), n.vertices),
-          fmt::format("/fixed: {} selections", scene_.fixed.size()), n.vertices);
+      add(Part::fixed, fmt::format("{} of {} vertices are held still or driven", problem_.fixed.size(), n.vertices),
+          fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()), n.vertices);
     else
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
+  }
+
+  void driven() {
+    if (scene_.driven.empty()) {
+      leave_out("velocities given in every step, and their work", "/driven: none");
+      return;
+    }
+    // what is driven is looked up as it will be, by the points of the mesh
+    DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
+    SystemArrays arrays(problem_, plan_.counts);
+    vertices.apply(0, plan_.counts.point, arrays.v);
+    DivergenceDetector detector;
+    detector.start(arrays.system(), arrays.motion(), scene_.step);
+    plan_.driven_springs = detector.driven_springs();
+    add(Part::driven, fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(),
+                                  plan_.driven_springs),
+        fmt::format("/driven: {} selections", scene_.driven.size()), vertices.bytes() + detector.driven_bytes());
   }
 
   void forces() {
@@ -206,12 +229,17 @@ class Planner {
 
   void output() {
     const MeshTally& n = plan_.counts;
-    if (!plan_.needs.body.topology_changes)
+    if (scene_.is_chain())
+      add(Part::output_cells, "masses of links", "/output: diagnostics tell mass", n.edges * real + 2 * number);
+    else if (!plan_.needs.body.topology_changes)
       add(Part::output_cells, "cells, their masses and the boundary by vertex numbers",
           "/output: frames show the cells, diagnostics tell mass and boundary",
           n.cells * (sizeof(CellKind) + number + real + number) + number + problem_.mesh.nodes.size() * number +
               (n.boundary_facets + 1 + n.boundary_corners) * number);
     add(Part::frames, "the cells where they are", output_reason("frames_every", scene_.output.frame_steps));
+    if (!scene_.probes.empty())
+      add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes",
+          scene_.probes.size() * number);
     add(Part::diagnostics, "energies, momenta, boundary, largest stress",
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");

@@ -48,6 +48,7 @@ struct ScenePlan {
   std::uint64_t steps = 0;
   std::vector<EventForecast> events;
   MeanSizes mean;
+  std::size_t driven_springs = 0;  // at driven vertices that move at the start
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
 

@@ -1,17 +1,39 @@
 #include "core/scene/scene_run.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/time/nan_proof.h"
 
 namespace dartboard {
+namespace {
+
+class EnergyDrift {
+ public:
+  explicit EnergyDrift(const Diagnostics& first) : start_(first.energy()) { add(first); }
+  void add(const Diagnostics& d) {
+    change_ = max_or_nan(change_, std::abs(d.energy() - start_));
+    size_ = max_or_nan(size_, d.kinetic + d.elastic);
+  }
+  double value() const { return change_ == 0.0 ? 0.0 : change_ / size_; }
+
+ private:
+  double start_, change_ = 0.0, size_ = 0.0;
+};
+
+}  // namespace
 
 RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps) {
   const OutputPlan plan = times.in_steps_of(simulation.step());
+  const std::optional<std::uint64_t> probe_steps = plan.probe_steps ? plan.probe_steps : plan.diagnostic_steps;
   const std::uint64_t end = std::min(simulation.step_count(), most_steps.value_or(simulation.step_count()));
   RunResult result;
   result.first = result.last = simulation.diagnostics();
+  EnergyDrift drift(result.first);
   watcher.frame(simulation.frame());
   watcher.diagnostics(result.first);
+  watcher.probes(simulation.probes());
   while (simulation.steps_done() < end) {
     result.divergence = simulation.advance();
     if (result.divergence) break;
@@ -22,10 +44,13 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     if (due(plan.frame_steps)) watcher.frame(simulation.frame());
     if (due(plan.diagnostic_steps)) {
       result.last = simulation.diagnostics();
+      drift.add(result.last);
       watcher.diagnostics(result.last);
     }
+    if (due(probe_steps)) watcher.probes(simulation.probes());
     watcher.stepped(simulation);
   }
+  result.energy_drift = drift.value();
   return result;
 }
 

@@ -14,12 +14,15 @@ class RunWatcher {
   virtual ~RunWatcher() = default;
   virtual void frame(const Frame&) {}
   virtual void diagnostics(const Diagnostics&) {}
+  virtual void probes(const ProbeRow&) {}
   virtual void stepped(const Simulation&) {}
 };
 
 struct RunResult {
   std::optional<Divergence> divergence;
   Diagnostics first, last;  // of those handed out
+  // largest change of the total energy in any of them, over the largest sum of kinetic and elastic energy
+  double energy_drift = 0.0;
 };
 
 /// Run to the end, to `most_steps`, or until the motion diverges. The first state is always handed out, and the last if

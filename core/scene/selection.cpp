@@ -18,35 +18,54 @@ bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
   return (x - sphere.centre).norm() <= sphere.radius;
 }
 
-std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
-                                         std::span<const Eigen::Vector3d> points) {
-  std::vector<bool> chosen(points.size(), false);
-  for (std::size_t s = 0; s < selections.size(); ++s) {
-    if (const auto* by_id = std::get_if<IdSelection>(&selections[s])) {
-      for (std::size_t k = 0; k < by_id->ids.size(); ++k) {
-        if (by_id->ids[k] >= points.size())
-          throw InputError(fmt::format("/fixed/{}/ids/{}: is {}; expected a point of the mesh, less than {}", s, k,
-                                       by_id->ids[k], points.size()));
-        chosen[by_id->ids[k]] = true;
-      }
-      continue;
+namespace {
+
+void choose(const VertexSelection& selection, std::span<const Eigen::Vector3d> points, std::string_view path,
+            std::vector<bool>& chosen) {
+  if (const auto* by_id = std::get_if<IdSelection>(&selection)) {
+    for (std::size_t k = 0; k < by_id->ids.size(); ++k) {
+      if (by_id->ids[k] >= points.size())
+        throw InputError(fmt::format("{}/ids/{}: is {}; expected a point of the mesh, less than {}", path, k,
+                                     by_id->ids[k], points.size()));
+      chosen[by_id->ids[k]] = true;
     }
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const bool inside = std::visit(
-          [&](const auto& region) {
-            if constexpr (requires { contains(region, points[p]); })
-              return contains(region, points[p]);
-            else
-              return false;
-          },
-          selections[s]);
-      if (inside) chosen[p] = true;
-    }
+    return;
   }
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const bool inside = std::visit(
+        [&](const auto& region) {
+          if constexpr (requires { contains(region, points[p]); })
+            return contains(region, points[p]);
+          else
+            return false;
+        },
+        selection);
+    if (inside) chosen[p] = true;
+  }
+}
+
+std::vector<std::uint32_t> numbers_of(const std::vector<bool>& chosen) {
   std::vector<std::uint32_t> numbers;
-  for (std::uint32_t p = 0; p < points.size(); ++p)
+  for (std::uint32_t p = 0; p < chosen.size(); ++p)
     if (chosen[p]) numbers.push_back(p);
   return numbers;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
+                                         std::string_view path) {
+  std::vector<bool> chosen(points.size(), false);
+  choose(selection, points, path, chosen);
+  return numbers_of(chosen);
+}
+
+std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
+                                         std::span<const Eigen::Vector3d> points, std::string_view path) {
+  std::vector<bool> chosen(points.size(), false);
+  for (std::size_t s = 0; s < selections.size(); ++s)
+    choose(selections[s], points, fmt::format("{}/{}", path, s), chosen);
+  return numbers_of(chosen);
 }
 
 }  // namespace dartboard

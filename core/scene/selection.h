@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -39,10 +40,13 @@ bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
 
-/// The numbers of the points in any of the selections, ascending, each once.
+/// The numbers of the points in the selection at `path`, ascending, each once.
 ///
-/// throws  InputError for an id that is no point, naming the selection and the id
+/// throws  InputError "PATH/ids/1: ..." for an id that is no point
+std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
+                                         std::string_view path);
+/// The same for those in any of the selections in the list at `path`.
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
-                                         std::span<const Eigen::Vector3d> points);
+                                         std::span<const Eigen::Vector3d> points, std::string_view path = "/fixed");
 
 }  // namespace dartboard

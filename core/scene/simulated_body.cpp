@@ -1,5 +1,6 @@
 #include "core/scene/simulated_body.h"
 
+#include "core/plain/error.h"
 #include "core/scene/body_of_columns.h"
 #include "core/scene/body_on_map.h"
 
@@ -8,6 +9,7 @@ namespace dartboard {
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
   if (!needs.topology_changes) return std::make_unique<BodyOfColumns>(problem, needs);
   switch (needs.storage) {
+    case Storage::links: throw InputError("a chain has no cells that could change");
     case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem);
     case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem);
     case Storage::any_cells: break;

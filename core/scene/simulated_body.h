@@ -2,8 +2,11 @@
 // A body that moves and changes, whatever map it is on: the one place where scenes do not know the type of the map.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/problem.h"
@@ -42,6 +45,12 @@ class SimulatedBody {
   /// Positions and velocities; valid until the next event.
   virtual Motion motion() = 0;
 
+  /// Follow a vertex from now on, wherever its number goes: `tracked` has one more. None of it changes the body.
+  void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
+  /// The numbers now of the vertices tracked; `no_vertex` for those removed.
+  std::span<const std::uint32_t> tracked() const { return tracked_; }
+  static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+
   /// throws  InputError "/events/3/...: ..." if it cannot happen to this body
   virtual std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) = 0;
 
@@ -60,10 +69,13 @@ class SimulatedBody {
   virtual std::string violation() const = 0;
   /// What its parts take now.
   virtual MemoryReport memory() const = 0;
+
+ protected:
+  std::vector<std::uint32_t> tracked_;
 };
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
-/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not: columns, and no map.
+/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not, or of a chain: columns, and no map.
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

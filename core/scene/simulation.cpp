@@ -71,12 +71,15 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: /body: {}", scene.file, error.what()));
   }
   try {
+    driven_ = DrivenVertices(scene, problem.mesh.points, step_);
+    track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator);
     for (const SceneEvent& event : scene.events)
       events_.push_back(
           {body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
            !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action)});
     happen();
+    drive();
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
@@ -102,7 +105,7 @@ std::optional<Divergence> Simulation::advance() {
   const std::size_t operations = operations_;
   try {
     happen();
-    if (operations_ != operations) {
+    if (drive() || operations_ != operations) {
       look_at_step();
       start_ = detector_.system_changed(body_->system(), body_->motion());
     }
@@ -172,6 +175,12 @@ void Simulation::happen() {
   if (operations > 0) integrator_->restart();
 }
 
+bool Simulation::drive() {
+  const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
+  if (changed) integrator_->restart();
+  return changed;
+}
+
 Simulation::Sums Simulation::sums() const {
   const SpringSystem system = body_->system();
   const VertexColumns& v = body_->vertices();
@@ -231,8 +240,19 @@ MemoryReport Simulation::memory() const {
   report.push_back({Part::integrator, integrator_->bytes() - integrator_->solver_bytes()});
   report.push_back({Part::solver, integrator_->solver_bytes()});
   report.push_back({Part::detector, detector_.bytes()});
+  report.push_back({Part::driven, driven_.bytes() + detector_.driven_bytes()});
+  report.push_back({Part::probes, body_->tracked().size_bytes()});
   for (std::size_t k = 0; k < events_.size(); ++k) report.push_back({Part::event, events_[k].event->bytes(), k});
   return report;
+}
+
+ProbeRow Simulation::probes() const {
+  const VertexColumns& v = body_->vertices();
+  ProbeRow row{time(), {}};
+  for (const std::uint32_t k : body_->tracked())
+    row.probes.push_back(k == SimulatedBody::no_vertex ? std::nullopt
+                                                       : std::optional(VertexMotion{v.position[k], v.velocity[k]}));
+  return row;
 }
 
 Frame Simulation::frame() const {

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "core/scene/diagnostics.h"
+#include "core/scene/driven_vertices.h"
 #include "core/scene/event_clock.h"
 #include "core/scene/frame.h"
+#include "core/scene/probes.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulated_body.h"
 #include "core/time/divergence.h"
@@ -71,7 +73,7 @@ class Simulation {
   /// [s] steps_done() * step
   double time() const { return static_cast<double>(done_) * step_; }
 
-  /// One step, then the events due at its end.
+  /// One step, then the events due at its end, then the velocities of driven vertices.
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
   /// faster than light, or when there is more energy than anything in the scene can supply (DivergenceDetector); the
@@ -89,6 +91,7 @@ class Simulation {
   std::size_t operations() const { return operations_; }
   Diagnostics diagnostics() const;
   Frame frame() const;
+  ProbeRow probes() const;
 
   /// Measure momentum and energy on both sides of events from now on. It reads and changes nothing.
   void watch_events(bool watch) { watch_ = watch; }
@@ -106,6 +109,7 @@ class Simulation {
   struct Sums;
   Sums sums() const;
   void happen();
+  bool drive();
   void compare(const Sums& before);
   void look_at_step();
   std::optional<Divergence> refused() const;
@@ -116,6 +120,7 @@ class Simulation {
   double step_;
   std::uint64_t step_count_, done_ = 0;
   std::unique_ptr<SimulatedBody> body_;
+  DrivenVertices driven_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<Scheduled> events_;
   std::size_t operations_ = 0;

@@ -14,6 +14,10 @@ SystemArrays::SystemArrays(const Problem& problem, const MeshTally& tally)
         problem.material.density * std::abs(signed_measure(mesh, c)) / static_cast<double>(nodes.size());
     for (const std::uint32_t p : nodes) mass_at[p] += share;
   }
+  if (mesh.cell_count() == 0)  // a chain: each link gives half its mass to each end
+    for (const SpringEnds& link : ends)
+      for (const std::uint32_t p : link)
+        mass_at[p] += 0.5 * problem.material.density * (mesh.points[link[1]] - mesh.points[link[0]]).norm();
   std::vector<std::uint8_t> held(mesh.points.size(), 0);
   for (const std::uint32_t p : problem.fixed) held[p] = 1;
   for (const std::uint32_t p : tally.point) {

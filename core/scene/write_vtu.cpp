@@ -99,9 +99,15 @@ std::string to_vtu(const Frame& frame) {
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     types.push_back(cell.type);
   }
-  const auto wide = [](const std::vector<std::uint32_t>& values) {
-    return std::vector<std::int64_t>(values.begin(), values.end());
-  };
+  std::vector<std::int64_t> mesh_cell(frame.mesh_cell.begin(), frame.mesh_cell.end());
+  std::vector<std::int64_t> component(frame.component.begin(), frame.component.end());
+  for (const auto& link : frame.links) {
+    connectivity.insert(connectivity.end(), link.begin(), link.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(3);  // a line
+    mesh_cell.push_back(static_cast<std::int64_t>(mesh_cell.size()));
+    component.push_back(0);
+  }
 
   std::string out =
       "<?xml version=\"1.0\"?>\n"
@@ -114,7 +120,7 @@ std::string to_vtu(const Frame& frame) {
   out.replace(field, std::string_view("NumberOfComponents=\"1\"").size(), "NumberOfTuples=\"1\"");
   fmt::format_to(std::back_inserter(out),
                  "    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n", points,
-                 cells);
+                 types.size());
   append_array(out, "Points", mesh.points);
   out += "      </Points>\n      <Cells>\n";
   append_array(out, "connectivity", connectivity);
@@ -124,8 +130,8 @@ std::string to_vtu(const Frame& frame) {
   append_array(out, "velocity", frame.velocity);
   append_array(out, "mass", frame.mass);
   out += "      </PointData>\n      <CellData Scalars=\"component\">\n";
-  append_array(out, "mesh_cell", wide(frame.mesh_cell));
-  append_array(out, "component", wide(frame.component));
+  append_array(out, "mesh_cell", mesh_cell);
+  append_array(out, "component", component);
   out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mechanics/spring_forces.h"
 #include "core/time/energy.h"
 #include "core/time/trial_state.h"
 
@@ -45,7 +46,35 @@ DivergenceDetector::Sums DivergenceDetector::sums(const SpringSystem& system, Mo
 }
 
 double DivergenceDetector::available(const Sums& now) const {
-  return energy_ + small_ + std::abs(now.gravity - gravity_);
+  return energy_ + small_ + std::abs(now.gravity - gravity_) + most_work_;
+}
+
+void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) {
+  driven_.clear();
+  driven_springs_.clear();
+  const auto is_driven = [&](std::uint32_t i) { return system.fixed[i] && motion.v[i] != Vector3d(0, 0, 0); };
+  for (std::uint32_t i = 0; i < motion.v.size(); ++i)
+    if (is_driven(i)) driven_.push_back(i);
+  if (driven_.empty()) return;
+  for (std::uint32_t s = 0; s < system.springs.size(); ++s) {
+    const auto [i, j] = system.ends[s];
+    if (!is_driven(i) && !is_driven(j)) continue;
+    const bool rigid = system.fixed[i] && system.fixed[j] && motion.v[i] == motion.v[j];
+    if (!rigid) driven_springs_.push_back(s);
+  }
+}
+
+// What moves a driven vertex does work against the springs and the weight there.
+double DivergenceDetector::power(const SpringSystem& system, Motion motion) const {
+  double sum = 0.0;
+  for (const std::uint32_t s : driven_springs_) {
+    const auto [i, j] = system.ends[s];
+    const Vector3d f = spring_force(system.springs[s], motion.x[j] - motion.x[i], motion.v[j] - motion.v[i]);
+    if (system.fixed[i]) sum -= f.dot(motion.v[i]);
+    if (system.fixed[j]) sum += f.dot(motion.v[j]);
+  }
+  for (const std::uint32_t i : driven_) sum -= system.mass[i] * system.gravity.dot(motion.v[i]);
+  return sum;
 }
 
 double DivergenceDetector::energy_of_some_springs(const SpringSystem& system, Motion motion) {
@@ -71,6 +100,9 @@ StepResult DivergenceDetector::begin(const SpringSystem& system, Motion motion, 
   const double elastic = elastic_energy(system, motion.x);
   const double floor = small_energy(system, motion, step_);
   if (!now.finite || !std::isfinite(elastic) || !std::isfinite(floor)) return diagnose(system, motion);
+  find_driven(system, motion);
+  power_ = power(system, motion);
+  work_ = most_work_ = 0.0;
   energy_ = std::min(now.kinetic + elastic, ceiling);
   small_ = floor;
   gravity_ = now.gravity;
@@ -92,6 +124,12 @@ StepResult DivergenceDetector::system_changed(const SpringSystem& system, Motion
 
 StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion motion) {
   ++since_kept_;
+  if (!driven_.empty()) {
+    const double power_now = power(system, motion);
+    work_ += step_ / 2 * (power_ + power_now);
+    power_ = power_now;
+    if (work_ > most_work_) most_work_ = work_;  // one that is no number is of a state that is none, and found by it
+  }
   if (++since_start_ < next_check_) return {};
   next_check_ += std::min(since_start_, check_steps);
   ++checks_;

@@ -14,12 +14,14 @@ namespace dartboard {
 /// Compares what moves with what there was to move it.
 ///
 /// Forces do work from an elastic energy that is never negative, from gravity, and from vertices that are driven; the
-/// rest dissipates. So kinetic energy stays below T_0 + V_0 plus the work of gravity, and so does the energy of any
-/// springs. Compared are the kinetic energy, two sums over the vertices at a hundredth of the cost of a force
-/// evaluation, and the energy of some springs, others each time: what is overdamped grows without moving fast. A stable
-/// method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 - theta^2 / 4). More than `gain` times the
-/// energy available, that is a tenfold amplitude, is no oscillation of a stable one below
-/// 0.99 of its limit.
+/// rest dissipates. So kinetic energy stays below T_0 + V_0 plus the work of gravity and of driven vertices, and so
+/// does the energy of any springs. The work of driven vertices is summed after every step, by the trapezoidal rule,
+/// over the springs that end at them. An unstable motion raises it in proportion to its amplitude and its own energy
+/// with the square of that: it cannot hide behind it. Compared are the kinetic energy, two sums over the vertices at a
+/// hundredth of the cost of a force evaluation, and the energy of some springs, others each time: what is overdamped
+/// grows without moving fast. A stable method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 -
+/// theta^2 / 4). More than `gain` times the energy available, that is a tenfold amplitude, is no oscillation of a
+/// stable one below 0.99 of its limit.
 ///
 /// Sums, never maxima: a sum with a NaN in it is NaN.
 class DivergenceDetector {
@@ -56,6 +58,9 @@ class DivergenceDetector {
 
   std::uint64_t checks() const { return checks_; }
   std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
+  /// The same for what the work of driven vertices is summed over.
+  std::size_t driven_bytes() const { return bytes_of(driven_, driven_springs_); }
+  std::size_t driven_springs() const { return driven_springs_.size(); }
 
  private:
   struct Sums {
@@ -65,6 +70,8 @@ class DivergenceDetector {
   };
   Sums sums(const SpringSystem& system, Motion motion) const;
   double available(const Sums& now) const;
+  void find_driven(const SpringSystem& system, Motion motion);
+  double power(const SpringSystem& system, Motion motion) const;
   double energy_of_some_springs(const SpringSystem& system, Motion motion);
   StepResult begin(const SpringSystem& system, Motion motion, double ceiling);
   StepResult diagnose(const SpringSystem& system, Motion motion) const;
@@ -74,6 +81,8 @@ class DivergenceDetector {
   double energy_ = 0.0;   // kinetic and elastic, that the run began with
   double gravity_ = 0.0;  // at the beginning
   double small_ = 0.0;    // what rounding, the first step of gravity, and driven vertices may supply
+  std::vector<std::uint32_t> driven_, driven_springs_;  // vertices, and the springs at them that may change in length
+  double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;   // [W] now, [J] of driven vertices since the run began, its peak
   std::size_t first_spring_ = 0;
   std::uint64_t since_start_ = 0, next_check_ = 1, since_kept_ = 0, checks_ = 0;
   std::vector<Eigen::Vector3d> kept_x_, kept_v_;

@@ -1,0 +1,71 @@
+#include "core/scene/probes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+std::uint32_t vertex_of(const Probe& probe, const VertexColumns& v) {
+  if (const auto* point = std::get_if<std::uint32_t>(&probe.vertex)) {
+    const auto found = std::find(v.point.begin(), v.point.end(), *point);
+    if (found == v.point.end())
+      throw InputError(
+          fmt::format("{}/vertex: is {}; expected a point of the mesh, less than {}", probe.path, *point, v.size()));
+    return static_cast<std::uint32_t>(found - v.point.begin());
+  }
+  std::uint32_t best = 0, lowest = no_point;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t k = 0; k < v.size(); ++k) {
+    const double far = (v.position[k] - std::get<Eigen::Vector3d>(probe.vertex)).squaredNorm();
+    // of several, the lowest point of the mesh: vertices are numbered in another order
+    if (far < least || (far == least && v.point[k] < lowest)) {
+      best = k;
+      least = far;
+      lowest = v.point[k];
+    }
+  }
+  if (lowest == no_point) throw InputError(probe.path + "/near: the body has no vertex; expected one");
+  return best;
+}
+
+// A field of a CSV file (RFC 4180).
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
+
+void track_probes(std::span<const Probe> probes, SimulatedBody& body) {
+  for (const Probe& probe : probes) body.track(vertex_of(probe, body.vertices()));
+}
+
+std::string probes_header(std::span<const Probe> probes) {
+  std::string header = "time [s]";
+  for (const Probe& probe : probes)
+    for (const char* quantity : {"x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]"})
+      header += ',' + field(probe.name + ' ' + quantity);
+  return header + '\n';
+}
+
+std::string probes_row(const ProbeRow& row) {
+  std::string text = fmt::format("{:.17g}", row.time);
+  for (const auto& probe : row.probes) {
+    if (!probe) {
+      text += ",,,,,,";
+      continue;
+    }
+    for (const Eigen::Vector3d& value : {probe->position, probe->velocity})
+      for (int k = 0; k < 3; ++k) fmt::format_to(std::back_inserter(text), ",{:.17g}", value[k]);
+  }
+  return text + '\n';
+}
+
+}  // namespace dartboard
