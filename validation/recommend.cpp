@@ -8,6 +8,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "validation/break_even.h"
 
 namespace dartboard {
 namespace {
@@ -235,13 +236,6 @@ FullLength pilot_full_length(Candidate& c, Pilots& pilots) {
   return FullLength::confirmed;
 }
 
-// Steps that a method of order p needs for a motion of that rate and size: the local error of a turn, over all turns.
-double steps_of_law(const SceneFeatures& f, int order, double duration, double error) {
-  const double turn = duration * f.motion_rate;
-  const double constant = order == 1 ? 0.5 : order == 2 ? 1.0 / 12.0 : 1e-3;
-  return turn * std::pow(std::max(constant * f.motion_size * turn / error, 1e-3), 1.0 / order);
-}
-
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.usable() != b.usable()) return a.usable();
@@ -319,7 +313,8 @@ Recommendation recommend(const TradeoffScene& scene, double error, const CpuCloc
   });
   for (const Scheme& scheme : schemes) {
     Candidate c = begin(scheme);
-    const double needed = steps_of_law(r.features, scheme.order, scene.duration, error);
+    double needed = steps_for_error(r.features, scheme.order, scene.duration, error);
+    if (!scheme.implicit) needed = std::max(needed, steps_for_stability(scene.duration, c.limit_h));
     double step_s = scheme.stages * r.features.force_s;
     if (scheme.implicit) {
       if (r.features.implicit_step_s == 0.0)

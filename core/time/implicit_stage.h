@@ -55,6 +55,7 @@ class ImplicitStage {
   void set_residual(const Problem& p, std::span<const Eigen::Vector3d> w, WorkCounters& work);
   void set_allowed(const Problem& p, std::span<const Eigen::Vector3d> w);
   double excess() const;
+  StepResult nonfinite_residual(double excess) const;
   double residual_norm(const Problem& p) const;
   struct Change {
     double value, rounding;
