@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -25,17 +26,18 @@ struct Options {
 };
 constexpr std::string_view parts[]{"accuracy", "edits", "updates", "crossover", "steps"};
 
-SolverResults run(const Options& options, const std::function<void(const std::string&)>& say) {
+SolverResults run_part(std::string_view part, const Options& options,
+                       const std::function<void(const std::string&)>& say) {
   SolverResults results;
   const CpuClock clock = thread_cpu_ns;
-  if (options.wants("accuracy")) {
+  if (part == "accuracy") {
     SolveAccuracyOptions how;
     if (options.quick) how = {.side = 4, .h_omega_step = 1e3, .pcg_tolerance = 1e-10};
     say("accuracy: all scales of mass, stiffness and step");
     results.cells = solve_accuracy(how);
     results.indefinite = indefinite_systems();
   }
-  if (options.wants("edits")) {
+  if (part == "edits") {
     const std::size_t edits = options.quick ? 200 : 3000;
     for (const double stretch : {0.0, 0.2})
       for (const EditPolicy& policy : edit_policies()) {
@@ -43,7 +45,7 @@ SolverResults run(const Options& options, const std::function<void(const std::st
         results.edits.push_back(run_edits(policy, options.quick ? 6 : 8, stretch, edits, clock));
       }
   }
-  if (options.wants("updates"))
+  if (part == "updates")
     for (const int side : {8, 12, 16}) {
       if (options.quick && side > 8) continue;
       for (const double stretch : {0.0, 0.2}) {
@@ -52,7 +54,7 @@ SolverResults run(const Options& options, const std::function<void(const std::st
         say(fmt::format("updates: {}", results.updates.back().body));
       }
     }
-  if (options.wants("crossover")) {
+  if (part == "crossover") {
     const CrossoverOptions how;
     results.crossover_error = how.error;
     for (const int side : {8, 12, 16}) {
@@ -65,11 +67,24 @@ SolverResults run(const Options& options, const std::function<void(const std::st
       }));
     }
   }
-  if (options.wants("steps"))
+  if (part == "steps")
     // the longest step that the paper's method could take, and longer ones
     for (const double h_omega : {2.83, 10.0, 100.0})
       results.steps.push_back(time_implicit_step(h_omega, options.quick ? 6 : 30, options.seed));
   return results;
+}
+
+void append(SolverResults& all, SolverResults part) {
+  const auto move_to = [](auto& to, auto& from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+  };
+  move_to(all.cells, part.cells);
+  move_to(all.indefinite, part.indefinite);
+  move_to(all.edits, part.edits);
+  move_to(all.updates, part.updates);
+  move_to(all.crossovers, part.crossovers);
+  move_to(all.steps, part.steps);
+  if (part.crossover_error > 0.0) all.crossover_error = part.crossover_error;
 }
 
 void validate(const Options& options, Outcome& outcome) {
@@ -91,9 +106,15 @@ void validate(const Options& options, Outcome& outcome) {
   manifest["quick"] = options.quick;
   folder.write_manifest(manifest);
 
-  const SolverResults results = run(options, say);
+  // each part is written when it is done: a run that dies keeps what it had measured
   auto samples = folder.json_lines("samples.jsonl");
-  for_each_sample(results, [&](const nlohmann::json& sample) { samples.append(sample); });
+  SolverResults results;
+  for (const std::string_view part : parts) {
+    if (!options.wants(part)) continue;
+    SolverResults found = run_part(part, options, say);
+    for_each_sample(found, [&](const nlohmann::json& sample) { samples.append(sample); });
+    append(results, std::move(found));
+  }
   for (const NamedTable& t : tables_of(results)) {
     say(fmt::format("\n{}\n\n{}\n{}", t.heading, to_text(t.table), t.note));
     folder.write_table(t.name, t.heading, t.table, t.note);
