@@ -35,7 +35,7 @@ struct FactorRates {
   double supernodal_nonzero = 1.2e-8;
   double simplicial_flop = 3.8e-10;
   double update_flop = 1.5e-10;
-  double row_flop = 9e-10;     // of a row that is replaced
+  double row_flop = 4e-10;     // of a row that is replaced
   double conversion = 8.5e-9;  // of a supernodal factor to a simplicial one, per nonzero
   double analysis = 2.5e-8;    // per unknown and per entry of the matrix, with a given ordering
 };
