@@ -307,6 +307,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   topology->callback([options, &outcome] { validate(*options, outcome); });
   add_validate_conservation(*verb, outcome);
   add_validate_order(*verb, outcome);
+  add_validate_solvers(*verb, outcome);
 }
 
 }  // namespace dartboard

@@ -8,5 +8,6 @@ namespace dartboard {
 // Each adds a verb to `validate`; `outcome` must outlive the parse.
 void add_validate_conservation(CLI::App& validate, Outcome& outcome);
 void add_validate_order(CLI::App& validate, Outcome& outcome);
+void add_validate_solvers(CLI::App& validate, Outcome& outcome);
 
 }  // namespace dartboard

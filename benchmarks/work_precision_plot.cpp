@@ -12,7 +12,9 @@ namespace {
 
 struct Look {
   std::string colour;
-  int symbol;  // filled; the hollow one is the number before it
+  int symbol = 7;   // filled; the hollow one is the number before it
+  int variant = 0;  // symbol of the same integrator with another solver; 0: it is no variant
+  std::string dash{};
 };
 
 // Reds and browns for the baselines, blues and greens for explicit methods, the rest for implicit ones.
@@ -37,8 +39,19 @@ Look look_of(const std::string& contender, std::size_t number) {
   static const std::array<std::string, 4> others{"#3b6e22", "#a03070", "#306090", "#906030"};
   const std::string base = contender.substr(0, contender.find(','));
   const auto found = known.find(base);
-  if (found != known.end()) return found->second;
-  return {others[number % others.size()], 7};
+  Look look = found != known.end() ? found->second : Look{others[number % others.size()], 7};
+  // the linear solver shows in symbol and line: a cross and dashes, a star and dots
+  if (contender.ends_with("fresh factor")) {
+    look.variant = 1;
+    look.dash = "-";
+  } else if (contender.ends_with("conjugate gradients")) {
+    look.variant = 3;
+    look.dash = ".";
+  } else if (base != contender) {
+    look.variant = look.symbol - 1;
+    look.dash = "-";
+  }
+  return look;
 }
 
 double decade_below(double x) { return std::pow(10.0, std::floor(std::log10(x))); }
@@ -99,19 +112,14 @@ Plot work_precision_plot(const WorkPrecision& study) {
     line.size = 0.8;
     line.width = 1.4;
     line.opacity = 0.55;
-    const bool variant = contender.find(',') != std::string::npos;
-    if (variant) line.dash = "-";
-    PlotSeries hollow = line;
-    hollow.title.clear();
-    hollow.width = 0.0;
-    hollow.symbol = look.symbol - 1;
+    line.dash = look.dash;
     for (const WorkPoint* p : by_name[contender]) {
       if (p->failed() || p->standing == Standing::useless) continue;
       const double y = std::clamp(p->errors.x, plot.y_low * 1.2, top);
       line.points.push_back({p->cost, y});
     }
-    if (variant) {
-      line.symbol = look.symbol - 1;
+    if (look.variant != 0) {
+      line.symbol = look.variant;
       line.size = 0.7;
     }
     plot.series.push_back(line);
@@ -131,6 +139,7 @@ Plot work_precision_plot(const WorkPrecision& study) {
     bold.size = 1.7;
     PlotSeries floor = bold;
     floor.symbol = look.symbol - 1;
+    if (look.variant != 0) bold.symbol = look.variant;
     for (const WorkPoint* p : by_name[contender])
       if (p->standing == Standing::front)
         (p->under_floor ? floor : bold).points.push_back({p->cost, std::max(p->errors.x, plot.y_low * 1.2)});

@@ -107,6 +107,14 @@ TEST(FrequencyBound, IsExactForTheHighestModeOfAnEndlessChainAndAboveThatOfAFini
   EXPECT_EQ(frequency_bound(SpringArrays{}.system()), 0.0);
 }
 
+TEST(FrequencyBound, DoesNotLoseWhatIsNotANumber) {
+  SpringArrays arrays;
+  for (int i = 0; i < 3; ++i) arrays.add_vertex(1.0, {1.0 * i, 0, 0});
+  arrays.add_spring(0, 1, NAN, 1.0);
+  arrays.add_spring(1, 2, 4.0, 1.0);
+  EXPECT_TRUE(std::isnan(frequency_bound(arrays.system())));
+}
+
 TEST(FrequencyBound, LooksAtVerticesThatMove) {
   SpringArrays arrays;
   arrays.add_vertex(1.0, {0, 0, 0});

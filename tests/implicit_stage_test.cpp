@@ -143,7 +143,11 @@ TEST(ImplicitStage, NotANumberIsReportedByEverySolver) {
   for (const LinearSolver solver : solvers) {
     ImplicitOptions options;
     options.solver = solver;
-    EXPECT_EQ(solve(body, options, 0.01).result.code, StepCode::nonfinite);
+    const StepResult result = solve(body, options, 0.01).result;
+    EXPECT_EQ(result.code, StepCode::nonfinite);
+    EXPECT_EQ(result.witness, Witness::vertex);
+    // the lowest of the vertex and its neighbours, whose residual is no number either
+    EXPECT_LE(result.number, 5u);
   }
 }
 

@@ -109,6 +109,19 @@ TEST(WorkPrecisionPlot, AFailedRunStandsAtTheBorderWhereItWouldHaveEndedWithItsD
   EXPECT_TRUE(found);
 }
 
+TEST(WorkPrecisionPlot, LinearSolversOfOneIntegratorAreToldApart) {
+  WorkPrecision study;
+  study.points = {run_of("ros2", 20, 1e-3, 10.0), run_of("ros2, fresh factor", 20, 1e-3, 20.0),
+                  run_of("ros2, conjugate gradients", 20, 1e-3, 30.0)};
+  classify(study.points, 0.0);
+  std::vector<std::pair<int, std::string>> looks;
+  for (const PlotSeries& s : work_precision_plot(study).series)
+    if (s.title.starts_with("ros2")) looks.emplace_back(s.symbol, s.dash);
+  ASSERT_EQ(looks.size(), 3u);
+  std::sort(looks.begin(), looks.end());
+  EXPECT_EQ(std::unique(looks.begin(), looks.end()), looks.end());
+}
+
 TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
   WorkPrecision study;
   study.points = {run_of("rk4", 20, 1e-6, 100.0), run_of("verlet", 20, 1e-2, 10.0), run_of("verlet", 80, 1e-3, 400.0)};

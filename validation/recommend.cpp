@@ -10,6 +10,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "validation/break_even.h"
 #include "validation/candidate_pilots.h"
 
 namespace dartboard {
@@ -20,13 +21,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_implicit_step = 10.0;
 // The law knows the motion at the start only: it has to be wrong by this before a method is lost to it.
 constexpr double doubt = 4.0;
-
-// Steps that a method of order p needs for a motion of that rate and size: the local error of a turn, over all turns.
-double steps_of_law(const SceneFeatures& f, int order, double duration, double error) {
-  const double turn = duration * f.motion_rate;
-  const double constant = order == 1 ? 0.5 : order == 2 ? 1.0 / 12.0 : 1e-3;
-  return turn * std::pow(std::max(constant * f.motion_size * turn / error, 1e-3), 1.0 / order);
-}
 
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -110,7 +104,7 @@ class Search {
   void try_explicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
     const double step_s = scheme.stages * r_.features.force_s;
-    const double needed = steps_of_law(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
     const double least_s = scene_.duration / c.limit_h * step_s;
     if (needed * step_s > doubt * pilots_->cheapest_s())
       c.pruned = law(needed, step_s);
@@ -124,7 +118,7 @@ class Search {
 
   void try_implicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
-    const double needed = steps_of_law(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
     double& measured_s = r_.features.implicit_step_s;
     double step_s = scheme.stages * (measured_s > 0.0 ? measured_s : least_implicit_step * r_.features.force_s);
     if (measured_s == 0.0 && needed * step_s <= doubt * pilots_->cheapest_s()) {

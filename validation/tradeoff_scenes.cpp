@@ -103,31 +103,6 @@ std::vector<std::uint8_t> inclusion(const Mesh& mesh) {
   return stiff;
 }
 
-TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, bool damped) {
-  const std::vector<std::uint8_t> stiff = inclusion(mesh);
-  SpringScene scene = smooth_scene(std::move(mesh), soft, 26.4);
-  // the inclusion starts at rest: stretched as the rest is, it would hold almost all of the energy
-  Problem& problem = scene.problem;
-  for (std::uint32_t c = 0; c < stiff.size(); ++c)
-    if (stiff[c])
-      for (const std::uint32_t i : problem.mesh.cell(c)) {
-        scene.initial_position[i] = problem.mesh.points[i];
-        problem.initial_velocity[i].setZero();
-      }
-  const Mesh cells = problem.mesh;
-  if (damped) {
-    // c = beta k, zeta = beta omega / 2
-    PreparedScene undamped = prepare(scene);
-    stiffen(undamped, cells, stiff, factor);
-    problem.material.damping = 2.0 / undamped.fastest_rate * problem.material.stiffness;
-  }
-  TradeoffScene made = tradeoff_scene(std::move(what), scene);
-  stiffen(*made.body, cells, stiff, factor);
-  made.motion = made.body->motion;
-  made.fastest_rate = made.body->fastest_rate;
-  return made;
-}
-
 }  // namespace
 
 std::span<const TradeoffEntry> tradeoff_scenes() { return table; }
@@ -167,6 +142,32 @@ TradeoffScene tradeoff_scene(std::string what, const SpringScene& scene) {
   made.duration = scene.duration;
   made.fastest_rate = made.body->fastest_rate;
   made.edge = reference::mean_rest_length(made.motion.network);
+  return made;
+}
+
+TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const StiffSceneOptions& options) {
+  const std::vector<std::uint8_t> stiff = inclusion(mesh);
+  SpringScene scene = smooth_scene(std::move(mesh), soft, options.phase);
+  scene.checkpoints = options.checkpoints;
+  // the inclusion starts at rest: stretched as the rest is, it would hold almost all of the energy
+  Problem& problem = scene.problem;
+  for (std::uint32_t c = 0; c < stiff.size(); ++c)
+    if (stiff[c])
+      for (const std::uint32_t i : problem.mesh.cell(c)) {
+        scene.initial_position[i] = problem.mesh.points[i];
+        problem.initial_velocity[i].setZero();
+      }
+  const Mesh cells = problem.mesh;
+  if (options.damped) {
+    // c = beta k, zeta = beta omega / 2
+    PreparedScene undamped = prepare(scene);
+    stiffen(undamped, cells, stiff, factor);
+    problem.material.damping = 2.0 / undamped.fastest_rate * problem.material.stiffness;
+  }
+  TradeoffScene made = tradeoff_scene(std::move(what), scene);
+  stiffen(*made.body, cells, stiff, factor);
+  made.motion = made.body->motion;
+  made.fastest_rate = made.body->fastest_rate;
   return made;
 }
 
@@ -237,7 +238,8 @@ TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::
       return scene;
     }
     if (name.starts_with("stiff"))
-      return stiff_scene(what, liver(), name.starts_with("stiff-1e4") ? 1e4 : 1e6, name.ends_with("damped"));
+      return stiff_scene(what, liver(), name.starts_with("stiff-1e4") ? 1e4 : 1e6,
+                         {.damped = name.ends_with("damped")});
     SpringScene scene = smooth_scene(liver(), soft, smooth_phase);
     const double half = 0.5 * scene.duration;
     if (name == "cut")

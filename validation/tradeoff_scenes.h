@@ -47,6 +47,14 @@ TradeoffScene tradeoff_scene(std::string what, const SpringScene& scene);
 /// `phase` is the duration in units of 1/omega_max.
 TradeoffScene chain_scene(int count, double phase, std::size_t checkpoints = 8);
 
+struct StiffSceneOptions {
+  bool damped = false;  // with a damping ratio of 1 at omega_max
+  double phase = 26.4;  // the duration, in units of 1/omega_max of the soft body
+  std::size_t checkpoints = 8;
+};
+/// A body in soft motion whose tenth of cells nearest to the middle is stiffer by a factor and starts at rest.
+TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const StiffSceneOptions& options);
+
 /// Multiply what some cells contribute to the stiffness and damping of their edges, in the body and in its network.
 ///
 /// The network's numbers come from the cells of the mesh, the body's from its own sum over the darts around an edge.

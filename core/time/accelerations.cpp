@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mechanics/spring_forces.h"
+#include "core/time/nan_proof.h"
 
 namespace dartboard {
 namespace {
@@ -69,7 +70,7 @@ double frequency_bound(const SpringSystem& system) {
     for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
   double highest = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
-    if (!system.fixed[i]) highest = std::max(highest, 2.0 * sum[i] * system.inverse_mass[i]);
+    if (!system.fixed[i]) highest = max_or_nan(highest, 2.0 * sum[i] * system.inverse_mass[i]);
   return std::sqrt(highest);
 }
 

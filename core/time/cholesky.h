@@ -35,7 +35,7 @@ struct FactorRates {
   double supernodal_nonzero = 1.2e-8;
   double simplicial_flop = 3.8e-10;
   double update_flop = 1.5e-10;
-  double row_flop = 3e-10;     // of a row that is replaced
+  double row_flop = 4e-10;     // of a row that is replaced
   double conversion = 8.5e-9;  // of a supernodal factor to a simplicial one, per nonzero
   double analysis = 2.5e-8;    // per unknown and per entry of the matrix, with a given ordering
 };
@@ -46,10 +46,13 @@ struct CholeskyOptions {
   AnalysisGraph graph = AnalysisGraph::nodes;
   std::uint32_t spare_nodes = 0;  // rows kept for vertices to come, so that they can enter by updates
   double order_again = 1.2;       // when nnz(L) grows by this factor, a fresh ordering is found
-  std::uint32_t renew_after =
-      1500;                   // rank-one updates: their rounding adds up, so `follow` factors again after as many
-  double cancellation = 1e3;  // where an update would take away more than so many times what it leaves of a diagonal
-                              // entry, `follow` factors again: the update would lose as many digits
+  // Rank-one updates after which `follow` factors again, a replaced row counting as two: their rounding adds up. During
+  // 3,000 edits of a body of 512 vertices the normwise backward error stays below 5e-16; never renewed it reaches 2e-15
+  // by rows and 1e-14 by terms. One refinement brings it to 2e-17, but doubles the cost of every solution.
+  std::uint32_t renew_after = 1500;
+  // Where an update would take away more than so many times what it leaves of a diagonal entry, `follow` factors again:
+  // the update would lose as many digits.
+  double cancellation = 1e3;
   bool ready_for_updates = false;  // convert supernodal factors at once: an update is then three to five times cheaper
   FactorRates rates = {};
 };
@@ -93,15 +96,22 @@ class Cholesky {
   /// is no factor.
   SolveStatus update(std::span<const RankOneTerm> terms);
 
-  /// Make the factor that of `after`, to which `terms` lead: by an update where the sum of the terms' costs is less
-  /// than that of an analysis with the kept ordering and a factorisation and `renew_after` is not exceeded, otherwise
-  /// by those.
+  /// Make the factor that of `after`, to which `terms` lead, by whatever is predicted to be cheapest: an update by the
+  /// terms; replacing rows, where the terms leave the diagonal blocks of all other vertices as they are; an analysis
+  /// with the kept ordering and a factorisation. Also by the last, where an update would cancel digits (`cancellation`)
+  /// or `renew_after` is exceeded.
+  ///
+  /// A vertex that is dissociated hands springs to its twin at the same place: only their rows change, however many
+  /// springs there are and however they are stretched. The twin's row is a spare one.
   SolveStatus follow(const BlockMatrix& after, std::span<const RankOneTerm> terms);
   SolveStatus follow(const ScalarMatrix& after, std::span<const RankOneTerm> terms);
 
   /// x = A^-1 b. May be called with x and b the same.
   SolveStatus solve(std::span<const Eigen::Vector3d> b, std::span<Eigen::Vector3d> x);
   /// The same, and one step of iterative refinement with the residual in extended precision.
+  ///
+  /// Brings the componentwise backward error (backward_error.h) from up to 3e-11, where scales differ widely, to 4e-16.
+  /// cost    two solutions, and a product with the matrix in extended precision
   SolveStatus solve_refined(const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
                             std::span<Eigen::Vector3d> x);
 

@@ -115,6 +115,13 @@ double ImplicitStage::excess() const {
   return largest;
 }
 
+// The first vertex whose residual is not finite; what is allowed is NaN at all of them then.
+StepResult ImplicitStage::nonfinite_residual(double excess) const {
+  for (std::uint32_t i = 0; i < residual_.size(); ++i)
+    if (!residual_[i].allFinite()) return {StepCode::nonfinite, Witness::vertex, i, "residual", residual_[i].sum()};
+  return {StepCode::nonfinite, Witness::none, 0, "residual", excess};
+}
+
 double ImplicitStage::residual_norm(const Problem& p) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < residual_.size(); ++i) sum += residual_[i].squaredNorm() / p.system.mass[i];
@@ -231,7 +238,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration <= options_.max_iterations; ++iteration) {
     const double now = excess();
-    if (!std::isfinite(now)) return {StepCode::nonfinite, Witness::none, 0, "residual", now};
+    if (!std::isfinite(now)) return nonfinite_residual(now);
     if (now <= 1.0 && (options_.tolerance > 0.0 || now >= 0.5 * last || now == 0.0)) return {};
     if (iteration == options_.max_iterations) break;
     ++work.newton_iterations;

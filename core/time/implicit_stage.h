@@ -63,6 +63,7 @@ class ImplicitStage {
   void subtract_forces(const Problem& p, std::span<const Eigen::Vector3d> w);
   void set_allowed(const Problem& p, std::span<const Eigen::Vector3d> w);
   double excess() const;
+  StepResult nonfinite_residual(double excess) const;
   double residual_norm(const Problem& p) const;
   struct Change {
     double value, rounding;

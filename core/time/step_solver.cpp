@@ -137,7 +137,12 @@ StepResult diagnosis_of(SolveStatus status, const StepSolver& solver) {
       if (node == NodePattern::none) return {StepCode::not_positive_definite, Witness::none, 0, "curvature", 0.0};
       return {StepCode::not_positive_definite, Witness::vertex, node, "pivot", 0.0};
     }
-    case SolveStatus::not_finite: return {StepCode::nonfinite, Witness::none, 0, "solution", NAN};
+    case SolveStatus::not_finite: {
+      for (std::uint32_t i = 0; i < solver.matrix().node_count(); ++i)
+        if (const Eigen::Matrix3d& block = solver.matrix().diagonal_block(i); !block.allFinite())
+          return {StepCode::nonfinite, Witness::vertex, i, "matrix", block.sum()};
+      return {StepCode::nonfinite, Witness::none, 0, "solution", NAN};
+    }
     case SolveStatus::not_converged: return {StepCode::newton_stalled, Witness::none, 0, "linear residual", NAN};
     case SolveStatus::not_factored:
     case SolveStatus::out_of_memory: return {StepCode::budget, Witness::none, 0, "memory", 0.0};

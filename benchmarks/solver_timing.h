@@ -1,0 +1,37 @@
+#pragma once
+// Paired times of what linear solvers do for a step and for a topological change.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/paired.h"
+
+namespace dartboard {
+
+/// Times of one body, and the work behind them.
+struct SolverTimes {
+  std::string body;  // "512 vertices, at rest"
+  std::size_t vertices = 0;
+  bool stretched = false;
+  double h_omega = 0.0;
+  std::size_t terms = 0;  // of rank one, that the change is
+  std::size_t rows = 0;   // that the rule replaced instead; 0 where it did not
+  std::vector<Sample> samples;
+  std::vector<std::string> tasks;
+
+  /// Median over the rounds of task / baseline in the same round, with the interval over rounds of one process.
+  Figure ratio(const std::string& task, const std::string& baseline) const;
+  double milliseconds(const std::string& task) const;  // median
+};
+
+/// One interior vertex is dissociated, another one in each round: the factor follows, by the rule, by rank-one terms
+/// and by rows, or is analysed with the old ordering extended and found again; with AMD and with METIS. Assembly of the
+/// matrix, which all need, is left out; finding the terms is included. The factor before is ready for updates.
+SolverTimes time_updates(int side, double stretch, int rounds, std::uint64_t seed);
+
+/// One linearly implicit step of liver564 in soft motion, with h [s] of `h_omega`: conjugate gradients to a residual of
+/// 1e-6, a fresh factor, and a kept one.
+SolverTimes time_implicit_step(double h_omega, int rounds, std::uint64_t seed);
+
+}  // namespace dartboard

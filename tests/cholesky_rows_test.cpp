@@ -1,0 +1,194 @@
+// A factor that follows a change row by row, and the rule that chooses.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/time/backward_error.h"
+#include "core/time/cholesky.h"
+#include "tests/spring_bodies_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double far_too_slow = 1e9;  // seconds a flop: what is never chosen
+
+struct Body {
+  SpringArrays arrays;
+  std::vector<SpringTangent> tangents;
+  StepMatrix matrix;
+  BlockMatrix blocks;
+
+  explicit Body(SpringArrays body) : arrays(std::move(body)) {
+    const SpringSystem system = arrays.system();
+    evaluate_tangents(system, arrays.x, Compression::projected, tangents);
+    matrix.evaluate(system, tangents, 0.02);
+    matrix.assemble(node_pattern_of(system), blocks);
+  }
+};
+
+SpringArrays stretched_grid() {
+  SpringArrays body = spring_grid(3, 3, 3);
+  for (Vector3d& p : body.x) p *= 1.2;
+  disturb(body, 0.01, 0);
+  return body;
+}
+
+constexpr std::uint32_t place = 21;  // an interior vertex
+
+// Every other spring of a vertex, and half of its mass, go to a new vertex at the same place.
+SpringArrays dissociated(SpringArrays body) {
+  const std::uint32_t added = body.add_vertex(body.mass[place] / 2, body.x[place]);
+  body.mass[place] /= 2;
+  bool leaves = false;
+  for (SpringEnds& ends : body.ends)
+    for (std::uint32_t& end : ends)
+      if (end == place && (leaves = !leaves)) end = added;
+  return body;
+}
+
+CholeskyOptions never_again(FactorKind kind) {
+  CholeskyOptions options{.kind = kind, .spare_nodes = 1};
+  options.rates.supernodal_flop = options.rates.simplicial_flop = 1.0;
+  return options;
+}
+CholeskyOptions by_rows(FactorKind kind = FactorKind::simplicial) {
+  CholeskyOptions options = never_again(kind);
+  options.rates.update_flop = far_too_slow;
+  return options;
+}
+
+double solved_error(Cholesky& cholesky, const BlockMatrix& blocks) {
+  const auto b = random_vectors(blocks.node_count(), 11);
+  auto x = b;
+  EXPECT_EQ(cholesky.solve(b, x), SolveStatus::ok);
+  return backward_error(blocks, b, x);
+}
+
+// 50 epsilon, as for updates in cholesky_test.cpp: it tells this matrix from any other.
+TEST(CholeskyRows, OfADissociatedVertexAndItsTwinAreAllThatChanges) {
+  for (const FactorKind kind : {FactorKind::simplicial, FactorKind::supernodal}) {
+    Body before(stretched_grid());
+    const Body after(dissociated(before.arrays));
+    Cholesky cholesky(by_rows(kind));
+    ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+    const auto terms = before.matrix.follow(after.arrays.system(), after.tangents, cholesky.spare_diagonal());
+    EXPECT_GT(terms.size(), 6u);
+    ASSERT_EQ(cholesky.follow(after.blocks, terms), SolveStatus::ok);
+    EXPECT_EQ(cholesky.counters().rows_replaced, 6u);
+    EXPECT_EQ(cholesky.counters().rank_one_updates, 0u);
+    EXPECT_EQ(cholesky.counters().factorisations, 1u);
+    EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
+  }
+}
+
+TEST(CholeskyRows, LeadBackWhenTheVertexIsJoinedAgain) {
+  Body before(stretched_grid());
+  const Body after(dissociated(before.arrays));
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  const double spare = cholesky.spare_diagonal();
+  StepMatrix matrix = before.matrix;
+  for (int k = 0; k < 10; ++k) {
+    ASSERT_EQ(cholesky.follow(after.blocks, matrix.follow(after.arrays.system(), after.tangents, spare)),
+              SolveStatus::ok);
+    ASSERT_EQ(cholesky.follow(before.blocks, matrix.follow(before.arrays.system(), before.tangents, spare)),
+              SolveStatus::ok);
+  }
+  EXPECT_EQ(cholesky.counters().rows_replaced, 120u);
+  EXPECT_LT(solved_error(cholesky, before.blocks), 50 * epsilon);
+}
+
+// Terms after rows: the columns that rows were taken out of must still hold the paths that updates run along.
+TEST(CholeskyRows, LeaveAFactorThatTermsCanUpdate) {
+  Body before(stretched_grid());
+  const Body after(dissociated(before.arrays));
+  SpringArrays arrays = after.arrays;
+  for (std::size_t e = 0; e < arrays.springs.size(); e += 5) arrays.springs[e].stiffness *= 3.0;
+  const Body harder(arrays);
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  StepMatrix matrix = before.matrix;
+  ASSERT_EQ(
+      cholesky.follow(after.blocks, matrix.follow(after.arrays.system(), after.tangents, cholesky.spare_diagonal())),
+      SolveStatus::ok);
+  ASSERT_EQ(cholesky.update(matrix.follow(harder.arrays.system(), harder.tangents, cholesky.spare_diagonal())),
+            SolveStatus::ok);
+  EXPECT_GT(cholesky.counters().rank_one_updates, 0u);
+  EXPECT_LT(solved_error(cholesky, harder.blocks), 50 * epsilon);
+}
+
+TEST(CholeskyRows, ThatMakeTheMatrixIndefiniteAreReported) {
+  const Body body(stretched_grid());
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(body.blocks), SolveStatus::ok);
+  // the diagonal stays positive: only elimination shows that this is no minimum
+  BlockMatrix after = body.blocks;
+  const double less = 0.9 * after.diagonal[place](0, 0);
+  after.diagonal[place](0, 0) -= less;
+  const std::vector<RankOneTerm> terms{{place, NodePattern::none, {1, 0, 0}, -less}};
+  EXPECT_EQ(cholesky.follow(after, terms), SolveStatus::not_positive_definite);
+  EXPECT_EQ(cholesky.counters().update_failed, 1u);
+  EXPECT_FALSE(cholesky.has_factor());
+}
+
+TEST(CholeskyRows, AreLeftToTermsWhereOtherRowsChange) {
+  Body before(stretched_grid());
+  SpringArrays arrays = before.arrays;
+  arrays.springs[40].stiffness *= 2.0;  // both its ends change: twelve updates of rank one for rows, three for terms
+  const Body after(arrays);
+  Cholesky cholesky(never_again(FactorKind::simplicial));
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  ASSERT_EQ(cholesky.follow(after.blocks, before.matrix.follow(arrays.system(), after.tangents, 1.0)), SolveStatus::ok);
+  EXPECT_EQ(cholesky.counters().rows_replaced, 0u);
+  EXPECT_EQ(cholesky.counters().rank_one_updates, 3u);
+}
+
+// A downdate that leaves a part of 1e-12 would leave an error of epsilon 1e12.
+TEST(CholeskyRule, FactorsAgainWhereAnUpdateWouldCancelDigits) {
+  SpringArrays arrays = stretched_grid();
+  arrays.springs[40].stiffness *= 1e12;
+  Body before(arrays);
+  arrays.springs[40].stiffness = 0.0;
+  const Body after(arrays);
+  for (const double cancellation : {1e3, 1e300}) {
+    CholeskyOptions options = never_again(FactorKind::simplicial);
+    options.cancellation = cancellation;
+    Cholesky cholesky(options);
+    ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+    StepMatrix matrix = before.matrix;
+    const auto terms = matrix.follow(arrays.system(), after.tangents, 1.0);
+    const SolveStatus status = cholesky.follow(after.blocks, terms);
+    if (cancellation > 1e3) {
+      EXPECT_EQ(cholesky.counters().update_chosen, 1u);
+      continue;
+    }
+    ASSERT_EQ(status, SolveStatus::ok);
+    EXPECT_EQ(cholesky.counters().refactor_chosen, 1u);
+    EXPECT_LT(solved_error(cholesky, after.blocks), 20 * epsilon);
+  }
+}
+
+// Two unknowns coupled by -1: |b - A x| = 1/8 at the first, |A| = 3, |x| = 1, |b| = 2.
+TEST(BackwardError, IsTheResidualOverWhatItCouldBe) {
+  BlockMatrix matrix;
+  matrix.pattern.column_start = {0, 1, 1};
+  matrix.pattern.row = {1};
+  matrix.diagonal.assign(2, 2.0 * Eigen::Matrix3d::Identity());
+  matrix.below.assign(1, -Eigen::Matrix3d::Identity());
+  const std::vector<Vector3d> x{{1, 0, 0}, {0, 0, 0}};
+  std::vector<Vector3d> b{{2, 0, 0}, {-1, 0, 0}};
+  EXPECT_EQ(backward_error(matrix, b, x), 0.0);
+  EXPECT_EQ(normwise_backward_error(matrix, b, x), 0.0);
+  b[0].x() += 0.125;
+  EXPECT_DOUBLE_EQ(normwise_backward_error(matrix, b, x), 0.125 / (3.0 * 1.0 + 2.125));
+  EXPECT_DOUBLE_EQ(backward_error(matrix, b, x), 0.125 / (2.0 + 2.125));
+  b[1].y() = NAN;
+  EXPECT_TRUE(std::isnan(normwise_backward_error(matrix, b, x)));
+}
+
+}  // namespace
+}  // namespace dartboard
