@@ -313,7 +313,9 @@ Recommendation recommend(const TradeoffScene& scene, double error, const CpuCloc
   };
   // the higher orders first: what they cost is what the others have to beat
   std::vector<Scheme> schemes;
-  for (const IntegratorEntry& entry : integrators()) schemes.push_back(entry.make()->scheme());
+  // a compensated method is the plain one until rounding shows, at some more cost
+  for (const IntegratorEntry& entry : integrators())
+    if (const Scheme& scheme = entry.make()->scheme(); !scheme.compensated) schemes.push_back(scheme);
   std::stable_sort(schemes.begin(), schemes.end(), [](const Scheme& a, const Scheme& b) {
     return a.implicit != b.implicit ? b.implicit : a.order > b.order;
   });
