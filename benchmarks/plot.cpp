@@ -3,38 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
-#include "benchmarks/processes.h"
+#include "benchmarks/gnuplot.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
 namespace {
 
-// Within gnuplot's double quotes.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
 std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
-
-// "#rrggbb" and how much of it shows, as gnuplot's #aarrggbb, where 00 is solid.
-std::string colour(const PlotSeries& series) {
-  const int clear = static_cast<int>(std::lround(255.0 * (1.0 - series.opacity)));
-  return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw IoError(fmt::format("{}: cannot be written", file.string()));
-}
 
 }  // namespace
 
@@ -84,29 +60,11 @@ std::string plot_script(const Plot& plot, const std::string& name) {
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const PlotSeries& s = plot.series[k];
     if (s.points.empty()) continue;
-    const std::string file = quoted(data_file(name, k));
-    const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
-    std::string look = s.width > 0.0 && s.symbol > 0 ? "linespoints" : s.width > 0.0 ? "lines" : "points";
-    look += " linecolor rgb " + colour(s);
-    if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
-    if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
-    if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
-    lines += fmt::format("{}{} using 1:2 with {} {}", lines.empty() ? "plot " : ", \\\n     ", file, look, title);
-    bool labelled = false;
-    for (const auto& p : s.points) labelled |= !p.label.empty();
-    if (labelled)
-      lines +=
-          fmt::format(", \\\n     {} using 1:2:3 with labels {} left noenhanced font \",9\" textcolor rgb {} notitle",
-                      file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
+    lines += (lines.empty() ? "plot " : ", \\\n     ") + plot_element(s, data_file(name, k));
   }
   if (lines.empty()) lines = "plot NaN notitle";
   for (const auto& [terminal, end] :
-       {std::pair(fmt::format("pngcairo size {},{} font \"DejaVu Sans,12\" background rgb \"white\"", plot.width,
-                              plot.height),
-                  "png"),
-        std::pair(fmt::format("svg size {},{} font \"DejaVu Sans,12\" background rgb \"white\" enhanced", plot.width,
-                              plot.height),
-                  "svg")})
+       {std::pair(png_terminal(plot.width, plot.height), "png"), {svg_terminal(plot.width, plot.height), "svg"}})
     script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
                           quoted(fmt::format("{}.{}", name, end)), lines);
   return script;
@@ -117,17 +75,10 @@ std::string draw(const Plot& plot, const std::filesystem::path& folder, const st
   if (!(plot.x_low > 0.0 && plot.x_low < plot.x_high && plot.y_low > 0.0 && plot.y_low < plot.y_high))
     throw InputError("a logarithmic axis must be positive and ascending");
   for (std::size_t k = 0; k < plot.series.size(); ++k)
-    if (!plot.series[k].points.empty()) write_file(folder / data_file(name, k), plot_data(plot.series[k]));
+    if (!plot.series[k].points.empty()) write_plot_file(folder / data_file(name, k), plot_data(plot.series[k]));
   // the script names its files without a folder, so that they can be moved together
-  write_file(folder / (name + ".gnuplot"), plot_script(plot, name));
-  std::string said;
-  try {
-    run_program(gnuplot, {"-e", fmt::format("cd {}", quoted(folder.string())), name + ".gnuplot"},
-                [&](std::string_view line) { said += fmt::format(" {}", line); });
-  } catch (const ProcessError& error) {
-    return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
-  }
-  return "";
+  write_plot_file(folder / (name + ".gnuplot"), plot_script(plot, name));
+  return run_gnuplot(gnuplot, folder, name);
 }
 
 }  // namespace dartboard
