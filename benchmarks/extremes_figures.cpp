@@ -117,10 +117,10 @@ Panels amplification_figure(const std::vector<AmplificationPoint>& points) {
     damping.y_high = 10.0;
     const auto amplitude_of = [](const AmplificationPoint& p) { return p.amplitude(); };
     const auto amplitude_in_theory = [](const AmplificationPoint& p) { return std::abs(p.theory); };
-    add_curves(points, implicit, true, amplitude, amplitude_of, amplitude_in_theory);
-    amplitude.key = "center left";
+    add_curves(points, implicit, false, amplitude, amplitude_of, amplitude_in_theory);
+    phase.key = "bottom right";
     add_curves(
-        points, implicit, false, phase, [](const AmplificationPoint& p) { return std::abs(p.phase() / p.theta - 1); },
+        points, implicit, true, phase, [](const AmplificationPoint& p) { return std::abs(p.phase() / p.theta - 1); },
         [](const AmplificationPoint& p) { return std::abs(p.theoretical_phase() / p.theta - 1); });
     add_curves(
         points, implicit, false, damping, [](const AmplificationPoint& p) { return p.damping_ratio(); },

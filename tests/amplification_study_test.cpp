@@ -13,7 +13,7 @@ namespace dartboard {
 namespace {
 
 TEST(Amplification, IsThatOfTheClosedFormsForEveryIntegrator) {
-  const std::vector<double> thetas = amplification_steps(2);
+  const std::vector<double> thetas = amplification_steps(12);
   const std::vector<AmplificationPoint> points = measure_amplification(thetas);
   std::set<std::string> seen;
   for (const AmplificationPoint& p : points) {

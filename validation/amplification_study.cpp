@@ -129,10 +129,11 @@ std::vector<AmplificationPoint> measure_amplification(std::span<const double> th
       p.tolerance = 64 * omega * ulp / size / std::abs(p.theory);
       if (scheme.one_step) {
         const Eigen::Matrix2d step = powers(entry, theta, 1).front();
-        // implicit steps may turn by more than half a circle
-        p.measured = scheme.implicit ? as_number(step) : upper_eigenvalue(step.trace(), step.determinant());
-        // of a matrix that is no rotation, by as much more as its eigenvectors are inclined
-        p.tolerance *= scheme.implicit ? 1.0 : 2.0 / std::abs(p.theory.imag());
+        // the matrices of splittings are no rotations: their eigenvectors are inclined, and rounding counts as much
+        // more
+        const bool inclined = scheme.symplectic && !scheme.implicit;
+        p.measured = inclined ? upper_eigenvalue(step.trace(), step.determinant()) : as_number(step);
+        if (inclined) p.tolerance *= 2.0 / std::abs(p.theory.imag());
       } else {
         p.measured = root_of_recurrence(powers(entry, theta, 3), p.theory);
         // the start is a step of backward Euler: by its distance from the root the recurrence is told from its powers

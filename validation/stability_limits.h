@@ -42,7 +42,7 @@ struct MeshBody {
 /// one removal in ten operations.
 std::vector<MeshBody> mesh_bodies(const std::string& name, const Mesh& mesh, int operations, std::uint64_t seed);
 
-/// The limits on them; quick ones are undamped and of shorter runs.
+/// The limits on them, undamped and damped; quick ones are undamped and of shorter runs.
 std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick);
 
 }  // namespace dartboard
