@@ -137,9 +137,9 @@ Plot rounding_figure(const std::vector<RoundingGrowth>& all) {
       {{"#1f77b4", 7}, {"#6baed6", 6}, {"#d62728", 5}, {"#fb6a4a", 4}}};
   Plot plot;
   plot.title = "Energy error by rounding alone";
-  plot.subtitle = "oscillator, h omega = 0.05, root mean square over random starts";
+  plot.subtitle = "oscillator, h omega = 0.05";
   plot.x_axis = "steps";
-  plot.y_axis = "energy error, relative";
+  plot.y_axis = "relative energy error, root mean square over starts";
   plot.width = 1300;
   plot.height = 800;
   plot.x_low = 1e300;
