@@ -132,17 +132,39 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
   fs::remove_all(out);
 }
 
+TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-extremes");
+  const Answer answer = run("extremes --axis amplification --quick --out " + out.string());
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  std::ifstream file(out / "claims.json");
+  const auto claims = nlohmann::json::parse(file);
+  ASSERT_EQ(claims.size(), 1u);
+  EXPECT_EQ(claims[0].at("id"), "amplification");
+  for (const char* name : {"amplification.md", "amplification.png", "amplification.svg", "manifest.json"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  fs::remove_all(out);
+}
+
+TEST(Extremes, RefusesAnAxisThatThereIsNotAndNamesThoseThereAre) {
+  const Answer answer = run("extremes --axis temperature");
+  EXPECT_EQ(answer.status, 2);
+  for (const char* part : {"temperature", "offset", "maps"})
+    EXPECT_NE(answer.out.find(part), std::string::npos) << answer.out;
+}
+
 TEST(Simulate, ExitsWithOneWhenTheSceneExpectsSomethingElse) {
-  const TemporaryFile scene("wrong.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
+  const TemporaryFile scene(
+      "wrong.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
                                 "duration": 0.01, "expect": {"cells": 7}})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 1) << answer.out;
 }
 
 TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
-  const TemporaryFile scene("misspelt.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
+  const TemporaryFile scene(
+      "misspelt.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;
