@@ -9,8 +9,7 @@
 #include <map>
 #include <set>
 
-#include "benchmarks/plot.h"
-#include "core/scene/atomic_file.h"
+#include "benchmarks/gnuplot.h"
 
 namespace dartboard {
 namespace {
@@ -163,21 +162,22 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
       data += moved_corners(facet.corners, shift, -0.9 / pixels, facet.colour);
     }
     labels += fmt::format("set label {} {} at {:.6g},graph 0.02 center font \",13\"\n", k + 1,
-                          gnuplot_text(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),
+                          quoted(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),
                           static_cast<double>(k) * size.x());
   }
-  write_whole(folder / (name + ".dat"), data);
+  write_plot_file(folder / (name + ".dat"), data);
   const int width = static_cast<int>(std::lround(std::max(560.0, pixels * whole.x())));
   const int height = static_cast<int>(std::lround(pixels * whole.y() + above_and_below));
   const std::string setup = fmt::format(
       "set encoding utf8\nunset key\nunset border\nunset tics\nset margins 0,0,0,3\nset size ratio -1\n"
       "set title {} font \",16\" noenhanced\n{}set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
       "set style fill solid 1.0 noborder\n",
-      gnuplot_text(title), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(), 0.5 * size.y());
+      quoted(title), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(), 0.5 * size.y());
   const std::string commands = data.empty() ? "plot NaN"
                                             : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable",
-                                                          gnuplot_text(name + ".dat"));
-  return run_gnuplot(folder, name, setup + for_both_pictures(commands, name, width, height), gnuplot);
+                                                          quoted(name + ".dat"));
+  write_plot_file(folder / (name + ".gnuplot"), setup + for_both_pictures(commands, name, width, height));
+  return run_gnuplot(gnuplot, folder, name);
 }
 
 }  // namespace dartboard

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 
-#include "benchmarks/processes.h"
+#include "benchmarks/gnuplot.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -13,33 +12,11 @@ namespace {
 
 std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
 
-// "#rrggbb" and how much of it shows, as gnuplot's #aarrggbb, where 00 is solid.
-std::string colour(const PlotSeries& series) {
-  const int clear = static_cast<int>(std::lround(255.0 * (1.0 - series.opacity)));
-  return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
-}
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) throw IoError(fmt::format("{}: cannot be written", file.string()));
-}
-
 }  // namespace
-
-std::string gnuplot_text(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
 
 std::string plot_data(const PlotSeries& series) {
   std::string text;
-  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, gnuplot_text(p.label));
+  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, quoted(p.label));
   return text;
 }
 
@@ -57,8 +34,8 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set key outside right top vertical Left reverse noenhanced samplen 2.2 spacing 1.25 font \",12\"\n"
       "set datafile separator whitespace\n",
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
-      gnuplot_text(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), gnuplot_text(plot.x_axis),
-      gnuplot_text(plot.y_axis));
+      quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
+      quoted(plot.y_axis));
   if (plot.y_last_tick > 0.0) {
     // every decade, every second one where there are many
     const double decades = std::log10(plot.y_last_tick / plot.y_low);
@@ -77,54 +54,16 @@ std::string plot_script(const Plot& plot, const std::string& name) {
         plot.shaded_below);
     script += fmt::format(
         "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
-        gnuplot_text(plot.shaded_label));
+        quoted(plot.shaded_label));
   }
   std::string lines;
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     const PlotSeries& s = plot.series[k];
     if (s.points.empty()) continue;
-    const std::string file = gnuplot_text(data_file(name, k));
-    const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_text(s.title);
-    std::string look = s.width > 0.0 && s.symbol > 0 ? "linespoints" : s.width > 0.0 ? "lines" : "points";
-    look += " linecolor rgb " + colour(s);
-    if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
-    if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
-    if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
-    lines += fmt::format("{}{} using 1:2 with {} {}", lines.empty() ? "plot " : ", \\\n     ", file, look, title);
-    bool labelled = false;
-    for (const auto& p : s.points) labelled |= !p.label.empty();
-    if (labelled)
-      lines +=
-          fmt::format(", \\\n     {} using 1:2:3 with labels {} left noenhanced font \",9\" textcolor rgb {} notitle",
-                      file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
+    lines += (lines.empty() ? "plot " : ", \\\n     ") + plot_element(s, data_file(name, k));
   }
   if (lines.empty()) lines = "plot NaN notitle";
   return script + for_both_pictures(lines, name, plot.width, plot.height);
-}
-
-std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height) {
-  std::string script;
-  for (const char* kind : {"png", "svg"})
-    script += fmt::format(
-        "set terminal {} size {},{} font \"DejaVu Sans,12\" background rgb \"white\"{}\nset output {}\n{}\nunset "
-        "output\n",
-        kind == std::string_view("png") ? "pngcairo" : "svg", width, height,
-        kind == std::string_view("png") ? "" : " enhanced", gnuplot_text(fmt::format("{}.{}", name, kind)), commands);
-  return script;
-}
-
-std::string run_gnuplot(const std::filesystem::path& folder, const std::string& name, const std::string& script,
-                        const std::string& gnuplot) {
-  // the script names its files without a folder, so that they can be moved together
-  write_file(folder / (name + ".gnuplot"), script);
-  std::string said;
-  try {
-    run_program(gnuplot, {"-e", fmt::format("cd {}", gnuplot_text(folder.string())), name + ".gnuplot"},
-                [&](std::string_view line) { said += fmt::format(" {}", line); });
-  } catch (const ProcessError& error) {
-    return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
-  }
-  return "";
 }
 
 std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
@@ -132,8 +71,10 @@ std::string draw(const Plot& plot, const std::filesystem::path& folder, const st
   if (!(plot.x_low > 0.0 && plot.x_low < plot.x_high && plot.y_low > 0.0 && plot.y_low < plot.y_high))
     throw InputError("a logarithmic axis must be positive and ascending");
   for (std::size_t k = 0; k < plot.series.size(); ++k)
-    if (!plot.series[k].points.empty()) write_file(folder / data_file(name, k), plot_data(plot.series[k]));
-  return run_gnuplot(folder, name, plot_script(plot, name), gnuplot);
+    if (!plot.series[k].points.empty()) write_plot_file(folder / data_file(name, k), plot_data(plot.series[k]));
+  // the script names its files without a folder, so that they can be moved together
+  write_plot_file(folder / (name + ".gnuplot"), plot_script(plot, name));
+  return run_gnuplot(gnuplot, folder, name);
 }
 
 }  // namespace dartboard

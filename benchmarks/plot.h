@@ -39,18 +39,6 @@ std::string plot_script(const Plot& plot, const std::string& name);
 /// The data of a series: x, y and label, one point a line.
 std::string plot_data(const PlotSeries& series);
 
-/// A text within gnuplot's double quotes.
-std::string gnuplot_text(const std::string& text);
-
-/// Keep a script in `folder` as `name`.gnuplot and let gnuplot run it there.
-///
-/// returns what went wrong, in a sentence, when gnuplot is missing or fails; empty when all is well
-/// throws  IoError when the script cannot be written
-std::string run_gnuplot(const std::filesystem::path& folder, const std::string& name, const std::string& script,
-                        const std::string& gnuplot = "gnuplot");
-/// `commands`, which plot, once as `name`.png and once as `name`.svg, of so many pixels.
-std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height);
-
 /// Write the data into files of `folder` and draw the pictures.
 ///
 /// returns what went wrong, in a sentence, when gnuplot is missing or fails: data and script are kept then; empty when

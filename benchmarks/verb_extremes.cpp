@@ -3,22 +3,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
-#include <map>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/extremes_figures.h"
+#include "benchmarks/extremes_report.h"
+#include "benchmarks/manifest.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/run_folder.h"
-#include "benchmarks/table.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "validation/extremes.h"
-#include "validation/stability_limits.h"
+#include "core/time/integrators.h"
+#include "validation/delaunay_ball.h"
 
 namespace dartboard {
 namespace {
@@ -26,35 +29,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr unsigned hang_seconds = 20;  // of one run
-constexpr std::array outcomes{ExtremeOutcome::ok, ExtremeOutcome::degraded, ExtremeOutcome::diagnosed,
-                              ExtremeOutcome::silent, ExtremeOutcome::crash};
-constexpr std::string_view limits_axis = "limits";
+
+/// What is measured beside the matrix, and asked for as its axes are.
+constexpr std::array studies{
+    ExtremeAxis{"limits", "longest stable steps beside theory"},
+    ExtremeAxis{"maps", "stability over step and damping ratio"},
+    ExtremeAxis{"amplification", "amplitude and phase of a step beside closed forms"},
+    ExtremeAxis{"detection", "unstable steps: predicted, and how soon they are detected"},
+    ExtremeAxis{"rounding", "energy over 10^7 steps, motion in tiny steps"},
+};
 
 struct Options {
   std::string axis, out;
   bool quick = false, json = false;
   std::optional<std::size_t> child_from;  // of a child: the first run to make
 };
-
-// JSON has no infinity: numbers that may be none are text.
-Json to_json(const ExtremeCell& cell) {
-  Json json{{"axis", cell.axis},
-            {"scene", cell.scene},
-            {"integrator", cell.integrator},
-            {"value", cell.value},
-            {"outcome", to_string(cell.outcome)},
-            {"step", cell.step}};
-  if (!cell.diagnosis.ok()) {
-    json["code"] = to_string(cell.diagnosis.code);
-    if (cell.diagnosis.witness != Witness::none)
-      json[cell.diagnosis.witness == Witness::vertex ? "vertex" : "edge"] = cell.diagnosis.number;
-    json["quantity"] = cell.diagnosis.quantity;
-    json["found"] = fmt::format("{:.6g}", cell.diagnosis.value);
-  }
-  if (!cell.warnings.empty()) json["warnings"] = cell.warnings;
-  if (!cell.note.empty()) json["note"] = cell.note;
-  return json;
-}
 
 /// The runs of an axis from a number on, a line before each and its result after it.
 void run_child(const Options& options) {
@@ -92,46 +81,76 @@ std::vector<Json> run_axis(std::string_view axis, bool quick) {
   return cells;
 }
 
-/// How many cells ended how, by axis and by integrator.
-Table count_outcomes(const std::vector<Json>& cells, const std::string& by) {
-  std::vector<std::string> order;
-  std::map<std::string, std::map<std::string, std::size_t>> counts;
-  for (const Json& cell : cells) {
-    const auto key = cell.at(by).get<std::string>();
-    if (!counts.contains(key)) order.push_back(key);
-    ++counts[key][cell.at("outcome").get<std::string>()];
-  }
-  std::vector<Column> columns{{by, Align::left}};
-  for (const ExtremeOutcome outcome : outcomes) columns.push_back({std::string(to_string(outcome)), Align::right});
-  Table table(columns);
-  for (const std::string& key : order) {
-    std::vector<std::string> row{key};
-    for (const ExtremeOutcome outcome : outcomes)
-      row.push_back(fmt::format("{}", counts[key][std::string(to_string(outcome))]));
-    table.add_row(std::move(row));
-  }
-  return table;
+/// The names that --axis takes.
+std::string known_axes() {
+  std::string known;
+  for (const ExtremeAxis& axis : extreme_axes()) known += fmt::format("{}, ", axis.name);
+  for (const ExtremeAxis& study : studies)
+    known += fmt::format("{}{}", study.name, &study == &studies.back() ? "" : ", ");
+  return known;
 }
 
-Table table_of(const std::vector<StabilityLimit>& limits) {
-  Table table({{"body", Align::left},
-               {"integrator", Align::left},
-               {"damping ratio", Align::right},
-               {"theory", Align::right},
-               {"measured", Align::right},
-               {"difference", Align::right},
-               {"holds", Align::left}});
-  for (const StabilityLimit& l : limits)
-    table.add_row({l.body, l.integrator, fmt::format("{:g}", l.zeta), fmt::format("{:.5f}", l.theory),
-                   l.measured > 0 ? fmt::format("{:.5f}", l.measured) : "none near",
-                   l.measured > 0 ? fmt::format("{:+.3f} %", 100 * (l.measured / l.theory - 1)) : "",
-                   l.holds() ? "yes" : "NO"});
-  return table;
+bool wants(const Options& options, std::string_view study) { return options.axis.empty() || options.axis == study; }
+
+/// Calls `made` after each study, which may take minutes.
+template <class Made>
+ExtremesResults run(const Options& options, const Made& made) {
+  ExtremesResults results;
+  const bool quick = options.quick;
+  if (wants(options, "limits")) {
+    results.limits = measure_stability_limits(quick);
+    const auto mesh = read_mesh(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh").mesh;
+    results.meshes = mesh_bodies("liver564", mesh, 200, 1);
+    for (MeshBody& body : mesh_bodies("delaunay-250", delaunay_ball(250, 2), 200, 2))
+      results.meshes.push_back(std::move(body));
+    for (StabilityLimit& limit : measure_mesh_limits(results.meshes, quick)) results.limits.push_back(std::move(limit));
+    made(results, "limits");
+  }
+  if (wants(options, "maps")) {
+    for (const IntegratorEntry& entry : integrators())
+      if (const Scheme& scheme = entry.make()->scheme(); !scheme.implicit)
+        results.maps.push_back(measure_stability_map(entry, map_plan(scheme, quick)));
+    made(results, "maps");
+  }
+  if (wants(options, "amplification")) {
+    results.amplification = measure_amplification(amplification_steps(quick ? 4 : 12));
+    made(results, "amplification");
+  }
+  if (wants(options, "detection")) {
+    results.detections = measure_detection(quick);
+    made(results, "detection");
+  }
+  if (wants(options, "rounding")) {
+    for (const char* name : {"verlet", "verlet-compensated", "blanes-moan-4", "blanes-moan-4-compensated"})
+      // six stages to a step: a tenth of the steps
+      results.rounding.push_back(measure_rounding_growth(name,
+                                                         quick                                          ? 100000
+                                                         : std::string_view(name).starts_with("verlet") ? 10000000
+                                                                                                        : 1000000,
+                                                         quick ? 64 : 32));
+    for (const double h : {1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10})
+      for (const char* name : {"verlet", "verlet-compensated", "blanes-moan-4", "blanes-moan-4-compensated"})
+        results.tiny.push_back(measure_tiny_steps(name, h, 1000000));
+    made(results, "rounding");
+  }
+  for (const ExtremeAxis& axis : extreme_axes())
+    if (wants(options, axis.name)) {
+      const std::vector<Json> found = run_axis(axis.name, quick);
+      results.cells.insert(results.cells.end(), found.begin(), found.end());
+    }
+  if (!results.cells.empty()) made(results, "matrix");
+  return results;
 }
 
-Json to_json(const StabilityLimit& l) {
-  return {{"body", l.body},     {"integrator", l.integrator}, {"zeta", l.zeta},
-          {"theory", l.theory}, {"measured", l.measured},     {"holds", l.holds()}};
+/// The pictures of what was measured; what is missing is told.
+std::vector<std::string> draw_figures(const ExtremesResults& results, const RunFolder& folder) {
+  std::vector<std::string> troubles;
+  if (!results.maps.empty()) troubles.push_back(draw(maps_figure(results.maps), folder.path(), "maps"));
+  if (!results.amplification.empty())
+    troubles.push_back(draw(amplification_figure(results.amplification), folder.path(), "amplification"));
+  if (!results.rounding.empty()) troubles.push_back(draw(rounding_figure(results.rounding), folder.path(), "rounding"));
+  std::erase(troubles, "");
+  return troubles;
 }
 
 void extremes(const Options& options, Outcome& outcome) {
@@ -139,42 +158,47 @@ void extremes(const Options& options, Outcome& outcome) {
     run_child(options);
     return;
   }
-  std::vector<Json> cells;
-  std::vector<StabilityLimit> limits;
-  if (options.axis.empty() || options.axis == limits_axis) limits = measure_stability_limits(options.quick);
-  if (options.axis != limits_axis)
-    for (const ExtremeAxis& axis : extreme_axes())
-      if (options.axis.empty() || options.axis == axis.name) {
-        const std::vector<Json> found = run_axis(axis.name, options.quick);
-        cells.insert(cells.end(), found.begin(), found.end());
-      }
-  if (cells.empty() && limits.empty()) extreme_cases(options.axis, options.quick);  // says which axes there are
-
-  std::vector<Json> forbidden;
-  for (const Json& cell : cells)
-    if (cell.at("outcome") == "SILENT" || cell.at("outcome") == "CRASH") forbidden.push_back(cell);
-  const auto failed = std::ranges::count_if(limits, [](const StabilityLimit& l) { return !l.holds(); });
-  outcome.exit_code = forbidden.empty() && failed == 0 ? exit_agrees : exit_disagrees;
-
+  const auto is_asked_for = [&options](const ExtremeAxis& axis) { return axis.name == options.axis; };
+  if (!options.axis.empty() && std::ranges::none_of(studies, is_asked_for) &&
+      std::ranges::none_of(extreme_axes(), is_asked_for))
+    throw InputError(fmt::format("there is no axis '{}'; there are {}", options.axis, known_axes()));
+  std::optional<RunFolder> folder;
+  nlohmann::json manifest;
   if (!options.out.empty()) {
-    const RunFolder folder(options.out);
-    JsonLines matrix = folder.json_lines("extremes.jsonl");
-    for (const Json& cell : cells) matrix.append(cell);
-    if (!cells.empty()) folder.write_table("extremes", "Extremes, by axis", count_outcomes(cells, "axis"));
-    if (!limits.empty()) folder.write_table("limits", "Stability limits beside theory", table_of(limits));
+    folder.emplace(options.out);
+    RunFacts facts;
+    facts.command_line = {outcome.command_line};
+    manifest = begin_manifest(facts);
+    manifest["quick"] = options.quick;
+    folder->write_manifest(manifest);
+  }
+  const ExtremesResults results = run(options, [&](const ExtremesResults& so_far, std::string_view study) {
+    for (const NamedTable& t : tables_of(so_far))
+      if (!options.json && t.study == study) fmt::print("{}\n\n{}\n", t.heading, to_text(t.table));
+    std::fflush(stdout);
+  });
+  const std::vector<Claim> claims = claims_of(results);
+  outcome.exit_code = exit_code(claims) == 0 ? exit_agrees : exit_disagrees;
+
+  if (folder) {
+    JsonLines matrix = folder->json_lines("extremes.jsonl");
+    for (const Json& cell : results.cells) matrix.append(cell);
+    for (const NamedTable& t : tables_of(results)) folder->write_table(t.name, t.heading, t.table);
+    Json rest = to_json(results);
+    rest.erase("matrix");
+    folder->write_json("measurements.json", rest);
+    folder->write_claims(claims);
+    for (const std::string& trouble : draw_figures(results, *folder)) fmt::print(stderr, "{}\n", trouble);
+    finish_manifest(manifest);
+    folder->write_manifest(manifest);
   }
   if (options.json) {
-    Json json{{"cells", cells.size()}, {"forbidden", forbidden.size()}, {"matrix", cells}};
-    json["limits"] = Json::array();
-    for (const StabilityLimit& l : limits) json["limits"].push_back(to_json(l));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", to_json(results).dump(2));
     return;
   }
-  if (!limits.empty()) fmt::print("Longest stable step times omega_max:\n\n{}\n", to_text(table_of(limits)));
-  if (cells.empty()) return;
-  fmt::print("{}\n{}\n", to_text(count_outcomes(cells, "axis")), to_text(count_outcomes(cells, "integrator")));
-  for (const Json& cell : forbidden) fmt::print("{}\n", cell.dump());
-  fmt::print("{} cells, {} of them SILENT or CRASH.\n", cells.size(), forbidden.size());
+  for (const Json& cell : forbidden_cells(results)) fmt::print("{}\n", cell.dump());
+  fmt::print("{}", to_text(std::span<const Claim>(claims)));
+  if (folder) fmt::print("Written to {}.\n", folder->path().string());
 }
 
 }  // namespace
@@ -183,12 +207,11 @@ void add_extremes(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand(
       "extremes", "Run every integrator at the extremes: each run is right, warned of, or stopped with a diagnosis.");
-  std::string known;
-  for (const ExtremeAxis& axis : extreme_axes()) known += fmt::format("{}, ", axis.name);
-  verb->add_option("--axis", options->axis, fmt::format("only this one of {}{} [all]", known, limits_axis));
-  verb->add_flag("--quick", options->quick, "every third value, shorter runs for limits");
+  verb->add_option("--axis", options->axis, fmt::format("only this one of {} [all]", known_axes()));
+  verb->add_flag("--quick", options->quick, "every third value, coarser maps, shorter runs");
   verb->add_flag("--json", options->json, "print JSON");
-  verb->add_option("--out", options->out, "folder for the matrix and the tables, new or empty [nothing is written]");
+  verb->add_option("--out", options->out,
+                   "folder for the matrix, tables, claims and pictures, new or empty [nothing is written]");
   verb->add_option("--child-from", options->child_from)->group("");  // hidden: the runs of one child process
   verb->callback([options, &outcome] { extremes(*options, outcome); });
 }

@@ -145,6 +145,21 @@ std::complex<double> implicit_midpoint_amplification(std::complex<double> z) {
   return (1.0 + z / 2.0) / (1.0 - z / 2.0);
 }
 
+std::complex<double> dormand_prince_amplification(std::complex<double> z) {
+  return 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0 * (1.0 + z / 5.0)))));
+}
+
+std::complex<double> two_stage_amplification(std::complex<double> z) {
+  const double gamma = 1.0 - 1.0 / std::numbers::sqrt2;
+  const std::complex<double> below = 1.0 - gamma * z;
+  return (1.0 + (1.0 - 2.0 * gamma) * z) / (below * below);
+}
+
+std::array<std::complex<double>, 2> bdf2_roots(std::complex<double> z) {
+  const std::complex<double> root = std::sqrt(1.0 + 2.0 * z), below = 3.0 - 2.0 * z;
+  return {(2.0 + root) / below, (2.0 - root) / below};
+}
+
 long double splitting_phase(long double theta) { return 2.0L * std::asin(theta / 2.0L); }
 
 Swing verlet_oscillate(VerletForm form, double omega2, Swing start, double h, int n) {

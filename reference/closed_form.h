@@ -2,6 +2,7 @@
 // Motions that can be written down: what any simulator of the same mechanics has to reproduce.
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <span>
 #include <vector>
@@ -83,6 +84,14 @@ Swing rk4_oscillate(double omega2, double drag, Swing start, double h, int n);
 /// and (1 + z/2)/(1 - z/2).
 std::complex<double> backward_euler_amplification(std::complex<double> z);
 std::complex<double> implicit_midpoint_amplification(std::complex<double> z);
+
+/// That of Dormand and Prince's method: the exponential series to z^5, and z^6/600.
+std::complex<double> dormand_prince_amplification(std::complex<double> z);
+/// That of the L-stable methods of two stages, gamma = 1 - 1/sqrt(2): (1 + (1 - 2 gamma) z) / (1 - gamma z)^2.
+std::complex<double> two_stage_amplification(std::complex<double> z);
+/// The two roots of (3 - 2 z) r^2 - 4 r + 1 = 0, what BDF2 multiplies its two solutions by; the first goes to 1 with z
+/// -> 0, the other, which the start excites, to 1/3.
+std::array<std::complex<double>, 2> bdf2_roots(std::complex<double> z);
 
 /// The angle by which symplectic Euler and Verlet turn an oscillation in one step, theta = h omega < 2: 2
 /// asin(theta/2).

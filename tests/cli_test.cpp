@@ -141,6 +141,26 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
   fs::remove_all(out);
 }
 
+TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-extremes");
+  const Answer answer = run("extremes --axis amplification --quick --out " + out.string());
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  std::ifstream file(out / "claims.json");
+  const auto claims = nlohmann::json::parse(file);
+  ASSERT_EQ(claims.size(), 1u);
+  EXPECT_EQ(claims[0].at("id"), "amplification");
+  for (const char* name : {"amplification.md", "amplification.png", "amplification.svg", "manifest.json"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  fs::remove_all(out);
+}
+
+TEST(Extremes, RefusesAnAxisThatThereIsNotAndNamesThoseThereAre) {
+  const Answer answer = run("extremes --axis temperature");
+  EXPECT_EQ(answer.status, 2);
+  for (const char* part : {"temperature", "offset", "maps"})
+    EXPECT_NE(answer.out.find(part), std::string::npos) << answer.out;
+}
+
 TEST(Simulate, ExitsWithOneWhenTheSceneExpectsSomethingElse) {
   const TemporaryFile scene(
       "wrong.json",

@@ -101,7 +101,8 @@ TEST(DiscreteMap, OfExplicitEulerGrowsAsItMust) { expect_powers("explicit-euler"
 // Every method, damped and undamped, against the power of the matrix its scheme declares. Entries are rounded to 1e-16,
 // which is 1e-11 after 10^5 products.
 TEST(DiscreteMap, IsThePowerOfTheSchemesAmplification) {
-  for (const char* name : {"symplectic-euler", "verlet", "blanes-moan-4", "rk4", "dormand-prince-54"})
+  for (const char* name : {"symplectic-euler", "verlet", "verlet-compensated", "blanes-moan-4",
+                           "blanes-moan-4-compensated", "rk4", "dormand-prince-54"})
     for (const double zeta : {0.0, 1e-5, 0.2}) {
       const double h = 0.125;  // h omega = 1/4
       const int n = zeta == 0.2 ? 50 : many;

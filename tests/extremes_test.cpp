@@ -10,6 +10,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/frozen_damping.h"
+#include "validation/delaunay_ball.h"
 #include "validation/stability_limits.h"
 
 namespace dartboard {
@@ -45,6 +46,29 @@ TEST(Extremes, DiagnosesEveryBadNumberInTheInput) {
   EXPECT_EQ(count(cells, ExtremeOutcome::diagnosed), cells.size());
 }
 
+// A rounding of the coordinates is 1e-6 of an edge from an offset of 4.5e9 edges on.
+TEST(Extremes, WarnsOfAnOffsetThatMatters) {
+  for (const ExtremeCase& which : extreme_cases("offset", false)) {
+    if (which.integrator != "verlet" && which.integrator != "sdirk2") continue;
+    const ExtremeCell cell = which.run();
+    const bool warned = std::ranges::find(cell.warnings, "COORD_PRECISION") != cell.warnings.end();
+    EXPECT_EQ(warned, which.value == "1e+12") << which.scene << " " << which.integrator << " " << which.value;
+    EXPECT_NE(cell.note.find("eps D"), std::string::npos) << cell.note;
+    EXPECT_NE(cell.outcome, ExtremeOutcome::silent) << cell.note;
+  }
+}
+
+TEST(Extremes, LetsTwoEventsHappenAtOneTime) {
+  int at_one_time = 0;
+  for (const ExtremeCase& which : extreme_cases("events", false)) {
+    if (!which.value.ends_with("at one time") || which.integrator != "verlet") continue;
+    const ExtremeCell cell = which.run();
+    EXPECT_NE(cell.outcome, ExtremeOutcome::silent) << which.value << ": " << cell.note;
+    ++at_one_time;
+  }
+  EXPECT_EQ(at_one_time, 4);
+}
+
 TEST(Extremes, CoversTwoThousandRuns) {
   std::size_t runs = 0;
   for (const ExtremeAxis& axis : extreme_axes()) runs += extreme_cases(axis.name, false).size();
@@ -59,6 +83,22 @@ TEST(StabilityLimits, AreWithinTheirToleranceOfTheory) {
   for (const StabilityLimit& l : limits)
     EXPECT_TRUE(l.holds()) << l.body << " " << l.integrator << " zeta " << l.zeta << ": " << l.measured << " for "
                            << l.theory;
+}
+
+TEST(StabilityLimits, OnAMeshAreWhereLanczosPutsThemBeforeAndAfterCuts) {
+  const std::vector<MeshBody> bodies = mesh_bodies("ball", delaunay_ball(40, 1), 30, 3);
+  ASSERT_EQ(bodies.size(), 2u);
+  EXPECT_NE(bodies[0].body.springs.size(), bodies[1].body.springs.size());
+  for (const MeshBody& body : bodies) {
+    EXPECT_TRUE(body.proven) << body.name;
+    EXPECT_LE(body.lower, body.omega + body.error) << body.name;
+    EXPECT_GE(body.upper, body.omega - body.error) << body.name;
+    EXPECT_LE(body.upper, 1.1 * body.omega) << body.name;
+  }
+  const std::vector<StabilityLimit> limits = measure_mesh_limits(bodies, true);
+  EXPECT_GE(limits.size(), 14u);
+  for (const StabilityLimit& l : limits)
+    EXPECT_TRUE(l.holds()) << l.body << " " << l.integrator << ": " << l.measured << " for " << l.theory;
 }
 
 TEST(FrozenDamping, EndsForInfinitelyMuchOfIt) {

@@ -26,8 +26,8 @@ struct Case {
 // Chosen so that the errors of four runs, each with twice the steps, are asymptotic (h omega_max is about 12 / steps)
 // and at least 20 times above rounding, which leaves some 2e-14.
 constexpr Case cases[]{
-    {"explicit-euler", 512},  {"symplectic-euler", 256}, {"verlet", 32}, {"blanes-moan-4", 16}, {"rk4", 64},
-    {"dormand-prince-54", 40}};
+    {"explicit-euler", 512}, {"symplectic-euler", 256},         {"verlet", 32}, {"verlet-compensated", 32},
+    {"blanes-moan-4", 16},   {"blanes-moan-4-compensated", 16}, {"rk4", 64},    {"dormand-prince-54", 40}};
 
 Body jittered_body(bool damped) {
   Problem problem;

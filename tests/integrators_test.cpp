@@ -127,6 +127,13 @@ TEST_P(Explicit, MayMeetAnotherSystemAfterARestart) {
   integrator->restart();
   run(*integrator, large, 0.01, 1);
   run(*make_integrator(GetParam()), alone, 0.01, 2);
+  if (integrator->scheme().compensated) {  // what it had lost of the first body, half a unit in the last place, is gone
+    for (std::size_t i = 0; i < large.x.size(); ++i) {
+      EXPECT_LE((large.x[i] - alone.x[i]).cwiseAbs().maxCoeff(), 4 * u) << i;
+      EXPECT_LE((large.v[i] - alone.v[i]).cwiseAbs().maxCoeff(), 4 * u) << i;
+    }
+    return;
+  }
   EXPECT_TRUE(same_bits(large.x, alone.x));
   EXPECT_TRUE(same_bits(large.v, alone.v));
 }
@@ -201,8 +208,8 @@ TEST_P(Explicit, RetracesItsStepsIfItsSchemeIsSymmetric) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Explicit,
-                         testing::Values("explicit-euler", "symplectic-euler", "verlet", "blanes-moan-4", "rk4",
-                                         "dormand-prince-54"),
+                         testing::Values("explicit-euler", "symplectic-euler", "verlet", "verlet-compensated",
+                                         "blanes-moan-4", "blanes-moan-4-compensated", "rk4", "dormand-prince-54"),
                          [](const auto& tested) {
                            std::string name(tested.param);
                            std::erase(name, '-');

@@ -152,7 +152,8 @@ TEST_P(MeasuredLimit, IsThatOfTheSchemeForARunOfThatLength) {
 
 std::vector<Tried> all_explicit() {
   std::vector<Tried> all;
-  for (const char* name : {"explicit-euler", "symplectic-euler", "verlet", "blanes-moan-4", "rk4", "dormand-prince-54"})
+  for (const char* name : {"explicit-euler", "symplectic-euler", "verlet", "verlet-compensated", "blanes-moan-4",
+                           "blanes-moan-4-compensated", "rk4", "dormand-prince-54"})
     for (const double zeta : {0.0, 0.01, 0.1, 0.5, 1.0}) all.push_back({name, zeta});
   return all;
 }

@@ -33,8 +33,10 @@ void rank(std::vector<Candidate>& candidates) {
 /// Where nothing is damped the symplectic method of order 4 comes before all.
 std::vector<Scheme> schemes_in_order(bool damped, const std::string& only) {
   std::vector<Scheme> schemes;
+  // a compensated method is the plain one until rounding shows, at some more cost
   for (const IntegratorEntry& entry : integrators())
-    if (only.empty() || entry.name == only) schemes.push_back(entry.make()->scheme());
+    if (const Scheme& scheme = entry.make()->scheme(); only.empty() ? !scheme.compensated : entry.name == only)
+      schemes.push_back(scheme);
   const auto rank = [damped](const Scheme& s) {
     return (s.implicit ? 0.0 : 100.0) + s.order + (s.symplectic && !damped && s.order > 2 ? 2.0 : 0.0);
   };

@@ -5,77 +5,119 @@
 #include <limits>
 #include <numbers>
 
+#include "core/mechanics/adapt.h"
+#include "core/operations/dissociate_face.h"
+#include "core/operations/remove_volume.h"
+#include "core/plain/random.h"
 #include "core/time/integrators.h"
 #include "core/time/stable_step.h"
-#include "validation/extreme_bodies.h"
+#include "core/views/spring_ends.h"
+#include "validation/frequency_oracle.h"
+#include "validation/growth_run.h"
 
 namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
+using TetBody = MassSpringBody<TetMap, Held::by_every_dart>;
 
-constexpr double gain = 1e3;
-constexpr std::uint64_t window = 64;  // steps over which the size of an oscillation is taken
+constexpr double ratios[]{0.0, 0.05, 0.2, 0.5, 1.0};
+constexpr double mesh_ratios[]{0.0, 0.2};  // a step of a mesh costs a thousand times as much
 
 /// A body with the frequencies that matter and the shape of the fastest.
 struct Subject {
   std::string name;
   SpringColumns body;
   std::vector<double> frequencies;  // those with limits of their own: all, or the highest
-  std::vector<Vector3d> shape;
-  double tolerance;
-  std::uint64_t steps;
+  GrowthRun run;
+  double tolerance;  // a thousandth where frequencies are closed forms
+  int halvings;
 };
 
-std::vector<Subject> subjects(bool quick) {
-  const std::uint64_t steps = 10000;
-  std::vector<Subject> list;
-  Subject oscillator{"oscillator", extreme_body("oscillator"), {10.0}, {{0, 0, 0}, {1, 0, 0}}, 1e-3, steps};
-  list.push_back(std::move(oscillator));
-  Subject chain{"chain", extreme_body("chain"), {}, {}, 1e-3, steps};
+Subject oscillator_subject() {
+  return {"oscillator", extreme_body("oscillator"), {10.0}, {.omega = 10.0, .shape = {{0, 0, 0}, {1, 0, 0}}}, 1e-3, 8};
+}
+
+Subject chain_subject() {
+  Subject chain{"chain", extreme_body("chain"), {}, {}, 1e-3, 8};
   const std::size_t n = chain.body.x.size() - 2;
   const double angle = std::numbers::pi / static_cast<double>(n + 1);
   for (std::size_t j = n; j >= 1; --j) chain.frequencies.push_back(20.0 * std::sin(static_cast<double>(j) * angle / 2));
-  for (std::size_t i = 0; i < n + 2; ++i) chain.shape.push_back({std::sin(static_cast<double>(i * n) * angle), 0, 0});
-  chain.shape.front().setZero();
-  chain.shape.back().setZero();
-  list.push_back(std::move(chain));
-  for (const char* name : {"box", "sheet"}) {
-    Subject mesh{name, extreme_body(name), {}, {}, 5e-3, quick ? 1000u : 3000u};
-    StableStepEstimate estimate;
-    estimate.refresh(mesh.body.system(), mesh.body.x);
-    for (int k = 0; k < 3000; ++k) estimate.follow(mesh.body.system(), mesh.body.x);
-    mesh.frequencies = {estimate.latest().lower};
-    mesh.shape.assign(estimate.shape().begin(), estimate.shape().end());
-    list.push_back(std::move(mesh));
-  }
-  return list;
+  for (std::size_t i = 0; i < n + 2; ++i)
+    chain.run.shape.push_back({std::sin(static_cast<double>(i * n) * angle), 0, 0});
+  chain.run.shape.front().setZero();
+  chain.run.shape.back().setZero();
+  chain.run.omega = chain.frequencies.front();
+  return chain;
 }
 
-double size_of(const SpringColumns& body, const std::vector<Vector3d>& rest, double omega) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    sum += omega * omega * (body.x[i] - rest[i]).squaredNorm() + body.v[i].squaredNorm();
-  return std::sqrt(sum);
+Subject mesh_subject(const MeshBody& mesh, bool quick) {
+  return {mesh.name, mesh.body, {mesh.omega}, {mesh.omega, mesh.shape, quick ? 1000u : 2000u}, 5e-3, 5};
 }
 
-// Growth from the first tenth to the end below the gain? The amplitude stays within 1e-4 of an edge.
-bool stable(const Subject& subject, const SpringColumns& at_rest, Integrator& integrator, double h) {
-  const double omega = subject.frequencies.front();
-  SpringColumns body = at_rest;
-  for (std::size_t i = 0; i < body.x.size(); ++i) body.x[i] += 1e-8 * subject.shape[i];
-  integrator.restart();
-  double first = 0.0, last = 0.0;
-  const double start = size_of(body, at_rest.x, omega);
-  const std::uint64_t begin = subject.steps / 10;
-  for (std::uint64_t k = 0; k < subject.steps; ++k) {
-    if (!integrator.step(body.system(), body.motion(), h).ok()) return false;
-    if (k >= begin && k < begin + window) first = std::max(first, size_of(body, at_rest.x, omega));
-    // ten times more than the gain: what comes after that is no longer linear
-    if (!(size_of(body, at_rest.x, omega) < 10 * gain * start)) return false;
-    if (k + window >= subject.steps) last = std::max(last, size_of(body, at_rest.x, omega));
+void measure(const Subject& subject, std::span<const double> damping_ratios, std::vector<StabilityLimit>& limits) {
+  for (const IntegratorEntry& entry : integrators()) {
+    const auto integrator = entry.make();
+    const Scheme& scheme = integrator->scheme();
+    if (scheme.implicit) continue;
+    for (const double zeta : damping_ratios) {
+      // Symplectic Euler damps spring by spring. In a network that is less than what its scheme says of one damper,
+      // and its limit, unlike that of the symmetric methods, depends on it.
+      if (scheme.symplectic && !scheme.symmetric && zeta > 0.0 && subject.name != "oscillator") continue;
+      const double omega = subject.run.omega;
+      SpringColumns body = subject.body;
+      for (Spring& s : body.springs) s.damping = 2 * zeta / omega * s.stiffness;
+      StabilityLimit limit{subject.name, std::string(entry.name), zeta, Scheme::unlimited, 0.0, subject.tolerance};
+      for (const double frequency : subject.frequencies)
+        limit.theory = std::min(limit.theory, omega / frequency *
+                                                  stable_limit(scheme, zeta * frequency / omega,
+                                                               subject.run.measured_steps(), subject.run.gain));
+      if (!std::isfinite(limit.theory)) continue;
+      double low = 0.99 * limit.theory, high = (subject.tolerance > 4e-3 ? 1.006 : 1.004) * limit.theory;
+      if (is_stable(subject.run, body, *integrator, low / omega) &&
+          !is_stable(subject.run, body, *integrator, high / omega)) {
+        for (int k = 0; k < subject.halvings; ++k) {
+          const double middle = (low + high) / 2;
+          (is_stable(subject.run, body, *integrator, middle / omega) ? low : high) = middle;
+        }
+        limit.measured = (low + high) / 2;
+      }
+      limits.push_back(std::move(limit));
+    }
   }
-  return last <= start || last < gain * first;  // what has decayed to rounding or to nothing is stable
+}
+
+MeshBody with_frequency(std::string name, SpringColumns body) {
+  MeshBody made{.name = std::move(name), .body = std::move(body)};
+  FastestMode mode = fastest_mode(made.body);
+  made.omega = mode.omega;
+  made.error = mode.error;
+  made.proven = mode.proven;
+  StableStepEstimate estimate;
+  const StableStep bracket = estimate.refresh(made.body.system(), made.body.x);
+  made.lower = bracket.lower;
+  made.upper = bracket.upper;
+  double edges = 0.0;
+  for (const Spring& s : made.body.springs) edges += s.rest_length / static_cast<double>(made.body.springs.size());
+  for (Vector3d& p : mode.shape) p *= edges;
+  made.shape = std::move(mode.shape);
+  return made;
+}
+
+SpringColumns columns_of(const TetBody& body) {
+  SpringEndsView ends;
+  ends.rebuild(body);
+  const VertexColumns& v = body.vertices;
+  SpringColumns columns;
+  columns.ends.assign(ends.ends.begin(), ends.ends.end());
+  columns.springs.assign(body.springs.begin(), body.springs.end());
+  columns.mass.assign(v.mass.begin(), v.mass.end());
+  columns.inverse_mass.assign(v.inverse_mass.begin(), v.inverse_mass.end());
+  columns.viscosity.assign(v.viscosity.begin(), v.viscosity.end());
+  columns.fixed.assign(v.fixed.begin(), v.fixed.end());
+  columns.x.assign(v.position.begin(), v.position.end());
+  columns.v.assign(v.position.size(), Vector3d::Zero());
+  return columns;
 }
 
 }  // namespace
@@ -84,36 +126,34 @@ bool StabilityLimit::holds() const { return std::abs(measured / theory - 1.0) <=
 
 std::vector<StabilityLimit> measure_stability_limits(bool quick) {
   std::vector<StabilityLimit> limits;
-  for (const Subject& subject : subjects(quick))
-    for (const IntegratorEntry& entry : integrators()) {
-      const auto integrator = entry.make();
-      const Scheme& scheme = integrator->scheme();
-      if (scheme.implicit) continue;
-      for (const double zeta : {0.0, 0.05, 0.2, 0.5, 1.0}) {
-        // Symplectic Euler damps spring by spring. In a network that is less than what its scheme says of one damper,
-        // and its limit, unlike that of the symmetric methods, depends on it.
-        if (scheme.symplectic && !scheme.symmetric && zeta > 0.0 && subject.name != "oscillator") continue;
-        const double omega = subject.frequencies.front();
-        const auto steps = static_cast<double>(subject.steps - subject.steps / 10 - window);
-        SpringColumns body = subject.body;
-        for (Spring& s : body.springs) s.damping = 2 * zeta / omega * s.stiffness;
-        StabilityLimit limit{subject.name, std::string(entry.name), zeta, Scheme::unlimited, 0.0, subject.tolerance};
-        for (const double frequency : subject.frequencies)
-          limit.theory =
-              std::min(limit.theory, omega / frequency * stable_limit(scheme, zeta * frequency / omega, steps, gain));
-        if (!std::isfinite(limit.theory)) continue;
-        double low = 0.99 * limit.theory, high = 1.004 * limit.theory;
-        if (subject.tolerance > 4e-3) high = 1.006 * limit.theory;
-        if (stable(subject, body, *integrator, low / omega) && !stable(subject, body, *integrator, high / omega)) {
-          for (int k = 0; k < 10; ++k) {
-            const double middle = (low + high) / 2;
-            (stable(subject, body, *integrator, middle / omega) ? low : high) = middle;
-          }
-          limit.measured = (low + high) / 2;
-        }
-        limits.push_back(std::move(limit));
-      }
-    }
+  measure(oscillator_subject(), ratios, limits);
+  measure(chain_subject(), ratios, limits);
+  for (const char* name : {"box", "sheet"})
+    measure(mesh_subject(with_frequency(name, extreme_body(name)), quick), ratios, limits);
+  return limits;
+}
+
+std::vector<MeshBody> mesh_bodies(const std::string& name, const Mesh& mesh, int operations, std::uint64_t seed) {
+  Problem problem;
+  problem.mesh = mesh;
+  problem.material = {.density = 1000.0, .stiffness = 100.0, .damping = 0.0, .viscosity = 0.0};
+  TetBody body = build_body<TetMap, Held::by_every_dart>(problem);
+  std::vector<MeshBody> bodies{with_frequency(name, columns_of(body))};
+  SplitMix64 random(seed);
+  for (int k = 0; k < operations && body.map.dart_count() > 24; ++k) {
+    Dart d{random.below(body.map.capacity())};
+    while (!body.map.is_live(d)) d = Dart{random.below(body.map.capacity())};
+    adapt(body, k % 10 == 9 ? remove_volume(body.map, d) : dissociate_face(body.map, d));
+  }
+  bodies.push_back(with_frequency(name + ", cut", columns_of(body)));
+  bodies.back().rise = bodies.back().omega / bodies.front().omega;
+  return bodies;
+}
+
+std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick) {
+  std::vector<StabilityLimit> limits;
+  for (const MeshBody& mesh : bodies)
+    measure(mesh_subject(mesh, quick), std::span(mesh_ratios).first(quick ? 1 : 2), limits);
   return limits;
 }
 

@@ -95,8 +95,9 @@ class Study {
 
 std::vector<TradeoffContender> tradeoff_contenders(bool solvers) {
   std::vector<TradeoffContender> contenders;
+  // compensated methods would draw the curves of the plain ones again
   for (const IntegratorEntry& entry : integrators())
-    contenders.push_back({std::string(entry.name), entry.make, false, false});
+    if (!entry.make()->scheme().compensated) contenders.push_back({std::string(entry.name), entry.make, false, false});
   if (solvers) {
     add_solvers<BackwardEuler>(contenders, "backward-euler");
     add_solvers<BaraffWitkin>(contenders, "baraff-witkin");

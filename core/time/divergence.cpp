@@ -108,6 +108,7 @@ StepResult DivergenceDetector::begin(const SpringSystem& system, Motion motion, 
   gravity_ = now.gravity;
   since_start_ = 0;
   next_check_ = 1;
+  since_all_ = all_steps;  // the first suspicion is followed at once
   keep(motion);
   return {};
 }
@@ -124,6 +125,7 @@ StepResult DivergenceDetector::system_changed(const SpringSystem& system, Motion
 
 StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion motion) {
   ++since_kept_;
+  ++since_all_;
   if (!driven_.empty()) {
     const double power_now = power(system, motion);
     work_ += step_ / 2 * (power_ + power_now);
@@ -137,8 +139,9 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
   const double energy = available(now);
   // comparisons that a NaN fails
   if (!now.finite || !(now.kinetic <= gain * energy)) return diagnose(system, motion);
-  // a few springs may hold much of it: what they suggest is looked at
-  if (!(now.kinetic + energy_of_some_springs(system, motion) <= gain * energy))
+  // a few springs may hold much of it, or little: what they suggest is looked at
+  const double seen = now.kinetic + energy_of_some_springs(system, motion);
+  if (!(seen <= gain * energy) || (seen > suspicion * energy && since_all_ >= all_steps))
     if (const StepResult result = check_all(system, motion); !result.ok()) return result;
   if (since_kept_ >= keep_steps && now.kinetic <= 2.0 * energy) keep(motion);
   return {};
@@ -146,6 +149,7 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
 
 StepResult DivergenceDetector::check_all(const SpringSystem& system, Motion motion) {
   ++checks_;
+  since_all_ = 0;
   const Sums now = sums(system, motion);
   if (now.finite && now.kinetic + elastic_energy(system, motion.x) <= gain * available(now)) return {};
   return diagnose(system, motion);

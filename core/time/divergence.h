@@ -23,12 +23,18 @@ namespace dartboard {
 /// theta^2 / 4). More than `gain` times the energy available, that is a tenfold amplitude, is no oscillation of a
 /// stable one below 0.99 of its limit.
 ///
+/// An energy that stays above the bound is found within 16 steps where what moves, or the springs looked at, show it,
+/// and within 64 where they only suggest it (`suspicion`): then all springs are summed. How soon an unstable step
+/// brings the energy there is another matter: ln(10 / share of the unstable oscillation) / ln(growth per step) steps.
+///
 /// Sums, never maxima: a sum with a NaN in it is NaN.
 class DivergenceDetector {
  public:
   static constexpr double gain = 100;               // in energy
   static constexpr std::uint64_t check_steps = 16;  // between checks; after a start 1, 2, 4, 8
   static constexpr std::uint64_t keep_steps = 64;   // between states kept
+  static constexpr double suspicion = 10;           // in energy; stable runs below 0.94 of their limit have less
+  static constexpr std::uint64_t all_steps = 48;    // between two sums over all springs that are made on suspicion
   static constexpr std::size_t spring_share = 32;   // one spring of so many is looked at, but 8 if there are
 
   /// A run starts here, with steps of h [s]. The state is kept.
@@ -85,6 +91,7 @@ class DivergenceDetector {
   double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;   // [W] now, [J] of driven vertices since the run began, its peak
   std::size_t first_spring_ = 0;
   std::uint64_t since_start_ = 0, next_check_ = 1, since_kept_ = 0, checks_ = 0;
+  std::uint64_t since_all_ = 0;  // steps since the last sum over all springs
   std::vector<Eigen::Vector3d> kept_x_, kept_v_;
 };
 

@@ -11,6 +11,7 @@
 #include "core/time/bdf2.h"
 #include "core/time/blanes_moan_4.h"
 #include "core/time/classical_runge_kutta.h"
+#include "core/time/compensated_splitting.h"
 #include "core/time/dormand_prince_54.h"
 #include "core/time/energy_momentum.h"
 #include "core/time/explicit_euler.h"
@@ -33,7 +34,9 @@ constexpr std::array table{
     IntegratorEntry{"explicit-euler", make<ExplicitEuler>},
     IntegratorEntry{"symplectic-euler", make<SymplecticEuler>},
     IntegratorEntry{"verlet", make<Verlet>},
+    IntegratorEntry{"verlet-compensated", make_compensated_verlet},
     IntegratorEntry{"blanes-moan-4", make<BlanesMoan4>},
+    IntegratorEntry{"blanes-moan-4-compensated", make_compensated_blanes_moan_4},
     IntegratorEntry{"rk4", make<ClassicalRungeKutta>},
     IntegratorEntry{"dormand-prince-54", make<DormandPrince54>},
     IntegratorEntry{"backward-euler", make<BackwardEuler>},

@@ -23,6 +23,7 @@ struct Scheme {
   bool symplectic = false;       // where nothing dissipates
   bool symmetric = false;        // a step of -h undoes a step of h, where nothing dissipates
   bool keeps_angular = false;    // angular momentum is exact; linear momentum is, for all
+  bool compensated = false;      // carries on with the digits that rounding takes from the state
   bool estimates_error = false;  // can choose its own steps: an AdaptiveIntegrator
   bool one_step = true;          // false: keeps states of earlier steps, and starts again after a restart
   double imaginary_limit = 0;    // stable for zeta = 0 and 0 < theta <= this; `unlimited` when for all

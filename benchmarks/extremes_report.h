@@ -1,0 +1,47 @@
+#pragma once
+// What `extremes` found: tables, claims, JSON.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/claim.h"
+#include "benchmarks/table.h"
+#include "validation/amplification_study.h"
+#include "validation/detection_study.h"
+#include "validation/energy_rounding.h"
+#include "validation/extremes.h"
+#include "validation/stability_limits.h"
+#include "validation/stability_map.h"
+
+namespace dartboard {
+
+/// Empty where a study was not asked for.
+struct ExtremesResults {
+  std::vector<nlohmann::ordered_json> cells;  // as they come from child processes
+  std::vector<StabilityLimit> limits;
+  std::vector<MeshBody> meshes;  // what the limits on meshes rest on
+  std::vector<StabilityMap> maps;
+  std::vector<AmplificationPoint> amplification;
+  std::vector<RoundingGrowth> rounding;
+  std::vector<TinySteps> tiny;
+  std::vector<Detection> detections;
+};
+
+nlohmann::ordered_json to_json(const ExtremeCell& cell);
+nlohmann::ordered_json to_json(const ExtremesResults& results);
+
+/// SILENT and CRASH.
+std::vector<nlohmann::ordered_json> forbidden_cells(const ExtremesResults& results);
+
+/// Targets of our own, of the studies that were made.
+std::vector<Claim> claims_of(const ExtremesResults& results);
+
+struct NamedTable {
+  std::string study, name, heading;  // "limits", "frequencies", "Highest frequencies of meshes, by Lanczos"
+  Table table;
+};
+/// Of the studies that were made.
+std::vector<NamedTable> tables_of(const ExtremesResults& results);
+
+}  // namespace dartboard

@@ -1,0 +1,31 @@
+#pragma once
+// gnuplot as a child process, and what scripts for it have in common.
+
+#include <filesystem>
+#include <string>
+
+#include "benchmarks/plot.h"
+
+namespace dartboard {
+
+/// Text within gnuplot's double quotes.
+std::string quoted(const std::string& text);
+
+/// "file" using 1:2 with ...: a series drawn from its data file, with its labels if it has some.
+std::string plot_element(const PlotSeries& series, const std::string& data_file);
+
+/// throws  IoError if it cannot be written
+void write_plot_file(const std::filesystem::path& file, const std::string& text);
+
+/// Run a script that lies in `folder`.
+///
+/// returns what went wrong, in a sentence; empty when all is well
+std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name);
+
+/// The commands, which plot, once for `name`.png and once for `name`.svg.
+std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height);
+/// "set terminal ..." for a PNG or an SVG of this size.
+std::string png_terminal(int width, int height);
+std::string svg_terminal(int width, int height);
+
+}  // namespace dartboard

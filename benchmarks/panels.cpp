@@ -1,0 +1,110 @@
+#include "benchmarks/panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "benchmarks/gnuplot.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+std::string series_file(const std::string& name, std::size_t panel, std::size_t k) {
+  return fmt::format("{}-{}-{}.dat", name, panel, k);
+}
+std::string field_file(const std::string& name, std::size_t panel) {
+  return fmt::format("{}-{}-field.dat", name, panel);
+}
+
+std::string axis(char which, bool logarithmic, double low, double high, const std::string& label) {
+  return fmt::format(
+      "{0} logscale {1}\nset format {1} \"{2}\"\nset {1}range [{3:.17g}:{4:.17g}]\nset {1}label {5} noenhanced\n",
+      logarithmic ? "set" : "unset", which, logarithmic ? "10^{%T}" : "%g", low, high, quoted(label));
+}
+
+std::string panel_script(const Panels& panels, std::size_t k, const std::string& name) {
+  const Panel& panel = panels.panels[k];
+  std::string script = fmt::format("set title {} noenhanced font \",13\" offset 0,-0.5\n", quoted(panel.title)) +
+                       axis('x', panel.x_log, panel.x_low, panel.x_high, panel.x_axis) +
+                       axis('y', panel.y_log, panel.y_low, panel.y_high, panel.y_axis) +
+                       "set xtics autofreq\nset ytics autofreq\n";
+  if (!panel.y_ticks.empty()) {
+    std::string ticks;
+    for (const Tick& t : panel.y_ticks)
+      ticks += fmt::format("{}{} {:.17g}", ticks.empty() ? "" : ", ", quoted(t.label), t.at);
+    script += fmt::format("set ytics ({})\n", ticks);
+  }
+  script += panel.key.empty() ? "unset key\n"
+                              : fmt::format("set key {} Left reverse noenhanced samplen 1.5 font \",11\"\n", panel.key);
+  std::string lines;
+  const auto add = [&lines](const std::string& element) {
+    lines += (lines.empty() ? "plot " : ", \\\n     ") + element;
+  };
+  if (!panel.field.values.empty()) add(fmt::format("{} using 1:2:3 with image notitle", quoted(field_file(name, k))));
+  for (std::size_t s = 0; s < panel.series.size(); ++s)
+    if (!panel.series[s].points.empty()) add(plot_element(panel.series[s], series_file(name, k, s)));
+  return script + (lines.empty() ? "plot NaN notitle" : lines) + "\n";
+}
+
+void check(const Panel& panel) {
+  if (!(panel.x_low < panel.x_high && panel.y_low < panel.y_high) || (panel.x_log && !(panel.x_low > 0.0)) ||
+      (panel.y_log && !(panel.y_low > 0.0)))
+    throw InputError(fmt::format("the axes of panel '{}' must ascend, logarithmic ones from above 0", panel.title));
+  if (panel.field.values.size() != panel.field.x.size() * panel.field.y.size())
+    throw InputError(fmt::format("the field of panel '{}' has {} values for {} x {} points", panel.title,
+                                 panel.field.values.size(), panel.field.x.size(), panel.field.y.size()));
+}
+
+}  // namespace
+
+std::string panels_script(const Panels& panels, const std::string& name) {
+  const auto count = static_cast<int>(panels.panels.size());
+  const int rows = std::max(1, (count + panels.columns - 1) / panels.columns);
+  bool fields = false;
+  for (const Panel& p : panels.panels) fields |= !p.field.values.empty();
+  std::string script = fmt::format(
+      "set encoding utf8\nset datafile separator whitespace\n"
+      "set tics out nomirror font \",11\"\nset border 3 linewidth 1.2 linecolor rgb \"#404040\"\n"
+      "set xlabel font \",12\"\nset ylabel font \",12\"\n"
+      "set palette defined (0 \"#2166ac\", 0.25 \"#92c5de\", 0.5 \"#f7f7f7\", 0.75 \"#f4a582\", 1 \"#b2182b\")\n"
+      "set cbrange [{:.17g}:{:.17g}]\nset cblabel {} noenhanced font \",12\"\n",
+      panels.field_low, panels.field_high, quoted(panels.field_label));
+  script += fields ? "set colorbox user origin 0.945,0.2 size 0.012,0.6\n" : "unset colorbox\n";
+  for (const auto& [terminal, end] : {std::pair(png_terminal(panels.width, panels.height), "png"),
+                                      {svg_terminal(panels.width, panels.height), "svg"}}) {
+    script += fmt::format(
+        "set terminal {}\nset output {}\n"
+        "set multiplot layout {},{} rowsfirst margins 0.055,{},0.075,0.9 spacing 0.055,0.13 title {} noenhanced font "
+        "\",17\"\n",
+        terminal, quoted(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
+        quoted(panels.title));
+    for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, name);
+    script += "unset multiplot\nunset output\n";
+  }
+  return script;
+}
+
+std::string draw(const Panels& panels, const std::filesystem::path& folder, const std::string& name,
+                 const std::string& gnuplot) {
+  for (std::size_t k = 0; k < panels.panels.size(); ++k) {
+    const Panel& panel = panels.panels[k];
+    check(panel);
+    for (std::size_t s = 0; s < panel.series.size(); ++s)
+      if (!panel.series[s].points.empty())
+        write_plot_file(folder / series_file(name, k, s), plot_data(panel.series[s]));
+    if (panel.field.values.empty()) continue;
+    std::string text;
+    for (std::size_t y = 0; y < panel.field.y.size(); ++y)
+      for (std::size_t x = 0; x < panel.field.x.size(); ++x)
+        text += fmt::format(
+            "{:.6g} {:.6g} {:.6g}\n", panel.field.x[x], panel.field.y[y],
+            std::clamp(panel.field.values[y * panel.field.x.size() + x], panels.field_low, panels.field_high));
+    write_plot_file(folder / field_file(name, k), text);
+  }
+  // the script names its files without a folder, so that they can be moved together
+  write_plot_file(folder / (name + ".gnuplot"), panels_script(panels, name));
+  return run_gnuplot(gnuplot, folder, name);
+}
+
+}  // namespace dartboard
