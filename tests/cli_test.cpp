@@ -133,16 +133,18 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
 }
 
 TEST(Simulate, ExitsWithOneWhenTheSceneExpectsSomethingElse) {
-  const TemporaryFile scene("wrong.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
+  const TemporaryFile scene(
+      "wrong.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "step": 0.001,
                                 "duration": 0.01, "expect": {"cells": 7}})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 1) << answer.out;
 }
 
 TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
-  const TemporaryFile scene("misspelt.json",
-                            R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
+  const TemporaryFile scene(
+      "misspelt.json",
+      R"({"name": "x", "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}}, "steb": 0.001})");
   const Answer answer = run("simulate " + scene.path.string());
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;
@@ -150,6 +152,28 @@ TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
 }
 
 TEST(Simulate, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("simulate /nowhere/scene.json").status, 3); }
+
+TEST(Simulate, ChoosesTheStepOfASceneThatAsksForAnAccuracy) {
+  const Answer answer = run("simulate " + scenes + "beam_to_accuracy.json --json", "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  const auto report = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(report.at("settled").at("accuracy"), 1e-3);
+  EXPECT_EQ(report.at("settled").at("integrator"), report.at("integrator"));
+  EXPECT_GT(report.at("steps"), 0);
+}
+
+TEST(Recommend, TakesASceneFileAndSaysWhatItLeavesOut) {
+  const Answer answer = run("recommend " + scenes + "block_eroded.json --error 1e-3");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_NE(answer.out.find("/events/0 is left out"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("Take "), std::string::npos) << answer.out;
+}
+
+TEST(Recommend, NeedsASceneAndAnErrorOrDrawsThemItself) {
+  EXPECT_EQ(run("recommend chain").status, 2);
+  EXPECT_EQ(run("recommend --error 1e-3").status, 2);
+  EXPECT_EQ(run("recommend chain --error 1e-3 --audit").status, 2);
+}
 
 TEST(Scene, SchemaIsJson) {
   const Answer answer = run("scene --schema", "");
