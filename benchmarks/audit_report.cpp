@@ -107,9 +107,10 @@ Table audit_table(const std::vector<AuditedPair>& pairs) {
     }
     const bool compared = p.swept && std::isfinite(a.best_cost);
     table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick, fmt::format("{:.3f}", a.actual_error / a.error),
-                   !p.told() ? "below the floor"
-                   : a.met() ? "yes"
-                             : "NO",
+                   !std::isfinite(p.floor) ? "not checked"
+                   : !p.told()             ? "below the floor"
+                   : a.met()               ? "yes"
+                                           : "NO",
                    fmt::format("{:.0f}", a.actual_evaluations), fmt::format("{:.3f}", p.count_ratio()),
                    fmt::format("{:.3g}", a.actual_s), fmt::format("{:.3f}", p.cost_ratio()), compared ? a.best : "-",
                    compared ? fmt::format("{:.2f}", a.regret()) : "-", fmt::format("{:.2f}", p.pilot_part()),

@@ -67,7 +67,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     scene.integrator = pick->contender;
     scene.step = step_fitting_times(scene, pick->h);
     settled.recommended_step = pick->h;
-    settled.predicted_error = pick->predicted_error * std::pow(scene.step / pick->h, pick->slope);
+    settled.predicted_error = pick->error_at(scene.step);
     settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);
     settled.pilot_s = r.pilot_s;
     settled.omissions = studied.omissions;

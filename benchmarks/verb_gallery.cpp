@@ -13,6 +13,7 @@
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/plain/error.h"
 #include "core/scene/scene_run.h"
@@ -60,18 +61,19 @@ Shown show(const std::filesystem::path& file, const RunFolder* folder) {
   Shown shown;
   shown.scene = read_scene(file);
   shown.file = file.filename().string();
+  settle_accuracy(shown.scene, thread_cpu_ns);
   Simulation simulation(shown.scene);
   Album album(simulation, simulation.step_count());
   AlbumWatcher watcher(album);
   const auto start = thread_cpu_ns();
-  const RunResult result = run_scene(simulation, {}, watcher);
+  const RunResult result = run_scene(simulation, shown.scene.output, watcher);
   shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;
   if (result.divergence) shown.divergence = to_string(*result.divergence);
   shown.map = simulation.body().map_name();
   shown.hash = fmt::format("{:016x}", simulation.body().state_hash());
   shown.steps = simulation.steps_done();
   shown.operations = simulation.operations();
-  for (const ExpectedRow& row : compare_with_expectation(shown.scene.expect, simulation)) {
+  for (const ExpectedRow& row : compare_with_expectation(shown.scene, simulation, result)) {
     ++shown.expected;
     if (row.holds) ++shown.held;
   }

@@ -221,6 +221,28 @@ TEST(Explain, OfAMisspeltKeyIsAUsageError) {
   EXPECT_EQ(run("explain " + scene.path.string()).status, 2);
 }
 
+TEST(Simulate, ChoosesTheStepOfASceneThatAsksForAnAccuracy) {
+  const Answer answer = run("simulate " + scenes + "beam_to_accuracy.json --json", "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  const auto report = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(report.at("settled").at("accuracy"), 1e-3);
+  EXPECT_EQ(report.at("settled").at("integrator"), report.at("integrator"));
+  EXPECT_GT(report.at("steps"), 0);
+}
+
+TEST(Recommend, TakesASceneFileAndSaysWhatItLeavesOut) {
+  const Answer answer = run("recommend " + scenes + "block_eroded.json --error 1e-3");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_NE(answer.out.find("/events/0 is left out"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("Take "), std::string::npos) << answer.out;
+}
+
+TEST(Recommend, NeedsASceneAndAnErrorOrDrawsThemItself) {
+  EXPECT_EQ(run("recommend chain").status, 2);
+  EXPECT_EQ(run("recommend --error 1e-3").status, 2);
+  EXPECT_EQ(run("recommend chain --error 1e-3 --audit").status, 2);
+}
+
 TEST(Scene, SchemaIsJson) {
   const Answer answer = run("scene --schema", "");
   EXPECT_EQ(answer.status, 0);

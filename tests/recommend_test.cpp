@@ -81,7 +81,7 @@ TEST(SolveForError, ATolerancePromisesAnErrorAndANumberOfSteps) {
   c.adaptive = true;
   c.confidence = Confidence::asymptotic;
   c.order = 5;
-  c.pilot_tolerance = 1e-6;
+  c.pilot_h = 1e-6;
   c.error_at_pilot = 1e-4;
   c.slope = 1.0;
   c.pilot_steps = 100.0;
@@ -95,6 +95,35 @@ TEST(SolveForError, ATolerancePromisesAnErrorAndANumberOfSteps) {
   EXPECT_NEAR(c.predicted_cost, 650.0 * std::pow(100.0 / safety, 0.2), 1e-9);
   EXPECT_EQ(c.setting().steps, 0u);
   EXPECT_EQ(c.setting().tolerance, c.tolerance);
+}
+
+TEST(SolveForError, BetweenPilotsCountsWhatTheyShowed) {
+  Candidate c = fourth_order();
+  c.coarser = {{0.2, 1e-1}, {0.4, 4e-1}};  // of order 3.3, then 2
+  EXPECT_NEAR(c.error_at(0.2), 1e-1, 1e-16);
+  EXPECT_NEAR(c.error_at(0.4), 4e-1, 1e-15);
+  EXPECT_NEAR(c.error_at(std::sqrt(0.1 * 0.2)), std::sqrt(1e-2 * 1e-1), 1e-15);
+  EXPECT_NEAR(c.error_at(0.8), 4e-1 * 16.0, 1e-13);  // beyond, by the order
+  solve_for_error(c, 1e-1, eight_seconds(), 2e-6, {});
+  // 0.93 times 0.2 s: 5.4 steps a second
+  EXPECT_EQ(c.steps, 8u * 6u);
+  EXPECT_LE(c.predicted_error, 1e-1);
+}
+
+TEST(SolveForError, NoToleranceIsLooserThanThoseThatWereTried) {
+  Candidate c;
+  c.adaptive = true;
+  c.confidence = Confidence::asymptotic;
+  c.order = 5;
+  c.pilot_h = 1e-6;
+  c.error_at_pilot = 1e-5;
+  c.pilot_steps = 100.0;
+  c.steps_slope = 0.2;
+  c.step_cost = 6.5;
+  c.coarser = {{1e-5, 1e-4, 60.0}, {1e-4, 1e-3, 50.0}};
+  solve_for_error(c, 1.0, eight_seconds(), 2e-6, {});
+  EXPECT_EQ(c.tolerance, 1e-4);
+  EXPECT_EQ(c.steps, 50u);
 }
 
 class RecommendChain : public ::testing::TestWithParam<double> {};

@@ -14,9 +14,9 @@ namespace {
 
 using namespace moving;
 
-/// A clock on which every look takes a microsecond: the same choices on every machine.
+/// A clock on which every look takes a millisecond: the same choices on every machine.
 CpuClock ticking() {
-  return [t = std::int64_t{0}]() mutable { return t += 1000; };
+  return [t = std::int64_t{0}]() mutable { return t += 1'000'000; };
 }
 
 Json accurate_box(double accuracy) {

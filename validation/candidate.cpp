@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/time/integrators.h"
 
@@ -25,7 +26,57 @@ double steps_taken(const reference::NetworkMotion& motion, std::uint64_t steps) 
   return count;
 }
 
+/// Two pilots and the power law between them; beyond the coarsest errors grow by the order at least.
+struct Segment {
+  Candidate::Seen from;
+  double power, until;  // [s]
+};
+
+std::vector<Segment> segments_of(const Candidate& c) {
+  std::vector<Segment> segments{{{c.pilot_h, c.error_at_pilot}, c.slope, std::numeric_limits<double>::infinity()}};
+  for (const Candidate::Seen& next : c.coarser) {
+    Segment& last = segments.back();
+    last.power = std::log(next.error / last.from.error) / std::log(next.h / last.from.h);
+    last.until = next.h;
+    segments.push_back({next, std::max(last.power, static_cast<double>(c.order)), last.until});
+    segments.back().until = std::numeric_limits<double>::infinity();
+  }
+  return segments;
+}
+
+/// The largest step whose error is at most `error`.
+double step_for(const Candidate& c, double error) {
+  if (!(error > c.error_at_pilot)) return c.pilot_h * std::pow(error / c.error_at_pilot, 1.0 / c.slope);
+  double h = c.pilot_h;
+  for (const Segment& s : segments_of(c)) {
+    h = std::min(s.until, s.from.h * std::pow(error / s.from.error, 1.0 / std::max(s.power, 1e-3)));
+    if (h < s.until) break;
+  }
+  return h;
+}
+
+/// How many steps an adaptive candidate takes.
+double steps_within(const Candidate& c, double tolerance) {
+  if (tolerance <= c.pilot_h) return c.pilot_steps * std::pow(tolerance / c.pilot_h, -c.steps_slope);
+  Candidate::Seen from{c.pilot_h, c.error_at_pilot, c.pilot_steps};
+  for (const Candidate::Seen& to : c.coarser) {
+    if (tolerance <= to.h) {
+      const double power = std::log(to.steps / from.steps) / std::log(to.h / from.h);
+      return from.steps * std::pow(tolerance / from.h, power);
+    }
+    from = to;
+  }
+  return from.steps;
+}
+
 }  // namespace
+
+double Candidate::error_at(double step) const {
+  if (step <= pilot_h) return error_at_pilot * std::pow(step / pilot_h, slope);
+  for (const Segment& s : segments_of(*this))
+    if (step <= s.until) return s.from.error * std::pow(step / s.from.h, s.power);
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 std::string_view name(Confidence confidence) {
   switch (confidence) {
@@ -46,22 +97,21 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
   // an order that is still rising errs on the safe side
   const double aim = c.confidence == Confidence::asymptotic || c.confidence == Confidence::sufficient ? error
                      : c.full_length                                                                  ? 0.8 * error
-                                                                                                      : 0.5 * error;
+                                                                                                      : 0.35 * error;
   const double duration = motion.checkpoints.back();
   double count = 0.0;
   if (c.adaptive) {
     // the tolerance is a step to the power of the order
     const double safety = std::pow(options.safety, c.order);
-    const double ratio = std::pow(safety * aim / c.error_at_pilot, 1.0 / c.slope);
-    c.tolerance = std::max(c.pilot_tolerance * ratio, 1e-15);
-    const double scale = c.tolerance / c.pilot_tolerance;
-    c.predicted_error = c.error_at_pilot * std::pow(scale, c.slope);
-    count = std::max(1.0, c.pilot_steps * std::pow(scale, -c.steps_slope));
+    const double loosest = c.coarser.empty() ? c.pilot_h : c.coarser.back().h;
+    c.tolerance = std::clamp(step_for(c, safety * aim), 1e-15, loosest);
+    c.predicted_error = c.error_at(c.tolerance);
+    count = steps_within(c, c.tolerance);
     c.steps = static_cast<std::uint64_t>(count);
     c.h = duration / count;
     c.predicted_cost = count * c.step_cost;
   } else {
-    const double for_error = options.safety * c.pilot_h * std::pow(aim / c.error_at_pilot, 1.0 / c.slope);
+    const double for_error = options.safety * step_for(c, aim);
     const double for_stability = options.stability * c.limit_h;
     const auto checkpoints = motion.checkpoints.size();
     const double per_interval = duration / static_cast<double>(checkpoints);
@@ -69,7 +119,7 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
     const double h = std::min({for_error, for_stability, per_interval});
     c.steps = checkpoints * static_cast<std::uint64_t>(std::ceil(per_interval / h));
     c.h = duration / static_cast<double>(c.steps);
-    c.predicted_error = c.error_at_pilot * std::pow(c.h / c.pilot_h, c.slope);
+    c.predicted_error = c.error_at(c.h);
     count = steps_taken(motion, c.steps);
     c.predicted_cost = count * c.step_cost * std::pow(c.h / c.pilot_h, c.step_slope);
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/time/integrator.h"
 #include "validation/scene_stage.h"
@@ -41,13 +42,18 @@ struct Candidate {
   double observed_order = 0.0;  // of an adaptive one, the power of the tolerance
   double limit_h = 0.0;         // [s] the predicted limit of stability; infinite when there is none
 
-  // error(h) = error_at_pilot (h / pilot_h)^slope, over the whole duration
+  // error(h) = error_at_pilot (h / pilot_h)^slope, over the whole duration; above pilot_h what coarser pilots showed.
+  // Of an adaptive one, h is a tolerance [edges] here, and is not extrapolated upwards.
   double pilot_h = 0.0, error_at_pilot = 0.0, slope = 1.0;
+  struct Seen {
+    double h, error;
+    double steps = 0.0;  // taken in all; of adaptive ones
+  };
+  std::vector<Seen> coarser{};  // ascending in step and error
   // force evaluations that a step is worth (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
   double step_cost = 0.0, step_slope = 0.0, step_evaluations = 0.0;
-  // An adaptive one: error(tolerance) = error_at_pilot (tolerance / pilot_tolerance)^slope, and the steps that it takes
-  // = pilot_steps (tolerance / pilot_tolerance)^-steps_slope.
-  double pilot_tolerance = 0.0, pilot_steps = 0.0, steps_slope = 0.0;
+  // the steps that an adaptive one takes = pilot_steps (tolerance / pilot_h)^-steps_slope, below pilot_h
+  double pilot_steps = 0.0, steps_slope = 0.0;
 
   // for the error asked for
   std::uint64_t steps = 0;
@@ -57,6 +63,8 @@ struct Candidate {
   bool limited_by_stability = false;
 
   bool usable() const { return pruned.empty(); }
+  /// Over the whole duration [edges].
+  double error_at(double step) const;
   RunSetting setting() const { return adaptive ? RunSetting{.tolerance = tolerance} : RunSetting{.steps = steps}; }
   /// The integrator to run it with.
   std::unique_ptr<Integrator> make() const;

@@ -1,5 +1,7 @@
 #include "validation/candidate_pilots.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -51,6 +53,23 @@ void take_cost(Candidate& c, const PilotRun& pilot) {
                        static_cast<double>(std::max<std::uint64_t>(pilot.run.work.steps, 1));
 }
 
+/// The errors of the pilots, the last of them the finest: Richardson's estimate there, and of the coarser ones what
+/// they are away from it; grown from the part that was run to the whole.
+void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<const PilotRun*>& runs, double part) {
+  const TimedRun& finest = runs.back()->run;
+  std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
+  for (double& e : left) e = richardson(c, e);
+  const double growth = std::pow(1.0 / part, growth_of(left, scene.motion.checkpoints));
+  c.pilot_h = finest.h;
+  c.error_at_pilot = growth * largest(left);
+  c.coarser.clear();
+  for (std::size_t k = runs.size() - 1; k-- > 0;) {
+    const double error = c.error_at_pilot + growth * largest(differences(scene, runs[k]->run, finest));
+    const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
+    if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k]->run.h, error});
+  }
+}
+
 /// How far a body may have moved that has not exploded [edges]: as a thousand edges beside its flight.
 double farthest_flight(const TradeoffScene& scene) {
   double speed = 0.0;
@@ -62,9 +81,11 @@ double farthest_flight(const TradeoffScene& scene) {
 }  // namespace
 
 void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double error) {
-  // a third of what there is, for three pilots
+  // a third of what there is, for three pilots; no run with this method takes less than its largest steps do
   const double steps_in_all = pilots.scene().duration / h;
-  const double allowed_s = std::max(pilots.left_s(), pilots.options().pilot_floor_s) / 3.0;
+  const RecommendOptions& options = pilots.options();
+  const double run_s = steps_in_all * step_s;
+  const double allowed_s = std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s) / 3.0;
   std::size_t prefix = prefix_of(pilots.scene());
   const auto& all_times = pilots.scene().motion.checkpoints;
   double part = all_times[prefix - 1] / pilots.scene().duration;
@@ -76,7 +97,6 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     prefix = 4;
   }
   const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
-  const auto& times = scene.motion.checkpoints;
   auto steps = whole_steps(scene, h);
   std::vector<PilotRun> runs;
   std::vector<std::vector<double>> change;
@@ -91,6 +111,13 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
       runs.clear();  // a step too large: begin again with half of it
       change.clear();
       continue;
+    }
+    // finer runs are dearer; of an implicit method a coarser one may do
+    if (const double whole_s = runs.back().cpu_s / part;
+        runs.size() == 1 && whole_s > (c.implicit ? 4.0 : 1.5) * pilots.cheapest_s()) {
+      c.pruned = fmt::format("with h = {:.2g} s it takes {:.1e} s in all, against {:.1e} s", runs.back().run.h, whole_s,
+                             pilots.cheapest_s());
+      return;
     }
     if (runs.size() >= 2) change.push_back(differences(scene, runs[runs.size() - 2].run, runs.back().run));
     // the largest step that is stable is accurate enough by far: how its error falls is of no interest
@@ -110,10 +137,9 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
                  : shows_its_order(c) ? Confidence::asymptotic
                                       : Confidence::pre_asymptotic;
   c.slope = at_once ? 1.0 : slope_of(c);
-  c.pilot_h = runs.back().run.h;
-  std::vector<double> errors = change.back();
-  for (double& e : errors) e = richardson(c, e);
-  c.error_at_pilot = largest(errors) * std::pow(1.0 / part, growth_of(errors, times));
+  std::vector<const PilotRun*> all;
+  for (const PilotRun& run : runs) all.push_back(&run);
+  take_errors(c, scene, all, part);
   take_cost(c, runs.back());
   if (c.implicit) {
     const PilotRun& before = runs[runs.size() - 2];
@@ -133,7 +159,7 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
       runs.pop_back();
       break;
     }
-    c.pilot_tolerance = tolerance;
+    c.pilot_h = tolerance;
     if (runs.size() >= 2) change.push_back(largest(differences(scene, runs[runs.size() - 2].run, runs.back().run)));
     if (change.size() < 2) continue;
     c.observed_order = std::log10(change[change.size() - 2] / change.back());
@@ -147,6 +173,14 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
   c.slope = std::clamp(c.observed_order, 0.3, 1.1);
   c.error_at_pilot = change.back() / (std::pow(10.0, c.slope) - 1.0);
   take_cost(c, runs.back());
+  double looser = c.pilot_h;
+  for (std::size_t k = runs.size() - 1; k-- > 0;) {
+    looser *= 10.0;
+    const double seen = c.error_at_pilot + largest(differences(scene, runs[k].run, runs.back().run));
+    const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
+    if (std::isfinite(seen) && seen > before)
+      c.coarser.push_back({looser, seen, static_cast<double>(runs[k].run.work.steps)});
+  }
   const auto steps_of = [&](std::size_t back) {
     return static_cast<double>(runs[runs.size() - 1 - back].run.work.steps);
   };
@@ -181,7 +215,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     c.limit_h = pilot->run.h;
     return Longer::unstable;
   }
-  std::vector<double> change = differences(scene, coarse.run, fine.run);
+  const std::vector<double> change = differences(scene, coarse.run, fine.run);
   if (!(largest(change) > 0.0)) return Longer::skipped;
   // a third, where there is time for it, tells whether the order shows
   const PilotRun* finest = &fine;
@@ -189,18 +223,15 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   if (2.0 * fine.cpu_s <= pilots.left_s()) {
     third = pilots.run(c, scene, {.steps = 4 * steps});
     if (third.run.result.ok()) {
-      std::vector<double> left = differences(scene, fine.run, third.run);
+      const std::vector<double> left = differences(scene, fine.run, third.run);
       if (!(largest(left) > 0.0) || !std::isfinite(largest(left))) return Longer::skipped;
       c.observed_order = std::log2(largest(change) / largest(left));
       c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
       c.slope = slope_of(c);
-      change = std::move(left);
       finest = &third;
     }
   }
-  for (double& e : change) e = richardson(c, e);
-  c.pilot_h = finest->run.h;
-  c.error_at_pilot = largest(change) * std::pow(1.0 / part, growth_of(change, scene.motion.checkpoints));
+  take_errors(c, scene, finest == &third ? std::vector{&coarse, &fine, finest} : std::vector{&coarse, finest}, part);
   take_cost(c, *finest);
   c.full_length = part == 1.0;
   return Longer::confirmed;

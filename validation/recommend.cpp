@@ -56,19 +56,14 @@ class Search {
   }
 
   Recommendation run() {
-    for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, options_.only)) {
-      if (scheme.implicit)
-        try_implicit(scheme);
-      else
-        try_explicit(scheme);
-    }
+    const auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
+    for (const Scheme& scheme : schemes)
+      if (!scheme.implicit) try_explicit(scheme);
     if (options_.adaptive)
-      for (const IntegratorEntry& entry : integrators()) {
-        const auto integrator = entry.make();
-        if ((options_.only.empty() || entry.name == options_.only) &&
-            dynamic_cast<AdaptiveIntegrator*>(integrator.get()) != nullptr)
-          try_adaptive(integrator->scheme());
-      }
+      for (const Scheme& scheme : schemes)
+        if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
+    for (const Scheme& scheme : schemes)
+      if (scheme.implicit) try_implicit(scheme);
     rank(r_.candidates);
     confirm();
     time_the_best();
@@ -114,7 +109,8 @@ class Search {
       c.pruned = fmt::format("its largest stable step takes {:.1e} s in all, against {:.1e} s", least_s,
                              pilots_->cheapest_s());
     else
-      pilot(c, std::min({0.8 * c.limit_h, per_interval(), 2.5 / r_.features.omega_low}), step_s);
+      // the longest step that could be recommended is tried: close to the limit errors grow faster than any order says
+      pilot(c, std::min({options_.stability * c.limit_h, per_interval(), 2.7 / r_.features.omega_low}), step_s);
     r_.candidates.push_back(std::move(c));
   }
 
@@ -210,7 +206,7 @@ class Search {
                            ? std::pow(step_s / std::pow(c.pilot_h, c.step_slope), 1.0 / (1.0 - c.step_slope))
                            : infinity;
       if (!(h < options_.stability * c.limit_h)) continue;
-      const double reached = c.error_at_pilot * std::pow(h / c.pilot_h, c.slope);
+      const double reached = c.error_at(h);
       if (!(reached >= r_.realtime_error)) {
         r_.realtime_error = reached;
         r_.realtime_by = c.contender;

@@ -32,11 +32,11 @@ struct Recommendation {
 /// 2. explicit methods, those first that are cheapest as a rule: three pilots with h, h/2 and h/4, from the largest
 ///    stable step on (`pilot_prefix`); those are left out of which even the largest stable step costs more than what
 ///    was found before;
-/// 3. implicit methods by the break-even law: steps that the motion needs at their order, times the cost of a step;
+/// 3. methods that choose their steps, where they might win: pilots with three tolerances;
+/// 4. implicit methods by the break-even law: steps that the motion needs at their order, times the cost of a step;
 ///    only those that might beat the cheapest explicit one get pilots;
-/// 4. methods that choose their steps, where they might win: pilots with three tolerances;
 /// 5. the step or tolerance for the error, by the order, with safety and within stability; longer pilots, coarser than
-///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`);
+///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`); their steps timed again;
 /// 6. the ranking by predicted cost.
 ///
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); what

@@ -8,6 +8,8 @@
 namespace dartboard {
 namespace {
 
+using reference::motion_errors;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double median_of(std::vector<double> values) {
@@ -39,8 +41,9 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
     before = after;
     total += seconds.back();
     a.actual_evaluations = static_cast<double>(run.work.force_evaluations);
-    a.actual_error =
-        run.result.ok() ? reference::motion_errors(scene.motion, run.states, reference.states).x : infinity;
+    a.actual_error = !run.result.ok()           ? infinity
+                     : reference.states.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                : motion_errors(scene.motion, run.states, reference.states).x;
   }
   a.actual_cost = median_of(costs);
   a.actual_s = median_of(seconds);

@@ -21,7 +21,8 @@ struct Audit {
   double regret() const { return actual_cost / best_cost; }
 };
 
-/// Run the pick and compare it with the reference and with a sweep.
+/// Run the pick and compare it with the reference and with a sweep. Where the reference has no states, the actual error
+/// is not a number.
 ///
 /// throws  InputError when there is no pick
 Audit audit(const TradeoffScene& scene, const SceneReference& reference, const Recommendation& recommendation,
