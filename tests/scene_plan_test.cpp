@@ -48,6 +48,7 @@ const Body bodies[] = {
     {"tetrahedra", R"({"box": {"cells": [3, 2, 2], "spacing": 0.125, "jitter": 0.2}})"},
     {"hexahedra", R"({"box": {"cells": [2, 3, 2], "spacing": 0.125, "kind": "hexahedra"}})"},
     {"all kinds", R"({"box": {"cells": [2, 2, 2], "spacing": 0.125, "kind": "mixed"}})"},
+    {"ball", R"({"ball": {"layers": 2, "radius": 0.25}})"},
     {"triangles", R"({"sheet": {"cells": [3, 4], "spacing": 0.125}})"},
     {"quadrilaterals", R"({"sheet": {"cells": [4, 3], "spacing": 0.125, "kind": "quadrilaterals"}})"},
 };
@@ -62,6 +63,26 @@ TEST(ScenePlan, IsExactInBytesForEveryKindOfBodyWithAndWithoutAMap) {
     expect_exact(with_body(moving_box(), body), std::string(body.name) + " without a map");
     expect_exact(with_body(with_events(moving_box(), one_removal), body), std::string(body.name) + " on a map");
   }
+}
+
+TEST(ScenePlan, IsExactInBytesForAChain) {
+  Json scene = with_body(moving_box(), {"chain", R"({"chain": {"links": 12, "spacing": 0.125}})"});
+  expect_exact(scene, "a chain");
+  scene["fixed"] = Json::parse(R"([{"ids": [0]}])");
+  scene["material"]["viscosity"] = 0;
+  scene["integrator"] = "backward-euler";
+  expect_exact(scene, "a chain that hangs, by an implicit method");
+}
+
+TEST(ScenePlan, IsExactInBytesForDrivenVerticesAndProbes) {
+  Json scene = moving_box();
+  scene["driven"] = Json::parse(R"([{"ids": [0, 1, 2], "velocity": [0.5, 0, 0]},
+                                    {"ids": [5], "velocity": [0, 1, 0], "from": 0.25}])");
+  scene["output"]["probes"] = Json::parse(R"([{"name": "a", "vertex": 3}, {"name": "b", "near": [0, 0, 0]}])");
+  expect_exact(scene, "without a map");
+  expect_exact(with_events(scene, one_removal), "on a map");
+  EXPECT_GT(item(plan(parse(scene)), Part::driven)->bytes, 0u);
+  EXPECT_EQ(item(plan(parse(scene)), Part::probes)->bytes, 8u);
 }
 
 TEST(ScenePlan, IsExactInBytesForEveryIntegratorAndEveryTerm) {

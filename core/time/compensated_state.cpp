@@ -46,6 +46,8 @@ StepResult CompensatedState::commit(Motion motion, WorkCounters& work) {
   if (!result.ok()) return result;
   std::swap(lost_, lost_at_end_);
   std::swap(left_, end_);
+  end_.x.resize(left_.x.size());
+  end_.v.resize(left_.v.size());
   return result;
 }
 

@@ -33,6 +33,7 @@ class CompensatedState {
 
   /// The digits lost so far, by vertex; to be added to what is seen.
   const TrialState& lost() const { return lost_; }
+  std::size_t bytes() const { return end_.bytes() + lost_.bytes() + lost_at_end_.bytes() + left_.bytes(); }
 
  private:
   TrialState end_, lost_, lost_at_end_, left_;
