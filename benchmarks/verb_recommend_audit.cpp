@@ -160,7 +160,7 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
       if (check == Check::reference)
         drawn = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
       if (check == Check::costs_only)
-        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 5000.0, .most_phase = 7000.0};
+        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
       const TradeoffScene scene = random_scene(options.seed, k, drawn);
       const auto errors = check == Check::costs_only
                               ? std::vector{std::sqrt(draw_errors(random, 1)[0] * 1e-4)}
