@@ -84,7 +84,7 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
   if (check != Check::costs_only)
     reference = reference_of(
         scene, clock,
-        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 12.0, .gain = false});
+        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
   WorkPrecision sweep;
   const bool sweep_too = check == Check::reference_and_sweep;
   if (sweep_too) {
