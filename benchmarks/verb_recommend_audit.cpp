@@ -84,7 +84,7 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
   if (check != Check::costs_only)
     reference = reference_of(
         scene, clock,
-        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 12.0, .gain = false});
+        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
   WorkPrecision sweep;
   const bool sweep_too = check == Check::reference_and_sweep;
   if (sweep_too) {
@@ -160,7 +160,7 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
       if (check == Check::reference)
         drawn = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
       if (check == Check::costs_only)
-        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 5000.0, .most_phase = 7000.0};
+        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
       const TradeoffScene scene = random_scene(options.seed, k, drawn);
       const auto errors = check == Check::costs_only
                               ? std::vector{std::sqrt(draw_errors(random, 1)[0] * 1e-4)}
