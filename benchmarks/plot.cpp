@@ -36,6 +36,15 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
       quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
       quoted(plot.y_axis));
+  if (!plot.rows.empty()) {
+    std::string names;
+    for (std::size_t k = 0; k < plot.rows.size(); ++k)
+      names += fmt::format("{}{} {}", k == 0 ? "" : ", ", quoted(plot.rows[k]), k + 1);
+    script += fmt::format(
+        "unset logscale y\nunset mytics\nset ytics ({}) noenhanced\nset format x \"%g\"\nunset mxtics\n"
+        "set xtics (0.1, 0.2, 0.5, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2, 3, 5, 10, 20, 50, 100)\n",
+        names);
+  }
   if (plot.y_last_tick > 0.0) {
     // every decade, every second one where there are many
     const double decades = std::log10(plot.y_last_tick / plot.y_low);

@@ -31,6 +31,8 @@ struct Plot {
   double y_last_tick = 0.0;        // none above it; 0: everywhere
   double shaded_below = 0.0;       // of y; 0: nothing is
   std::string shaded_label{};
+  // Names in place of the numbers 1, 2 ... up the y axis, which is even then; along x plain numbers, for ratios.
+  std::vector<std::string> rows{};
   int width = 1400, height = 900;  // pixels of the PNG
 };
 

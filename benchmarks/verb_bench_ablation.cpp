@@ -164,33 +164,45 @@ std::vector<Claim> claims_of(const Results& r) {
   return claims;
 }
 
-// ---- the picture: what each variant takes, time across and bytes up
+// ---- the picture: a row for each feature, its time along it, its bytes beside it
 
 Plot plot_of(const Results& r) {
   Plot plot;
-  plot.title = "Features on from a bare scene (blue), and off from a full one (red)";
-  plot.x_axis = "microseconds per step";
-  plot.y_axis = "bytes per tetrahedron";
-  double x_low = 1e300, x_high = 0.0, y_low = 1e300, y_high = 0.0;
-  for (const AblationVariant& variant : ablation_variants()) {
-    const double x = r.step_us(variant.name), y = r.bytes.at(variant.name).per_tetrahedron();
-    // points lie close: a number beside each, and its name in the legend
-    const std::string number = fmt::format("{}", plot.series.size() + 1);
-    const bool on = variant.name.starts_with("bare");
-    plot.series.push_back({.title = number + "  " + variant.name,
-                           .points = {{x, y, number}},
-                           .colour = on ? "#1f77b4" : "#d62728",
-                           .symbol = on ? 7 : 5,
-                           .size = 1.4});
-    x_low = std::min(x_low, x);
-    x_high = std::max(x_high, x);
-    y_low = std::min(y_low, y);
-    y_high = std::max(y_high, y);
-  }
-  plot.x_low = 0.7 * x_low;
-  plot.x_high = 1.4 * x_high;
-  plot.y_low = 0.7 * y_low;
-  plot.y_high = 1.4 * y_high;
+  plot.title = "What a feature costs: on from a bare scene, off from a full one";
+  plot.subtitle = "interval over processes; bytes per tetrahedron";
+  plot.x_axis = "time per step with it, over that without";
+  PlotSeries on{.title = "on, from bare", .points = {}, .colour = "#1f77b4", .symbol = 7, .size = 1.4},
+      off{.title = "off, from full", .points = {}, .colour = "#d62728", .symbol = 5, .size = 1.4};
+  double low = 1.0, high = 1.0;
+  const std::size_t count = switched_on().size();
+  const auto add = [&](const std::vector<AblationPair>& pairs, PlotSeries& series, double aside) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const Ratio ratio = paired_ratio(r.samples, pairs[k].task, pairs[k].baseline);
+      const double bytes =
+          r.bytes.at(pairs[k].task).per_tetrahedron() - r.bytes.at(pairs[k].baseline).per_tetrahedron();
+      const double y = static_cast<double>(count - k) + aside;
+      const Interval& i = ratio.cpu.interval;
+      series.points.push_back({ratio.cpu.median, y, bytes == 0.0 ? "" : fmt::format("{:+.1f} B", bytes)});
+      plot.series.push_back(
+          {.title = "", .points = {{i.low, y}, {i.high, y}}, .colour = series.colour, .symbol = 0, .width = 2.0});
+      low = std::min(low, i.low);
+      high = std::max(high, i.high);
+    }
+  };
+  add(switched_on(), on, 0.12);
+  add(switched_off(), off, -0.12);
+  for (std::size_t k = count; k-- > 0;) plot.rows.push_back(switched_on()[k].feature);
+  plot.series.push_back({.title = "",
+                         .points = {{1.0, 0.5}, {1.0, static_cast<double>(count) + 0.5}},
+                         .colour = "#404040",
+                         .symbol = 0,
+                         .width = 1.0});
+  plot.series.push_back(std::move(on));
+  plot.series.push_back(std::move(off));
+  plot.x_low = 0.9 * low;
+  plot.x_high = 1.3 * high;
+  plot.y_low = 0.5;
+  plot.y_high = static_cast<double>(count) + 0.5;
   return plot;
 }
 
