@@ -245,7 +245,7 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   verb->add_flag("--verify", options->verify, "run it, against the oracle and a sweep of all methods");
   verb->add_flag("--audit", options->audit,
                  "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
-  verb->add_option("--seed", options->auditing.seed, "of the audit [20261121]");
+  verb->add_option("--seed", options->auditing.seed, "of the audit [1]");
   verb->add_flag("--quick", options->auditing.quick, "audit a few small scenes only");
   verb->add_option("--out", options->auditing.out, "folder of the audit, new or empty [results/recommend-TIME]");
   verb->add_flag("--json", options->json, "print the report as JSON on standard output, the rest on standard error");

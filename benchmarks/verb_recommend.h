@@ -9,7 +9,7 @@
 namespace dartboard {
 
 struct AuditOptions {
-  std::uint64_t seed = 20261121;
+  std::uint64_t seed = 1;
   bool quick = false, json = false;
   std::string out;
 };
