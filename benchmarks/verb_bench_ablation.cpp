@@ -182,9 +182,12 @@ Plot plot_of(const Results& r) {
           r.bytes.at(pairs[k].task).per_tetrahedron() - r.bytes.at(pairs[k].baseline).per_tetrahedron();
       const double y = static_cast<double>(count - k) + aside;
       const Interval& i = ratio.cpu.interval;
-      series.points.push_back({ratio.cpu.median, y, bytes == 0.0 ? "" : fmt::format("{:+.1f} B", bytes)});
-      plot.series.push_back(
-          {.title = "", .points = {{i.low, y}, {i.high, y}}, .colour = series.colour, .symbol = 0, .width = 2.0});
+      series.points.push_back({ratio.cpu.median, y});
+      plot.series.push_back({.title = "",
+                             .points = {{i.low, y}, {i.high, y, bytes == 0.0 ? "" : fmt::format("{:+.1f} B", bytes)}},
+                             .colour = series.colour,
+                             .symbol = 0,
+                             .width = 2.0});
       low = std::min(low, i.low);
       high = std::max(high, i.high);
     }

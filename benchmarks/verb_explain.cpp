@@ -7,6 +7,7 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/settle_accuracy.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
 #include "benchmarks/unit_costs.h"
@@ -125,7 +126,8 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, co
 }
 
 void explain(const Options& options, Outcome& outcome) {
-  const SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(options.scene);
+  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
@@ -134,10 +136,14 @@ void explain(const Options& options, Outcome& outcome) {
   std::optional<Measured> measured;
   if (options.measure) measured = measure(scene, plan);
   outcome.exit_code = !measured || measured->equal ? exit_agrees : exit_disagrees;
-  if (options.json)
-    fmt::print("{}\n", to_json(scene, plan, measured).dump(2));
-  else
+  if (options.json) {
+    nlohmann::ordered_json json = to_json(scene, plan, measured);
+    if (settled) json["settled"] = nlohmann::json(*settled);
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    if (settled) fmt::print("{}\n", to_string(*settled));
     print(scene, plan, measured);
+  }
 }
 
 }  // namespace
