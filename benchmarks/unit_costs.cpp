@@ -140,8 +140,8 @@ struct Standard {
       for (int k = 0; k < 500; ++k) problem.mesh.points.emplace_back(k * spacing, 0, 0);
     else
       problem.mesh = needs.storage == Storage::surface      ? triangle_sheet(24, 24, spacing)
-                   : needs.storage == Storage::tetrahedra ? kuhn_box(6, 6, 6, spacing)
-                                                          : mixed_box(8, 8, 8, spacing);
+                     : needs.storage == Storage::tetrahedra ? kuhn_box(6, 6, 6, spacing)
+                                                            : mixed_box(8, 8, 8, spacing);
     problem.material = of.material;
     counts = tally_of(problem.mesh);
     body = make_simulated_body(problem, needs.topology_changes);

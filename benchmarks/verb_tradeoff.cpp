@@ -286,8 +286,7 @@ void add_tradeoff(CLI::App& app, Outcome& outcome) {
   verb->add_option("--only", options->only, "names of the integrators that take part [all]");
   verb->add_flag("--quick", options->quick, "short runs, few repetitions");
   verb->add_flag("--solvers", options->solvers, "implicit methods with every linear solver");
-  verb->add_option("--most", options->most_s, "seconds that one run may take [8, quick 0.4]")
-      ->check(positive_number());
+  verb->add_option("--most", options->most_s, "seconds that one run may take [8, quick 0.4]")->check(positive_number());
   verb->add_option("--out", options->out, "folder to write to, new or empty [results/tradeoff-TIME]");
   verb->add_option("--seed", options->seed, "of the order of the integrators [1]");
   verb->add_flag("--json", options->json,

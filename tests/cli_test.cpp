@@ -210,8 +210,8 @@ TEST(Explain, SaysWhatIsLeftOutAndWhy) {
 TEST(Explain, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("explain /nowhere/scene.json").status, 3); }
 
 TEST(Explain, RefusesAnEventThatTheBodyRefuses) {
-  const Answer answer = run("explain " + std::string(DARTBOARD_SOURCE_DIR) +
-                            "/tests/scenes_bad/removed_id_out_of_range.json");
+  const Answer answer =
+      run("explain " + std::string(DARTBOARD_SOURCE_DIR) + "/tests/scenes_bad/removed_id_out_of_range.json");
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/events/0/remove"), std::string::npos) << answer.out;
 }

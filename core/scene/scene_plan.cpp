@@ -151,8 +151,8 @@ class Planner {
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
     plan_.driven_springs = detector.driven_springs();
-    add(Part::driven, fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(),
-                                  plan_.driven_springs),
+    add(Part::driven,
+        fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(), plan_.driven_springs),
         fmt::format("/driven: {} selections", scene_.driven.size()), vertices.bytes() + detector.driven_bytes());
   }
 

@@ -75,7 +75,8 @@ class SimulatedBody {
 };
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
-/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not, or of a chain: columns, and no map.
+/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not, or of a chain:
+/// columns, and no map.
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

@@ -42,9 +42,8 @@ struct StepWarning {
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
 std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
 
-/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass, in eight parts
-/// so that none waits for the one before.
-/// cost    a hundredth of a force evaluation
+/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass, in eight
+/// parts so that none waits for the one before. cost    a hundredth of a force evaluation
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
 /// How much dissociations changed what they must not change: the largest over all events that only dissociate.
@@ -77,8 +76,8 @@ class Simulation {
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
   /// faster than light, or when there is more energy than anything in the scene can supply (DivergenceDetector); the
-  /// body is then as it was in the last good state, at most 80 steps ago. `unstable_step` says what is done about a step
-  /// that is too long.
+  /// body is then as it was in the last good state, at most 80 steps ago. `unstable_step` says what is done about a
+  /// step that is too long.
   std::optional<Divergence> advance();
 
   /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
