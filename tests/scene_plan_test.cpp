@@ -77,7 +77,7 @@ TEST(ScenePlan, IsExactInBytesForAChain) {
 TEST(ScenePlan, IsExactInBytesForDrivenVerticesAndProbes) {
   Json scene = moving_box();
   scene["driven"] = Json::parse(R"([{"ids": [0, 1, 2], "velocity": [0.5, 0, 0]},
-                                    {"ids": [5], "velocity": [0, 1, 0], "from": 0.25}])");
+                                    {"ids": [5], "velocity": [0, 1, 0], "from": 0.005}])");
   scene["output"]["probes"] = Json::parse(R"([{"name": "a", "vertex": 3}, {"name": "b", "near": [0, 0, 0]}])");
   expect_exact(scene, "without a map");
   expect_exact(with_events(scene, one_removal), "on a map");

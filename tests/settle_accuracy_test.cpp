@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plain/error.h"
+#include "core/scene/scene_run.h"
 #include "core/scene/scene_verdict.h"
 #include "tests/moving_box.h"
 
@@ -101,8 +102,9 @@ TEST(SettleAccuracy, ScenesOfTheProjectThatAskForOneEndAsTheyExpect) {
     EXPECT_FALSE(scene.expect.empty()) << entry.path();
     EXPECT_FALSE(scene.expect.hash) << entry.path() << ": the step depends on the machine";
     Simulation simulation(scene);
-    run(simulation);
-    for (const ExpectedRow& row : compare_with_expectation(scene.expect, simulation))
+    RunWatcher nobody;
+    const RunResult result = run_scene(simulation, scene.output, nobody);
+    for (const ExpectedRow& row : compare_with_expectation(scene, simulation, result))
       EXPECT_TRUE(row.holds) << entry.path() << ": " << row.what << " is " << row.actual;
   }
   EXPECT_GE(count, 1u);

@@ -53,7 +53,7 @@ class Reader {
       scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
     for (std::size_t k = 0; k < json.at("driven").size(); ++k)
       scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
-    scene.integrator = json.value("integrator", scene.accuracy ? "" : "rk4");
+    scene.integrator = json.value("integrator", scene.accuracy ? "" : standard_integrator);
     const Json& unstable = json.at("unstable_step");
     scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
                           : unstable == "substep" ? UnstableStep::substep

@@ -84,6 +84,9 @@ struct SceneKey {
 
 std::span<const SceneKey> scene_keys();
 
+/// The integrator of a scene that names none and gives a step.
+inline constexpr const char* standard_integrator = "rk4";
+
 /// What the keys of a shape have to do with each other.
 struct SceneRule {
   enum Kind { exactly_one, at_most_one, excludes } kind;  // excludes: the first none of the others

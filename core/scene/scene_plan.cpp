@@ -177,7 +177,9 @@ class Planner {
 
   void integrator() {
     const SystemArrays arrays(problem_, plan_.counts);
-    const std::string why = told("/integrator", Shape::scene, "integrator", scene_.integrator);
+    const bool standard = !scene_.accuracy && scene_.integrator == standard_integrator;
+    const std::string why = fmt::format("{}: {}{}", scene_.accuracy ? "/accuracy" : "/integrator", scene_.integrator,
+                                        standard ? " (the default)" : "");
     add(Part::integrator, "stages and trial state by vertex", why,
         predicted_integrator_bytes(scene_.integrator, counts_of(arrays.system())));
     if (plan_.needs.solver)
