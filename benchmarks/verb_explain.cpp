@@ -14,6 +14,8 @@
 #include "core/scene/measured_plan.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/simulation.h"
+#include "core/scene/system_arrays.h"
+#include "core/time/accelerations.h"
 
 namespace dartboard {
 namespace {
@@ -28,31 +30,57 @@ struct Measured {
   std::vector<std::size_t> bytes;  // by item of the plan
   bool equal = true;
   std::size_t total = 0;
-  double ns = 0.0;  // per step, events and output included; nothing is written
+  double ns = 0.0;  // per step, events and output included, at the pace of the estimate; nothing is written
 };
 
-/// The median of three runs.
-double measured_ns(const SceneFile& scene) {
+/// How fast the machine is just now: force evaluations of the scene at rest. It changes by a third within seconds where
+/// clocks are raised or neighbours work, so an estimate and a run are compared at one speed.
+class Pace {
+ public:
+  Pace(const Problem& problem, const MeshTally& counts) : arrays_(problem, counts), a_(arrays_.x.size()) {}
+
+  /// [ns] of one, now.
+  double ns() {
+    constexpr double enough = 2e6;
+    std::vector<double> each;
+    for (double spent = 0.0; spent < enough;) {
+      const std::int64_t start = thread_cpu_ns();
+      for (int k = 0; k < 8; ++k) accelerations(arrays_.system(), {}, arrays_.x, arrays_.v, a_);
+      each.push_back(static_cast<double>(thread_cpu_ns() - start));
+      spent += each.back() + 1.0;
+    }
+    return median(each) / 8;
+  }
+
+ private:
+  SystemArrays arrays_;
+  std::vector<Eigen::Vector3d> a_;
+};
+
+/// The median of three runs, at the pace of the estimate.
+double measured_ns(const SceneFile& scene, Pace& pace, double estimated_at) {
   std::vector<double> runs;
   for (int run = 0; run < 3; ++run) {
     Simulation simulation(scene);
     RunWatcher nobody;
+    const double before = pace.ns();
     const std::int64_t start = thread_cpu_ns();
     run_scene(simulation, scene.output, nobody);
     const auto ns = static_cast<double>(thread_cpu_ns() - start);
-    runs.push_back(ns / std::max(1.0, static_cast<double>(simulation.steps_done())));
+    const double now = (before + pace.ns()) / 2;
+    runs.push_back(ns / std::max(1.0, static_cast<double>(simulation.steps_done())) * estimated_at / now);
   }
   return median(runs);
 }
 
-Measured measure(const SceneFile& scene, const ScenePlan& plan) {
+Measured measure(const SceneFile& scene, const ScenePlan& plan, Pace& pace, double estimated_at) {
   Measured m;
   m.bytes = measured_bytes(scene, plan);
   for (std::size_t k = 0; k < plan.items.size(); ++k) {
     m.total += m.bytes[k];
     m.equal = m.equal && m.bytes[k] == plan.items[k].bytes;
   }
-  m.ns = measured_ns(scene);
+  m.ns = measured_ns(scene, pace, estimated_at);
   return m;
 }
 
@@ -130,11 +158,14 @@ void explain(const Options& options, Outcome& outcome) {
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
+  Pace pace(problem, plan.counts);
+  const double before = pace.ns();
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
+  const double estimated_at = (before + pace.ns()) / 2;
   // the plan is made: what the body or an event of the scene refuses is found by building them
   { const Simulation refuses_or_not(with_events_held_back(scene)); }
   std::optional<Measured> measured;
-  if (options.measure) measured = measure(scene, plan);
+  if (options.measure) measured = measure(scene, plan, pace, estimated_at);
   outcome.exit_code = !measured || measured->equal ? exit_agrees : exit_disagrees;
   if (options.json) {
     nlohmann::ordered_json json = to_json(scene, plan, measured);
