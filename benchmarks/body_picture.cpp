@@ -92,6 +92,15 @@ std::string moved_corners(const std::vector<Vector2d>& corners, const Vector2d& 
   return text + '\n';
 }
 
+// A line as a rectangle.
+std::vector<Vector2d> widened(const std::vector<Vector2d>& line, double half_width) {
+  const Vector2d along = line[1] - line[0];
+  const double length = along.norm();
+  const Vector2d aside =
+      length > 0.0 ? Vector2d(-along.y(), along.x()) * (half_width / length) : Vector2d(0, half_width);
+  return {line[0] + aside, line[1] + aside, line[1] - aside, line[0] - aside};
+}
+
 Box box_of(const BodyPanel& panel) {
   Box box;
   for (const Vector3d& x : panel.frame.mesh.points) box.extend(seen(x));
@@ -128,6 +137,10 @@ std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& fi
     d.colour = shaded(colour, 0.62 + 0.45 * std::max(0.0, cosine));
     drawn.push_back(std::move(d));
   }
+  for (const auto& [a, b] : panel.frame.links) {
+    const Vector3d &from = panel.frame.mesh.points[a], &to = panel.frame.mesh.points[b];
+    drawn.push_back({{seen(from), seen(to)}, ((from + to) / 2).dot(toward_viewer), component_colours[0]});
+  }
   std::ranges::stable_sort(drawn, {}, &DrawnFacet::depth);
   return drawn;
 }
@@ -144,7 +157,9 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
   }
   if (all.isEmpty()) all = Box(Vector2d(0, 0), Vector2d(1, 1));
   const bool follow = (all.sizes().array() > 2.5 * largest.maxCoeff()).any();
-  const Vector2d size = 1.08 * (follow ? largest : Vector2d(all.sizes()));
+  // a body that is flat as seen from here gets some room all the same
+  Vector2d size = 1.08 * (follow ? largest : Vector2d(all.sizes()));
+  size = size.cwiseMax(0.1 * size.maxCoeff());
 
   constexpr double widest = 1400, highest = 900, above_and_below = 80;  // [pixels]
   const double count = static_cast<double>(std::max<std::size_t>(1, panels.size()));
@@ -157,6 +172,10 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
     const Vector2d centre = follow && !empty ? box_of(panel).center() : all.center();
     const Vector2d shift(static_cast<double>(k) * size.x() - centre.x(), -centre.y());
     for (const DrawnFacet& facet : drawn_facets(panel, panels[0])) {
+      if (facet.corners.size() == 2) {
+        data += moved_corners(widened(facet.corners, 2.0 / pixels), shift, 0.5 / pixels, shaded(facet.colour, 0.72));
+        continue;
+      }
       // the facet, in a darker colour and over the seams to its neighbours, then its inner part
       data += moved_corners(facet.corners, shift, 0.4 / pixels, shaded(facet.colour, 0.72));
       data += moved_corners(facet.corners, shift, -0.9 / pixels, facet.colour);

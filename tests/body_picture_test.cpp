@@ -59,6 +59,16 @@ TEST(BodyPicture, ShowsWhatWasInsideInAColourOfItsOwn) {
             1);
 }
 
+TEST(BodyPicture, OfAChainShowsItsLinksAsLines) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}};
+  panel.frame.links = {{0, 1}, {1, 2}};
+  panel.point = {0, 1, 2};
+  const auto lines = drawn_facets(panel, panel);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].corners.size(), 2u);
+}
+
 TEST(BodyPicture, OfASurfaceShowsEveryPolygon) {
   const BodyPanel panel = panel_of(triangle_sheet(3, 2, 1.0));
   EXPECT_EQ(drawn_facets(panel, panel).size(), 12u);
