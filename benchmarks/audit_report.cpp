@@ -121,7 +121,7 @@ Table audit_table(const std::vector<AuditedPair>& pairs) {
 
 Plot audit_plot(const std::vector<AuditedPair>& pairs, const std::string& subtitle) {
   Plot plot;
-  plot.title = "What recommend promised, and what happened";
+  plot.title = "recommend, promised and met";
   plot.subtitle = subtitle;
   plot.x_axis = "predicted over measured time of the run (between the lines: within 15 %)";
   plot.y_axis = "actual error over the error asked for (below the line: met)";
