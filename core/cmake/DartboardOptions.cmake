@@ -23,8 +23,8 @@ if(DARTBOARD_EQUAL_BITS)
   target_compile_options(dartboard_options INTERFACE ${equal_bits})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # false alarms on "literal" + std::string at -O3 (GCC bug 105651)
-  target_compile_options(dartboard_options INTERFACE -Wno-restrict)
+  # false alarms on "literal" + std::string at -O3 (GCC bug 105651); the other one with -march=native
+  target_compile_options(dartboard_options INTERFACE -Wno-restrict -Wno-stringop-overflow)
 endif()
 
 if(DARTBOARD_SANITIZE)
