@@ -166,10 +166,10 @@ std::vector<Claim> claims_of(const ExtremesResults& results) {
                            held == results.detections.size(), fmt::format("{} runs", results.detections.size())));
   }
   for (const RoundingGrowth& g : results.rounding)
-    claims.push_back(
-        claim("rounding-" + g.integrator, "rounding of the energy grows like a random walk", "0.5 +- 0.1",
-              fmt::format("{:.3f}", g.exponent), std::abs(g.exponent - 0.5) <= 0.1,
-              fmt::format("{} starts, {:.0e} steps", g.starts, static_cast<double>(g.points.back().steps))));
+    claims.push_back(claim(
+        "rounding-" + g.integrator, fmt::format("rounding of the energy of {} grows like a random walk", g.integrator),
+        "0.5 +- 0.1", fmt::format("{:.3f}", g.exponent), std::abs(g.exponent - 0.5) <= 0.1,
+        fmt::format("{} starts, {:.0e} steps", g.starts, static_cast<double>(g.points.back().steps))));
   if (!results.tiny.empty()) {
     bool keeps = true;
     for (const TinySteps& t : results.tiny) keeps &= t.keeps_all() || !t.integrator.ends_with("compensated");

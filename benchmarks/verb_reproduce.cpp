@@ -1,10 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/extremes_study.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/reproduce_report.h"
@@ -17,29 +25,25 @@ namespace {
 
 struct Options {
   bool json = false, quick = false;
-  std::string out;
+  std::string out, part;
   std::uint64_t seed = 1;
+
+  bool wants(std::string_view one) const { return part.empty() || part == one; }
 };
 
 constexpr int agreement_steps = 10;
+const std::string body = "liver";
 
-void reproduce(const Options& options, Outcome& outcome) {
-  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
-  const Scene& liver = scene("liver");
-  const Problem problem = liver.make();
+/// What a part of the run comes to.
+struct Answers {
+  std::vector<Claim> claims;
+  bool gates_passed = true;
+};
 
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, options.quick ? "quick" : "reproduce")
-                                             : std::filesystem::path(options.out));
-  RunFacts facts;
-  facts.command_line = {outcome.command_line};
-  facts.seeds = {{"order of tasks", options.seed}};
-  facts.libraries = {{"CGAL", reference::cgal_version()}};
-  facts.input_files = {liver.mesh};
-  auto manifest = begin_manifest(facts);
-  manifest["quick"] = options.quick;
-  folder.write_manifest(manifest);
+using Say = std::function<void(const std::string&)>;
 
+/// The paper's walks, gated and timed, and its claims.
+Answers reproduce_paper(const Options& options, const Problem& problem, const RunFolder& folder, const Say& say) {
   ReproduceResults results;
   say(fmt::format("Topology-based Physical Simulation, section 5, on a body of the paper's size{}\n",
                   options.quick ? " (a quick run: few rounds, wide intervals)" : ""));
@@ -56,7 +60,7 @@ void reproduce(const Options& options, Outcome& outcome) {
   for (const auto& m : results.motion)
     if (topology_agrees && m.agrees) agreed.push_back(m.id);
   if (!agreed.empty()) {
-    const MeasurePlan plan = plan_measurement(liver.name, problem, agreed, options.quick, options.seed);
+    const MeasurePlan plan = plan_measurement(body, problem, agreed, options.quick, options.seed);
     auto lines = folder.json_lines("samples.jsonl");
     say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each", plan.processes, plan.rounds));
     results.per_step = per_step(measure(plan, [&](const StepSample& s) { lines.append(s); }));
@@ -65,20 +69,65 @@ void reproduce(const Options& options, Outcome& outcome) {
   const std::string note = timing_note(results, problem);
   say("\n" + to_text(timing_table(results)) + "\n" + note + "\n");
 
-  const auto claims = answer_claims(results, problem);
-  say("4. The paper's claims\n\n" + to_text(claims));
-  folder.write_claims(claims);
+  Answers answers{answer_claims(results, problem), topology_agrees && agreed.size() == results.motion.size()};
+  say("4. The paper's claims\n\n" + to_text(answers.claims));
   folder.write_table("counts", "Topology, against CGAL", counts_table(results));
   folder.write_table("agreement", "Forces and states, against the first contender", agreement_table(results));
   folder.write_table("timing", "Time per RK4 step", timing_table(results), note);
+  return answers;
+}
+
+/// Integrators at the extremes, with the pictures, in a folder within that of the run.
+Answers reproduce_extremes(const Options& options, const RunFolder& folder, const Say& say) {
+  say(fmt::format("5. Numerical stability at the extremes{}\n", options.quick ? " (a third of the values)" : ""));
+  const ExtremesResults results =
+      measure_extremes({.quick = options.quick, .silent = options.json}, [](const auto&, std::string_view) {});
+  const RunFolder part(folder.path() / "extremes");
+  for (const std::string& trouble : write_extremes(results, part)) fmt::print(stderr, "{}\n", trouble);
+  for (const NamedTable& t : tables_of(results))
+    if (t.study == "matrix") say(t.heading + "\n\n" + to_text(t.table));
+  for (const auto& cell : forbidden_cells(results)) say(cell.dump());
+  Answers answers{claims_of(results)};
+  say(to_text(std::span<const Claim>(answers.claims)));
+  return answers;
+}
+
+void reproduce(const Options& options, Outcome& outcome) {
+  const Say say = [&](const std::string& text) {
+    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    std::fflush(stdout);
+  };
+  const Scene& liver = scene(body);
+  const Problem problem = liver.make();
+
+  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
+  const RunFolder folder(options.out.empty() ? new_run_path(results_root, options.quick ? "quick" : "reproduce")
+                                             : std::filesystem::path(options.out));
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  facts.seeds = {{"order of tasks", options.seed}};
+  facts.libraries = {{"CGAL", reference::cgal_version()}};
+  facts.input_files = {liver.mesh};
+  auto manifest = begin_manifest(facts);
+  manifest["quick"] = options.quick;
+  folder.write_manifest(manifest);
+
+  Answers all;
+  const auto add = [&](Answers part) {
+    all.claims.insert(all.claims.end(), part.claims.begin(), part.claims.end());
+    all.gates_passed = all.gates_passed && part.gates_passed;
+    folder.write_claims(all.claims);  // what is answered stays if the next part is interrupted
+  };
+  if (options.wants("paper")) add(reproduce_paper(options, problem, folder, say));
+  if (options.wants("extremes")) add(reproduce_extremes(options, folder, say));
   finish_manifest(manifest);
   folder.write_manifest(manifest);
 
-  const bool gates_passed = topology_agrees && agreed.size() == results.motion.size();
-  outcome.exit_code = gates_passed ? exit_code(claims) : exit_disagrees;
+  outcome.exit_code = all.gates_passed ? exit_code(all.claims) : exit_disagrees;
   if (options.json)
-    fmt::print("{}\n",
-               nlohmann::json{{"claims", claims}, {"manifest", manifest}, {"gates_passed", gates_passed}}.dump(2));
+    fmt::print(
+        "{}\n",
+        nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}}.dump(2));
   say(fmt::format(
       "{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
       outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
@@ -89,9 +138,14 @@ void reproduce(const Options& options, Outcome& outcome) {
 
 void add_reproduce(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
-  auto* verb =
-      app.add_subcommand("reproduce", "Gate and time the paper's walks on a body of its size; answer its claims.");
-  verb->add_flag("--quick", options->quick, "fewer processes and rounds; under a minute");
+  auto* verb = app.add_subcommand(
+      "reproduce",
+      "Gate and time the paper's walks on a body of its size and answer its claims; then put all integrators to the "
+      "extremes and answer ours.");
+  verb->add_flag("--quick", options->quick,
+                 "fewer processes and rounds, a third of the extremes; a minute instead of some ten");
+  verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
+      ->check(CLI::IsMember({"paper", "extremes"}));
   verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
   verb->add_option("--seed", options->seed, "of the order in which contenders take turns [1]");
   verb->add_flag("--json", options->json,

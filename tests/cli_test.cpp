@@ -127,6 +127,26 @@ TEST(Reproduce, RefusesToWriteIntoAFolderThatHoldsFiles) {
   fs::remove_all(folder);
 }
 
+TEST(Reproduce, OfAPartThatThereIsNotIsAUsageErrorThatNamesThoseThereAre) {
+  const Answer answer = run("reproduce --part appendix");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_NE(answer.out.find("extremes"), std::string::npos) << answer.out;
+}
+
+TEST(Reproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-reproduce");
+  const Answer answer = run("reproduce --part paper --quick --json --out " + out.string(), "2>/dev/null");
+  EXPECT_LE(answer.status, 1) << answer.out;  // what is timed may fall short on a busy machine
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_TRUE(json.at("gates_passed").get<bool>());
+  for (const auto& claim : json.at("claims")) EXPECT_NE(claim.at("measured"), "") << claim;
+  const auto listed = nlohmann::json::parse(run("list claims --json", "").out).at("claims");
+  EXPECT_EQ(json.at("claims").size(), listed.size());
+  for (const char* name : {"claims.json", "samples.jsonl", "manifest.json", "timing.md", "counts.md", "agreement.md"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  fs::remove_all(out);
+}
+
 const std::string scenes = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/scenes/";
 
 TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
