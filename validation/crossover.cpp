@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/meshes/mesh_generators.h"
 #include "core/time/integrators.h"
 #include "reference/error_norms.h"
+#include "validation/median.h"
 
 namespace dartboard {
 namespace {
@@ -14,6 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view explicit_method = "verlet";
 // the two that were ahead on the stiff scenes of `tradeoff` at errors of 1e-2 to 1e-3 edges
 constexpr std::string_view implicit_methods[]{"implicit-midpoint", "sdirk2"};
+constexpr double StepPrices::*parts[]{&StepPrices::linearisation, &StepPrices::factorisation, &StepPrices::solve};
 
 class Study {
  public:
@@ -21,7 +24,8 @@ class Study {
       : options_(options),
         clock_(clock),
         mesh_(kuhn_box(side - 1, side - 1, side - 1, 0.1, 0.25, 1)),
-        pilot_scene_(scene(options.pilot_factor)) {}
+        pilot_scene_(scene(options.pilot_factor)),
+        force_(pilot_scene_, clock) {}
 
   TradeoffScene scene(double factor) const {
     return stiff_scene("a box with a stiff inclusion", mesh_, factor, {.phase = 13.2, .checkpoints = 4});
@@ -30,17 +34,28 @@ class Study {
     const auto integrator = make_integrator(method);
     return run_timed(scene, *integrator, {.steps = static_cast<std::uint64_t>(std::ceil(steps))}, clock_);
   }
-  /// The same again while that is quick, and the least time: a neighbour only ever makes things slower.
-  TimedRun run_well(const TradeoffScene& scene, std::string_view method, double steps) const {
-    TimedRun best = run(scene, method, steps);
-    std::int64_t total = best.cpu_ns;
-    for (int k = 0; k < 4 && best.result.ok() && total < 500'000'000; ++k) {
-      const std::int64_t again = run(scene, method, steps).cpu_ns;
-      total += again;
-      best.cpu_ns = std::min(best.cpu_ns, again);
+  /// The same at least three times, and more often while that is quick.
+  struct Timed {
+    TimedRun run;
+    double forces = 0.0;  // what it costs in evaluations of the forces, timed before and after each run: the median
+  };
+  Timed run_well(const TradeoffScene& scene, std::string_view method, double steps) {
+    Timed timed;
+    std::vector<double> forces;
+    std::int64_t total = 0;
+    double before = time_force();
+    for (int k = 0; k < 3 || (k < 9 && total < 500'000'000); ++k) {
+      timed.run = run(scene, method, steps);
+      if (!timed.run.result.ok()) return timed;
+      total += timed.run.cpu_ns;
+      const double after = time_force();
+      forces.push_back(static_cast<double>(timed.run.cpu_ns) / (0.5 * (before + after)));
+      before = after;
     }
-    return best;
+    timed.forces = median_of(forces);
+    return timed;
   }
+  double seconds(const Timed& timed) const { return 1e-9 * force_ns_ * timed.forces; }
   double distance(const TradeoffScene& scene, const TimedRun& a, const TimedRun& b) const {
     return reference::motion_errors(scene.motion, a.states, b.states).x;
   }
@@ -56,7 +71,7 @@ class Study {
     double steps = 0.0, seconds = infinity, explicit_step_s = 0.0, phase = infinity;
     double overhead = 1.0;  // of a pilot over the law for its own counts
     ImplicitWork pilot_work;
-    double pilot_steps = 0.0, pilot_s = 0.0;
+    double pilot_steps = 0.0, pilot_forces = 0.0;
   };
   Prediction predict(double factor) {
     const TradeoffScene at = scene(factor);
@@ -64,7 +79,9 @@ class Study {
     std::vector<Prediction> all;
     for (const std::string_view method : implicit_methods) {
       sample_prices(at);
-      const TimedRun coarse = run(at, method, pilot), fine = run_well(at, method, 2.0 * pilot);
+      const TimedRun coarse = run(at, method, pilot);
+      const Timed timed = run_well(at, method, 2.0 * pilot);
+      const TimedRun& fine = timed.run;
       if (!coarse.result.ok() || !fine.result.ok()) continue;
       const int order = make_integrator(method)->scheme().order;
       const double error = distance(at, coarse, fine) / (std::exp2(order) - 1.0);
@@ -76,35 +93,38 @@ class Study {
       const double more = std::log2(implicit_work(coarse.work).solves / p.work.solves);
       p.work.solves *= std::pow(2.0 * pilot / p.steps, std::clamp(more, 0.0, 1.0));
       p.pilot_steps = static_cast<double>(fine.work.steps);
-      p.pilot_s = 1e-9 * static_cast<double>(fine.cpu_ns);
+      p.pilot_forces = timed.forces;
       p.pilot_work = implicit_work(fine.work);
       all.push_back(std::move(p));
     }
     sample_prices(at);
+    const StepPrices now = prices();
     Prediction best;
     for (Prediction& p : all) {
-      p.prices = prices_;
-      p.overhead = std::max(1.0, p.pilot_s / implicit_seconds(p.pilot_steps, p.pilot_work, prices_));
-      p.seconds = p.overhead * implicit_seconds(p.steps, p.work, prices_);
+      p.prices = now;
+      p.overhead =
+          std::max(1.0, 1e-9 * force_ns_ * p.pilot_forces / implicit_seconds(p.pilot_steps, p.pilot_work, now));
+      p.seconds = p.overhead * implicit_seconds(p.steps, p.work, now);
       if (p.seconds < best.seconds) best = p;
     }
-    best.explicit_step_s = explicit_step_s_;
-    best.phase =
-        break_even_phase(make_integrator(explicit_method)->scheme().imaginary_limit, explicit_step_s_, best.seconds);
+    best.explicit_step_s = 1e-9 * force_ns_ * median_of(explicit_step_);
+    best.phase = break_even_phase(make_integrator(explicit_method)->scheme().imaginary_limit, best.explicit_step_s,
+                                  best.seconds);
     return best;
   }
 
-  CostPair measure(double factor, std::string_view method, double steps) const {
+  CostPair measure(double factor, std::string_view method, double steps) {
     const TradeoffScene at = scene(factor);
     CostPair costs;
     costs.factor = factor;
     costs.phase = at.duration * at.fastest_rate;
     costs.implicit_method = method;
     const double stable = steps_for_stability(at.duration, limit(at));
-    const TimedRun quick = run_well(at, explicit_method, stable), exact = run(at, explicit_method, 2.0 * stable);
-    if (!quick.result.ok() || !exact.result.ok()) return costs;
-    costs.explicit_s = 1e-9 * static_cast<double>(quick.cpu_ns);
-    costs.explicit_error = distance(at, quick, exact);
+    const Timed quick = run_well(at, explicit_method, stable);
+    const TimedRun exact = run(at, explicit_method, 2.0 * stable);
+    if (!quick.run.result.ok() || !exact.result.ok()) return costs;
+    costs.explicit_s = seconds(quick);
+    costs.explicit_error = distance(at, quick.run, exact);
 
     // Runs on either side of the error, or near it; between them costs and steps are powers of the error.
     struct Point {
@@ -114,13 +134,13 @@ class Study {
     const auto order = static_cast<double>(make_integrator(method)->scheme().order);
     double next = std::max(4.0, steps);
     for (int k = 0; k < 4; ++k) {
-      const TimedRun implicit = run_well(at, method, next);
-      if (!implicit.result.ok()) {
+      const Timed implicit = run_well(at, method, next);
+      if (!implicit.run.result.ok()) {
         next *= 1.5;
         continue;
       }
-      points.push_back({static_cast<double>(implicit.work.steps), distance(at, implicit, exact),
-                        1e-9 * static_cast<double>(implicit.cpu_ns)});
+      points.push_back(
+          {static_cast<double>(implicit.run.work.steps), distance(at, implicit.run, exact), seconds(implicit)});
       const Point& last = points.back();
       if (points.size() >= 2) {
         const Point& before = points[points.size() - 2];
@@ -145,26 +165,39 @@ class Study {
   }
 
  private:
-  // Prices are the same whatever the stiffness: the least of all samples, which lie between the pilots, so that a
-  // neighbour who is there for a moment does not set them.
+  double time_force() {
+    const double ns = force_.measure();
+    force_ns_ = std::min(force_ns_, ns);
+    return ns;
+  }
+
+  // Prices are the same whatever the stiffness. All are taken in evaluations of the forces at the same moment, and
+  // between the pilots: a machine changes its pace from one second to the next, by as much as the law is off.
   void sample_prices(const TradeoffScene& at) {
-    const StepPrices now = step_prices(at, at.duration / static_cast<double>(options_.pilot_steps), clock_);
-    for (double StepPrices::*price :
-         {&StepPrices::force, &StepPrices::linearisation, &StepPrices::factorisation, &StepPrices::solve})
-      prices_.*price = prices_.*price == 0.0 ? now.*price : std::min(prices_.*price, now.*price);
+    for (int k = 0; k < 3; ++k) {
+      const StepPrices now = step_prices(at, at.duration / static_cast<double>(options_.pilot_steps), clock_);
+      for (std::size_t p = 0; p < std::size(parts); ++p) samples_[p].push_back(now.*parts[p] / now.force);
+    }
     // a whole run at the stiffness of the first pilots: as much caching and disturbance as in those that are predicted
-    const TimedRun pilot =
-        run(pilot_scene_, explicit_method, steps_for_stability(pilot_scene_.duration, limit(pilot_scene_)));
-    explicit_step_s_ =
-        std::min(explicit_step_s_, 1e-9 * static_cast<double>(pilot.cpu_ns) / static_cast<double>(pilot.work.steps));
+    const Timed pilot =
+        run_well(pilot_scene_, explicit_method, steps_for_stability(pilot_scene_.duration, limit(pilot_scene_)));
+    explicit_step_.push_back(pilot.forces / static_cast<double>(pilot.run.work.steps));
+  }
+  StepPrices prices() const {
+    StepPrices result;
+    result.force = 1e-9 * force_ns_;
+    for (std::size_t p = 0; p < std::size(parts); ++p) result.*parts[p] = result.force * median_of(samples_[p]);
+    return result;
   }
 
   CrossoverOptions options_;
   CpuClock clock_;
   Mesh mesh_;
   TradeoffScene pilot_scene_;
-  StepPrices prices_;
-  double explicit_step_s_ = infinity;
+  ForceTimer force_;
+  double force_ns_ = infinity;                     // the least of all: for what is printed, not for ratios
+  std::vector<double> samples_[std::size(parts)];  // of prices, in evaluations of the forces
+  std::vector<double> explicit_step_;              // the same of an explicit step
 };
 
 }  // namespace
