@@ -161,8 +161,9 @@ void print(const Explanation& e) {
              e.limits.any_state);
   const Bounds ratio = e.limits.damping_ratio();
   fmt::print("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper);
-  fmt::print("longest stable step: {} ({} without a close look); the scene's is {}\n", step_text(e.safe),
-             step_text(e.quick), e.scene.step <= e.safe ? "stable" : "TOO LONG");
+  fmt::print("longest stable step in the state at the start: {}, in any state at least {}; the scene's is {}\n",
+             step_text(e.safe), step_text(e.quick),
+             e.scene.step <= e.quick ? "stable in any" : e.scene.step <= e.safe ? "stable at the start" : "TOO LONG");
   if (e.springs.empty()) return;
   Table springs({{"spring", Align::right},
                  {"between", Align::left},
