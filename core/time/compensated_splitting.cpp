@@ -7,7 +7,9 @@ namespace {
 
 const Scheme verlet{
     .name = "verlet-compensated",
-    .what = "Stormer-Verlet with the digits that rounding takes: for very short steps and very long runs",
+    .what =
+        "Stormer-Verlet with the digits that rounding takes, for very short steps and very long runs; strong damping "
+        "shortens its stable step",
     .order = 2,
     .stages = 1,
     .symplectic = true,
