@@ -44,4 +44,8 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 /// returns `unlimited` when there is none below `ceiling`
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling = 20.0);
 
+/// The same on the negative real axis: the first h times rate at which the method amplifies v' = - rate v, a motion
+/// that nothing but damping acts on.
+double damping_limit(const Scheme& scheme, double steps, double gain, double ceiling = 20.0);
+
 }  // namespace dartboard
