@@ -105,10 +105,12 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
   }
   result.residual = std::sqrt(true_residual() / b_squared);
   if (result.status != SolveStatus::ok) return result;
-  if (!std::isfinite(result.residual)) result.status = SolveStatus::not_finite;
   // The recurrence of the residual drifts from the residual; where by more than this, the tolerance was below what
   // rounding allows.
-  if (result.residual > 10.0 * options.tolerance) result.status = SolveStatus::not_converged;
+  if (!std::isfinite(result.residual))
+    result.status = SolveStatus::not_finite;
+  else if (result.residual > 10.0 * options.tolerance)
+    result.status = SolveStatus::not_converged;
   return result;
 }
 
@@ -148,7 +150,11 @@ ConjugateGradientsResult ConjugateGradients::solve(const StepMatrix& matrix, Cho
       r_[i] -= alpha * q_[i];
     }
     result.residual = std::sqrt(dot(r_, r_) / b_squared);
-    if (!(result.residual > options.tolerance)) break;
+    if (result.residual <= options.tolerance) break;
+    if (!std::isfinite(result.residual)) {
+      result.status = SolveStatus::not_finite;
+      break;
+    }
     if (result.iterations == options.max_iterations) {
       result.status = SolveStatus::not_converged;
       break;
