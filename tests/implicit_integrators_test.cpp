@@ -265,6 +265,17 @@ TEST(ImplicitIntegrators, LocalGlobalFactorsOnceAndFollowsAChange) {
   EXPECT_LT(distance(a, b), 1e-9);
 }
 
+TEST(ImplicitIntegrators, AskForNoMassOfAVertexThatIsHeld) {
+  for (std::size_t which = 0; which < all_implicit().size(); ++which) {
+    const auto integrator = std::move(all_implicit()[which]), same = std::move(all_implicit()[which]);
+    SpringArrays with_mass = swinging_cube(0.02), body = with_mass;
+    body.mass[0] = body.inverse_mass[0] = body.viscosity[0] = 0.0;
+    run(*integrator, body, 0.1, 20);
+    run(*same, with_mass, 0.1, 20);
+    EXPECT_EQ(body.x, with_mass.x) << integrator->scheme().name;
+  }
+}
+
 TEST(ImplicitIntegrators, StepThatFailsLeavesTheMotionAlone) {
   for (auto& integrator : all_implicit()) {
     SpringArrays body = swinging_cube(0.0);

@@ -126,7 +126,8 @@ StepResult ImplicitStage::nonfinite_residual(double excess) const {
 double ImplicitStage::residual_norm(const Problem& p) const {
   const double unit = residual_scale();
   double sum = 0.0;
-  for (std::size_t i = 0; i < residual_.size(); ++i) sum += (unit * residual_[i]).squaredNorm() / p.system.mass[i];
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    if (!p.system.fixed[i]) sum += (unit * residual_[i]).squaredNorm() / p.system.mass[i];
   return std::sqrt(sum) / unit;
 }
 
