@@ -135,8 +135,9 @@ void print(const Report& r) {
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
-  if (r.result.divergence)
-    fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
+  if (const auto& d = r.result.divergence)
+    fmt::print("\nThe motion {}. The frames before that are kept{}.\n", to_string(*d),
+               d->taken_back == 0 ? "" : fmt::format("; the state shown is that of {} steps before", d->taken_back));
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -193,7 +194,8 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"time", d->time},
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
-                          {"value", fmt::format("{:.17g}", d->value)}};
+                          {"value", fmt::format("{:.17g}", d->value)},
+                          {"taken_back", d->taken_back}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
   json["expected"] = nlohmann::ordered_json::array();
