@@ -93,7 +93,8 @@ Explanation explain(const SceneFile& scene) {
   const Scheme& scheme = integrator->scheme();
   const Horizon horizon{.steps = static_cast<double>(std::max<std::uint64_t>(1, simulation.step_count())), .gain = 2.0};
   Explanation e{scene, {}, 0.0, 0.0, {}, {}, {}, Columns(simulation.body())};
-  // power iterations for the shape: a tenth of a percent of omega_max is left after 100 of them
+  // power iterations for the shape: a tenth of a percent of omega_max is left after 100 of them,
+  // and the shape converges at half that rate
   StableStepEstimate estimate;
   const SpringSystem system = e.columns.changed();
   estimate.refresh(system, e.columns.position);

@@ -135,8 +135,9 @@ void print(const Report& r) {
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
-  if (r.result.divergence)
-    fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
+  if (const auto& d = r.result.divergence)
+    fmt::print("\nThe motion {}. The frames before that are kept{}.\n", to_string(*d),
+               d->taken_back == 0 ? "" : fmt::format("; the state shown is that of {} steps before", d->taken_back));
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -193,7 +194,8 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"time", d->time},
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
-                          {"value", fmt::format("{:.17g}", d->value)}};
+                          {"value", fmt::format("{:.17g}", d->value)},
+                          {"taken_back", d->taken_back}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
   json["expected"] = nlohmann::ordered_json::array();
@@ -218,7 +220,7 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
 
 void simulate(const Options& options, Outcome& outcome) {
   SceneFile scene = read_scene(options.scene);
-  if (options.seed) reseed(scene, *options.seed);
+  const bool other_cells = options.seed && reseed(scene, *options.seed);
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   Simulation simulation(scene);
   simulation.watch_events(true);
@@ -261,7 +263,7 @@ void simulate(const Options& options, Outcome& outcome) {
                 .removed_at_start = removed_at_start};
   if (simulation.steps_done() < simulation.step_count() && !result.divergence)
     report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
-  else if (options.seed)
+  else if (other_cells)
     report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
   else if (!result.divergence)
     report.expected = compare_with_expectation(scene, simulation, result);

@@ -221,21 +221,41 @@ TEST(Cholesky, NewVertexWithoutSpareRowIsAnalysedWithTheOldOrderingExtended) {
   EXPECT_LT(solved_error(cholesky, after.blocks), 20 * epsilon);
 }
 
+/// A matrix that is the same for each of the three coordinates, in both forms.
+struct Isotropic {
+  ScalarMatrix scalars;
+  BlockMatrix blocks;
+
+  explicit Isotropic(const BlockMatrix& like) : scalars{like.pattern, {}, {}}, blocks(like) {
+    for (Matrix3d& block : blocks.diagonal) {
+      scalars.diagonal.push_back(block.trace());
+      block = scalars.diagonal.back() * Matrix3d::Identity();
+    }
+    for (Matrix3d& block : blocks.below) {
+      scalars.below.push_back(block.trace() / 3);
+      block = scalars.below.back() * Matrix3d::Identity();
+    }
+  }
+};
+
 TEST(Cholesky, ScalarMatrixServesThreeCoordinates) {
-  const Body body(disturbed_grid());
-  ScalarMatrix scalars{body.blocks.pattern, {}, {}};
-  BlockMatrix same = body.blocks;
-  for (Matrix3d& block : same.diagonal) {
-    scalars.diagonal.push_back(block.trace());
-    block = scalars.diagonal.back() * Matrix3d::Identity();
-  }
-  for (Matrix3d& block : same.below) {
-    scalars.below.push_back(block.trace() / 3);
-    block = scalars.below.back() * Matrix3d::Identity();
-  }
+  const Isotropic both(Body(disturbed_grid()).blocks);
   Cholesky cholesky;
-  ASSERT_EQ(cholesky.factorise(scalars), SolveStatus::ok);
-  EXPECT_LT(solved_error(cholesky, same), 20 * epsilon);
+  ASSERT_EQ(cholesky.factorise(both.scalars), SolveStatus::ok);
+  EXPECT_LT(solved_error(cholesky, both.blocks), 20 * epsilon);
+}
+
+// The pattern is the same, the number of unknowns is not.
+TEST(Cholesky, FactorsBlocksAfterScalarsOfTheSamePatternAndTheReverse) {
+  const Isotropic both(Body(disturbed_grid()).blocks);
+  Cholesky cholesky;
+  for (int turn = 0; turn < 2; ++turn) {
+    ASSERT_EQ(cholesky.factorise(both.scalars), SolveStatus::ok);
+    EXPECT_LT(solved_error(cholesky, both.blocks), 20 * epsilon);
+    ASSERT_EQ(cholesky.factorise(both.blocks), SolveStatus::ok);
+    EXPECT_LT(solved_error(cholesky, both.blocks), 20 * epsilon);
+  }
+  EXPECT_EQ(cholesky.counters().analyses, 4u);
 }
 
 TEST(BackwardError, SeesWhatIsNotANumber) {

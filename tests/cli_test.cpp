@@ -161,6 +161,12 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
   fs::remove_all(out);
 }
 
+TEST(Simulate, JudgesASceneThatASeedDoesNotChange) {
+  const Answer answer = run("simulate " + scenes + "sheet_cut.json --json --seed 3", "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_EQ(answer.out.find("not judged"), std::string::npos) << answer.out;
+}
+
 TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
   const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-extremes");
   const Answer answer = run("extremes --axis amplification --quick --out " + out.string());

@@ -102,6 +102,43 @@ TEST(ConjugateGradients, NotANumberIsReported) {
   EXPECT_EQ(ConjugateGradients().solve(body.blocks, body.right(), x, {}).status, SolveStatus::not_finite);
 }
 
+// A step along the solution of the wrong factor overflows, and what is left of the coordinates of zero is no number.
+TEST(ConjugateGradients, ResidualThatIsNoNumberIsNotConverged) {
+  SpringArrays speck;
+  speck.add_vertex(1e-309, {0, 0, 0});
+  StepMatrix matrix;
+  matrix.evaluate(speck.system(), {}, 0.1);
+  BlockMatrix one;
+  one.pattern = node_pattern_of(speck.system());
+  one.diagonal.assign(1, Eigen::Matrix3d::Identity());
+  Cholesky factor;
+  ASSERT_EQ(factor.factorise(one), SolveStatus::ok);
+  const std::vector<Vector3d> b(1, Vector3d(1, 0, 0));
+  std::vector<Vector3d> x(1);
+  EXPECT_EQ(ConjugateGradients().solve(matrix, factor, b, x, {}).status, SolveStatus::not_finite);
+}
+
+// Squares of right sides beyond 1e154 overflow, and below 1e-162 they vanish; times a power of two digits are the same.
+TEST(ConjugateGradients, RightSidesOfAnySizeHaveTheSameDigits) {
+  const Body near(1.05), body;
+  const auto b = body.right();
+  Cholesky factor;
+  ASSERT_EQ(factor.factorise(near.blocks), SolveStatus::ok);
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0)), y = x;
+  ASSERT_EQ(ConjugateGradients().solve(body.matrix, factor, b, x, {.tolerance = 1e-8}).status, SolveStatus::ok);
+  ASSERT_EQ(ConjugateGradients().solve(body.matrix, b, y, {.tolerance = 1e-8}).status, SolveStatus::ok);
+  for (const int exponent : {-800, -560, 560, 800}) {
+    std::vector<Vector3d> right = b, u(b.size(), Vector3d(0, 0, 0)), v = u;
+    for (Vector3d& p : right) p *= std::ldexp(1.0, exponent);
+    EXPECT_EQ(ConjugateGradients().solve(body.matrix, factor, right, u, {.tolerance = 1e-8}).status, SolveStatus::ok);
+    EXPECT_EQ(ConjugateGradients().solve(body.matrix, right, v, {.tolerance = 1e-8}).status, SolveStatus::ok);
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      ASSERT_EQ(u[i], std::ldexp(1.0, exponent) * x[i]) << exponent;
+      ASSERT_EQ(v[i], std::ldexp(1.0, exponent) * y[i]) << exponent;
+    }
+  }
+}
+
 TEST(ConjugateGradients, FactorOfTheMatrixItselfSolvesInOneIteration) {
   const Body body;
   const auto b = body.right();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "core/plain/error.h"
 #include "core/time/frozen_damping.h"
@@ -56,6 +57,22 @@ TEST(Extremes, WarnsOfAnOffsetThatMatters) {
     EXPECT_NE(cell.note.find("eps D"), std::string::npos) << cell.note;
     EXPECT_NE(cell.outcome, ExtremeOutcome::silent) << cell.note;
   }
+}
+
+TEST(Extremes, HasTheSameOutcomeForMassesAndSpringsOfAnySize) {
+  std::map<std::string, ExtremeOutcome> outcomes;  // by scene, integrator and step
+  std::size_t scaled = 0;
+  for (const ExtremeCase& which : extreme_cases("mass", false)) {
+    const std::size_t at = which.value.find("h omega");
+    if (!which.value.starts_with("all times")) continue;
+    const ExtremeCell cell = which.run();
+    EXPECT_NE(cell.outcome, ExtremeOutcome::silent) << which.value << " " << cell.note;
+    const auto [first, added] =
+        outcomes.try_emplace(which.scene + which.integrator + which.value.substr(at), cell.outcome);
+    EXPECT_EQ(first->second, cell.outcome) << which.scene << " " << which.integrator << " " << which.value;
+    ++scaled;
+  }
+  EXPECT_EQ(scaled, 2 * outcomes.size());
 }
 
 TEST(Extremes, LetsTwoEventsHappenAtOneTime) {

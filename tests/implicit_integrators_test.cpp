@@ -205,23 +205,6 @@ TEST(Sdirk2, BothStagesShareOneFactor) {
   EXPECT_EQ(integrator.work().factorisations, 1u);
 }
 
-// The error of a step of the embedded method is of order 2, and an estimate of order 2 falls by 4 when h is halved.
-TEST(Sdirk2, EmbeddedErrorIsOfOrderTwo) {
-  double last = 0;
-  for (const double h : {2e-3, 1e-3, 5e-4, 2.5e-4}) {
-    Sdirk2 integrator(tight());
-    SpringArrays body = swinging_cube(0.02);
-    run(integrator, body, h, 1);
-    double sum = 0;
-    for (const Vector3d& e : integrator.position_error()) sum += e.squaredNorm();
-    for (const Vector3d& e : integrator.velocity_error()) sum += e.squaredNorm();
-    if (last > 0) {
-      EXPECT_NEAR(std::log2(last / std::sqrt(sum)), 2.0, 0.1);
-    }
-    last = std::sqrt(sum);
-  }
-}
-
 // Equations solved to 1e-13 of what acts, 20 times there and back.
 TEST(ImplicitIntegrators, SymmetricOnesComeBackWhenTheStepIsReversed) {
   for (auto& integrator : all_implicit()) {
@@ -263,7 +246,6 @@ TEST(ImplicitIntegrators, FollowATopologicalChangeWithUpdatedFactorAsWithAFreshO
     }
   }
   EXPECT_LT(distance(with_a, with_b), 1e-9);
-  EXPECT_EQ(a.factor_work().update_chosen, 2u);
   EXPECT_EQ(a.work().factorisations, 1u);
   EXPECT_GT(a.work().rank_one_updates, 0u);
 }
@@ -281,6 +263,17 @@ TEST(ImplicitIntegrators, LocalGlobalFactorsOnceAndFollowsAChange) {
   run(integrator, a, 0.01, 10);
   run(exact, b, 0.01, 10);
   EXPECT_LT(distance(a, b), 1e-9);
+}
+
+TEST(ImplicitIntegrators, AskForNoMassOfAVertexThatIsHeld) {
+  for (std::size_t which = 0; which < all_implicit().size(); ++which) {
+    const auto integrator = std::move(all_implicit()[which]), same = std::move(all_implicit()[which]);
+    SpringArrays with_mass = swinging_cube(0.02), body = with_mass;
+    body.mass[0] = body.inverse_mass[0] = body.viscosity[0] = 0.0;
+    run(*integrator, body, 0.1, 20);
+    run(*same, with_mass, 0.1, 20);
+    EXPECT_EQ(body.x, with_mass.x) << integrator->scheme().name;
+  }
 }
 
 TEST(ImplicitIntegrators, StepThatFailsLeavesTheMotionAlone) {

@@ -306,6 +306,21 @@ TEST(SeveralComponents, AreThatMany) {
   }
 }
 
+TEST(Generators, RefuseMoreCellsThanAMapCanNumberBeforeTheyMakeOne) {
+  try {
+    kuhn_box(282, 282, 282, 1.0);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "kuhn_box: 134554608 tetrahedra, where a map numbers at most 134217728");
+  }
+  EXPECT_THROW(hexahedron_box(282, 282, 282, 1.0), InputError);
+  EXPECT_THROW(mixed_box(200, 200, 200, 1.0), InputError);
+  EXPECT_THROW(tetrahedron_ball(257, 1.0), InputError);
+  EXPECT_THROW(triangle_sheet(12000, 12000, 1.0), InputError);
+  EXPECT_THROW(torus_surface(14000, 14000), InputError);
+  EXPECT_THROW(solid_torus(30000000), InputError);
+}
+
 TEST(Generators, RefuseNumbersOutOfRange) {
   EXPECT_THROW(kuhn_box(0, 1, 1, 1.0), InputError);
   EXPECT_THROW(kuhn_box(1, 1, 1, 0.0), InputError);

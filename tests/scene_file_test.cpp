@@ -135,8 +135,16 @@ TEST(SceneFile, ReseedsRandomSelectionsOnly) {
   json["events"] = Json::parse(R"([{"at": 0, "remove": {"random": {"count": 1, "seed": 40}}},
                                    {"at": 0, "remove": {"ids": [1]}}])");
   SceneFile scene = parse(json);
-  reseed(scene, 2);
+  EXPECT_TRUE(reseed(scene, 2));
   EXPECT_EQ(std::get<RandomSelection>(std::get<Remove>(scene.events[0].action).cells).seed, 42u);
+}
+
+TEST(SceneFile, SaysWhetherAnythingIsReseeded) {
+  Json json = smallest();
+  json["events"] = Json::parse(R"([{"at": 0, "remove": {"random": {"count": 1, "seed": 40}}}])");
+  SceneFile random = parse(json), certain = parse(smallest());
+  EXPECT_FALSE(reseed(random, 0));
+  EXPECT_FALSE(reseed(certain, 7));
 }
 
 TEST(SceneFile, TellsLineAndColumnOfASyntaxError) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "core/plain/error.h"
@@ -264,6 +265,96 @@ TEST(Simulation, LooksAtTheStepAgainAfterAnEvent) {
   for (int n = 0; n < 30 && !simulation.advance(); ++n) bounds.push_back(simulation.stable_step().upper);
   ASSERT_EQ(bounds.size(), 30u);
   EXPECT_GT(*std::max_element(bounds.begin(), bounds.end()), 1.02 * bounds.front());
+}
+
+TEST(Simulation, RefusesAStepThatIsTooLongForViscosityAlone) {
+  Json scene = moving_box();
+  scene["material"] = {{"density", 768}, {"stiffness", 0}, {"viscosity", 1e5}};
+  scene["unstable_step"] = "refuse";
+  Simulation refused(parse(scene));
+  const auto refusal = refused.advance();
+  ASSERT_TRUE(refusal);
+  EXPECT_TRUE(refusal->predicted);
+  // 2.785 / (1e5 / s), which grows by at most a factor of two in ten steps a little beyond it
+  EXPECT_NEAR(refusal->value, 2.785e-5, 0.1e-5);
+  scene["unstable_step"] = "substep";
+  Simulation divided(parse(scene));
+  run(divided);
+  EXPECT_GE(divided.step_warning()->parts, 36u);
+}
+
+// ---- what no further step would look at
+
+TEST(Simulation, JudgesTheStateThatTheLastStepLeaves) {
+  // squares of 1e200 are beyond the numbers
+  Json scene = moving_box();
+  scene["driven"] = Json::parse(R"([{"ids": [0], "from": 0.0095, "velocity": [1e200, 0, 0]}])");
+  Simulation simulation(parse(scene));
+  std::optional<Divergence> divergence;
+  while (!divergence && simulation.steps_done() < 10) divergence = simulation.advance();
+  EXPECT_EQ(simulation.steps_done(), 10u);
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(simulation.body().vertices().point[divergence->vertex], 0u);
+}
+
+TEST(SceneRun, JudgesTheStartOfASceneOfNoSteps) {
+  Json scene = moving_box();
+  scene["duration"] = 0;
+  RunWatcher watcher;
+  Simulation good(parse(scene));
+  EXPECT_FALSE(run_scene(good, {}, watcher).divergence);
+  scene["initial_velocity"]["linear"] = {{1e200, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  Simulation bad(parse(scene));
+  EXPECT_TRUE(run_scene(bad, {}, watcher).divergence);
+}
+
+// A body so small that energies fit the numbers, but over its volume of 1e-315 m^3 do not. All vertices are held but
+// the last, so that the springs of its cube alone are stretched.
+Json tiny_box(const char* events) {
+  Json scene = with_events(moving_box(), events);
+  scene["body"]["generate"]["box"]["spacing"] = 1e-105;
+  scene["material"] = {{"density", 1e300}, {"stiffness", 1e207}};
+  scene["initial_velocity"] = {{"linear", {{1e109, 0, 0}, {0, 0, 0}, {0, 0, 0}}}};
+  scene["step"] = 1e-113;
+  scene["duration"] = 1e-112;
+  for (int i = 0; i < 26; ++i) scene["fixed"][0]["ids"].push_back(i);
+  return scene;
+}
+
+TEST(Simulation, NamesTheVertexWhoseStressIsNotFiniteAndGoesBack) {
+  Simulation simulation(parse(tiny_box(R"([{"at": 5e-113, "tear_where_stressed": {"threshold": 1}}])")));
+  const auto start = simulation.body().vertices().position;
+  std::optional<Divergence> divergence;
+  while (!divergence && simulation.steps_done() < 10) divergence = simulation.advance();
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->quantity, "stress");
+  EXPECT_EQ(divergence->step, 5u);
+  const std::uint32_t point = simulation.body().vertices().point[divergence->vertex];
+  EXPECT_TRUE(std::set<std::uint32_t>({13, 14, 16, 17, 22, 23, 25, 26}).contains(point)) << point;
+  EXPECT_EQ(divergence->taken_back, 5u);
+  EXPECT_EQ(simulation.body().vertices().position, start);
+}
+
+// Cell 0 is gone then, so that the state kept is not one of this body.
+TEST(Simulation, StaysWhereItIsWhereAnEventOfTheStepHasChangedTheBody) {
+  Simulation simulation(parse(tiny_box(
+      R"([{"at": 5e-113, "remove": {"ids": [0]}}, {"at": 5e-113, "tear_where_stressed": {"threshold": 1}}])")));
+  std::optional<Divergence> divergence;
+  while (!divergence && simulation.steps_done() < 10) divergence = simulation.advance();
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->quantity, "stress");
+  EXPECT_EQ(divergence->taken_back, 0u);
+  EXPECT_EQ(simulation.operations(), 1u);
+  EXPECT_EQ(cells(simulation), 47u);
+}
+
+TEST(Simulation, SaysHowFarItGoesBack) {
+  Simulation simulation(parse(too_stiff("warn")));
+  std::optional<Divergence> divergence;
+  while (!divergence && simulation.steps_done() < 64) divergence = simulation.advance();
+  ASSERT_TRUE(divergence);
+  // before 64 steps no other state is kept than the start
+  EXPECT_EQ(divergence->taken_back, simulation.steps_done());
 }
 
 TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {

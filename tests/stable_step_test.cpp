@@ -177,13 +177,67 @@ TEST(StableStep, HasNoLimitWhereThereIsNone) {
   EXPECT_EQ(estimate.refresh(nothing.system(), nothing.x).upper, 0.0);
 }
 
+/// Does a body that only damps come to less speed in 200 steps?
+bool slows_down(SpringArrays body, Integrator& integrator, double h) {
+  const auto speed = [&body] {
+    double largest = 0.0;
+    for (const Eigen::Vector3d& v : body.v) largest = std::max(largest, v.norm());
+    return largest;
+  };
+  const double before = speed();
+  for (int k = 0; k < 200; ++k)
+    if (!integrator.step(body.system(), body.motion(), h).ok()) return false;
+  return speed() <= before;
+}
+
+// Nothing oscillates, but explicit steps are limited: by 2 to 7 times the time in which speeds decay.
+TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
+  const Horizon horizon{.steps = 200, .gain = 2.0};
+  for (const bool viscous : {true, false})
+    for (const IntegratorEntry& entry : integrators()) {
+      const auto integrator = entry.make();
+      if (integrator->scheme().implicit) continue;
+      SpringArrays body = spring_grid(1, 1, 1, 0.0, viscous ? 0.0 : 100.0);
+      disturb(body, 0.0, 1.0);
+      for (std::size_t i = 0; viscous && i < body.mass.size(); ++i) body.viscosity[i] = 3000.0 * body.mass[i];
+      StableStepEstimate estimate;
+      const StableStep& limits = estimate.refresh(body.system(), body.x);
+      const double h = limits.safe_step(integrator->scheme(), horizon);
+      EXPECT_EQ(h, quick_stable_step(body.system()).safe_step(integrator->scheme(), horizon));
+      // these two multiply by exp(-rate h), which no step is too long for
+      const bool exact = entry.name == "verlet" || entry.name == "symplectic-euler";
+      EXPECT_EQ(std::isfinite(h), !exact) << entry.name << " " << h;
+      if (!std::isfinite(h)) continue;
+      EXPECT_TRUE(limits.is_stable(integrator->scheme(), 0.999 * h, horizon)) << entry.name;
+      EXPECT_FALSE(limits.is_stable(integrator->scheme(), 1.001 * h, horizon)) << entry.name;
+      EXPECT_TRUE(slows_down(body, *integrator, 0.98 * h)) << entry.name << " viscous " << viscous;
+      // Gershgorin's bound of dampers that meet is not reached; that of viscosity is
+      if (viscous) {
+        EXPECT_FALSE(slows_down(body, *entry.make(), 1.02 * h)) << entry.name;
+      }
+    }
+}
+
+// A damper among springs must not make every step too long, as an infinite damping time would.
+TEST(StableStep, AllowsStepsWhereSomeDampersHaveNoSpring) {
+  SpringArrays body = spring_grid(1, 1, 1, 50.0);
+  body.springs[2] = {0.1, 0.0, 1.0};
+  StableStepEstimate estimate;
+  const double h = estimate.refresh(body.system(), body.x).safe_step(scheme("rk4"));
+  // two ends of 0.02 kg that a damper of 1 kg/s holds together: 100 1/s, and Gershgorin's bound is twice that
+  EXPECT_GT(h, 1.0 / 200.0);
+  EXPECT_LT(h, 2.79 / 100.0);
+}
+
 TEST(StableStep, AllowsNoStepWhereANumberIsNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int what = 0; what < 3; ++what) {
+  for (int what = 0; what < 5; ++what) {
     SpringArrays body = spring_grid(2, 2, 2);
     if (what == 0) body.x[3][1] = nan;
     if (what == 1) body.springs[5].stiffness = nan;
     if (what == 2) body.inverse_mass[7] = 1.0 / 0.0;
+    if (what == 3) body.springs[5].damping = nan;
+    if (what == 4) body.viscosity[7] = nan;
     StableStepEstimate estimate;
     EXPECT_EQ(estimate.refresh(body.system(), body.x).safe_step(scheme("rk4"), 0.0), 0.0) << what;
     EXPECT_EQ(quick_stable_step(body.system()).is_stable(scheme("rk4"), 1e-30), what == 0) << what;

@@ -126,21 +126,6 @@ TEST(StepMatrix, IsTheSumOfItsParts) {
     }
 }
 
-TEST(StepMatrix, CertificateOfDefinitenessHoldsWhereNothingIsCompressedAndNotInAFoldedBody) {
-  Assembled a;
-  for (Vector3d& p : a.body.x) p *= 2.0;
-  evaluate_tangents(a.body.system(), a.body.x, Compression::exact, a.tangents);
-  a.matrix.evaluate(a.body.system(), a.tangents, 1.0);
-  EXPECT_TRUE(a.matrix.certainly_definite());
-  for (Vector3d& p : a.body.x) p *= 0.1;
-  evaluate_tangents(a.body.system(), a.body.x, Compression::exact, a.tangents);
-  a.matrix.evaluate(a.body.system(), a.tangents, 1.0);
-  EXPECT_FALSE(a.matrix.certainly_definite());
-  evaluate_tangents(a.body.system(), a.body.x, Compression::projected, a.tangents);
-  a.matrix.evaluate(a.body.system(), a.tangents, 1.0);
-  EXPECT_TRUE(a.matrix.certainly_definite());
-}
-
 // All of a matrix, spare rows included.
 Eigen::MatrixXd dense(const BlockMatrix& blocks, std::size_t capacity, double spare) {
   Eigen::MatrixXd result = spare * Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(3 * capacity),

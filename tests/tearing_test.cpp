@@ -421,6 +421,20 @@ TYPED_TEST(Tearing, RefusesAStressThatIsNotFiniteAndLeavesTheBody) {
   EXPECT_EQ(bar.body.map.hash(), before);
 }
 
+// Four springs around a cycle pull and push in turn along z, by more than a number holds: at each of its vertices the
+// sum is infinity less infinity, in the last entry alone. Vertex 0 is not among them.
+TYPED_TEST(Tearing, RefusesAStressThatIsNoNumberInItsLastEntry) {
+  Torn<TypeParam> pair(body_of<TypeParam>(two_tetrahedra()));
+  for (const std::uint32_t k : {2u, 4u}) pair.body.vertices.position[k].z() = 1e60;
+  for (const EdgeEntry& edge : pair.arrays.edges) {
+    const auto [a, b] = std::minmax(edge.ends[0], edge.ends[1]);
+    const bool pulls = (a == 1 && b == 2) || (a == 3 && b == 4), pushes = (a == 2 && b == 3) || (a == 1 && b == 4);
+    if (pulls || pushes) pair.body.springs[edge.embedding] = {pulls ? 0.0 : 2e60, 1e200, 0.0};
+  }
+  EXPECT_THROW(pair.tear({.threshold = 1e300}), SolverError);
+  EXPECT_EQ(pair.followed, 0u);
+}
+
 TYPED_TEST(Tearing, OfAnEmptyBodyIsNothing) {
   Torn<TypeParam> bar(body_of<TypeParam>(Mesh{}));
   const TornVertices torn = bar.tear({.threshold = 1.0});

@@ -18,7 +18,6 @@ const Scheme cvode_adams{.name = "cvode-adams",
                          .what = "SUNDIALS CVODE, Adams methods of orders 1 to 12, on the same forces",
                          .order = 12,
                          .stages = 1,
-                         .estimates_error = true,
                          .one_step = false,
                          .source = "Hindmarsh et al., ACM TOMS 31 (2005)"};
 }

@@ -44,6 +44,18 @@ void add_numbers(ExtremeMatrix& matrix, std::string_view axis) {
               set_moving(body, 1e-3, 0.0);
               return with_theta(std::move(body), theta);
             });
+  // all masses and springs times one number: the same motion, though squares of forces under- or overflow
+  if (axis == "mass")
+    for (const int exponent : {-600, 600})
+      for (const double theta : {0.4, 40.0})
+        matrix.add(fmt::format("all times 2^{}, h omega {:g}", exponent, theta), extreme_bodies,
+                   [exponent, theta](std::string_view scene) {
+                     SpringColumns body = moving_body(scene);
+                     for (std::size_t i = 0; i < body.mass.size(); ++i)
+                       body.set_mass(i, std::ldexp(body.mass[i], exponent));
+                     for (Spring& s : body.springs) s.stiffness = std::ldexp(s.stiffness, exponent);
+                     return with_theta(std::move(body), theta);
+                   });
   if (axis == "damping")
     for (const double theta : {0.1, 5.0})
       for (const double zeta : {0.0, 0.05, 0.5, 1.0, 10.0, 1e3})

@@ -1,5 +1,7 @@
 #include "core/mechanics/stress.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
@@ -54,6 +56,9 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, std::sp
   }
   for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
 }
+
+StressError::StressError(std::uint32_t which)
+    : SolverError(fmt::format("the stress of vertex {} is not finite", which)), vertex(which) {}
 
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
   if (!stress.allFinite()) throw SolverError("the principal directions of a stress that is not finite");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mechanics/mass_spring_body.h"
+#include "core/plain/error.h"
 
 namespace dartboard {
 
@@ -46,6 +47,12 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
 void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, std::span<const Spring> springs,
                      std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
                      std::vector<Eigen::Matrix3d>& stress);
+
+/// The stress of this vertex is not finite.
+struct StressError : SolverError {
+  explicit StressError(std::uint32_t which);
+  std::uint32_t vertex;
+};
 
 /// The largest eigenvalue of a stress and its direction.
 struct PrincipalStress {

@@ -102,7 +102,8 @@ struct Stressed {
   std::size_t places;
 };
 
-/// An upper bound of the eigenvalues: Gershgorin's, and what an eigenvalue may be off by rounding.
+/// An upper bound of the eigenvalues: Gershgorin's, and what an eigenvalue may be off by rounding. Not a number if an
+/// entry is not finite.
 double eigenvalue_bound(const Eigen::Matrix3d& stress) {
   double bound = stress(0, 0), norm = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +111,13 @@ double eigenvalue_bound(const Eigen::Matrix3d& stress) {
     bound = std::max(bound, stress(i, i) + off_diagonal);
     norm = std::max(norm, std::abs(stress(i, i)) + off_diagonal);
   }
-  return bound + 0x1p-40 * norm;
+  // the maxima pass over what is not a number, a sum keeps it
+  return bound + 0x1p-40 * norm + 0.0 * stress.sum();
+}
+
+PrincipalStress principal(const Eigen::Matrix3d& stress, std::uint32_t vertex) {
+  if (!stress.allFinite()) throw StressError(vertex);
+  return principal_stress(stress);
 }
 
 }  // namespace
@@ -154,7 +161,7 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
   for (std::uint32_t k = 0; k < stress.size(); ++k) {
     // Eigenvalues are needed of the few vertices only that can be above the threshold or the largest.
     if (k > 0 && eigenvalue_bound(stress[k]) <= std::min(rule.threshold, torn.largest_stress)) continue;
-    const double value = principal_stress(stress[k]).value;
+    const double value = principal(stress[k], k).value;
     torn.largest_stress = k == 0 ? value : std::max(torn.largest_stress, value);
     if (value > rule.threshold) {
       const Dart d = body.vertices.dart[k];
@@ -172,12 +179,12 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
     if (!body.map.is_live(d) || body.map.id(d) != vertex.dart) continue;  // `follow` may remove cells
     if (place_count(body.map, d) != vertex.places) continue;              // torn with a neighbour
     const std::uint32_t k = body.vertex(body.map, d);
-    const PrincipalStress principal = principal_stress(vertex_stress(body, k));
-    if (!(principal.value > rule.threshold)) continue;
-    const Dart start = starting_face(body, k, principal.direction, filter, rule.least_alignment);
+    const PrincipalStress now = principal(vertex_stress(body, k), k);
+    if (!(now.value > rule.threshold)) continue;
+    const Dart start = starting_face(body, k, now.direction, filter, rule.least_alignment);
     if (start == no_dart) continue;
     const TopologyChange change = filter ? dissociate_all(body.map, seam_around(body.map, start, filter))
-                                         : tear_fan(body.map, better_side(body, start, principal.direction));
+                                         : tear_fan(body.map, better_side(body, start, now.direction));
     ++torn.tears;
     torn.faces += change.faces.size();
     follow(change);

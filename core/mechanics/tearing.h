@@ -63,7 +63,7 @@ struct TornVertices {
 ///
 /// pre     `ends` by edge number, as the body has them; not used any more once `follow` is called
 /// throws  InputError if the threshold is not positive, or the alignment is above 1 or not a number;
-///         SolverError if a stress is not finite, the body unchanged then
+///         StressError if a stress is not finite, the body unchanged then
 /// cost    O(springs + vertices), and around the vertices torn
 /// source  section 5.1
 template <class Map>

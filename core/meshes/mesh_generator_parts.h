@@ -8,8 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <string>
 
+#include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/plain/mesh.h"
 
@@ -24,10 +25,12 @@ inline void require_spacing(const char* who, double spacing) {
     throw InputError(fmt::format("{}: spacing = {}, expected a finite number > 0", who, spacing));
 }
 
-/// `numbers` bounds how many node numbers the cells of the mesh hold; Mesh::first counts them in 32 bits.
-inline void require_room(const char* who, double numbers) {
-  if (numbers > std::numeric_limits<std::uint32_t>::max())
-    throw InputError(fmt::format("{}: too many cells, {:.3g} node numbers do not fit in 32 bits", who, numbers));
+/// So many cells must fit into a map; the node numbers of a mesh that does are counted in 32 bits too.
+inline void require_room(const char* who, CellKind kind, double count) {
+  CellCounts cells{};
+  cells[static_cast<std::size_t>(kind)] = count;
+  if (const std::string beyond = beyond_a_map(cells); !beyond.empty())
+    throw InputError(fmt::format("{}: {}", who, beyond));
 }
 
 template <class... Nodes>

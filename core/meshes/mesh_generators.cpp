@@ -38,11 +38,11 @@ struct Box {
 };
 
 /// Check the numbers of a box and add its points, moved by `origin`.
-Box add_box(Mesh& mesh, const char* who, std::array<int, 3> n, double spacing, const Eigen::Vector3d& origin) {
+Box add_box(Mesh& mesh, const char* who, std::array<int, 3> n, double spacing, const Eigen::Vector3d& origin,
+            CellKind kind, double cells_per_cube) {
   for (const int cubes : n) require_at_least(who, "cubes along an axis", cubes, 1);
   require_spacing(who, spacing);
-  // the most node numbers per cube are 36: four pyramids and four tetrahedra
-  require_room(who, 36 * (n[0] + 1.0) * (n[1] + 1.0) * (n[2] + 1.0));
+  require_room(who, kind, cells_per_cube * n[0] * n[1] * n[2]);
   const Box box{static_cast<std::uint32_t>(n[0]), static_cast<std::uint32_t>(n[1]), static_cast<std::uint32_t>(n[2])};
   for (std::uint32_t z = 0; z <= box.nz; ++z)
     for (std::uint32_t y = 0; y <= box.ny; ++y)
@@ -98,7 +98,7 @@ void jitter_points(Mesh& mesh, const std::vector<bool>& movable, double reach, s
 
 Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {
   Mesh mesh;
-  const Box box = add_box(mesh, "kuhn_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero());
+  const Box box = add_box(mesh, "kuhn_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero(), CellKind::tetrahedron, 6);
   if (!(jitter >= 0.0 && std::isfinite(jitter * spacing)))
     throw InputError(fmt::format("kuhn_box: jitter = {}, expected a finite number >= 0", jitter));
   box.for_each_cube([&](auto, auto, auto, const Corners& corner) { add_kuhn_cube(mesh, corner); });
@@ -114,14 +114,16 @@ Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64
 
 Mesh hexahedron_box(int nx, int ny, int nz, double spacing) {
   Mesh mesh;
-  const Box box = add_box(mesh, "hexahedron_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero());
+  const Box box =
+      add_box(mesh, "hexahedron_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero(), CellKind::hexahedron, 1);
   box.for_each_cube([&](auto, auto, auto, const Corners& corner) { add_hexahedron(mesh, corner); });
   return mesh;
 }
 
 Mesh mixed_box(int nx, int ny, int nz, double spacing) {
   Mesh mesh;
-  const Box box = add_box(mesh, "mixed_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero());
+  // no cube has more darts than six pyramids, or four and four tetrahedra: as many as seven
+  const Box box = add_box(mesh, "mixed_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero(), CellKind::pyramid, 7);
   box.for_each_cube([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, const Corners& corner) {
     const bool cut = (x + y) % 2 == 1;
     const Corners c{corner[0], corner[1], corner[3], corner[2], corner[4], corner[5], corner[7], corner[6]};
@@ -184,7 +186,7 @@ Mesh touching_at_vertex() {
 
 Mesh solid_torus(int n) {
   require_at_least("solid_torus", "n", n, 3);
-  require_room("solid_torus", 24.0 * n);
+  require_room("solid_torus", CellKind::tetrahedron, 6.0 * n);
   Mesh mesh;
   for (int i = 0; i < n; ++i) {
     const Eigen::Vector2d direction = on_circle(i, n);
@@ -202,7 +204,7 @@ Mesh solid_torus(int n) {
 
 Mesh pinched_body(int sides) {
   require_at_least("pinched_body", "sides", sides, 3);
-  require_room("pinched_body", 8.0 * sides);
+  require_room("pinched_body", CellKind::tetrahedron, 2.0 * sides);
   const auto n = static_cast<std::uint32_t>(sides);
   Mesh mesh;
   mesh.points.emplace_back(0, 0, 0);
@@ -221,11 +223,12 @@ Mesh pinched_body(int sides) {
 
 Mesh several_components(int k) {
   require_at_least("several_components", "k", k, 0);
-  require_room("several_components", 12.0 * k * (k + 1.0));
+  require_room("several_components", CellKind::tetrahedron, 3.0 * k * (k + 1.0));
   Mesh mesh;
   for (int i = 0; i < k; ++i) {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    const Box box = add_box(mesh, "several_components", {1, 1, i + 1}, 1.0, {2.0 * i, 0.0, 0.0});
+    const Box box =
+        add_box(mesh, "several_components", {1, 1, i + 1}, 1.0, {2.0 * i, 0.0, 0.0}, CellKind::tetrahedron, 6);
     box.for_each_cube([&](auto, auto, auto, Corners corner) {
       for (std::uint32_t& node : corner) node += first;
       add_kuhn_cube(mesh, corner);

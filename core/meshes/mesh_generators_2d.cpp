@@ -20,7 +20,7 @@ void add_sheet(Mesh& mesh, const char* who, int nx, int ny, double spacing, F&& 
   require_at_least(who, "nx", nx, 1);
   require_at_least(who, "ny", ny, 1);
   require_spacing(who, spacing);
-  require_room(who, 6 * (nx + 1.0) * (ny + 1.0));
+  require_room(who, CellKind::triangle, 2.0 * nx * ny);
   for (int y = 0; y <= ny; ++y)
     for (int x = 0; x <= nx; ++x) mesh.points.emplace_back(spacing * x, spacing * y, 0.0);
   const auto at = [nx](int x, int y) {
@@ -46,7 +46,7 @@ void add_closed_quads(Mesh& mesh, int nu, int nv, Seam seam) {
 void require_closed(const char* who, int nu, int nv) {
   require_at_least(who, "nu", nu, 3);
   require_at_least(who, "nv", nv, 3);
-  require_room(who, 4.0 * nu * nv);
+  require_room(who, CellKind::quadrilateral, 1.0 * nu * nv);
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ Mesh torus_surface(int nu, int nv) {
 
 Mesh moebius_strip(int n) {
   require_at_least("moebius_strip", "n", n, 3);
-  require_room("moebius_strip", 4.0 * n);
+  require_room("moebius_strip", CellKind::quadrilateral, n);
   Mesh mesh;
   // points 2i and 2i + 1 are the ends of rung i, which has made i / n of half a turn
   for (int i = 0; i < n; ++i)

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include "core/meshes/mesh_generator_parts.h"
@@ -74,7 +75,7 @@ Mesh tetrahedron_ball(int layers, double radius) {
   require_at_least("tetrahedron_ball", "layers", layers, 1);
   if (!(radius > 0.0 && std::isfinite(radius)))
     throw InputError(fmt::format("tetrahedron_ball: radius = {}, expected a finite number > 0", radius));
-  require_room("tetrahedron_ball", 32.0 * layers * layers * layers);
+  require_room("tetrahedron_ball", CellKind::tetrahedron, 8.0 * layers * layers * layers);
   const OctahedralLattice lattice(layers);
   Mesh mesh;
   for (const Vector3i& p : lattice.points()) {

@@ -397,14 +397,19 @@ Problem make_problem(const SceneFile& scene) {
   return problem;
 }
 
-void reseed(SceneFile& scene, std::uint64_t seed) {
-  const auto reseed_cells = [seed](CellSelection& cells) {
-    if (auto* random = std::get_if<RandomSelection>(&cells)) random->seed += seed;
+bool reseed(SceneFile& scene, std::uint64_t seed) {
+  bool changed = false;
+  const auto reseed_cells = [seed, &changed](CellSelection& cells) {
+    if (auto* random = std::get_if<RandomSelection>(&cells)) {
+      random->seed += seed;
+      changed = changed || seed != 0;
+    }
   };
   for (SceneEvent& event : scene.events) {
     if (auto* remove = std::get_if<Remove>(&event.action)) reseed_cells(remove->cells);
     if (auto* refine = std::get_if<Refine>(&event.action)) reseed_cells(refine->cells);
   }
+  return changed;
 }
 
 }  // namespace dartboard

@@ -178,7 +178,7 @@ Mesh make_mesh(const SceneFile& scene);
 /// throws  as make_mesh; InputError for an id that is no point of the mesh
 Problem make_problem(const SceneFile& scene);
 
-/// Let every random selection draw other cells: `seed` is added to its own.
-void reseed(SceneFile& scene, std::uint64_t seed);
+/// Let every random selection draw other cells: `seed` is added to its own. False where that changes none.
+bool reseed(SceneFile& scene, std::uint64_t seed);
 
 }  // namespace dartboard

@@ -34,6 +34,7 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   watcher.frame(simulation.frame());
   watcher.diagnostics(result.first);
   watcher.probes(simulation.probes());
+  if (simulation.step_count() == 0) result.divergence = simulation.start_failure();
   while (simulation.steps_done() < end) {
     result.divergence = simulation.advance();
     if (result.divergence) break;

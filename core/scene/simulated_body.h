@@ -27,7 +27,7 @@ class ReadyEvent {
   /// Apply it to the body it was made for.
   ///
   /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
-  /// throws   SolverError if a stress is not finite
+  /// throws   StressError if a stress is not finite
   virtual std::size_t apply() = 0;
   /// Memory that it keeps (core/scene/memory.h).
   virtual std::size_t bytes() const { return 0; }

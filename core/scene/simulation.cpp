@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/mechanics/stress.h"
 #include "core/plain/error.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
+#include "core/time/nan_proof.h"
 
 namespace dartboard {
 namespace {
@@ -99,7 +101,7 @@ std::optional<Divergence> Simulation::advance() {
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
   if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
   if (auto found = diverged()) {
-    detector_.restore(body_->motion());
+    found->taken_back = detector_.restore(body_->motion());
     return found;
   }
   const std::size_t operations = operations_;
@@ -109,10 +111,21 @@ std::optional<Divergence> Simulation::advance() {
       look_at_step();
       start_ = detector_.system_changed(body_->system(), body_->motion());
     }
-  } catch (const SolverError&) {
-    return failure("stress", 0, body_->largest_stress());
+  } catch (const SolverError& error) {
+    const auto* stress = dynamic_cast<const StressError*>(&error);
+    Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
+    // what events of this step have changed is not what the state kept was of
+    if (operations_ == operations) d.taken_back = detector_.restore(body_->motion());
+    return d;
   }
+  // no other step will look at what events leave at the end
+  if (done_ == step_count_) return start_failure();
   return {};
+}
+
+std::optional<Divergence> Simulation::start_failure() {
+  if (start_.ok()) return {};
+  return failure(detector_.with_witness(start_, body_->system(), body_->motion()));
 }
 
 // The run is as long as the scene; it must not amplify anything twofold that theory says it does not.
@@ -156,12 +169,12 @@ std::optional<Divergence> Simulation::refused() const {
 
 Divergence Simulation::failure(const StepResult& result) {
   Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  detector_.restore(body_->motion());
+  d.taken_back = detector_.restore(body_->motion());
   return d;
 }
 
+// An event may throw: what those before it have done counts, and the integrator has to know.
 void Simulation::happen() {
-  std::size_t operations = 0;
   for (Scheduled& scheduled : events_) {
     if (scheduled.clock.next() > done_) continue;
     while (scheduled.clock.next() <= done_) scheduled.clock.advance();
@@ -169,10 +182,9 @@ void Simulation::happen() {
     if (watch_ && scheduled.dissociates) before = sums();
     const std::size_t made = scheduled.event->apply();
     if (before && made > 0) compare(*before);
-    operations += made;
+    operations_ += made;
+    if (made > 0) integrator_->restart();
   }
-  operations_ += operations;
-  if (operations > 0) integrator_->restart();
 }
 
 bool Simulation::drive() {
@@ -194,10 +206,10 @@ void Simulation::compare(const Sums& before) {
   const Sums after = sums();
   const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
   ++jumps_.events;
-  jumps_.mass = std::max(jumps_.mass, relative(after.mass - before.mass, before.mass));
+  jumps_.mass = max_or_nan(jumps_.mass, relative(after.mass - before.mass, before.mass));
   jumps_.momentum =
-      std::max(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
-  jumps_.energy = std::max(jumps_.energy, relative(after.energy - before.energy, before.energy));
+      max_or_nan(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
+  jumps_.energy = max_or_nan(jumps_.energy, relative(after.energy - before.energy, before.energy));
 }
 
 std::optional<Divergence> Simulation::diverged() const {

@@ -28,7 +28,8 @@ struct Divergence {
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
-  bool predicted = false;  // the step is too long, and was not taken; `value` is the longest that is stable
+  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
+  std::uint64_t taken_back = 0;  // steps that the body has gone back by
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
@@ -75,10 +76,14 @@ class Simulation {
   /// One step, then the events due at its end, then the velocities of driven vertices.
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
-  /// faster than light, or when there is more energy than anything in the scene can supply (DivergenceDetector); the
-  /// body is then as it was in the last good state, at most 80 steps ago. `unstable_step` says what is done about a
-  /// step that is too long.
+  /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector), or when a
+  /// stress that an event asks for is not finite. The body then goes back to the state kept last, which is that of the
+  /// start, after the last event, or a later one whose energy could be explained: `taken_back` says how far. Where
+  /// another event of the same step has changed the body already, and where the start is no state, there is none to go
+  /// back to. `unstable_step` says what is done about a step that is too long.
   std::optional<Divergence> advance();
+  /// What is wrong with the state at the start, which `advance` says too: for a scene of no steps.
+  std::optional<Divergence> start_failure();
 
   /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
   /// step is stable.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/meshes/base64.h"
 #include "core/plain/error.h"
 #include "core/scene/atomic_file.h"
 
@@ -68,20 +69,6 @@ void append_array(std::string& out, const char* name, const std::vector<Eigen::V
 }
 
 }  // namespace
-
-std::string encode_base64(std::string_view bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    const std::size_t given = std::min<std::size_t>(3, bytes.size() - at);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < given ? static_cast<unsigned char>(bytes[at + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= given ? letters[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
 
 std::string to_vtu(const Frame& frame) {
   const Mesh& mesh = frame.mesh;

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "core/scene/frame.h"
 
@@ -18,8 +17,5 @@ std::string to_vtu(const Frame& frame);
 
 /// throws  IoError if the file cannot be written; as to_vtu
 void write_vtu(const std::filesystem::path& path, const Frame& frame);
-
-/// Bytes as base64 text (RFC 4648), padded.
-std::string encode_base64(std::string_view bytes);
 
 }  // namespace dartboard

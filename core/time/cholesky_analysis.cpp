@@ -125,7 +125,6 @@ bool Cholesky::Implementation::analyse_with_order() {
       permutation.push_back(node * static_cast<int>(rows_per_node) + static_cast<int>(r));
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 1;
-  common.final_ll = options.kind == FactorKind::simplicial ? 0 : common.final_ll;
   common.supernodal = options.kind == FactorKind::simplicial   ? CHOLMOD_SIMPLICIAL
                       : options.kind == FactorKind::supernodal ? CHOLMOD_SUPERNODAL
                                                                : CHOLMOD_AUTO;

@@ -90,9 +90,10 @@ SolveStatus Cholesky::Implementation::factorise(const NodeEntries& m) {
   factored = false;
   failed = NodePattern::none;
   if (m.nodes == 0) return SolveStatus::not_factored;
-  if (m.rows != rows_per_node) order.clear();
+  const bool same_rows = m.rows == rows_per_node;
+  if (!same_rows) order.clear();
   rows_per_node = m.rows;
-  if (!L || column_start != m.pattern.column_start || row != m.pattern.row || m.nodes != order_nodes) {
+  if (!L || !same_rows || column_start != m.pattern.column_start || row != m.pattern.row || m.nodes != order_nodes) {
     if (!analyse(m.pattern)) return memory_failure();
   } else if (!pattern_kept) {
     cholmod_free_factor(&L, &common);

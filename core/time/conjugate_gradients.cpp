@@ -3,6 +3,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "core/time/nan_proof.h"
+#include "core/time/power_of_two.h"
 
 namespace dartboard {
 namespace {
@@ -15,8 +19,18 @@ bool positive_definite(const Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) > 0.0 && m.determinant() > 0.0;
 }
 
+// Minors and determinants are products of three entries: of the block brought near 1, none under- or overflows.
+std::optional<Matrix3d> inverse_of_definite(const Matrix3d& block) {
+  const double scale = scale_to_one(block.cwiseAbs().maxCoeff());
+  const Matrix3d scaled = scale * block;
+  if (!positive_definite(scaled)) return {};
+  return scale * scaled.inverse();
+}
+
 }  // namespace
 
+// Residuals and directions are those of b brought near 1 by a power of two, so that their squares neither vanish nor
+// overflow, whatever the size of masses and forces; the digits are the same.
 template <class Matrix>
 ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::span<const Vector3d> b,
                                                    std::span<Vector3d> x, const ConjugateGradientsOptions& options) {
@@ -27,26 +41,29 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
   for (std::size_t i = 0; i < n; ++i) {
     const Matrix3d& block = matrix.diagonal_block(i);
     if (!block.allFinite()) return {SolveStatus::not_finite, 0, NAN};
-    if (!positive_definite(block)) return {SolveStatus::not_positive_definite, 0, NAN};
-    inverse_[i] = block.inverse();
+    const std::optional<Matrix3d> inverse = inverse_of_definite(block);
+    if (!inverse) return {SolveStatus::not_positive_definite, 0, NAN};
+    inverse_[i] = *inverse;
   }
+  const double size = max_abs_or_nan(b);
+  if (!std::isfinite(size)) return {SolveStatus::not_finite, 0, NAN};
+  if (size == 0.0) {
+    for (Vector3d& p : x) p.setZero();
+    return result;
+  }
+  const double scale = scale_to_one(size);
 
   const auto true_residual = [&] {
     matrix.multiply(x, q_);
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      r_[i] = b[i] - q_[i];
+      r_[i] = scale * (b[i] - q_[i]);
       sum += r_[i].squaredNorm();
     }
     return sum;
   };
   double b_squared = 0.0;
-  for (std::size_t i = 0; i < n; ++i) b_squared += b[i].squaredNorm();
-  if (!std::isfinite(b_squared)) return {SolveStatus::not_finite, 0, NAN};
-  if (b_squared == 0.0) {
-    for (Vector3d& p : x) p.setZero();
-    return result;
-  }
+  for (std::size_t i = 0; i < n; ++i) b_squared += (scale * b[i]).squaredNorm();
   const double target = options.tolerance * options.tolerance * b_squared;
 
   double r_squared = true_residual();
@@ -76,7 +93,7 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
     double next_rz = 0.0;
     r_squared = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      x[i] += alpha * p_[i];
+      x[i] += (alpha / scale) * p_[i];
       r_[i] -= alpha * q_[i];
       r_squared += r_[i].squaredNorm();
       q_[i] = inverse_[i] * r_[i];
@@ -88,10 +105,12 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
   }
   result.residual = std::sqrt(true_residual() / b_squared);
   if (result.status != SolveStatus::ok) return result;
-  if (!std::isfinite(result.residual)) result.status = SolveStatus::not_finite;
   // The recurrence of the residual drifts from the residual; where by more than this, the tolerance was below what
   // rounding allows.
-  if (result.residual > 10.0 * options.tolerance) result.status = SolveStatus::not_converged;
+  if (!std::isfinite(result.residual))
+    result.status = SolveStatus::not_finite;
+  else if (result.residual > 10.0 * options.tolerance)
+    result.status = SolveStatus::not_converged;
   return result;
 }
 
@@ -100,19 +119,21 @@ ConjugateGradientsResult ConjugateGradients::solve(const StepMatrix& matrix, Cho
                                                    const ConjugateGradientsOptions& options) {
   const std::size_t n = b.size();
   ConjugateGradientsResult result;
-  for (auto* v : {&p_, &q_}) v->resize(n);
-  r_.assign(b.begin(), b.end());
+  for (auto* v : {&r_, &p_, &q_}) v->resize(n);
   const auto dot = [n](std::span<const Vector3d> u, std::span<const Vector3d> v) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) sum += u[i].dot(v[i]);
     return sum;
   };
+  const double size = max_abs_or_nan(b), scale = scale_to_one(size);
+  if (!std::isfinite(size)) return {SolveStatus::not_finite, 0, NAN};
   for (Vector3d& p : x) p.setZero();
+  if (size == 0.0) return result;
+  for (std::size_t i = 0; i < n; ++i) r_[i] = scale * b[i];
   result.status = factor.solve(r_, p_);
   if (result.status != SolveStatus::ok) return result;
-  const double b_squared = dot(b, b);
+  const double b_squared = dot(r_, r_);
   double rz = dot(r_, p_);
-  if (b_squared == 0.0) return result;
   for (;;) {
     ++result.iterations;
     matrix.multiply(p_, q_);
@@ -125,11 +146,15 @@ ConjugateGradientsResult ConjugateGradients::solve(const StepMatrix& matrix, Cho
     if (result.status != SolveStatus::ok) return result;
     const double alpha = rz / curvature;
     for (std::size_t i = 0; i < n; ++i) {
-      x[i] += alpha * p_[i];
+      x[i] += (alpha / scale) * p_[i];
       r_[i] -= alpha * q_[i];
     }
     result.residual = std::sqrt(dot(r_, r_) / b_squared);
-    if (!(result.residual > options.tolerance)) break;
+    if (result.residual <= options.tolerance) break;
+    if (!std::isfinite(result.residual)) {
+      result.status = SolveStatus::not_finite;
+      break;
+    }
     if (result.iterations == options.max_iterations) {
       result.status = SolveStatus::not_converged;
       break;

@@ -34,7 +34,6 @@ const Scheme dormand_prince_54{
     .what = "Dormand-Prince 5(4), adaptive",
     .order = 5,
     .stages = 6,
-    .estimates_error = true,
     .imaginary_limit = 0.997189,
     .amplification = amplification,
     .source =

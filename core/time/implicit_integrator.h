@@ -20,8 +20,6 @@ class ImplicitIntegrator : public Integrator {
   std::size_t bytes() const override { return stage_.bytes() + end_.bytes(); }
   std::size_t solver_bytes() const override { return stage_.solver_bytes(); }
   const ImplicitOptions& options() const { return stage_.options(); }
-  /// What became of the factor, and which rule acted.
-  const CholeskyCounters& factor_work() { return stage_.solver().cholesky().counters(); }
 
  protected:
   /// One stage of h, and there: v1 = w, x1 = x0 + h w.

@@ -6,6 +6,7 @@
 
 #include "core/mechanics/spring_forces.h"
 #include "core/time/nan_proof.h"
+#include "core/time/power_of_two.h"
 
 namespace dartboard {
 namespace {
@@ -123,14 +124,20 @@ StepResult ImplicitStage::nonfinite_residual(double excess) const {
 }
 
 double ImplicitStage::residual_norm(const Problem& p) const {
+  const double unit = residual_scale();
   double sum = 0.0;
-  for (std::size_t i = 0; i < residual_.size(); ++i) sum += residual_[i].squaredNorm() / p.system.mass[i];
-  return std::sqrt(sum);
+  for (std::size_t i = 0; i < residual_.size(); ++i)
+    if (!p.system.fixed[i]) sum += (unit * residual_[i]).squaredNorm() / p.system.mass[i];
+  return std::sqrt(sum) / unit;
 }
 
-// phi(w + alpha direction) - phi(w), and the sum of the terms' sizes times epsilon.
-ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::span<const Vector3d> w,
-                                                      double alpha) const {
+// What brings the residual near 1, so that neither its squares nor energies are lost where masses and forces are very
+// small or large; a power of two, which changes no digit.
+double ImplicitStage::residual_scale() const { return scale_to_one(max_abs_or_nan(residual_)); }
+
+// phi(w + alpha direction) - phi(w) times `unit`, and the sum of the terms' sizes times epsilon.
+ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::span<const Vector3d> w, double alpha,
+                                                      double unit) const {
   const SpringSystem& s = p.system;
   double sum = 0.0, sizes = 0.0;
   const auto add = [&sum, &sizes](double term) {
@@ -140,9 +147,9 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (s.fixed[i]) continue;
     const Vector3d step = alpha * direction_[i];
-    add(s.mass[i] * (w[i] - p.vh[i] + 0.5 * step).dot(step));
-    add(p.tau * s.viscosity[i] * (w[i] + 0.5 * step).dot(step));
-    add(-p.tau * s.mass[i] * s.gravity.dot(step));
+    add(unit * s.mass[i] * (w[i] - p.vh[i] + 0.5 * step).dot(step));
+    add(unit * p.tau * s.viscosity[i] * (w[i] + 0.5 * step).dot(step));
+    add(-p.tau * (unit * s.mass[i]) * s.gravity.dot(step));
   }
   for (std::size_t e = 0; e < s.springs.size(); ++e) {
     const auto [a, b] = s.ends[e];
@@ -152,11 +159,11 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
     const double l0 = std::sqrt(d0.squaredNorm()), l1 = std::sqrt((d0 + move).squaredNorm());
     if (l0 + l1 > 0.0) {
       const double stretch = (2.0 * d0 + move).dot(move) / (l0 + l1);  // l1 - l0
-      add(spring.stiffness * (0.5 * (l0 + l1) - spring.rest_length) * stretch);
+      add(unit * spring.stiffness * (0.5 * (l0 + l1) - spring.rest_length) * stretch);
     }
     if (l0 > 0.0 && spring.damping != 0.0) {
       const double rate = dw.dot(d0) / l0, more = step.dot(d0) / l0;
-      add(p.tau * spring.damping * (rate + 0.5 * more) * more);
+      add(unit * p.tau * spring.damping * (rate + 0.5 * more) * more);
     }
   }
   return {sum, 4.0 * epsilon * sizes};
@@ -168,7 +175,7 @@ void ImplicitStage::choose_start(const Problem& p, std::span<Vector3d> w, WorkCo
   const double norm = residual_norm(p);
   for (std::size_t i = 0; i < w.size(); ++i) direction_[i] = p.system.fixed[i] ? Vector3d(0, 0, 0) : Vector3d(-w[i]);
   const bool has_potential = p.force == StageForce::at_end;
-  if (has_potential && !(potential_change(p, w, 1.0).value < 0.0)) return;
+  if (has_potential && !(potential_change(p, w, 1.0, residual_scale()).value < 0.0)) return;
   // Without a potential: a spring that the flight would turn round may find a solution on the wrong side.
   const bool turned = !has_potential && std::ranges::any_of(p.system.ends, [&p, w](const SpringEnds& ends) {
     const Vector3d d0 = p.xh[ends[1]] - p.xh[ends[0]];
@@ -186,8 +193,9 @@ void ImplicitStage::choose_start(const Problem& p, std::span<Vector3d> w, WorkCo
 // Move w along the direction as far as Armijo's condition allows; the residual follows. False if no step does.
 bool ImplicitStage::search(const Problem& p, std::span<Vector3d> w, WorkCounters& work) {
   constexpr double armijo = 1e-4;
+  const double unit = residual_scale();
   double slope = 0.0;
-  for (std::size_t i = 0; i < w.size(); ++i) slope += residual_[i].dot(direction_[i]);
+  for (std::size_t i = 0; i < w.size(); ++i) slope += (unit * residual_[i]).dot(direction_[i]);
   if (!(slope < 0.0)) return false;
   const bool has_potential = p.force == StageForce::at_end;
   const double norm = residual_norm(p);
@@ -199,7 +207,7 @@ bool ImplicitStage::search(const Problem& p, std::span<Vector3d> w, WorkCounters
     for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = w[i] + alpha * direction_[i];
     bool accepted = false;
     if (has_potential) {
-      const Change change = potential_change(p, w, alpha);
+      const Change change = potential_change(p, w, alpha, unit);
       accepted = change.value <= armijo * alpha * slope + change.rounding;
       if (accepted) set_residual(p, trial_, work);
     } else {

@@ -68,7 +68,8 @@ class ImplicitStage {
   struct Change {
     double value, rounding;
   };
-  Change potential_change(const Problem& p, std::span<const Eigen::Vector3d> w, double alpha) const;
+  double residual_scale() const;
+  Change potential_change(const Problem& p, std::span<const Eigen::Vector3d> w, double alpha, double unit) const;
   void choose_start(const Problem& p, std::span<Eigen::Vector3d> w, WorkCounters& work);
   bool search(const Problem& p, std::span<Eigen::Vector3d> w, WorkCounters& work);
 

@@ -17,8 +17,6 @@ std::string_view to_string(StepCode code) {
     case StepCode::overflow_risk: return "OVERFLOW_RISK";
     case StepCode::coordinate_precision: return "COORD_PRECISION";
     case StepCode::bad_scaling: return "BAD_SCALING";
-    case StepCode::sliver: return "SLIVER";
-    case StepCode::mechanism: return "MECHANISM";
     case StepCode::budget: return "BUDGET";
   }
   return "?";

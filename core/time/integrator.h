@@ -23,8 +23,6 @@ enum class StepCode : std::uint8_t {
   overflow_risk,          // OVERFLOW_RISK
   coordinate_precision,   // COORD_PRECISION: rounding of the coordinates, relative to the edges
   bad_scaling,            // BAD_SCALING
-  sliver,                 // SLIVER
-  mechanism,              // MECHANISM
   budget,                 // BUDGET: the steps or evaluations allowed are used up
 };
 std::string_view to_string(StepCode code);

@@ -42,7 +42,7 @@ constexpr std::array table{
     Columns{"baraff-witkin", 4},
     Columns{.integrator = "local-global", .vectors = 5, .numbers = 1},
     Columns{"ros2", 9},
-    Columns{.integrator = "sdirk2", .vectors = 11, .numbers = 1},
+    Columns{.integrator = "sdirk2", .vectors = 9, .numbers = 1},
     Columns{.integrator = "implicit-midpoint", .vectors = 5, .numbers = 1},
     Columns{.integrator = "energy-momentum", .vectors = 5, .numbers = 1},
     Columns{.integrator = "bdf2", .vectors = 9, .numbers = 1},

@@ -21,11 +21,14 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta) {
   return discriminant < 0 ? std::hypot(mean, std::sqrt(-discriminant)) : std::abs(mean) + std::sqrt(discriminant);
 }
 
-double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling) {
+namespace {
+
+// The first argument above 0 at which the radius grows too fast; one that is not a number counts as growth.
+template <class Radius>
+double first_growth(const Radius& radius, double steps, double gain, double ceiling) {
   if (!(gain > 1.0) || !(steps > 0.0)) throw InputError("a stability limit needs a gain above 1 and some steps");
   const double allowed = std::log(gain) / steps;
-  // a radius that is not a number counts as growth
-  const auto stable = [&](double theta) { return std::log(spectral_radius(scheme, theta, zeta)) < allowed; };
+  const auto stable = [&](double at) { return std::log(radius(at)) < allowed; };
   constexpr double scan = 1e-3;
   for (int i = 1; i * scan <= ceiling; ++i) {
     if (stable(i * scan)) continue;
@@ -37,6 +40,18 @@ double stable_limit(const Scheme& scheme, double zeta, double steps, double gain
     return low;
   }
   return Scheme::unlimited;
+}
+
+}  // namespace
+
+double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling) {
+  return first_growth([&](double theta) { return spectral_radius(scheme, theta, zeta); }, steps, gain, ceiling);
+}
+
+// An oscillation so slow that it does nothing in a step, damped at the rate asked for: 2 zeta theta is h times that.
+double damping_limit(const Scheme& scheme, double steps, double gain, double ceiling) {
+  constexpr double slow = 1e-9;
+  return first_growth([&](double z) { return spectral_radius(scheme, slow, z / (2 * slow)); }, steps, gain, ceiling);
 }
 
 }  // namespace dartboard

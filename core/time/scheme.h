@@ -18,15 +18,14 @@ struct Scheme {
   std::string_view name;  // what a user types
   std::string_view what;  // one line
   int order = 1;
-  int stages = 1;                // force evaluations per step; of an implicit method: systems of equations per step
-  bool implicit = false;         // solves linear systems
-  bool symplectic = false;       // where nothing dissipates
-  bool symmetric = false;        // a step of -h undoes a step of h, where nothing dissipates
-  bool keeps_angular = false;    // angular momentum is exact; linear momentum is, for all
-  bool compensated = false;      // carries on with the digits that rounding takes from the state
-  bool estimates_error = false;  // can choose its own steps: an AdaptiveIntegrator
-  bool one_step = true;          // false: keeps states of earlier steps, and starts again after a restart
-  double imaginary_limit = 0;    // stable for zeta = 0 and 0 < theta <= this; `unlimited` when for all
+  int stages = 1;              // force evaluations per step; of an implicit method: systems of equations per step
+  bool implicit = false;       // solves linear systems
+  bool symplectic = false;     // where nothing dissipates
+  bool symmetric = false;      // a step of -h undoes a step of h, where nothing dissipates
+  bool keeps_angular = false;  // angular momentum is exact; linear momentum is, for all
+  bool compensated = false;    // carries on with the digits that rounding takes from the state
+  bool one_step = true;        // false: keeps states of earlier steps, and starts again after a restart
+  double imaginary_limit = 0;  // stable for zeta = 0 and 0 < theta <= this; `unlimited` when for all
   Eigen::MatrixXd (*amplification)(double theta, double zeta) = nullptr;
   std::string_view source;
 };
@@ -44,5 +43,9 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 /// throws  InputError unless gain > 1 and steps > 0
 /// returns `unlimited` when there is none below `ceiling`
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling = 20.0);
+
+/// The same on the negative real axis: the first h times rate at which the method amplifies v' = - rate v, a motion
+/// that nothing but damping acts on.
+double damping_limit(const Scheme& scheme, double steps, double gain, double ceiling = 20.0);
 
 }  // namespace dartboard

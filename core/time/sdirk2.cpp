@@ -15,7 +15,7 @@ const Scheme scheme_of_sdirk2{
     .implicit = true,
     .imaginary_limit = Scheme::unlimited,
     .amplification = two_stage_amplification,
-    .source = "Alexander 1977; Ellsiepen 1999",
+    .source = "Alexander 1977",
 };
 
 }  // namespace
@@ -23,10 +23,9 @@ const Scheme scheme_of_sdirk2{
 const Scheme& Sdirk2::scheme() const { return scheme_of_sdirk2; }
 
 StepResult Sdirk2::step(const SpringSystem& system, Motion motion, double h) {
-  const double gamma = 1.0 - 1.0 / std::sqrt(2.0), tau = gamma * h;
-  const double embedded = 2.0 - 1.25 * std::sqrt(2.0);  // weight of the second stage in the embedded result
+  const double tau = (1.0 - 1.0 / std::sqrt(2.0)) * h;
   const std::size_t n = motion.x.size();
-  for (auto* state : {&end_, &start_, &error_}) state->resize(n);
+  for (auto* state : {&end_, &start_}) state->resize(n);
   slope_x_.resize(n);
   slope_v_.resize(n);
   stage_.begin_step();
@@ -41,11 +40,7 @@ StepResult Sdirk2::step(const SpringSystem& system, Motion motion, double h) {
   }
   result = stage_.solve(system, start_.x, start_.v, tau, StageForce::at_end, end_.v, work_);
   if (!result.ok()) return fail(result);
-  for (std::size_t i = 0; i < n; ++i) {
-    end_.x[i] = start_.x[i] + tau * end_.v[i];
-    error_.x[i] = h * (gamma - embedded) * (end_.v[i] - slope_x_[i]);
-    error_.v[i] = h * (gamma - embedded) * ((end_.v[i] - start_.v[i]) / tau - slope_v_[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i) end_.x[i] = start_.x[i] + tau * end_.v[i];
   return end_.commit(motion, work_);
 }
 

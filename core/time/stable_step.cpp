@@ -38,26 +38,45 @@ double largest_ritz_value(const std::vector<double>& diagonal, const std::vector
   return solver.eigenvalues().maxCoeff();
 }
 
+// A damper without a spring, or as good as that: it has no damping time.
+bool only_damps(const Spring& s) { return s.stiffness == 0.0 || std::isinf(s.damping / s.stiffness); }
+
 Bounds damping_times(const SpringSystem& system) {
   Bounds b{unlimited, 0.0};
   for (const Spring& s : system.springs) {
-    if (s.stiffness == 0.0 && s.damping == 0.0) continue;
-    b.lower = std::min(b.lower, s.damping / s.stiffness);
-    b.upper = std::max(b.upper, s.damping / s.stiffness);
+    if (only_damps(s)) continue;
+    const double time = s.damping == 0.0 ? 0.0 : s.damping / s.stiffness;
+    b.lower = std::min(b.lower, time);
+    b.upper = std::max(b.upper, time);
   }
   if (b.lower > b.upper) b.lower = b.upper;
   return b;
 }
 
+// Dampers without a spring belong here: between nothing and Gershgorin's bound of their matrix over the masses.
 Bounds viscous_rates(const SpringSystem& system) {
+  std::vector<double> dampers;
+  for (std::size_t s = 0; s < system.springs.size(); ++s) {
+    const Spring& spring = system.springs[s];
+    if (spring.damping == 0.0 || !only_damps(spring)) continue;
+    dampers.resize(system.vertex_count(), 0.0);
+    for (const auto i : system.ends[s]) dampers[i] += 2.0 * spring.damping;
+  }
   Bounds b{unlimited, 0.0};
   for (std::size_t i = 0; i < system.vertex_count(); ++i) {
     if (system.fixed[i]) continue;
-    b.lower = std::min(b.lower, system.viscosity[i] * system.inverse_mass[i]);
-    b.upper = std::max(b.upper, system.viscosity[i] * system.inverse_mass[i]);
+    const double own = system.viscosity[i] * system.inverse_mass[i];
+    b.lower = std::min(b.lower, own);
+    b.upper = std::max(b.upper, dampers.empty() ? own : own + dampers[i] * system.inverse_mass[i]);
   }
   if (b.lower > b.upper) b.lower = b.upper;
   return b;
+}
+
+// The longest step where no spring oscillates: what damps may limit it still.
+double damped_step(const StableStep& step, const Scheme& scheme, const Horizon& horizon) {
+  const double rate = step.viscous_rate.upper;
+  return rate == 0.0 ? unlimited : damping_limit(scheme, horizon.steps, horizon.gain) / rate;
 }
 
 bool has_no_limit(const Scheme& scheme) {
@@ -82,8 +101,9 @@ double StableStep::safe_step(const Scheme& scheme, double zeta, const Horizon& h
 }
 
 bool StableStep::is_stable(const Scheme& scheme, double h, const Horizon& horizon) const {
-  if (has_no_limit(scheme) || upper == 0.0) return true;
+  if (has_no_limit(scheme)) return true;
   if (!std::isfinite(upper) || !std::isfinite(h)) return false;
+  if (upper == 0.0) return h <= damped_step(*this, scheme, horizon);
   const double allowed = std::log(horizon.gain) / horizon.steps;
   const auto stable = [&](double omega, double beta, double alpha) {
     // of `upper` itself the limit is as exact as the bisection for it
@@ -120,10 +140,11 @@ bool StableStep::is_stable(const Scheme& scheme, double h, const Horizon& horizo
 // Limits are not monotonic in the damping ratio, and lower frequencies have other ratios: what the ratios at the
 // highest frequency allow is shortened until all are stable.
 double StableStep::safe_step(const Scheme& scheme, const Horizon& horizon) const {
+  if (upper == 0.0 && !has_no_limit(scheme)) return damped_step(*this, scheme, horizon);
   const Bounds ratio = damping_ratio();
   double h = std::min(safe_step(scheme, ratio.lower, horizon), safe_step(scheme, ratio.upper, horizon));
   if (scheme.symplectic) h = std::min(h, safe_step(scheme, 0.0, horizon));
-  if (h == 0.0 || upper == 0.0 || has_no_limit(scheme)) return h;
+  if (h == 0.0 || has_no_limit(scheme)) return h;
   // an overdamped frequency may have no limit, where those below it have one
   constexpr double ceiling = 20.0;
   h = std::min(h, ceiling / upper);
@@ -136,8 +157,8 @@ StableStep quick_stable_step(const SpringSystem& system) {
   step.any_state = step.upper = frequency_bound(system);
   step.damping_time = damping_times(system);
   step.viscous_rate = viscous_rates(system);
-  // the maximum in the bound passes over what is not a number
-  double finite = 0.0;
+  // the bound knows nothing of damping, and the extremes of the rates pass over what is not a number
+  double finite = 0.0;  // 0 times what is finite, else not a number
   for (const Spring& s : system.springs) finite += 0.0 * (s.stiffness + s.damping);
   for (std::size_t i = 0; i < system.vertex_count(); ++i)
     if (!system.fixed[i]) finite += 0.0 * (system.inverse_mass[i] + system.viscosity[i]);
@@ -155,8 +176,9 @@ bool StableStepEstimate::prepare(const SpringSystem& system, std::span<const Vec
   for (std::size_t i = 0; i < n; ++i) {
     scale_[i] = system.fixed[i] ? 0.0 : std::sqrt(system.inverse_mass[i]);
     finite += 0.0 * (scale_[i] + x[i].sum());
+    if (!system.fixed[i]) finite += 0.0 * system.viscosity[i];
   }
-  for (const Spring& s : system.springs) finite += 0.0 * (s.stiffness + s.rest_length);
+  for (const Spring& s : system.springs) finite += 0.0 * (s.stiffness + s.rest_length + s.damping);
   scaled_.resize(n);
   w_.resize(n);
   return finite == 0.0 && std::isfinite(unit_);

@@ -34,7 +34,7 @@ struct StableStep {
   double lower = 0.0, upper = 0.0;  // [1/s] of omega_max, at the state
   double any_state = 0.0;           // [1/s] upper bound in every state: Gershgorin's, with k in all directions
   Bounds damping_time;              // [s] c / k of the springs
-  Bounds viscous_rate;              // [1/s] viscosity / mass of the free vertices
+  Bounds viscous_rate;              // [1/s] viscosity / mass of the free vertices, and what dampers without spring add
 
   /// Damping ratios at omega_max, as far as damping is that of Rayleigh: beta omega / 2 + alpha / (2 omega).
   Bounds damping_ratio() const;
@@ -43,7 +43,8 @@ struct StableStep {
   /// stable_limit / upper. `Scheme::unlimited` for a method, or a system, without a limit; 0 if upper is not finite.
   double safe_step(const Scheme& scheme, double zeta, const Horizon& horizon = {}) const;
 
-  /// Is a step of h stable for all frequencies from 0 to `upper`, each with the damping ratios that it may have?
+  /// Is a step of h stable for all frequencies from 0 to `upper`, each with the damping ratios that it may have? Where
+  /// nothing oscillates, `upper` is 0: for what damps.
   /// Of explicit symplectic methods also undamped, since they damp spring by spring. Gaps narrower than 2e-3/h escape.
   bool is_stable(const Scheme& scheme, double h, const Horizon& horizon = {}) const;
 

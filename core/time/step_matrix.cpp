@@ -167,14 +167,4 @@ std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::spa
   return terms;
 }
 
-bool StepMatrix::certainly_definite() const {
-  std::vector<double> pull(inertia_.size(), 0.0);
-  for (const Block& block : blocks_)
-    if (!(block.p >= 0.0))
-      for (const std::uint32_t i : block.ends) pull[i] -= 2.0 * block.p;
-  for (std::size_t i = 0; i < pull.size(); ++i)
-    if (!fixed_[i] && !(pull[i] < inertia_[i])) return false;
-  return true;
-}
-
 }  // namespace dartboard

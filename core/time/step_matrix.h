@@ -48,10 +48,6 @@ class StepMatrix {
   /// is beyond the old ones starts from `spare` times the identity.
   std::vector<RankOneTerm> follow(const SpringSystem& system, std::span<const SpringTangent> tangents, double spare);
 
-  /// Is A certainly positive definite, because no vertex is pulled out of place by compressed springs more than its
-  /// inertia holds it? Sufficient, not necessary: tau^2 sum 2 k (L/l - 1)+ < inertia at every vertex.
-  bool certainly_definite() const;
-
  private:
   // One spring: p I + q d d' between vertices a and b.
   struct Block {

@@ -111,6 +111,7 @@ SolveStatus StepSolver::solve(std::span<const Vector3d> b, std::span<Vector3d> x
         if (full) {
           factored_ = matrix_;
           tau_ = matrix_.tau();
+          due_ = false;
           result.status = factorise({}, false, work);
           ready_ = result.status == SolveStatus::ok;
           if (ready_) result.status = cholesky_.solve(b, x);

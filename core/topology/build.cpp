@@ -6,8 +6,10 @@
 #include <array>
 #include <limits>
 
+#include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
+#include "core/topology/room.h"
 #include "core/topology/sew.h"
 
 namespace dartboard {
@@ -105,6 +107,7 @@ Dart add_cell(Map& map, CellKind kind) {
     return map.add_tetrahedron();
   } else {
     const Template& t = template_of(kind);
+    require_room(map.dart_count(), t.node.size(), most_darts(Map::dimension), "darts");  // for all or for none
     std::vector<Dart> darts(t.node.size());
     for (Dart& d : darts) d = map.add_dart();
     std::size_t begin = 0;

@@ -1,0 +1,32 @@
+#pragma once
+// How many cells a map can hold: what it keeps is numbered in 32 bits.
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+/// Tetrahedra of a map of nothing else: a face is kept as 8 times its number, four to a tetrahedron, plus a turn.
+inline constexpr std::uint64_t most_tetrahedra = (std::uint64_t{1} << 32) / (4 * 8);
+/// Darts of any other map: the alphas are numbered too, dimension + 1 for each dart.
+constexpr std::uint64_t most_darts(int dimension) {
+  return (std::uint64_t{1} << 32) / (static_cast<std::uint64_t>(dimension) + 1);
+}
+
+/// A dart for each end of each edge of each face.
+constexpr int darts_of(CellKind kind) {
+  constexpr std::array counts{6, 8, 24, 32, 36, 48};
+  return counts[static_cast<std::size_t>(kind)];
+}
+
+/// How many cells of each kind there are, in the order of CellKind; not in 32 bits.
+using CellCounts = std::array<double, 6>;
+
+/// What is too much of a mesh of so many cells, and the limit: "134554608 tetrahedra, where a map numbers at most
+/// 134217728". Empty if they fit.
+std::string beyond_a_map(const CellCounts& cells);
+
+}  // namespace dartboard
