@@ -46,16 +46,18 @@ template <bool damped>
 void ImplicitStage::subtract_forces(const Problem& p, std::span<const Vector3d> w) {
   const SpringSystem& s = p.system;
   const bool discrete = p.force == StageForce::discrete_gradient;
-  for (std::size_t e = 0; e < s.springs.size(); ++e) {
+  const SpringSpan springs = s.springs;
+  for (std::size_t e = 0; e < springs.size(); ++e) {
     const auto [a, b] = s.ends[e];
+    const Spring spring = springs[e];
     const Vector3d dw = w[b] - w[a], d0 = p.xh[b] - p.xh[a];
     const auto at_end = [&] {
       if constexpr (damped)
-        return spring_force(s.springs[e], d0 + p.tau * dw, dw);
+        return spring_force(spring, d0 + p.tau * dw, dw);
       else
-        return undamped_force(s.springs[e], d0 + p.tau * dw);
+        return undamped_force(spring, d0 + p.tau * dw);
     };
-    const Vector3d f = discrete ? discrete_force<damped>(s.springs[e], d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
+    const Vector3d f = discrete ? discrete_force<damped>(spring, d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
     residual_[a] -= f;
     residual_[b] += f;
   }
