@@ -125,14 +125,14 @@ namespace {
 /// The bare scene's arrays, copied out of a simulation: the same numbers in the same order.
 struct Arrays {
   std::vector<SpringEnds> ends;
-  std::vector<Spring> springs;
+  std::vector<UndampedSpring> springs;
   std::vector<double> mass, inverse_mass;
   std::vector<Eigen::Vector3d> x, v;
 
   explicit Arrays(const SimulatedBody& body) {
     const SpringSystem s = body.system();
     ends.assign(s.ends.begin(), s.ends.end());
-    springs.assign(s.springs.begin(), s.springs.end());
+    springs.assign(s.springs.undamped().begin(), s.springs.undamped().end());
     mass.assign(s.mass.begin(), s.mass.end());
     inverse_mass.assign(s.inverse_mass.begin(), s.inverse_mass.end());
     x = body.vertices().position;

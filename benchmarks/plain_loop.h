@@ -15,7 +15,7 @@ class PlainLoop {
  public:
   using Column = std::vector<Eigen::Vector3d>;
 
-  void step(const std::vector<SpringEnds>& ends, const std::vector<Spring>& springs,
+  void step(const std::vector<SpringEnds>& ends, const std::vector<UndampedSpring>& springs,
             const std::vector<double>& inverse_mass, Column& x, Column& v, double h) {
     const std::size_t n = x.size();
     for (auto* column : {&a_, &sum_x_, &sum_v_, &stage_x_, &stage_v_}) column->resize(n);
@@ -43,7 +43,7 @@ class PlainLoop {
   }
 
  private:
-  void accelerate(const std::vector<SpringEnds>& ends, const std::vector<Spring>& springs,
+  void accelerate(const std::vector<SpringEnds>& ends, const std::vector<UndampedSpring>& springs,
                   const std::vector<double>& inverse_mass, const Column& x) {
     for (Eigen::Vector3d& a : a_) a = Eigen::Vector3d(0, 0, 0);
     for (std::size_t s = 0; s < springs.size(); ++s) {

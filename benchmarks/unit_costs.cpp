@@ -81,8 +81,8 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
   if (scheme.implicit) {
     costs.solver = cost_of(stepper(scene.integrator, whole, arrays, scene.step));
   } else {
-    auto undamped = arrays.springs;
-    for (Spring& spring : undamped) spring.damping = 0.0;
+    std::vector<UndampedSpring> undamped;
+    for (const Spring& spring : arrays.springs) undamped.push_back({spring.rest_length, spring.stiffness});
     std::vector<Eigen::Vector3d> a(arrays.x.size());
     SpringSystem system = whole;
     system.springs = undamped;

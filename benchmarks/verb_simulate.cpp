@@ -135,6 +135,7 @@ void print(const Report& r) {
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
+  if (const auto& warning = r.simulation.coordinate_warning()) fmt::print("warning: {}\n", to_string(*warning));
   if (const auto& d = r.result.divergence)
     fmt::print("\nThe motion {}. The frames before that are kept{}.\n", to_string(*d),
                d->taken_back == 0 ? "" : fmt::format("; the state shown is that of {} steps before", d->taken_back));
@@ -198,6 +199,7 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"taken_back", d->taken_back}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
+  if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)
     json["expected"].push_back(

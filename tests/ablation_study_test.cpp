@@ -26,7 +26,7 @@ TEST(PlainLoop, MovesWithTheBitsOfTheIntegrator) {
   const auto body = make_simulated_body(problem, false);
   const SpringSystem s = body->system();
   const std::vector<SpringEnds> ends(s.ends.begin(), s.ends.end());
-  const std::vector<Spring> springs(s.springs.begin(), s.springs.end());
+  const std::vector<UndampedSpring> springs(s.springs.undamped().begin(), s.springs.undamped().end());
   const std::vector<double> inverse_mass(s.inverse_mass.begin(), s.inverse_mass.end());
   auto x = body->vertices().position, v = body->vertices().velocity;
   PlainLoop plain;

@@ -105,7 +105,7 @@ TYPED_TEST(Conservation, FailsWhenAVertexGetsHeavierThoughOnlySumsAreSeen) {
 
 TYPED_TEST(Conservation, FailsWhenASpringCountsACellTooMany) {
   const auto what = this->first_violation([](auto& body, auto&) {
-    if (!body.springs.empty()) body.springs[0].stiffness += body.material.stiffness;
+    if (!body.springs.empty()) body.springs.change(0, [&](Spring& s) { s.stiffness += body.material.stiffness; });
   });
   EXPECT_NE(what.find("stiffness"), std::string::npos) << what;
 }
@@ -114,7 +114,8 @@ TYPED_TEST(Conservation, FailsWhenARestLengthIsThatOfTheDeformedBody) {
   const auto what = this->first_violation([](auto& body, auto& views) {
     if (views.cells.edges.empty()) return;
     const auto [a, b] = views.cells.edges[0].ends;
-    body.springs[0].rest_length = (body.vertices.position[a] - body.vertices.position[b]).norm();
+    const double length = (body.vertices.position[a] - body.vertices.position[b]).norm();
+    body.springs.change(0, [length](Spring& s) { s.rest_length = length; });
   });
   EXPECT_TRUE(what.find("rest length") != std::string::npos || what.find("elastic") != std::string::npos) << what;
 }
@@ -148,7 +149,7 @@ TYPED_TEST(Conservation, FailsWhenAPartOfAVertexIsLeftBehind) {
 
 TYPED_TEST(Conservation, FailsWhenADampingIsForgotten) {
   const auto what = this->first_violation([](auto& body, auto&) {
-    if (!body.springs.empty()) body.springs.back().damping = 0.0;
+    if (!body.springs.empty()) body.springs.change(body.springs.size() - 1, [](Spring& s) { s.damping = 0.0; });
   });
   EXPECT_NE(what.find("damping"), std::string::npos) << what;
 }
@@ -202,7 +203,7 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   EXPECT_LE(motion.velocity, motion.bound.velocity);
   EXPECT_LT(motion.bound.position, 1e-9);
 
-  body.springs[0].stiffness *= 1.0 + 1e-9;
+  body.springs.change(0, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
   EXPECT_FALSE(compare_rebuilt_motion(body, views.cells, start, places, cells, 10).same_bits);
 }
 
@@ -236,7 +237,7 @@ TEST(ConservationOfSurfaces, HoldsDownToTheEmptyBodyAndAgain) {
 TEST(ConservationOfSurfaces, FailsWhenAnEdgeCountsAFaceTooMany) {
   const Follow<Map2> faulty = [](LiveBody<Map2>& body, Views& views, const TopologyChange& change) {
     Followed followed = follow(body, views, change);
-    if (!body.springs.empty()) body.springs[0].stiffness += body.material.stiffness;
+    if (!body.springs.empty()) body.springs.change(0, [&](Spring& s) { s.stiffness += body.material.stiffness; });
     return followed;
   };
   const auto what = violation_of(

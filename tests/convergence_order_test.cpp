@@ -215,7 +215,7 @@ TEST(DiscreteExact, NoticesACoefficientThatIsWrongInItsTwelfthDigit) {
 TEST(ForceGradient, IsMinusTheForce) {
   PreparedScene scene = stage(OrderCase::undamped).scene;
   EXPECT_LE(compare_forces_with_energy(scene).ratio, 1.0);
-  scene.body.springs[0].stiffness *= 1.0 + 1e-9;
+  scene.body.springs.change(0, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
   EXPECT_GT(compare_forces_with_energy(scene).ratio, 1.0);
 }
 

@@ -69,14 +69,15 @@ TYPED_TEST(RefinementConservation, FailsWhenAVertexGetsHeavier) {
 
 TYPED_TEST(RefinementConservation, FailsWhenANewSpringIsTooStiff) {
   const auto what = this->first_violation([](auto& body, auto&) {
-    if (!body.springs.empty()) body.springs.back().stiffness += 1e-9;
+    if (!body.springs.empty()) body.springs.change(body.springs.size() - 1, [](Spring& s) { s.stiffness += 1e-9; });
   });
   EXPECT_NE(what.find("stiffness"), std::string::npos) << what;
 }
 
 TYPED_TEST(RefinementConservation, FailsWhenARestLengthIsNotThatOfTheRestShape) {
   const auto what = this->first_violation([](auto& body, auto&) {
-    if (!body.springs.empty()) body.springs.back().rest_length *= 1.0 + 1e-9;
+    if (!body.springs.empty())
+      body.springs.change(body.springs.size() - 1, [](Spring& s) { s.rest_length *= 1.0 + 1e-9; });
   });
   EXPECT_NE(what.find("rest length"), std::string::npos) << what;
 }

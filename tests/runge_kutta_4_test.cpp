@@ -58,7 +58,7 @@ TEST(RungeKutta4, FollowsItsOwnPolynomialOnALinearOscillator) {
     arrays.rebuild(body);
     arrays.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
       const bool axis = body.vertices.point[a] + body.vertices.point[b] == 1;
-      if (!axis) body.springs[e].stiffness = 0;
+      if (!axis) body.springs.change(e, [](Spring& s) { s.stiffness = 0; });
       if (axis) k = body.springs[e].stiffness;
     });
     PointState state = body.state();

@@ -212,11 +212,14 @@ TEST(ScenePlan, MovesABodyWithoutZeroColumnsWithTheBitsOfOneWithThem) {
     const auto body = make_simulated_body(problem, false);
     ASSERT_TRUE(body->system().viscosity.empty());
     ASSERT_TRUE(body->system().fixed.empty());
+    ASSERT_TRUE(body->system().springs.damped().empty());
     SpringSystem with_columns = body->system();
     const std::vector<double> viscosity(with_columns.vertex_count(), 0.0);
     const std::vector<std::uint8_t> fixed(with_columns.vertex_count(), 0);
     with_columns.viscosity = viscosity;
     with_columns.fixed = fixed;
+    const std::vector<Spring> springs(body->system().springs.begin(), body->system().springs.end());
+    with_columns.springs = springs;
     auto x = body->vertices().position, v = body->vertices().velocity;
     const auto bare = entry.make(), full = entry.make();
     for (int k = 0; k < 10; ++k) {

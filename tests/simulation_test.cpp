@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <vector>
 
+#include "core/meshes/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 #include "core/scene/scene_run.h"
 #include "core/time/integrators.h"
@@ -220,6 +223,39 @@ TEST(Simulation, WarnsOfAStepThatIsTooLongBeforeTheFirst) {
   EXPECT_EQ(simulation.step_warning()->step, 0u);
   EXPECT_LT(simulation.step_warning()->stable, 0.01);
   EXPECT_NE(to_string(*simulation.step_warning(), 0.01, "rk4").find("too long for rk4"), std::string::npos);
+}
+
+// ---- coordinates that are too large: eps |x| is above a millionth of 0.125 m from 5.6e8 m on
+
+TEST(Simulation, WarnsOfCoordinatesThatAreRoundedToMoreThanAMillionthOfASpring) {
+  Mesh mesh = kuhn_box(2, 2, 2, 0.125);
+  for (Eigen::Vector3d& p : mesh.points) p.y() -= 1e9;
+  const auto file = std::filesystem::path(testing::TempDir()) / "far_away.mesh";
+  std::filesystem::remove(file);
+  write_medit(file, mesh);
+  Json scene = moving_box();
+  EXPECT_FALSE(Simulation(parse(scene)).coordinate_warning());
+  scene["body"] = {{"mesh", file.string()}};
+  const Simulation simulation(parse(scene));
+  const auto& warning = simulation.coordinate_warning();
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->axis, 1);
+  EXPECT_EQ(warning->coordinate, simulation.body().vertices().position[warning->vertex].y());
+  EXPECT_NE(to_string(*warning).find("move the body to the origin"), std::string::npos) << to_string(*warning);
+}
+
+TEST(Simulation, WarnsOfCoordinatesThatARunArrivesAt) {
+  Json scene = moving_box();
+  scene["initial_velocity"] = {1e8, 0, 0};
+  scene["integrator"] = "backward-euler";
+  scene["step"] = 1.0;
+  scene["duration"] = 10.0;
+  scene["material"]["viscosity"] = 0.0;
+  Simulation simulation(parse(scene));
+  EXPECT_FALSE(simulation.coordinate_warning());
+  run(simulation);
+  ASSERT_TRUE(simulation.coordinate_warning());
+  EXPECT_EQ(simulation.coordinate_warning()->axis, 0);
 }
 
 TEST(Simulation, SaysNothingOfAStableStepAndNeverOfAnImplicitOne) {

@@ -45,7 +45,7 @@ SpringArrays arrays_of(const Body& body) {
   CellArrays cells;
   cells.rebuild(body);
   for (const EdgeEntry& edge : cells.edges) arrays.ends.push_back(edge.ends);
-  arrays.springs = body.springs;
+  arrays.springs = body.springs.list();
   arrays.mass = body.vertices.mass;
   arrays.inverse_mass = body.vertices.inverse_mass;
   arrays.viscosity = body.vertices.viscosity;

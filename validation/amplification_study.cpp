@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/plain/error.h"
 #include "core/time/splitting.h"
@@ -49,7 +50,7 @@ std::vector<Eigen::Matrix2d> powers(const IntegratorEntry& entry, double theta, 
   for (int column = 0; column < 2; ++column) {
     const auto integrator = entry.make();
     const std::array<SpringEnds, 1> ends{{{0, 1}}};
-    const std::array<Spring, 1> springs{{{length, omega * omega, 0.0}}};
+    const std::vector<Spring> springs{{length, omega * omega, 0.0}};
     const std::array<double, 2> mass{1.0, 1.0}, viscosity{0.0, 0.0};
     const std::array<std::uint8_t, 2> fixed{1, 0};
     const SpringSystem system{ends, springs, mass, mass, viscosity, fixed, {0, 0, 0}};

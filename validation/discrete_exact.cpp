@@ -47,7 +47,7 @@ DiscreteExact compare_with_discrete_map(const IntegratorEntry& entry, double zet
 
   // the wall, and a mass of 1 at q = 1/8 with velocity 1/4
   const std::array<SpringEnds, 1> ends{{{0, 1}}};
-  const std::array<Spring, 1> springs{{{length, omega * omega, 2.0 * zeta * omega}}};
+  const std::vector<Spring> springs{{length, omega * omega, 2.0 * zeta * omega}};
   const std::array<double, 2> mass{1.0, 1.0}, viscosity{0.0, 0.0};
   const std::array<std::uint8_t, 2> fixed{1, 0};
   const SpringSystem system{ends, springs, mass, mass, viscosity, fixed, {0, 0, 0}};

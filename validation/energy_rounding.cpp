@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/plain/error.h"
 #include "core/plain/random.h"
@@ -40,7 +41,7 @@ class Oscillator {
   }
 
   std::array<SpringEnds, 1> ends_{{{0, 1}}};
-  std::array<Spring, 1> springs_{{{length, omega* omega, 0.0}}};
+  std::vector<Spring> springs_{{length, omega* omega, 0.0}};
   std::array<double, 2> mass_{1.0, 1.0}, viscosity_{0.0, 0.0};
   std::array<std::uint8_t, 2> fixed_{1, 0};
   SpringSystem system_{ends_, springs_, mass_, mass_, viscosity_, fixed_, {0, 0, 0}};

@@ -16,8 +16,8 @@ SpringColumns columns_of(const TetBody& body, double stretch) {
   SpringEndsView ends;
   ends.rebuild(body);
   const VertexColumns& v = body.vertices;
-  SpringColumns columns{ends.ends, body.springs, v.mass,     v.inverse_mass, v.viscosity,
-                        v.fixed,   {0, 0, 0},    v.position, v.velocity};
+  SpringColumns columns{ends.ends, body.springs.list(), v.mass,     v.inverse_mass, v.viscosity,
+                        v.fixed,   {0, 0, 0},           v.position, v.velocity};
   Eigen::Matrix3d field;
   field << 1.0 + stretch, 0.5 * stretch, 0.0, 0.0, 1.0 + 0.6 * stretch, 0.3 * stretch, 0.2 * stretch, 0.0,
       1.0 + 0.3 * stretch;

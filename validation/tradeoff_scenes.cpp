@@ -117,7 +117,7 @@ void stiffen(PreparedScene& scene, const Mesh& mesh, std::span<const std::uint8_
     if (stiff[body.cell(body.map, d)]) body.edge_share[TetMap::slot<1>(d)] = factor;
   });
   for (std::size_t k = 0; k < body.springs.size(); ++k)
-    body.springs[k] = body.spring_of(Edge{body.edge_dart[k]}, body.springs[k].rest_length);
+    body.springs.set(k, body.spring_of(Edge{body.edge_dart[k]}, body.springs[k].rest_length));
 
   std::vector<std::uint32_t> vertex(mesh.points.size());
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k) vertex[body.vertices.point[k]] = k;

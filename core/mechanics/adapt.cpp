@@ -163,12 +163,15 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
                 [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share, body.cell_inside_out); });
 
   separate<1>(
-      map, body.edge, change.edges, body.edge_dart, edges, [&](std::uint32_t k) { duplicate(k, body.springs); },
+      map, body.edge, change.edges, body.edge_dart, edges,
+      [&](std::uint32_t k) { body.springs.push_back(body.springs[k]); },
       [&](std::uint32_t k, const Places& places, bool) {
-        body.springs[k] = body.spring_of({places.data(), places.size()}, body.springs[k].rest_length);
+        body.springs.set(k, body.spring_of({places.data(), places.size()}, body.springs[k].rest_length));
       });
-  close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges, changed.moved_edges,
-                [&](std::uint32_t k) { move_last(k, body.springs); });
+  close_gaps<1>(map, body.edge, change.removed_edges, body.edge_dart, edges, changed.moved_edges, [&](std::uint32_t k) {
+    body.springs.set(k, body.springs.back());
+    body.springs.pop_back();
+  });
 
   // Vertices last: the springs around a renumbered one have another number at this end, and now they have their own.
   separate<0>(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/mechanics/embedding.h"
+#include "core/mechanics/springs.h"
 #include "core/plain/problem.h"
 #include "core/topology/generalized_map.h"
 
@@ -32,13 +33,6 @@ struct VertexColumns {
   std::size_t size() const { return mass.size(); }
 };
 
-/// What an edge embeds: one spring.
-struct Spring {
-  double rest_length;  // [m]
-  double stiffness;    // [N/m], the sum of what the incident cells contribute
-  double damping;      // [N s/m], likewise
-};
-
 /// A body on a map of type Map, its embeddings held by one dart of each orbit or by every dart.
 template <class Map, Held held>
 struct MassSpringBody {
@@ -51,7 +45,7 @@ struct MassSpringBody {
   CellEmbedding<dimension, Map, held> cell;  // the volumes of a solid, the faces of a surface
 
   VertexColumns vertices;
-  std::vector<Spring> springs;
+  Springs springs;
   std::vector<Dart> edge_dart;     // of each spring: the lowest dart of its edge
   std::vector<Dart> face_dart;     // of a solid: the lowest dart of each face
   std::vector<double> cell_mass;   // [kg]

@@ -221,7 +221,7 @@ class Refinement {
             body_.springs.push_back({});
             body_.edge_dart.push_back(d);
           }
-          body_.springs[number].rest_length = length;
+          body_.springs.change(number, [length](Spring& s) { s.rest_length = length; });
           body_.edge.attach(map_, Edge{d}, number);
         }
         const std::uint32_t number = body_.edge(map_, d);
@@ -250,7 +250,7 @@ class Refinement {
         if (Dart& lowest = body_.edge_dart[e]; lowest == no_dart) {
           seen.clear();
           lowest = gather(Edge{d});
-          body_.springs[e] = body_.spring_of(places, body_.springs[e].rest_length);
+          body_.springs.set(e, body_.spring_of(places, body_.springs[e].rest_length));
         }
         const std::uint32_t k = body_.vertex(map_, d);
         if (std::find(changed_.vertices.begin(), changed_.vertices.end(), k) == changed_.vertices.end()) {

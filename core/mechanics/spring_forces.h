@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <type_traits>
 
 #include "core/mechanics/mass_spring_body.h"
 
@@ -12,11 +13,14 @@ namespace dartboard {
 ///
 /// k (l - L) + c (dv . u) along u, the direction from the first end to the second; zero for zero length, where there
 /// is no direction. Exchanging the ends changes the sign of every intermediate exactly, so either end may come first.
-inline Eigen::Vector3d spring_force(const Spring& spring, const Eigen::Vector3d& dx, const Eigen::Vector3d& dv) {
+template <class SomeSpring = Spring>  // or UndampedSpring
+Eigen::Vector3d spring_force(const SomeSpring& spring, const Eigen::Vector3d& dx,
+                             [[maybe_unused]] const Eigen::Vector3d& dv) {
   const double length = std::sqrt(dx.squaredNorm());
   if (length == 0.0) return Eigen::Vector3d::Zero();
   const double inverse = 1.0 / length;
-  const double tension = spring.stiffness * (length - spring.rest_length) + spring.damping * (dv.dot(dx) * inverse);
+  double tension = spring.stiffness * (length - spring.rest_length);
+  if constexpr (std::is_same_v<SomeSpring, Spring>) tension += spring.damping * (dv.dot(dx) * inverse);
   return (tension * inverse) * dx;
 }
 
@@ -26,11 +30,13 @@ inline Eigen::Vector3d spring_force(const Spring& spring, const Eigen::Vector3d&
 template <class Walk, class Body>
 void add_spring_forces(const Walk& walk, Body& body) {
   VertexColumns& v = body.vertices;
-  walk.for_each_edge(body, [&](std::uint32_t edge, std::uint32_t a, std::uint32_t b) {
-    const Eigen::Vector3d f =
-        spring_force(body.springs[edge], v.position[b] - v.position[a], v.velocity[b] - v.velocity[a]);
-    v.force[a] += f;
-    v.force[b] -= f;
+  SpringSpan(body.springs).visit([&](auto springs) {
+    walk.for_each_edge(body, [&](std::uint32_t edge, std::uint32_t a, std::uint32_t b) {
+      const Eigen::Vector3d f =
+          spring_force(springs[edge], v.position[b] - v.position[a], v.velocity[b] - v.velocity[a]);
+      v.force[a] += f;
+      v.force[b] -= f;
+    });
   });
 }
 

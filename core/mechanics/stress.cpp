@@ -44,7 +44,7 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
   return sum;
 }
 
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, std::span<const Spring> springs,
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
                      std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
                      std::vector<Eigen::Matrix3d>& stress) {
   stress.assign(mass.size(), Eigen::Matrix3d::Zero());

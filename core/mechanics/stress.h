@@ -44,7 +44,7 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
 ///
 /// pre     ends, springs by edge number, mass, position by vertex number, as the body has them
 /// cost    O(springs + vertices); no allocation once `stress` has had its size
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, std::span<const Spring> springs,
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
                      std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
                      std::vector<Eigen::Matrix3d>& stress);
 

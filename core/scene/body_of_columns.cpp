@@ -105,7 +105,8 @@ MemoryReport BodyOfColumns::memory() const {
   return {{Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force, v.dart)},
           {Part::viscosity, bytes_of(v.viscosity)},
           {Part::fixed, bytes_of(v.fixed)},
-          {Part::springs, bytes_of(springs_, ends_)},
+          {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
+          {Part::damping, springs_.damping_bytes()},
           {Part::output_cells,
            bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_)}};
 }
@@ -151,7 +152,8 @@ double BodyOfColumns::largest_tension() const {
   double largest = 0.0;
   for (std::size_t k = 0; k < ends_.size(); ++k) {
     const double length = (vertices_.position[ends_[k][1]] - vertices_.position[ends_[k][0]]).norm();
-    const double tension = springs_[k].stiffness * (length - springs_[k].rest_length);
+    const Spring spring = springs_[k];
+    const double tension = spring.stiffness * (length - spring.rest_length);
     if (!std::isfinite(tension)) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, tension);
   }

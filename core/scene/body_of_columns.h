@@ -47,7 +47,7 @@ class BodyOfColumns final : public SimulatedBody {
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
   VertexColumns vertices_;  // without darts and forces; viscosity and fixed only where there is some
-  std::vector<Spring> springs_;
+  Springs springs_;
   std::vector<SpringEnds> ends_;
   Eigen::Vector3d gravity_{0, 0, 0};
   double density_ = 0.0;

@@ -165,7 +165,8 @@ class BodyOnMap final : public SimulatedBody {
             {Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force)},
             {Part::viscosity, bytes_of(v.viscosity)},
             {Part::fixed, bytes_of(v.fixed)},
-            {Part::springs, bytes_of(body_.springs, ends_.ends)}};
+            {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
+            {Part::damping, body_.springs.damping_bytes()}};
   }
 
  private:

@@ -22,9 +22,9 @@ enum class Part {
   viscosity,     // by vertex
   fixed,         // by vertex
   driven,        // paths of driven vertices, and what their work is summed over
-  springs,       // rest length, stiffness and damping, and the two ends
-  damping,       // a force term: time only
-  gravity,       // likewise
+  springs,       // rest length, stiffness, and the two ends
+  damping,       // by spring; beside them in one row
+  gravity,       // a force term: time only
   integrator,    // columns kept between steps
   solver,        // matrices, factor and vectors of implicit methods
   detector,      // the last good state

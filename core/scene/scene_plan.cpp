@@ -158,15 +158,16 @@ class Planner {
 
   void forces() {
     const MeshTally& n = plan_.counts;
-    add(Part::springs, fmt::format("{} springs: rest length, stiffness, damping, two ends", n.edges),
+    add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
         source_of(scene_) + "; " +
             told("/material/stiffness", Shape::material, "stiffness", problem_.material.stiffness),
-        n.edges * (sizeof(Spring) + sizeof(SpringEnds)));
+        n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds)));
     const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
     if (plan_.needs.damping)
-      add(Part::damping, "term of the force loop, or a sweep over the springs", damping);
+      add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping,
+          n.edges * sizeof(Spring::damping));
     else
-      leave_out("term or sweep of damping (not the 8 bytes of each spring)", damping);
+      leave_out("damping of springs, its term or sweep", damping);
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity = told("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
     if (plan_.needs.gravity)

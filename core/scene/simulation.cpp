@@ -86,6 +86,7 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
   look_at_step();
+  look_at_coordinates();
   start_ = detector_.start(body_->system(), body_->motion(), step_);
 }
 
@@ -104,6 +105,7 @@ std::optional<Divergence> Simulation::advance() {
     found->taken_back = detector_.restore(body_->motion());
     return found;
   }
+  if (done_ == step_count_) look_at_coordinates();
   const std::size_t operations = operations_;
   try {
     happen();
@@ -152,6 +154,10 @@ void Simulation::look_at_step() {
     if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
   }
   if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
+}
+
+void Simulation::look_at_coordinates() {
+  if (!coarse_) coarse_ = find_coarse_coordinate(body_->system(), body_->vertices().position);
 }
 
 // A step that cannot be divided is refused too.

@@ -15,6 +15,7 @@
 #include "core/scene/probes.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/simulated_body.h"
+#include "core/time/coordinate_precision.h"
 #include "core/time/divergence.h"
 #include "core/time/integrator.h"
 #include "core/time/stable_step.h"
@@ -90,6 +91,8 @@ class Simulation {
   const StableStep& stable_step() const { return limits_; }
   /// The first step found too long, and how it is divided now.
   const std::optional<StepWarning>& step_warning() const { return warning_; }
+  /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
+  const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
 
   const SimulatedBody& body() const { return *body_; }
   std::size_t operations() const { return operations_; }
@@ -116,6 +119,7 @@ class Simulation {
   bool drive();
   void compare(const Sums& before);
   void look_at_step();
+  void look_at_coordinates();
   std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
   Divergence failure(const StepResult& result);
@@ -133,6 +137,7 @@ class Simulation {
   UnstableStep unstable_step_;
   StableStep limits_;
   std::optional<StepWarning> warning_;
+  std::optional<CoordinatePrecision> coarse_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
   StepResult start_;  // what the detector finds in the state before a step

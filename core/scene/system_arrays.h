@@ -13,7 +13,7 @@ namespace dartboard {
 /// Columns in the order that the body will have them; their sums over cells may differ from its by rounding.
 struct SystemArrays {
   std::vector<SpringEnds> ends;
-  std::vector<Spring> springs;
+  Springs springs;
   std::vector<double> mass, inverse_mass, viscosity;  // viscosity: empty without any
   std::vector<std::uint8_t> fixed;                    // empty where nothing is
   Eigen::Vector3d gravity{0, 0, 0};

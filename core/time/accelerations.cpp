@@ -13,12 +13,12 @@ namespace {
 using Eigen::Vector3d;
 
 // Pairing springs for SIMD gains nothing here: the sums at shared ends are what the loop waits for.
-template <bool damped>
-void add_spring_forces(const SpringSystem& system, std::span<const Vector3d> x, std::span<const Vector3d> v,
-                       std::span<Vector3d> force) {
-  for (std::size_t s = 0; s < system.springs.size(); ++s) {
+template <bool damped, class SomeSpring>
+void add_spring_forces(const SpringSystem& system, std::span<const SomeSpring> springs, std::span<const Vector3d> x,
+                       std::span<const Vector3d> v, std::span<Vector3d> force) {
+  for (std::size_t s = 0; s < springs.size(); ++s) {
     const auto [i, j] = system.ends[s];
-    const Spring& spring = system.springs[s];
+    const SomeSpring& spring = springs[s];
     const Vector3d dx = x[j] - x[i];
     Vector3d f;
     if constexpr (damped) {
@@ -49,14 +49,19 @@ void divide_by_mass(const SpringSystem& system, std::span<const Vector3d> v, std
 
 Terms terms_of(const SpringSystem& system) {
   const auto any = [](const auto& column) { return std::ranges::any_of(column, [](auto x) { return x != 0; }); };
-  return {std::ranges::any_of(system.springs, [](const Spring& s) { return s.damping != 0.0; }), any(system.viscosity),
-          any(system.fixed)};
+  const auto is_damped = [](const Spring& s) { return s.damping != 0.0; };
+  return {std::ranges::any_of(system.springs.damped(), is_damped), any(system.viscosity), any(system.fixed)};
 }
 
 void accelerations(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> x,
                    std::span<const Vector3d> v, std::span<Vector3d> a) {
   std::ranges::fill(a, Vector3d(0, 0, 0));
-  terms.damping ? add_spring_forces<true>(system, x, v, a) : add_spring_forces<false>(system, x, v, a);
+  const SpringSpan& springs = system.springs;
+  if (springs.damped().empty())
+    add_spring_forces<false>(system, springs.undamped(), x, v, a);
+  else
+    terms.damping ? add_spring_forces<true>(system, springs.damped(), x, v, a)
+                  : add_spring_forces<false>(system, springs.damped(), x, v, a);
   terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
   if (!terms.fixed) return;
   const std::uint8_t* const fixed = system.fixed.data();

@@ -57,10 +57,10 @@ void FrozenDamping::freeze(const SpringSystem& system, const Terms& terms, std::
 void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> v,
                           std::span<Vector3d> result) const {
   std::ranges::fill(result, Vector3d(0, 0, 0));
-  if (terms.damping) {
+  if (terms.damping && !system.springs.damped().empty()) {
     // copies, since the compiler must assume that a store into the result changes what is held by reference
     const SpringEnds* const ends = system.ends.data();
-    const Spring* const springs = system.springs.data();
+    const Spring* const springs = system.springs.damped().data();
     const Vector3d *const along = along_.data(), *const speed = v.data();
     Vector3d* const sum = result.data();
     forwards(along_.size(), [=](std::size_t s) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/time/coordinate_precision.h"
 #include "core/time/trial_state.h"
 
 namespace dartboard {
@@ -11,7 +12,6 @@ namespace {
 
 // Energies are sums of products of three numbers: beyond this a square is too close to the largest double.
 constexpr double largest_size = 1e120;
-constexpr double coarse = 1e-6;  // rounding of a coordinate, relative to a spring
 
 StepResult at_vertex(StepCode code, std::size_t i, std::string_view quantity, double value) {
   return {code, Witness::vertex, static_cast<std::uint32_t>(i), quantity, value};
@@ -53,22 +53,14 @@ StepResult refusal(const SpringSystem& system, Motion motion, double h) {
 bool denormal(double value) { return std::fpclassify(value) == FP_SUBNORMAL; }
 
 void warn_of_springs(const SpringSystem& system, Motion motion, std::vector<StepResult>& warnings) {
-  std::size_t zero = system.springs.size(), rounded = zero;
-  double worst = coarse;
+  std::size_t zero = system.springs.size();
   for (std::size_t s = 0; s < system.springs.size(); ++s) {
     const auto [i, j] = system.ends[s];
-    const double length = (motion.x[j] - motion.x[i]).norm(), rest = system.springs[s].rest_length;
-    if (length == 0.0 && zero == system.springs.size()) zero = s;
-    const double size = std::max(motion.x[i].norm(), motion.x[j].norm()), edge = std::max(length, rest);
-    const double relative = std::numeric_limits<double>::epsilon() * size / edge;
-    if (edge > 0.0 && relative > worst) {
-      worst = relative;
-      rounded = s;
-    }
+    if ((motion.x[j] - motion.x[i]).norm() == 0.0 && zero == system.springs.size()) zero = s;
   }
   if (zero < system.springs.size()) warnings.push_back(at_edge(StepCode::zero_length, zero, "length", 0.0));
-  if (rounded < system.springs.size())
-    warnings.push_back(at_edge(StepCode::coordinate_precision, rounded, "rounding over length", worst));
+  if (const auto coarse = find_coarse_coordinate(system, motion.x))
+    warnings.push_back(at_edge(StepCode::coordinate_precision, coarse->edge, "rounding over length", coarse->relative));
 }
 
 void warn_of_denormals(const SpringSystem& system, Motion motion, std::vector<StepResult>& warnings) {

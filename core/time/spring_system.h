@@ -38,7 +38,7 @@ class OptionalColumn {
 /// number.
 struct SpringSystem {
   std::span<const SpringEnds> ends;
-  std::span<const Spring> springs;
+  SpringSpan springs;
   std::span<const double> mass;          // [kg]
   std::span<const double> inverse_mass;  // [1/kg]
   OptionalColumn<double> viscosity;      // [kg/s]

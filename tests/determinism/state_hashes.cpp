@@ -89,7 +89,7 @@ struct Moving {
     hash.add(body.vertices.position);
     hash.add(body.vertices.velocity);
     hash.add(body.vertices.mass);
-    hash.add(body.springs);
+    hash.add(body.springs.list());
     hash.add(views.ends.ends);
     add(total_energy(system(), body.vertices.position, body.vertices.velocity));
     return hash.value();

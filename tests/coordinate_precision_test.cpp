@@ -1,0 +1,55 @@
+#include "core/time/coordinate_precision.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/spring_arrays_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Two springs of 1 m and of `length` in a row along y, from (0, y, 0).
+SpringArrays row_from(double y, double length) {
+  SpringArrays row;
+  row.add_vertex(1.0, {0, y, 0});
+  row.add_vertex(1.0, {0, y + 1, 0});
+  row.add_vertex(1.0, {0, y + 1 + length, 0});
+  row.add_spring(0, 1, 1.0, 1.0);
+  row.add_spring(1, 2, 1.0, length);
+  return row;
+}
+
+TEST(CoordinatePrecision, IsSaidToBeCoarseAboveAMillionthOfASpring) {
+  const double edge = 1e-6 / epsilon;  // where a spring of 1 m begins to feel it
+  SpringArrays below = row_from(0.99 * edge, 1.0), above = row_from(1.01 * edge, 1.0);
+  EXPECT_FALSE(find_coarse_coordinate(below.system(), below.x));
+  ASSERT_TRUE(find_coarse_coordinate(above.system(), above.x));
+}
+
+TEST(CoordinatePrecision, NamesTheVertexOfTheShortestSpringThere) {
+  SpringArrays row = row_from(-1e10, 0.25);
+  const auto found = find_coarse_coordinate(row.system(), row.x);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->edge, 1u);
+  EXPECT_EQ(found->vertex, 1u);  // the end farther from the origin
+  EXPECT_EQ(found->axis, 1);
+  EXPECT_EQ(found->coordinate, -1e10 + 1);
+  EXPECT_EQ(found->length, 0.25);
+  EXPECT_NEAR(found->relative, epsilon * 4e10, 1e-9 * epsilon * 4e10);
+  const std::string text = to_string(*found);
+  EXPECT_NE(text.find("y = -1e+10 m of vertex 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("move the body to the origin"), std::string::npos) << text;
+}
+
+TEST(CoordinatePrecision, IsNotThatOfASpringWithoutLength) {
+  SpringArrays row = row_from(1e10, 0.0);
+  row.ends.erase(row.ends.begin());
+  row.springs.erase(row.springs.begin());
+  EXPECT_FALSE(find_coarse_coordinate(row.system(), row.x));
+}
+
+}  // namespace
+}  // namespace dartboard
