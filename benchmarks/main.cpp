@@ -4,8 +4,11 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <system_error>
 
 #include "benchmarks/cli.h"
 #include "core/plain/error.h"
@@ -25,9 +28,18 @@ void require_known_verb(const CLI::App& app, int argc, char** argv) {
   throw InputError(fmt::format("there is no verb '{}'; the verbs are {}", argv[1], verbs));
 }
 
-}  // namespace
+/// What was printed may still wait in a buffer, for a disk that is full or a reader that is gone.
+/// returns  `exit_code`, or that of a failure when standard output did not take everything
+int written_out(int exit_code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
+  const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
+  fmt::print(stderr, "dartboard: standard output cannot be written{}\n", reason);
+  return exit_io;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Outcome outcome;
   for (int k = 0; k < argc; ++k) outcome.command_line += (k == 0 ? "dartboard" : " " + std::string(argv[k]));
 
@@ -67,3 +79,7 @@ int main(int argc, char** argv) {
     return exit_io;
   }
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return written_out(run(argc, argv)); }
