@@ -112,7 +112,7 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
   const auto by_number = number_points();
 
-  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}};
+  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}, .place_of_point = {}};
   Mesh& mesh = loaded.mesh;
   std::vector<bool> used(points_.size(), false);
   std::vector<std::uint32_t> cell;
@@ -144,9 +144,11 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     mesh.points.push_back(points_[p]);
   }
   for (auto& node : mesh.nodes) node = kept[node];
-  if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0)
+  if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0) {
     loaded.notices.push_back(
         fmt::format("dropped {} that {} to no cell", counted(dropped, "point"), dropped == 1 ? "belongs" : "belong"));
+    loaded.place_of_point = std::move(kept);
+  }
   return loaded;
 }
 

@@ -12,6 +12,7 @@
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
+#include "core/scene/point_numbers.h"
 #include "core/scene/scene_check.h"
 #include "core/scene/step_times.h"
 #include "core/scene/strict_json.h"
@@ -359,7 +360,9 @@ SceneFile read_scene(const fs::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw IoError(fmt::format("{}: cannot be read; expected a scene", path.string()));
-  return parse_scene(text.str(), path.string(), path.parent_path());
+  SceneFile scene = parse_scene(text.str(), path.string(), path.parent_path());
+  number_points_as_kept(scene);
+  return scene;
 }
 
 Mesh make_mesh(const SceneFile& scene) {

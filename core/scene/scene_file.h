@@ -164,6 +164,9 @@ struct SceneFile {
 /// throws  InputError "NAME: /path: ..." or "NAME:LINE:COLUMN: ..." for a scene that is wrong
 SceneFile parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
+/// The scene in a file. Its point numbers, counted from 0 in the order of the mesh file, become those of the body,
+/// which has only the points of cells.
+///
 /// throws  IoError if the file cannot be read, InputError if it is wrong
 SceneFile read_scene(const std::filesystem::path& path);
 
