@@ -225,6 +225,7 @@ nlohmann::ordered_json to_json(const Explanation& e) {
 void explain_dt(const Options& options, Outcome& outcome) {
   SceneFile scene = read_scene(options.scene);
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  scene.unstable_step = UnstableStep::warn;  // a step that the scene refuses is what is to be explained
   const Explanation explanation = explain(scene);
   outcome.exit_code = scene.step <= explanation.safe ? exit_agrees : exit_disagrees;
   if (options.json) {

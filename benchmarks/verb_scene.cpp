@@ -17,6 +17,7 @@ void check_scene(const std::string& file) {
     // all but the step can be checked; any will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
     if (scene.integrator.empty()) scene.integrator = "rk4";
+    scene.unstable_step = UnstableStep::warn;
   }
   const Simulation simulation(scene);
   const CellCounts n = simulation.body().counts();

@@ -230,13 +230,47 @@ TEST(Simulation, SaysNothingOfAStableStepAndNeverOfAnImplicitOne) {
   EXPECT_FALSE(simulation.advance());
 }
 
+std::string refusal_of(const Json& scene) {
+  try {
+    const Simulation simulation(parse(scene));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Simulation, RefusesAStepThatIsTooLongWhereTheSceneSaysSo) {
-  Simulation simulation(parse(too_stiff("refuse")));
-  const std::uint64_t before = simulation.body().state_hash();
-  const auto refusal = simulation.advance();
+  const std::string refusal = refusal_of(too_stiff("refuse"));
+  EXPECT_EQ(refusal.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most 0.00", 0), 0u)
+      << refusal;
+}
+
+TEST(Simulation, RefusesAStepThatWouldTakeTooManyParts) {
+  Json scene = too_stiff("substep");
+  scene["material"]["stiffness"] = 6.4e21;
+  const std::string refusal = refusal_of(scene);
+  EXPECT_NE(refusal.find("parts, more than 1000000; expected at most "), std::string::npos) << refusal;
+}
+
+TEST(Simulation, StopsBeforeAStepThatAnEventHasMadeTooLongWhereTheSceneSaysSo) {
+  // as in LooksAtTheStepAgainAfterAnEvent: the highest frequency rises by more than 2 %
+  Json scene = with_events(too_stiff("warn"), R"([{"every": 1e-9, "remove": {"random": {"count": 1}}}])");
+  scene["gravity"] = {0, 0, 0};
+  scene["initial_velocity"] = {0, 0, 0};
+  const double stable = Simulation(parse(scene)).step_warning()->stable;
+  scene["step"] = 0.99 * stable;
+  scene["duration"] = 30 * stable;
+  scene["unstable_step"] = "refuse";
+  Simulation simulation(parse(scene));
+  std::optional<Divergence> refusal;
+  std::uint64_t before = 0;
+  while (!refusal && simulation.steps_done() < simulation.step_count()) {
+    before = simulation.body().state_hash();
+    refusal = simulation.advance();
+  }
   ASSERT_TRUE(refusal);
   EXPECT_TRUE(refusal->predicted);
-  EXPECT_EQ(simulation.steps_done(), 0u);
+  EXPECT_EQ(refusal->step, simulation.steps_done() + 1);
   EXPECT_EQ(simulation.body().state_hash(), before);
   EXPECT_NE(to_string(*refusal).find("stable"), std::string::npos);
 }

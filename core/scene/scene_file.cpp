@@ -240,6 +240,13 @@ class Reader {
   // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex between driven ones would
   // have no path of its own.
   void require_consistent(const SceneFile& scene) const {
+    if (scene.accuracy) {
+      // a step is found by comparison with references, which know neither
+      const char* unknown = scene.is_chain() ? "/body/generate/chain" : scene.driven.empty() ? nullptr : "/driven";
+      if (unknown != nullptr) fail("/accuracy", fmt::format("stands beside {}", unknown), "'step' in its place");
+      if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
+        fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
+    }
     const SceneEvent *seam = nullptr, *refinement = nullptr;
     for (const SceneEvent& event : scene.events) {
       if (scene.is_chain())

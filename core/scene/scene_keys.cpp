@@ -45,7 +45,7 @@ std::vector<SceneKey> make_keys() {
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
-               "none is named"},
+               "none is named; not for a chain, nor with driven vertices"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
@@ -53,7 +53,7 @@ std::vector<SceneKey> make_keys() {
                "expected to meet it"},
       {.shape = scene, .name = "unstable_step", .type = choice, .choices = {"warn", "refuse", "substep"},
        .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
-                                       "each event: say so, stop, or divide it"},
+                                       "each event: say so, refuse the scene (after an event: stop), or divide it"},
       {.shape = scene, .name = "events", .type = objects, .of = event, .standard = "[]",
        .help = "what happens to the body; those due at one time happen in this order"},
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},

@@ -84,6 +84,9 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
   look_at_step();
+  if (const auto refusal = refused())
+    throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
+                                 refusal->quantity, refusal->value));
   start_ = detector_.start(body_->system(), body_->motion(), step_);
 }
 
@@ -136,6 +139,7 @@ void Simulation::look_at_step() {
       parts = std::ceil(std::max(parts * 1.2, std::min(step_ / allowed, parts * 4.0)));
     }
     too_long_ = !(parts <= most_parts);
+    parts_wanted_ = parts;
     if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
   }
   if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
@@ -148,6 +152,8 @@ std::optional<Divergence> Simulation::refused() const {
   d.step = done_ + 1;
   d.time = time();
   d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
+  if (unstable_step_ == UnstableStep::substep)
+    d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
   d.value = limits_.safe_step(integrator_->scheme(),
                               {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
   d.predicted = true;

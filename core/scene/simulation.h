@@ -59,7 +59,8 @@ struct EventJumps {
 class Simulation {
  public:
   /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
-  ///         and has not been given a step and an integrator; IoError for a mesh that cannot be read
+  ///         and has not been given a step and an integrator, or whose step is too long where it refuses one that is;
+  ///         IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
   ~Simulation();
   Simulation(const Simulation&) = delete;
@@ -130,7 +131,8 @@ class Simulation {
   std::optional<StepWarning> warning_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
-  StepResult start_;  // what the detector finds in the state before a step
+  double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
+  StepResult start_;           // what the detector finds in the state before a step
   DivergenceDetector detector_;
 };
 
