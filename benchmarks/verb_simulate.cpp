@@ -135,6 +135,8 @@ void print(const Report& r) {
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
+  for (const std::string& path : r.simulation.idle_events())
+    fmt::print("warning: the event at {} never did anything\n", path);
   if (r.result.divergence)
     fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
   if (!r.expected.empty()) {
@@ -196,6 +198,7 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"value", fmt::format("{:.17g}", d->value)}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
+  json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)
     json["expected"].push_back(

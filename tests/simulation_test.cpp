@@ -59,6 +59,18 @@ TEST(Simulation, RepeatsAnEvent) {
   EXPECT_EQ(left, (std::vector<std::size_t>{44, 44, 40, 40, 36, 36}));
 }
 
+TEST(Simulation, NamesTheEventsThatNeverDidAnything) {
+  const char* events = R"([{"at": 0.002, "remove": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}},
+                           {"at": 0.002, "remove": {"ids": [0]}},
+                           {"at": 0.004, "dissociate": {"plane": {"point": [5, 0, 0], "normal": [1, 0, 0]}}}])";
+  Simulation simulation(parse(with_events(moving_box(), events)));
+  EXPECT_EQ(simulation.idle_events(), std::vector<std::string>{});
+  for (int n = 0; n < 2; ++n) ASSERT_FALSE(simulation.advance());
+  EXPECT_EQ(simulation.idle_events(), std::vector<std::string>{"/events/0"});
+  run(simulation);
+  EXPECT_EQ(simulation.idle_events(), (std::vector<std::string>{"/events/0", "/events/2"}));
+}
+
 // ---- an accuracy in place of a step
 
 Json with_accuracy() {

@@ -217,7 +217,7 @@ std::vector<SceneKey> make_keys() {
       {.shape = probe, .name = "name", .type = text, .required = true, .help = "heads its columns; no two the same"},
       {.shape = probe, .name = "vertex", .type = integer, .range = number,
        .help = "this point of the mesh, counted from 0 in the order of the file"},
-      {.shape = probe, .name = "near", .type = point, .unit = "m", .help = "the vertex that is nearest to it at rest"},
+      {.shape = probe, .name = "near", .type = point, .unit = "m", .help = "the vertex nearest to it at rest, no farther away than the body is large"},
       {.shape = expect, .name = "vertices", .type = integer, .range = number, .help = "vertices"},
       {.shape = expect, .name = "edges", .type = integer, .range = number, .help = "edges"},
       {.shape = expect, .name = "faces", .type = integer, .range = number, .help = "faces"},

@@ -75,9 +75,9 @@ Simulation::Simulation(const SceneFile& scene)
     track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator);
     for (const SceneEvent& event : scene.events)
-      events_.push_back(
-          {body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
-           !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action)});
+      events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
+                         !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action),
+                         event.path});
     happen();
     drive();
   } catch (const InputError& error) {
@@ -174,11 +174,20 @@ void Simulation::happen() {
     std::optional<Sums> before;
     if (watch_ && scheduled.dissociates) before = sums();
     const std::size_t made = scheduled.event->apply();
+    scheduled.was_due = true;
+    scheduled.operations += made;
     if (before && made > 0) compare(*before);
     operations += made;
   }
   operations_ += operations;
   if (operations > 0) integrator_->restart();
+}
+
+std::vector<std::string> Simulation::idle_events() const {
+  std::vector<std::string> paths;
+  for (const Scheduled& scheduled : events_)
+    if (scheduled.was_due && scheduled.operations == 0) paths.push_back(scheduled.path);
+  return paths;
 }
 
 bool Simulation::drive() {

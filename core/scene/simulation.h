@@ -89,6 +89,8 @@ class Simulation {
 
   const SimulatedBody& body() const { return *body_; }
   std::size_t operations() const { return operations_; }
+  /// The paths of the events that have been due and never changed anything.
+  std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
   Frame frame() const;
   ProbeRow probes() const;
@@ -105,6 +107,9 @@ class Simulation {
     std::unique_ptr<ReadyEvent> event;
     EventClock clock;
     bool dissociates;  // and does nothing else
+    std::string path;
+    bool was_due = false;
+    std::size_t operations = 0;
   };
   struct Sums;
   Sums sums() const;
