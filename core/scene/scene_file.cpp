@@ -331,6 +331,15 @@ Mesh generate(const ChainMesh& chain) {
 }
 Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
 
+/// Nothing moves faster.
+void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v) {
+  const double speed = v.stableNorm();
+  if (speed <= speed_of_light) return;
+  const std::string shown = std::isfinite(speed) ? fmt::format("{:.6g} m/s", speed) : "not finite";
+  throw InputError(fmt::format("{}: is {} somewhere in the body; expected at most {:.0f} m/s, the speed of light", path,
+                               shown, speed_of_light));
+}
+
 }  // namespace
 
 OutputPlan OutputPlan::in_steps_of(double step) const {
@@ -396,14 +405,19 @@ Problem make_problem(const SceneFile& scene) {
     problem.fixed = select_points(scene.fixed, problem.mesh.points);
     for (const SceneDrive& drive : scene.driven) {
       const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
+      for (const std::uint32_t p : driven)
+        require_slower_than_light(drive.path + "/velocity", drive.velocity.at(problem.mesh.points[p]));
       problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
     }
     std::sort(problem.fixed.begin(), problem.fixed.end());
     problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
+    for (const Eigen::Vector3d& x : problem.mesh.points) {
+      problem.initial_velocity.push_back(scene.initial_velocity.at(x));
+      require_slower_than_light("/initial_velocity", problem.initial_velocity.back());
+    }
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
-  for (const Eigen::Vector3d& x : problem.mesh.points) problem.initial_velocity.push_back(scene.initial_velocity.at(x));
   return problem;
 }
 

@@ -18,6 +18,8 @@
 
 namespace dartboard {
 
+inline constexpr double speed_of_light = 299792458.0;  // [m/s]
+
 struct BoxMesh {
   std::array<int, 3> cells;
   double spacing;
@@ -178,7 +180,8 @@ Mesh make_mesh(const SceneFile& scene);
 /// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first. Driven vertices are fixed
 /// here: how they move is told by DrivenVertices alone.
 ///
-/// throws  as make_mesh; InputError for an id that is no point of the mesh
+/// throws  as make_mesh; InputError for an id that is no point of the mesh, a selection of none, a speed above that of
+///         light
 Problem make_problem(const SceneFile& scene);
 
 /// Let every random selection draw other cells: `seed` is added to its own.

@@ -12,7 +12,6 @@
 namespace dartboard {
 namespace {
 
-constexpr double speed_of_light = 299792458.0;  // [m/s]
 // A step divided into more parts than this is a mistake in a unit.
 constexpr double most_parts = 1e6;
 
