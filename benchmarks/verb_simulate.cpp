@@ -92,8 +92,9 @@ std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("
 Table summary_of(const Report& r) {
   Table table({{"quantity", Align::left}, {"start", Align::right}, {"end", Align::right}});
   const Diagnostics &first = r.result.first, &last = r.result.last;
-  const auto row = [&table](const char* what, auto start, auto end) {
-    table.add_row({what, fmt::format("{:.6g}", start), fmt::format("{:.6g}", end)});
+  const auto shown = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; };
+  const auto row = [&](const std::string& what, double start, double end) {
+    table.add_row({what, shown(start), shown(end)});
   };
   const auto counts = [&table](const char* what, std::size_t start, std::size_t end) {
     table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});

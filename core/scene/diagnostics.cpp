@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace dartboard {
 
 std::string diagnostics_header() {
@@ -11,15 +14,26 @@ std::string diagnostics_header() {
          "mass [kg],vertices,edges,faces,cells,components,boundary,largest stress,operations\n";
 }
 
+bool is_finite(const Diagnostics& d) {
+  const double numbers[] = {d.time, d.kinetic, d.elastic, d.gravitational, d.mass, d.boundary, d.largest_stress};
+  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }) && d.momentum.allFinite() &&
+         d.angular_momentum.allFinite();
+}
+
 std::string diagnostics_row(const Diagnostics& d) {
   std::string row;
+  const auto add = [&row](double value) {
+    if (std::isfinite(value)) fmt::format_to(std::back_inserter(row), "{:.17g}", value);
+    row += ',';
+  };
   for (const double value : {d.time, d.kinetic, d.elastic, d.gravitational, d.momentum[0], d.momentum[1], d.momentum[2],
                              d.angular_momentum[0], d.angular_momentum[1], d.angular_momentum[2], d.mass})
-    fmt::format_to(std::back_inserter(row), "{:.17g},", value);
+    add(value);
   const CellCounts& n = d.counts;
-  fmt::format_to(std::back_inserter(row), "{},{},{},{},{},{:.17g},{:.17g},{}\n", n.vertices, n.edges, n.faces, n.cells,
-                 n.components, d.boundary, d.largest_stress, d.operations);
-  return row;
+  fmt::format_to(std::back_inserter(row), "{},{},{},{},{},", n.vertices, n.edges, n.faces, n.cells, n.components);
+  add(d.boundary);
+  add(d.largest_stress);
+  return row + fmt::format("{}\n", d.operations);
 }
 
 }  // namespace dartboard

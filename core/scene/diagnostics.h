@@ -27,8 +27,10 @@ struct Diagnostics {
   double energy() const { return kinetic + elastic + gravitational; }
 };
 
+bool is_finite(const Diagnostics& diagnostics);
+
 /// The names of the columns, with units, and one row; real numbers with 17 digits, so that they can be read back
-/// exactly. Both end with a line break.
+/// exactly, and an empty field for what is not finite. Both end with a line break.
 std::string diagnostics_header();
 std::string diagnostics_row(const Diagnostics& diagnostics);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/plain/error.h"
+#include "core/scene/beyond_numbers.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
 
@@ -73,6 +74,7 @@ Simulation::Simulation(const SceneFile& scene)
     driven_ = DrivenVertices(scene, problem.mesh.points, step_);
     track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator);
+    if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
     for (const SceneEvent& event : scene.events)
       events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
                          !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action),
@@ -87,6 +89,7 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
                                  refusal->quantity, refusal->value));
   start_ = detector_.start(body_->system(), body_->motion(), step_);
+  if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
 }
 
 Simulation::~Simulation() = default;

@@ -59,8 +59,8 @@ struct EventJumps {
 class Simulation {
  public:
   /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
-  ///         and has not been given a step and an integrator, or whose step is too long where it refuses one that is;
-  ///         IoError for a mesh that cannot be read
+  ///         and has not been given a step and an integrator, whose step is too long where it refuses one that is, or
+  ///         whose numbers are too large to move; IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
   ~Simulation();
   Simulation(const Simulation&) = delete;
