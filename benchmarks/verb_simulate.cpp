@@ -15,6 +15,7 @@
 #include "benchmarks/progress.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/atomic_file.h"
 #include "core/scene/scene_file.h"
@@ -100,7 +101,7 @@ Table summary_of(const Report& r) {
     table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
   };
   row("time [s]", first.time, last.time);
-  table.add_row({"steps", "0", fmt::format("{}", r.simulation.steps_done())});
+  counts("steps", 0, r.result.divergence ? r.result.divergence->kept_step : r.simulation.steps_done());
   counts("operations", first.operations, last.operations);
   counts("vertices", first.counts.vertices, last.counts.vertices);
   counts("edges", first.counts.edges, last.counts.edges);
@@ -111,8 +112,9 @@ Table summary_of(const Report& r) {
   row("kinetic energy [J]", first.kinetic, last.kinetic);
   row("elastic energy [J]", first.elastic, last.elastic);
   row("gravitational energy [J]", first.gravitational, last.gravitational);
-  row("boundary", first.boundary, last.boundary);
-  row("largest stress", first.largest_stress, last.largest_stress);
+  const int dimension = r.simulation.dimension();
+  row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
+  row(fmt::format("largest stress [{}]", stress_unit(dimension)), first.largest_stress, last.largest_stress);
   return table;
 }
 
@@ -123,23 +125,26 @@ void print(const Report& r) {
     fmt::print("{}\n", to_string(*r.settled));
     for (const std::string& omission : r.settled->omissions) fmt::print("  {}\n", omission);
   }
-  const double steps = std::max(1.0, static_cast<double>(r.simulation.steps_done()));
-  fmt::print("wall {:.3g} s, processor {:.3g} s, {:.3g} microseconds per step, events and output included\n", r.wall_s,
-             r.cpu_s, r.cpu_s / steps * 1e6);
-  fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
+  const auto steps = static_cast<double>(r.simulation.steps_done());
+  const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
+  fmt::print("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
+  if (r.simulation.body().removed_mass() > 0.0)
+    fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
   const EventJumps& jumps = r.simulation.jumps();
   if (jumps.events > 0)
     fmt::print(
-        "largest jump at the {} events that dissociate: mass {}, momentum {}, kinetic and elastic energy {} "
+        "largest jump at {} that {}: mass {}, momentum {}, kinetic and elastic energy {} "
         "(relative)\n",
-        jumps.events, drift_text(jumps.mass), drift_text(jumps.momentum), drift_text(jumps.energy));
+        counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
+        drift_text(jumps.momentum), drift_text(jumps.energy));
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
   for (const std::string& path : r.simulation.idle_events())
     fmt::print("warning: the event at {} never did anything\n", path);
   if (r.result.divergence)
-    fmt::print("\nThe motion {}. The frames before that are kept.\n", to_string(*r.result.divergence));
+    fmt::print("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
+               to_string(*r.result.divergence), r.result.divergence->kept_step, r.result.divergence->kept_time);
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -149,7 +154,7 @@ void print(const Report& r) {
   }
   if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
   if (!r.folder.empty())
-    fmt::print("\n{} frames, frames.pvd, diagnostics.csv{} written to {}.\n", r.frames,
+    fmt::print("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
                r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
   if (!r.picture.empty()) fmt::print("{}\n", r.picture);
 }
@@ -196,6 +201,8 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"time", d->time},
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
+                          {"kept_step", d->kept_step},
+                          {"kept_time", d->kept_time},
                           {"value", fmt::format("{:.17g}", d->value)}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
@@ -233,7 +240,7 @@ void simulate(const Options& options, Outcome& outcome) {
     if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
   };
   if (!options.out.empty()) {
-    output.emplace(options.out, scene.probes);
+    output.emplace(options.out, scene.probes, simulation.dimension());
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
     write_manifest();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "core/meshes/base64.h"
@@ -136,6 +137,21 @@ TEST(SceneOutput, WritesOneRowPerDiagnostics) {
   EXPECT_EQ(text, diagnostics_header() + diagnostics_row(diagnostics));
   const auto commas = [](const std::string& row) { return std::count(row.begin(), row.end(), ','); };
   EXPECT_EQ(commas(diagnostics_header()), commas(diagnostics_row(diagnostics)));
+}
+
+TEST(Diagnostics, HeadTheirColumnsWithTheUnitsOfTheBody) {
+  EXPECT_NE(diagnostics_header(3).find(",boundary [m^2],largest stress [Pa],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(2).find(",boundary [m],largest stress [N/m],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(0).find(",boundary [m],largest stress [N],"), std::string::npos);
+}
+
+TEST(Diagnostics, LeaveAFieldEmptyForWhatIsNotFinite) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(is_finite(diagnostics));
+  diagnostics.elastic = std::numeric_limits<double>::quiet_NaN();
+  diagnostics.largest_stress = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_finite(diagnostics));
+  EXPECT_EQ(diagnostics_row(diagnostics), "0,0,,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,0\n");
 }
 
 TEST(SceneOutput, RefusesAFolderThatHoldsSomething) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/meshes/text_scanner.h"
+#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t narrow_line(std::size_t line) { return static_cast<std::uint32_t>(std::min<std::size_t>(line, none)); }
-
-std::string counted(std::uint64_t n, std::string_view singular) {
-  return fmt::format("{} {}{}", n, singular, n == 1 ? "" : "s");
-}
 
 }  // namespace
 

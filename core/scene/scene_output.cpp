@@ -31,14 +31,14 @@ void require_empty_folder(const fs::path& folder) {
 
 }  // namespace
 
-SceneOutput::SceneOutput(fs::path folder, std::span<const Probe> probes) : folder_(std::move(folder)) {
+SceneOutput::SceneOutput(fs::path folder, std::span<const Probe> probes, int dimension) : folder_(std::move(folder)) {
   require_empty_folder(folder_);
   const auto begin = [this](std::ofstream& out, const char* name, const std::string& header) {
     out.open(folder_ / name, std::ios::binary);
     out << header << std::flush;
     if (!out) throw IoError(fmt::format("{}: cannot be written", (folder_ / name).string()));
   };
-  begin(diagnostics_, "diagnostics.csv", diagnostics_header());
+  begin(diagnostics_, "diagnostics.csv", diagnostics_header(dimension));
   if (!probes.empty()) begin(probes_, "probes.csv", probes_header(probes));
 }
 

@@ -19,9 +19,9 @@ namespace dartboard {
 /// one.
 class SceneOutput {
  public:
-  /// Creates the folder, and those above it.
+  /// Creates the folder, and those above it, for a body of cells of a dimension.
   /// throws  IoError if it exists and is not an empty folder, or cannot be created
-  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {});
+  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3);
 
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);

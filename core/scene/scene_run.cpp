@@ -36,7 +36,11 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   watcher.probes(simulation.probes());
   while (simulation.steps_done() < end) {
     result.divergence = simulation.advance();
-    if (result.divergence) break;
+    if (result.divergence) {
+      result.last = simulation.diagnostics();
+      result.last.time = result.divergence->kept_time;
+      break;
+    }
     const std::uint64_t n = simulation.steps_done();
     const auto due = [n, end](const std::optional<std::uint64_t>& every) {
       return n == end || (every && n % *every == 0);

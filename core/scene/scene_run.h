@@ -20,7 +20,7 @@ class RunWatcher {
 
 struct RunResult {
   std::optional<Divergence> divergence;
-  Diagnostics first, last;  // of those handed out
+  Diagnostics first, last;  // of those handed out; after a divergence the last of the state that is kept
   // largest change of the total energy in any of them, over the largest sum of kinetic and elastic energy
   double energy_drift = 0.0;
 };

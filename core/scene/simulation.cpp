@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/beyond_numbers.h"
 #include "core/time/energy.h"
@@ -47,7 +48,7 @@ struct Simulation::Sums {
 std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
   std::string text =
       fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
-                  w.step == 0 ? "at the start" : fmt::format("after {} steps", w.step), step, integrator, w.stable);
+                  w.step == 0 ? "at the start" : "after " + counted(w.step, "step"), step, integrator, w.stable);
   if (w.parts > 1) text += fmt::format(", so each is taken in {} parts", w.parts);
   return text;
 }
@@ -65,6 +66,7 @@ Simulation::Simulation(const SceneFile& scene)
       step_count_(step_of_time(scene.duration, step_)),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
+  dimension_ = problem.mesh.dimension();
   try {
     body_ = make_simulated_body(problem, needs_of(scene, problem).body);
   } catch (const InputError& error) {
@@ -100,11 +102,14 @@ std::optional<Divergence> Simulation::advance() {
   for (std::uint64_t part = 0; part < parts_ && result.ok(); ++part)
     result = integrator_->step(body_->system(), body_->motion(), step_ / static_cast<double>(parts_));
   ++done_;
-  if (result.ok()) result = detector_.after_step(body_->system(), body_->motion());
+  if (result.ok()) {
+    watched_ = done_;
+    result = detector_.after_step(body_->system(), body_->motion());
+  }
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
   if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
   if (auto found = diverged()) {
-    detector_.restore(body_->motion());
+    go_back(*found);
     return found;
   }
   const std::size_t operations = operations_;
@@ -158,14 +163,21 @@ std::optional<Divergence> Simulation::refused() const {
     d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
   d.value = limits_.safe_step(integrator_->scheme(),
                               {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
+  d.kept_step = done_;
+  d.kept_time = time();
   d.predicted = true;
   return d;
 }
 
 Divergence Simulation::failure(const StepResult& result) {
   Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  detector_.restore(body_->motion());
+  go_back(d);
   return d;
+}
+
+void Simulation::go_back(Divergence& d) {
+  d.kept_step = watched_ - detector_.restore(body_->motion());
+  d.kept_time = static_cast<double>(d.kept_step) * step_;
 }
 
 void Simulation::happen() {
@@ -231,7 +243,13 @@ std::optional<Divergence> Simulation::diverged() const {
 }
 
 Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
-  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
+  return {.step = done_,
+          .time = time(),
+          .quantity = std::move(quantity),
+          .vertex = vertex,
+          .value = value,
+          .kept_step = done_,
+          .kept_time = time()};
 }
 
 Diagnostics Simulation::diagnostics() const {

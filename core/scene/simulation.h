@@ -28,7 +28,9 @@ struct Divergence {
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
-  bool predicted = false;  // the step is too long, and was not taken; `value` is the longest that is stable
+  std::uint64_t kept_step = 0;  // the state that the body is in after it
+  double kept_time = 0.0;       // [s]
+  bool predicted = false;       // the step is too long, and was not taken; `value` is the longest that is stable
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
@@ -88,6 +90,8 @@ class Simulation {
   const std::optional<StepWarning>& step_warning() const { return warning_; }
 
   const SimulatedBody& body() const { return *body_; }
+  /// Of the cells: 3, 2 of a surface, 0 of a chain.
+  int dimension() const { return dimension_; }
   std::size_t operations() const { return operations_; }
   /// The paths of the events that have been due and never changed anything.
   std::vector<std::string> idle_events() const;
@@ -120,6 +124,7 @@ class Simulation {
   std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
   Divergence failure(const StepResult& result);
+  void go_back(Divergence& divergence);
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
@@ -139,6 +144,8 @@ class Simulation {
   double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
   StepResult start_;           // what the detector finds in the state before a step
   DivergenceDetector detector_;
+  std::uint64_t watched_ = 0;  // steps that the detector has seen
+  int dimension_ = 0;
 };
 
 }  // namespace dartboard
