@@ -5,7 +5,6 @@
 #include <fstream>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/scene/diagnostics.h"
 #include "core/scene/frame.h"
@@ -29,13 +28,13 @@ class SceneOutput {
   void write(const ProbeRow& row);
 
   const std::filesystem::path& folder() const { return folder_; }
-  std::size_t frame_count() const { return frames_.size(); }
+  std::size_t frame_count() const { return list_.size(); }
 
  private:
   void write_row(std::ofstream& out, const char* name, const std::string& row) const;
 
   std::filesystem::path folder_;
-  std::vector<FrameFile> frames_;
+  PvdFile list_;
   std::ofstream diagnostics_, probes_;
 };
 
