@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -88,6 +89,14 @@ class Reader {
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   }
 
+  // What a map keeps is numbered in 32 bits.
+  void require_room(const Json& cells, const std::string& path, double most) const {
+    double count = 1.0;
+    for (const Json& along : cells) count *= along.get<double>();
+    if (count > most)
+      fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {:.0f} in all", most));
+  }
+
   BodySource body(const Json& json) const {
     BodySource source{{}, json.at("scale"), point(json.at("translate"))};
     if (json.contains("mesh")) {
@@ -98,11 +107,17 @@ class Reader {
     if (generate.contains("box")) {
       const Json& box = generate.at("box");
       source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
+      // 2^27 tetrahedra have a map, six to a cube; of other cells it has 2^30 darts: 48 to a hexahedron, and at most
+      // 224 to four pyramids and four tetrahedra
+      require_room(box.at("cells"), "/body/generate/box/cells", box.at("kind") == "mixed" ? 4793490 : 22369621);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
+      // 2^32 / 3 darts, six to a triangle and eight to a quadrilateral
+      require_room(sheet.at("cells"), "/body/generate/sheet/cells",
+                   sheet.at("kind") == "triangles" ? 119304647 : 178956970);
     } else if (generate.contains("ball")) {
       source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
     } else {
@@ -118,12 +133,18 @@ class Reader {
     return v;
   }
 
+  /// Of length 1, whatever length it is given with.
+  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
+    Eigen::Vector3d d = point(json);
+    const double largest = d.lpNorm<Eigen::Infinity>();
+    if (largest == 0.0) fail(path, "is " + shown(json), "a direction, of a length other than 0");
+    // the square of a length must not overflow, nor lose digits; others keep their bits
+    if (largest > 1e150 || largest < 1e-140) d /= largest;
+    return d / d.norm();
+  }
+
   PlaneSelection plane(const Json& json, const std::string& path) const {
-    PlaneSelection plane{point(json.at("point")), point(json.at("normal"))};
-    const double length = plane.normal.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-      fail(path + "/normal", "is " + shown(json.at("normal")), "a direction, of a length other than 0");
-    plane.normal /= length;
+    PlaneSelection plane{point(json.at("point")), direction(json.at("normal"), path + "/normal")};
     return plane;
   }
 
@@ -145,13 +166,6 @@ class Reader {
   CellSelection cells(const Json& json, const std::string& path) const {
     if (const auto selection = region<CellSelection>(json, path)) return *selection;
     return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
-  }
-
-  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
-    const Eigen::Vector3d d = point(json);
-    if (!(d.norm() > 0.0) || !std::isfinite(d.norm()))
-      fail(path, "is " + shown(json), "a direction, of a length other than 0");
-    return d.normalized();
   }
 
   SceneDrive drive(const Json& json, const std::string& path, const SceneFile& scene) const {
@@ -390,6 +404,9 @@ Mesh make_mesh(const SceneFile& scene) {
     throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: /body/{}: {}", scene.file, from_file ? "mesh" : "generate", problem.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body/{}: there is not enough memory for so many cells; expected fewer",
+                                 scene.file, from_file ? "mesh" : "generate"));
   }
   for (Eigen::Vector3d& x : mesh.points) x = scene.body.scale * x + scene.body.translate;
   return mesh;

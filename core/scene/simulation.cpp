@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <tuple>
 
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
@@ -23,6 +25,32 @@ double settled_step(const SceneFile& scene) {
         "{}: /accuracy: is {} mean edge lengths, and no {} has been chosen for it; expected 'step' in its place",
         scene.file, *scene.accuracy, scene.step > 0.0 ? "integrator" : "step"));
   return scene.step;
+}
+
+/// The key that a body cannot be made for: with its default in its place there would be one.
+std::string key_without_body(const SceneFile& scene, const Problem& problem) {
+  SceneFile unmoved = scene, unscaled = scene, ordinary = scene;
+  unmoved.body.translate.setZero();
+  unscaled.body.scale = 1.0;
+  ordinary.material.density = Material{}.density;
+  const Eigen::Vector3d& t = scene.body.translate;
+  const std::tuple<bool, std::string, const SceneFile&> others[] = {
+      {!t.isZero(0.0), fmt::format("/body/translate: is [{}, {}, {}]", t.x(), t.y(), t.z()), unmoved},
+      {scene.body.scale != 1.0, fmt::format("/body/scale: is {}", scene.body.scale), unscaled},
+      {scene.material.density != ordinary.material.density,
+       fmt::format("/material/density: is {}", scene.material.density), ordinary}};
+  for (const auto& [differs, key, other] : others) {
+    if (!differs) continue;
+    try {
+      Problem changed = problem;
+      changed.mesh = make_mesh(other);
+      changed.material = other.material;
+      make_simulated_body(changed, needs_of(other, changed).body);
+      return key;
+    } catch (const InputError&) {
+    }
+  }
+  return "/body";
 }
 
 }  // namespace
@@ -70,7 +98,10 @@ Simulation::Simulation(const SceneFile& scene)
   try {
     body_ = make_simulated_body(problem, needs_of(scene, problem).body);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: /body: {}", scene.file, error.what()));
+    throw InputError(fmt::format("{}: {}: {}", scene.file, key_without_body(scene, problem), error.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body: there is not enough memory for {}; expected fewer", scene.file,
+                                 counted(problem.mesh.cell_count(), "cell")));
   }
   try {
     driven_ = DrivenVertices(scene, problem.mesh.points, step_);
