@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/option_checks.h"
 #include "core/plain/error.h"
 
 using namespace dartboard;
@@ -61,6 +62,7 @@ int run(int argc, char** argv) {
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);
+  check_common_options(app);
 
   try {
     require_known_verb(app, argc, argv);
@@ -69,7 +71,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    fmt::print(stderr, "dartboard: {}\nRun with --help for more information.\n", error.what());
     return exit_usage;
   } catch (const InputError& error) {
     fmt::print(stderr, "dartboard: {}\n", error.what());

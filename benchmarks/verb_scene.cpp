@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/scene_names.h"
 #include "core/plain/counted.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_pages.h"
@@ -12,7 +13,8 @@
 namespace dartboard {
 namespace {
 
-void check_scene(const std::string& file) {
+void check_scene(const std::string& given) {
+  const std::string file = scene_file(given).string();
   SceneFile scene = read_scene(file);
   if (scene.accuracy) {
     // all but the step can be checked; any will do for that

@@ -13,6 +13,7 @@
 #include "benchmarks/clock.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/plain/counted.h"
@@ -222,13 +223,13 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
-  facts.input_files = {options.scene};
+  facts.input_files = {scene_file(options.scene)};
   if (const auto* mesh = std::get_if<std::filesystem::path>(&scene.body.mesh)) facts.input_files.push_back(*mesh);
   return begin_manifest(facts);
 }
 
 void simulate(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(scene_file(options.scene));
   if (options.seed) reseed(scene, *options.seed);
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   Simulation simulation(scene);
@@ -299,7 +300,8 @@ void simulate(const Options& options, Outcome& outcome) {
 void add_simulate(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
-  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
+      ->required();
   auto* out =
       verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);

@@ -124,6 +124,20 @@ TEST(List, NamesTheWalksOfThePaper) {
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 
+TEST(List, OfScenesNamesEverythingThatCanBeRunAndTheVerbsThatTakeIt) {
+  const auto json = nlohmann::json::parse(run("list scenes --json", "").out).at("scenes");
+  const auto verbs_of = [&](const std::string& id) -> std::string {
+    for (const auto& entry : json)
+      if (entry.at("id") == id) return entry.at("verbs");
+    return "";
+  };
+  EXPECT_NE(verbs_of("liver_cut").find("simulate"), std::string::npos);
+  EXPECT_NE(verbs_of("liver_cut").find("tradeoff"), std::string::npos);
+  EXPECT_EQ(verbs_of("chain_hanging").find("tradeoff"), std::string::npos);
+  EXPECT_EQ(verbs_of("smooth"), "tradeoff, recommend");
+  EXPECT_NE(verbs_of("liver").find("reproduce"), std::string::npos);
+}
+
 TEST(List, OfSomethingUnknownIsAUsageError) { EXPECT_EQ(run("list potatoes").status, 2); }
 
 TEST(Reproduce, RefusesToWriteIntoAFolderThatHoldsFiles) {
@@ -209,6 +223,32 @@ TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;
   EXPECT_NE(answer.out.find("'step'"), std::string::npos) << answer.out;
+}
+
+TEST(CommandLine, TakesScenesOfTheGalleryByName) {
+  for (const std::string verb : {"scene --check", "simulate --steps 1", "explain-dt"})
+    EXPECT_LE(run(verb + " sheet_cut").status, 1) << verb;
+  EXPECT_EQ(run("scene --check sheet_cut.json").status, 0);
+}
+
+TEST(CommandLine, NamesTheScenesThatAreNearAnUnknownOne) {
+  for (const std::string verb :
+       {"scene --check", "simulate", "explain", "explain-dt", "recommend --error 1e-3", "tradeoff"}) {
+    const Answer answer = run(verb + " liver_cutt");
+    EXPECT_EQ(answer.status, 2) << verb;
+    EXPECT_NE(answer.out.find("'liver_cutt' is neither a scene file nor the name of a scene; there are 'liver_cut'\n"),
+              std::string::npos)
+        << answer.out;
+  }
+}
+
+TEST(CommandLine, WithAnOptionThatIsNoWholeNumberOrEmptySaysSo) {
+  for (const std::string option : {"--steps -1", "--steps 1.5", "--steps 99999999999999999999999", "--seed -1",
+                                   "--seed 99999999999999999999999", "--out ''"}) {
+    const Answer answer = run("simulate sheet_cut " + option);
+    EXPECT_EQ(answer.status, 2) << option;
+    EXPECT_EQ(answer.out.rfind("dartboard: --", 0), 0u) << answer.out;
+  }
 }
 
 TEST(Simulate, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("simulate /nowhere/scene.json").status, 3); }
