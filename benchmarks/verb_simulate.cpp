@@ -11,6 +11,7 @@
 #include "benchmarks/album.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/interrupt.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scene_names.h"
@@ -51,6 +52,7 @@ class Watcher : public RunWatcher {
   void probes(const ProbeRow& row) override {
     if (output_ != nullptr) output_->write(row);
   }
+  bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
@@ -214,6 +216,7 @@ nlohmann::ordered_json to_json(const Report& r) {
         {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
   if (r.settled) json["settled"] = nlohmann::json(*r.settled);
   if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
+  json["interrupted"] = r.result.interrupted;
   if (!r.folder.empty()) json["folder"] = r.folder;
   return json;
 }
@@ -257,6 +260,7 @@ void simulate(const Options& options, Outcome& outcome) {
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
     Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
+    const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps());
   }
   Report report{.scene = scene,
@@ -271,14 +275,18 @@ void simulate(const Options& options, Outcome& outcome) {
                 .frames = output ? output->frame_count() : 0,
                 .picture = "",
                 .removed_at_start = removed_at_start};
-  if (simulation.steps_done() < simulation.step_count() && !result.divergence)
+  if (result.interrupted)
+    report.unjudged =
+        fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
+                    counted(simulation.steps_done(), "step"), simulation.time());
+  else if (simulation.steps_done() < simulation.step_count() && !result.divergence)
     report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
   else if (options.seed)
     report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
   else if (!result.divergence)
     report.expected = compare_with_expectation(scene, simulation, result);
 
-  outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
+  outcome.exit_code = result.interrupted ? Interrupt::exit_code : report.holds() ? exit_agrees : exit_disagrees;
   if (album) {
     album->ended(simulation);
     const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");

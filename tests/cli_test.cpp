@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -183,6 +185,30 @@ TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
   EXPECT_TRUE(fs::exists(out / "diagnostics.csv"));
   const Answer again = run("simulate " + scenes + "sheet_cut.json --out " + out.string());
   EXPECT_EQ(again.status, 3) << "a folder with files in it is not written to: " << again.out;
+  fs::remove_all(out);
+}
+
+TEST(Simulate, EndsInGoodOrderWhenItIsInterrupted) {
+  const TemporaryFile scene("endless.json",
+                            R"({"name": "x", "body": {"generate": {"chain": {"links": 1, "spacing": 1}}},
+                                                "step": 0.001, "duration": 1e8})");
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-interrupted");
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGINT, SIG_DFL);
+    freopen("/dev/null", "w", stdout);
+    execl(binary.c_str(), binary.c_str(), "simulate", scene.path.c_str(), "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  // the run has begun when its first frame is listed
+  int status = 0;
+  while (!fs::exists(out / "frames.pvd") && waitpid(child, &status, WNOHANG) == 0) usleep(1000);
+  kill(child, SIGINT);
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  std::ifstream file(out / "summary.json");
+  EXPECT_TRUE(nlohmann::json::parse(file).at("interrupted").get<bool>());
   fs::remove_all(out);
 }
 

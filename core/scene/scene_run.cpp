@@ -34,7 +34,7 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   watcher.frame(simulation.frame());
   watcher.diagnostics(result.first);
   watcher.probes(simulation.probes());
-  while (simulation.steps_done() < end) {
+  while (simulation.steps_done() < end && !result.interrupted) {
     result.divergence = simulation.advance();
     if (result.divergence) {
       result.last = simulation.diagnostics();
@@ -42,8 +42,9 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
       break;
     }
     const std::uint64_t n = simulation.steps_done();
-    const auto due = [n, end](const std::optional<std::uint64_t>& every) {
-      return n == end || (every && n % *every == 0);
+    result.interrupted = n < end && watcher.interrupts();
+    const auto due = [&](const std::optional<std::uint64_t>& every) {
+      return n == end || result.interrupted || (every && n % *every == 0);
     };
     if (due(plan.frame_steps)) watcher.frame(simulation.frame());
     if (due(plan.diagnostic_steps)) {
