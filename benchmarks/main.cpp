@@ -4,10 +4,14 @@
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <system_error>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/option_checks.h"
 #include "core/plain/error.h"
 
 using namespace dartboard;
@@ -25,9 +29,18 @@ void require_known_verb(const CLI::App& app, int argc, char** argv) {
   throw InputError(fmt::format("there is no verb '{}'; the verbs are {}", argv[1], verbs));
 }
 
-}  // namespace
+/// What was printed may still wait in a buffer, for a disk that is full or a reader that is gone.
+/// returns  `exit_code`, or that of a failure when standard output did not take everything
+int written_out(int exit_code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
+  const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
+  fmt::print(stderr, "dartboard: standard output cannot be written{}\n", reason);
+  return exit_io;
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Outcome outcome;
   for (int k = 0; k < argc; ++k) outcome.command_line += (k == 0 ? "dartboard" : " " + std::string(argv[k]));
 
@@ -49,6 +62,7 @@ int main(int argc, char** argv) {
   add_mesh(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);
+  check_common_options(app);
 
   try {
     require_known_verb(app, argc, argv);
@@ -57,7 +71,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    fmt::print(stderr, "dartboard: {}\nRun with --help for more information.\n", error.what());
     return exit_usage;
   } catch (const InputError& error) {
     fmt::print(stderr, "dartboard: {}\n", error.what());
@@ -67,3 +81,7 @@ int main(int argc, char** argv) {
     return exit_io;
   }
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return written_out(run(argc, argv)); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/step_times.h"
 #include "validation/recommend.h"
@@ -18,7 +19,8 @@ std::string to_string(const SettledAccuracy& s) {
       "for an accuracy of {:.3g} edges: {}{} with h = {:.6g} s; expected error {:.1e} edges{}, expected time {:.3g} s; "
       "the choice took {:.3g} s",
       s.accuracy, s.integrator, s.integrator_named ? " (named by the scene)" : "", s.step, s.predicted_error,
-      s.omissions.empty() ? "" : fmt::format(", {} things aside", s.omissions.size()), s.predicted_s, s.pilot_s);
+      s.omissions.empty() ? "" : fmt::format(", {} aside", counted(s.omissions.size(), "thing")), s.predicted_s,
+      s.pilot_s);
 }
 
 void to_json(nlohmann::json& json, const SettledAccuracy& s) {

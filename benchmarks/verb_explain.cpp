@@ -7,6 +7,7 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
@@ -154,7 +155,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, co
 }
 
 void explain(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(scene_file(options.scene));
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
@@ -184,7 +185,8 @@ void add_explain(CLI::App& app, Outcome& outcome) {
   auto* verb = app.add_subcommand(
       "explain",
       "The plan of a scene before it runs: what will be there and why, its bytes and time, what is left out.");
-  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
+      ->required();
   verb->add_flag("--measure", options->measure, "build it, run it, and print what it took beside the plan");
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options, &outcome] { explain(*options, outcome); });

@@ -10,6 +10,7 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/scene/simulation.h"
@@ -225,8 +226,9 @@ nlohmann::ordered_json to_json(const Explanation& e) {
 }
 
 void explain_dt(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(scene_file(options.scene));
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  scene.unstable_step = UnstableStep::warn;  // a step that the scene refuses is what is to be explained
   const Explanation explanation = explain(scene);
   outcome.exit_code = scene.step <= explanation.safe ? exit_agrees : exit_disagrees;
   if (options.json) {
@@ -245,7 +247,8 @@ void add_explain_dt(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand(
       "explain-dt", "Which springs and vertices limit the time step of a scene, and what changing them would buy.");
-  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
+      ->required();
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options, &outcome] { explain_dt(*options, outcome); });
 }

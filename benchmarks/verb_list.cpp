@@ -5,26 +5,46 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/paper_claims.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/scenes.h"
+#include "core/scene/scene_file.h"
 #include "core/time/integrators.h"
 #include "validation/contenders.h"
+#include "validation/tradeoff_scenes.h"
 
 namespace dartboard {
 namespace {
 
-using Entries = std::vector<std::pair<std::string, std::string>>;
+struct Entry {
+  std::string id, what;
+  std::string verbs{};  // that take it, of a scene
+};
 
-Entries entries_of(std::string_view kind) {
-  Entries entries;
-  if (kind == "scenes")
-    for (const Scene& s : scenes()) entries.emplace_back(s.name, s.what);
+std::vector<Entry> scene_entries() {
+  std::vector<Entry> entries;
+  for (const std::string& name : scene_names()) {
+    const SceneFile scene = read_scene(gallery_folder() / (name + ".json"));
+    const bool studied = !scene.is_chain() && scene.driven.empty();  // scene_of_file.h
+    entries.push_back({name, scene.about,
+                       std::string("simulate, explain, explain-dt, scene --check, gallery") +
+                           (studied ? ", tradeoff, recommend" : "")});
+  }
+  for (const TradeoffEntry& s : tradeoff_scenes())
+    entries.push_back({std::string(s.name), std::string(s.what), "tradeoff, recommend"});
+  for (const Scene& s : scenes()) entries.push_back({s.name, s.what, "reproduce, bench (no need to name it)"});
+  return entries;
+}
+
+std::vector<Entry> entries_of(std::string_view kind) {
+  std::vector<Entry> entries;
+  if (kind == "scenes") return scene_entries();
   if (kind == "contenders")
-    for (const Contender& c : contenders()) entries.emplace_back(c.id, c.what);
+    for (const Contender& c : contenders()) entries.push_back({c.id, c.what});
   if (kind == "integrators")
-    for (const IntegratorEntry& i : integrators()) entries.emplace_back(i.name, i.make()->scheme().what);
+    for (const IntegratorEntry& i : integrators()) entries.push_back({i.name, i.make()->scheme().what});
   if (kind == "claims")
     for (const PaperClaim& c : paper_claims())
-      entries.emplace_back(c.id, fmt::format("(section {}) {}", c.section, c.text));
+      entries.push_back({c.id, fmt::format("(section {}) {}", c.section, c.text)});
   return entries;
 }
 
@@ -45,9 +65,12 @@ void add_list(CLI::App& app, Outcome&) {
     nlohmann::ordered_json json;
     for (const std::string& kind : options->kinds) {
       if (!options->json) fmt::print("{}\n", kind);
-      for (const auto& [id, what] : entries_of(kind)) {
+      for (const auto& [id, what, verbs] : entries_of(kind)) {
         json[kind].push_back({{"id", id}, {"what", what}});
-        if (!options->json) fmt::print("  {:22} {}\n", id, what);
+        if (!verbs.empty()) json[kind].back()["verbs"] = verbs;
+        if (options->json) continue;
+        fmt::print("  {:22} {}\n", id, what);
+        if (!verbs.empty()) fmt::print("  {:22} for {}\n", "", verbs);
       }
     }
     if (options->json) fmt::print("{}\n", json.dump(2));

@@ -9,6 +9,7 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/study_names.h"
 #include "benchmarks/table.h"
 #include "benchmarks/verb_recommend.h"
 #include "core/plain/error.h"
@@ -164,8 +165,8 @@ void recommend_verb(const Options& options, Outcome& outcome) {
     fmt::print(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
-  const TradeoffScene scene =
-      find_scene(options.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  const TradeoffScene scene = find_scene(study_scene_or_file(options.scene),
+                                         std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
   for (const std::string& omission : scene.omissions) say(omission);
   const CpuClock clock = thread_cpu_ns;
   nlohmann::json report = nlohmann::json::array();
@@ -237,7 +238,7 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   std::string known;
   for (const TradeoffEntry& entry : tradeoff_scenes())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known);
+  verb->add_option("SCENE", options->scene, "a scene file (.json), the name of one of the gallery, or one of " + known);
   verb->add_option("--error", options->errors, "largest error of positions, in mean edge lengths; several may be given")
       ->check(positive_number());
   verb->add_flag("--realtime", options->realtime,

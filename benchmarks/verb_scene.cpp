@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/scene_names.h"
+#include "core/plain/counted.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_pages.h"
 #include "core/scene/simulation.h"
@@ -11,21 +13,23 @@
 namespace dartboard {
 namespace {
 
-void check_scene(const std::string& file) {
+void check_scene(const std::string& given) {
+  const std::string file = scene_file(given).string();
   SceneFile scene = read_scene(file);
   if (scene.accuracy) {
     // all but the step can be checked; any will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
     if (scene.integrator.empty()) scene.integrator = "rk4";
+    scene.unstable_step = UnstableStep::warn;
   }
   const Simulation simulation(scene);
   const CellCounts n = simulation.body().counts();
   const std::string steps = scene.accuracy
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
-                                : fmt::format("{} steps of {:.6g} s", simulation.step_count(), scene.step);
-  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {} components; {}, {} events\n", file,
-             simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, n.components, steps,
-             scene.events.size());
+                                : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
+  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", file, simulation.body().map_name(),
+             n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
+             counted(scene.events.size(), "event"));
 }
 
 }  // namespace

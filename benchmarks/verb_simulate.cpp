@@ -11,10 +11,13 @@
 #include "benchmarks/album.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/interrupt.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/atomic_file.h"
 #include "core/scene/scene_file.h"
@@ -49,6 +52,7 @@ class Watcher : public RunWatcher {
   void probes(const ProbeRow& row) override {
     if (output_ != nullptr) output_->write(row);
   }
+  bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
@@ -92,14 +96,15 @@ std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("
 Table summary_of(const Report& r) {
   Table table({{"quantity", Align::left}, {"start", Align::right}, {"end", Align::right}});
   const Diagnostics &first = r.result.first, &last = r.result.last;
-  const auto row = [&table](const char* what, auto start, auto end) {
-    table.add_row({what, fmt::format("{:.6g}", start), fmt::format("{:.6g}", end)});
+  const auto shown = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; };
+  const auto row = [&](const std::string& what, double start, double end) {
+    table.add_row({what, shown(start), shown(end)});
   };
   const auto counts = [&table](const char* what, std::size_t start, std::size_t end) {
     table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
   };
   row("time [s]", first.time, last.time);
-  table.add_row({"steps", "0", fmt::format("{}", r.simulation.steps_done())});
+  counts("steps", 0, r.result.divergence ? r.result.divergence->kept_step : r.simulation.steps_done());
   counts("operations", first.operations, last.operations);
   counts("vertices", first.counts.vertices, last.counts.vertices);
   counts("edges", first.counts.edges, last.counts.edges);
@@ -110,8 +115,9 @@ Table summary_of(const Report& r) {
   row("kinetic energy [J]", first.kinetic, last.kinetic);
   row("elastic energy [J]", first.elastic, last.elastic);
   row("gravitational energy [J]", first.gravitational, last.gravitational);
-  row("boundary", first.boundary, last.boundary);
-  row("largest stress", first.largest_stress, last.largest_stress);
+  const int dimension = r.simulation.dimension();
+  row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
+  row(fmt::format("largest stress [{}]", stress_unit(dimension)), first.largest_stress, last.largest_stress);
   return table;
 }
 
@@ -122,23 +128,28 @@ void print(const Report& r) {
     fmt::print("{}\n", to_string(*r.settled));
     for (const std::string& omission : r.settled->omissions) fmt::print("  {}\n", omission);
   }
-  const double steps = std::max(1.0, static_cast<double>(r.simulation.steps_done()));
-  fmt::print("wall {:.3g} s, processor {:.3g} s, {:.3g} microseconds per step, events and output included\n", r.wall_s,
-             r.cpu_s, r.cpu_s / steps * 1e6);
-  fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
+  const auto steps = static_cast<double>(r.simulation.steps_done());
+  const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
+  fmt::print("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
+  if (r.simulation.body().removed_mass() > 0.0)
+    fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
   const EventJumps& jumps = r.simulation.jumps();
   if (jumps.events > 0)
     fmt::print(
-        "largest jump at the {} events that dissociate: mass {}, momentum {}, kinetic and elastic energy {} "
+        "largest jump at {} that {}: mass {}, momentum {}, kinetic and elastic energy {} "
         "(relative)\n",
-        jumps.events, drift_text(jumps.mass), drift_text(jumps.momentum), drift_text(jumps.energy));
+        counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
+        drift_text(jumps.momentum), drift_text(jumps.energy));
   fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
   if (const auto& warning = r.simulation.coordinate_warning()) fmt::print("warning: {}\n", to_string(*warning));
-  if (const auto& d = r.result.divergence)
-    fmt::print("\nThe motion {}. The frames before that are kept{}.\n", to_string(*d),
-               d->taken_back == 0 ? "" : fmt::format("; the state shown is that of {} steps before", d->taken_back));
+  for (const StepResult& warning : r.simulation.warnings()) fmt::print("warning: {}\n", to_string(warning));
+  for (const std::string& path : r.simulation.idle_events())
+    fmt::print("warning: the event at {} never did anything\n", path);
+  if (r.result.divergence)
+    fmt::print("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
+               to_string(*r.result.divergence), r.result.divergence->kept_step, r.result.divergence->kept_time);
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -148,7 +159,7 @@ void print(const Report& r) {
   }
   if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
   if (!r.folder.empty())
-    fmt::print("\n{} frames, frames.pvd, diagnostics.csv{} written to {}.\n", r.frames,
+    fmt::print("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
                r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
   if (!r.picture.empty()) fmt::print("{}\n", r.picture);
 }
@@ -195,17 +206,22 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"time", d->time},
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
-                          {"value", fmt::format("{:.17g}", d->value)},
-                          {"taken_back", d->taken_back}};
+                          {"kept_step", d->kept_step},
+                          {"kept_time", d->kept_time},
+                          {"value", fmt::format("{:.17g}", d->value)}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
   if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(to_string(w));
+  json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)
     json["expected"].push_back(
         {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
   if (r.settled) json["settled"] = nlohmann::json(*r.settled);
   if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
+  json["interrupted"] = r.result.interrupted;
   if (!r.folder.empty()) json["folder"] = r.folder;
   return json;
 }
@@ -215,13 +231,13 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
-  facts.input_files = {options.scene};
+  facts.input_files = {scene_file(options.scene)};
   if (const auto* mesh = std::get_if<std::filesystem::path>(&scene.body.mesh)) facts.input_files.push_back(*mesh);
   return begin_manifest(facts);
 }
 
 void simulate(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(options.scene);
+  SceneFile scene = read_scene(scene_file(options.scene));
   const bool other_cells = options.seed && reseed(scene, *options.seed);
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   Simulation simulation(scene);
@@ -233,7 +249,7 @@ void simulate(const Options& options, Outcome& outcome) {
     if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
   };
   if (!options.out.empty()) {
-    output.emplace(options.out, scene.probes);
+    output.emplace(options.out, scene.probes, simulation.dimension());
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
     write_manifest();
@@ -249,6 +265,7 @@ void simulate(const Options& options, Outcome& outcome) {
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
     Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
+    const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps());
   }
   Report report{.scene = scene,
@@ -263,14 +280,18 @@ void simulate(const Options& options, Outcome& outcome) {
                 .frames = output ? output->frame_count() : 0,
                 .picture = "",
                 .removed_at_start = removed_at_start};
-  if (simulation.steps_done() < simulation.step_count() && !result.divergence)
+  if (result.interrupted)
+    report.unjudged =
+        fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
+                    counted(simulation.steps_done(), "step"), simulation.time());
+  else if (simulation.steps_done() < simulation.step_count() && !result.divergence)
     report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
   else if (other_cells)
     report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
   else if (!result.divergence)
     report.expected = compare_with_expectation(scene, simulation, result);
 
-  outcome.exit_code = report.holds() ? exit_agrees : exit_disagrees;
+  outcome.exit_code = result.interrupted ? Interrupt::exit_code : report.holds() ? exit_agrees : exit_disagrees;
   if (album) {
     album->ended(simulation);
     const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");
@@ -292,7 +313,8 @@ void simulate(const Options& options, Outcome& outcome) {
 void add_simulate(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
-  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys)")->required();
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
+      ->required();
   auto* out =
       verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);

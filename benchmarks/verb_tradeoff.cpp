@@ -11,6 +11,7 @@
 #include "benchmarks/clock.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/study_names.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 #include "validation/scene_of_file.h"
@@ -245,11 +246,12 @@ void tradeoff(const Options& options, Outcome& outcome) {
   };
   std::vector<std::string> names;
   if (options.all == !options.scene.empty()) throw InputError("give the name of a scene, a scene file, or --all");
-  const bool file = options.scene.ends_with(".json");
-  if (file) names.push_back(options.scene);
+  const std::string given = options.all ? "" : study_scene_or_file(options.scene);
+  const bool file = given.ends_with(".json");
+  if (file) names.push_back(given);
   for (const TradeoffEntry& entry : tradeoff_scenes())
-    if (options.all || entry.name == options.scene) names.emplace_back(entry.name);
-  if (names.empty()) make_tradeoff_scene(options.scene, "");  // tells which there are
+    if (options.all || entry.name == given) names.emplace_back(entry.name);
+  if (names.empty()) make_tradeoff_scene(given, "");  // tells which there are
 
   const RunFolder folder(options.out.empty()
                              ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "tradeoff")
@@ -258,7 +260,7 @@ void tradeoff(const Options& options, Outcome& outcome) {
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of the integrators", options.seed}};
   facts.input_files = {std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes" / "liver564.mesh"};
-  if (file) facts.input_files = {options.scene};
+  if (file) facts.input_files = {given};
   auto manifest = begin_manifest(facts);
   manifest["quick"] = options.quick;
   folder.write_manifest(manifest);
@@ -281,7 +283,7 @@ void add_tradeoff(CLI::App& app, Outcome& outcome) {
   std::string known;
   for (const TradeoffEntry& entry : tradeoff_scenes())
     known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  verb->add_option("SCENE", options->scene, "a scene file (.json), or one of " + known);
+  verb->add_option("SCENE", options->scene, "a scene file (.json), the name of one of the gallery, or one of " + known);
   verb->add_flag("--all", options->all, "all scenes");
   verb->add_option("--only", options->only, "names of the integrators that take part [all]");
   verb->add_flag("--quick", options->quick, "short runs, few repetitions");

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -55,6 +57,17 @@ TEST(CommandLine, WithAnOptionThatMustBePositiveSaysSo) {
     const Answer answer = run("recommend liver --error " + value);
     EXPECT_EQ(answer.status, 2) << value;
     EXPECT_NE(answer.out.find("--error: '" + value + "' is not a number above 0"), std::string::npos) << answer.out;
+  }
+}
+
+TEST(CommandLine, WhoseOutputIsLostExitsWithThree) {
+  const TemporaryFile scene("still.json", R"({"name": "x", "body": {"generate": {"chain": {"links": 1, "spacing": 1}}},
+                                              "step": 0.001, "duration": 0.001})");
+  for (const std::string verb :
+       {"list", "mesh info " + liver, "simulate " + scene.path.string(), std::string("--help")}) {
+    const Answer answer = run(verb, "2>&1 >/dev/full");
+    EXPECT_EQ(answer.status, 3) << verb;
+    EXPECT_NE(answer.out.find("dartboard: standard output cannot be written"), std::string::npos) << answer.out;
   }
 }
 
@@ -113,6 +126,20 @@ TEST(List, NamesTheWalksOfThePaper) {
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 
+TEST(List, OfScenesNamesEverythingThatCanBeRunAndTheVerbsThatTakeIt) {
+  const auto json = nlohmann::json::parse(run("list scenes --json", "").out).at("scenes");
+  const auto verbs_of = [&](const std::string& id) -> std::string {
+    for (const auto& entry : json)
+      if (entry.at("id") == id) return entry.at("verbs");
+    return "";
+  };
+  EXPECT_NE(verbs_of("liver_cut").find("simulate"), std::string::npos);
+  EXPECT_NE(verbs_of("liver_cut").find("tradeoff"), std::string::npos);
+  EXPECT_EQ(verbs_of("chain_hanging").find("tradeoff"), std::string::npos);
+  EXPECT_EQ(verbs_of("smooth"), "tradeoff, recommend");
+  EXPECT_NE(verbs_of("liver").find("reproduce"), std::string::npos);
+}
+
 TEST(List, OfSomethingUnknownIsAUsageError) { EXPECT_EQ(run("list potatoes").status, 2); }
 
 TEST(Reproduce, RefusesToWriteIntoAFolderThatHoldsFiles) {
@@ -167,6 +194,30 @@ TEST(Simulate, JudgesASceneThatASeedDoesNotChange) {
   EXPECT_EQ(answer.out.find("not judged"), std::string::npos) << answer.out;
 }
 
+TEST(Simulate, EndsInGoodOrderWhenItIsInterrupted) {
+  const TemporaryFile scene("endless.json",
+                            R"({"name": "x", "body": {"generate": {"chain": {"links": 1, "spacing": 1}}},
+                                                "step": 0.001, "duration": 1e8})");
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-interrupted");
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGINT, SIG_DFL);
+    freopen("/dev/null", "w", stdout);
+    execl(binary.c_str(), binary.c_str(), "simulate", scene.path.c_str(), "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  // the run has begun when its first frame is listed
+  int status = 0;
+  while (!fs::exists(out / "frames.pvd") && waitpid(child, &status, WNOHANG) == 0) usleep(1000);
+  kill(child, SIGINT);
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  std::ifstream file(out / "summary.json");
+  EXPECT_TRUE(nlohmann::json::parse(file).at("interrupted").get<bool>());
+  fs::remove_all(out);
+}
+
 TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
   const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-extremes");
   const Answer answer = run("extremes --axis amplification --quick --out " + out.string());
@@ -204,6 +255,32 @@ TEST(Simulate, OfAMisspeltKeyIsAUsageErrorThatNamesTheRightOne) {
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/steb"), std::string::npos) << answer.out;
   EXPECT_NE(answer.out.find("'step'"), std::string::npos) << answer.out;
+}
+
+TEST(CommandLine, TakesScenesOfTheGalleryByName) {
+  for (const std::string verb : {"scene --check", "simulate --steps 1", "explain-dt"})
+    EXPECT_LE(run(verb + " sheet_cut").status, 1) << verb;
+  EXPECT_EQ(run("scene --check sheet_cut.json").status, 0);
+}
+
+TEST(CommandLine, NamesTheScenesThatAreNearAnUnknownOne) {
+  for (const std::string verb :
+       {"scene --check", "simulate", "explain", "explain-dt", "recommend --error 1e-3", "tradeoff"}) {
+    const Answer answer = run(verb + " liver_cutt");
+    EXPECT_EQ(answer.status, 2) << verb;
+    EXPECT_NE(answer.out.find("'liver_cutt' is neither a scene file nor the name of a scene; there are 'liver_cut'\n"),
+              std::string::npos)
+        << answer.out;
+  }
+}
+
+TEST(CommandLine, WithAnOptionThatIsNoWholeNumberOrEmptySaysSo) {
+  for (const std::string option : {"--steps -1", "--steps 1.5", "--steps 99999999999999999999999", "--seed -1",
+                                   "--seed 99999999999999999999999", "--out ''"}) {
+    const Answer answer = run("simulate sheet_cut " + option);
+    EXPECT_EQ(answer.status, 2) << option;
+    EXPECT_EQ(answer.out.rfind("dartboard: --", 0), 0u) << answer.out;
+  }
 }
 
 TEST(Simulate, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("simulate /nowhere/scene.json").status, 3); }

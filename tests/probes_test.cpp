@@ -50,6 +50,21 @@ TEST(Probes, ReadPointsOfTheMeshOrTheNearestToAPlace) {
   EXPECT_EQ(rows.rows.front().probes.at(1)->velocity, Eigen::Vector3d(0.125, -0.3125, -0.125));
 }
 
+TEST(SceneRun, EndsAfterTheStepInWhichItIsInterruptedAndHandsThatStateOut) {
+  struct Impatient : Rows {
+    int asked = 0;
+    bool interrupts() override { return ++asked == 3; }
+  };
+  const SceneFile scene = parse(probed(R"([{"name": "a", "vertex": 0}])"));
+  Simulation simulation(scene);
+  Impatient rows;
+  const RunResult result = run_scene(simulation, scene.output, rows);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(simulation.steps_done(), 3u);
+  EXPECT_EQ(rows.diagnosed, (std::vector<double>{0, 0.003}));
+  EXPECT_EQ(rows.times(), (std::vector<double>{0, 0.003}));
+}
+
 TEST(Probes, AreRecordedWithTheDiagnosticsOrAtTimesOfTheirOwn) {
   Json scene = probed(R"([{"name": "a", "vertex": 0}])");
   scene["output"]["diagnostics_every"] = 0.004;

@@ -161,6 +161,30 @@ TEST(SceneFile, NamesTheNearestKeyBySwapsToo) {
   EXPECT_EQ(refusal(json.dump()), "file: /stpe: unknown key; the nearest valid key is 'step'");
 }
 
+TEST(SceneCheck, HintsOnlyAtWhatIsNear) {
+  const std::vector<std::string> words{"driven", "duration", "blanes-moan-4", "rk4"};
+  EXPECT_EQ(nearest_of(words, "drivn"), "driven");
+  EXPECT_EQ(nearest_of(words, "RK-4"), "rk4");
+  EXPECT_EQ(nearest_of(words, "Blanes_Moan_4"), "blanes-moan-4");
+  EXPECT_EQ(nearest_of(words, "solver"), std::nullopt);
+  EXPECT_EQ(nearest_of(words, ""), std::nullopt);
+}
+
+TEST(SceneFile, TakesARealThatIsAnIntegerForOne) {
+  Json json = smallest();
+  json["fixed"] = Json::parse(R"([{"ids": [1.0, 2e0]}])");
+  EXPECT_EQ(std::get<IdSelection>(parse(json).fixed.at(0)).ids, (std::vector<std::uint32_t>{1, 2}));
+}
+
+TEST(SceneFile, TakesADirectionOfAnyLengthButZero) {
+  Json json = smallest();
+  json["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}])");
+  for (const double length : {1e-320, 1e-200, 1.0, 1e200, 1.7e308}) {
+    json["fixed"][0]["plane"]["normal"][2] = length;
+    EXPECT_EQ(std::get<PlaneSelection>(parse(json).fixed.at(0)).normal, Eigen::Vector3d(0, 0, 1)) << length;
+  }
+}
+
 TEST(SceneFile, AcceptsTheBoundOfARangeUnlessItIsOpen) {
   Json json = smallest();
   json["material"] = {{"damping", 0}};

@@ -63,6 +63,18 @@ TEST(Simulation, RepeatsAnEvent) {
   EXPECT_EQ(left, (std::vector<std::size_t>{44, 44, 40, 40, 36, 36}));
 }
 
+TEST(Simulation, NamesTheEventsThatNeverDidAnything) {
+  const char* events = R"([{"at": 0.002, "remove": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}},
+                           {"at": 0.002, "remove": {"ids": [0]}},
+                           {"at": 0.004, "dissociate": {"plane": {"point": [5, 0, 0], "normal": [1, 0, 0]}}}])";
+  Simulation simulation(parse(with_events(moving_box(), events)));
+  EXPECT_EQ(simulation.idle_events(), std::vector<std::string>{});
+  for (int n = 0; n < 2; ++n) ASSERT_FALSE(simulation.advance());
+  EXPECT_EQ(simulation.idle_events(), std::vector<std::string>{"/events/0"});
+  run(simulation);
+  EXPECT_EQ(simulation.idle_events(), (std::vector<std::string>{"/events/0", "/events/2"}));
+}
+
 // ---- an accuracy in place of a step
 
 Json with_accuracy() {
@@ -203,6 +215,7 @@ TEST(SceneRun, StopsWithADiagnosisWhenTheMotionDiverges) {
   // the last state handed out is the last good one
   EXPECT_EQ(counter.frames.size(), result.divergence->step);
   EXPECT_TRUE(std::isfinite(result.last.kinetic));
+  EXPECT_EQ(result.last.time, result.divergence->kept_time);
 }
 
 // ---- steps that are too long
@@ -267,13 +280,47 @@ TEST(Simulation, SaysNothingOfAStableStepAndNeverOfAnImplicitOne) {
   EXPECT_FALSE(simulation.advance());
 }
 
+std::string refusal_of(const Json& scene) {
+  try {
+    const Simulation simulation(parse(scene));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Simulation, RefusesAStepThatIsTooLongWhereTheSceneSaysSo) {
-  Simulation simulation(parse(too_stiff("refuse")));
-  const std::uint64_t before = simulation.body().state_hash();
-  const auto refusal = simulation.advance();
+  const std::string refusal = refusal_of(too_stiff("refuse"));
+  EXPECT_EQ(refusal.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most 0.00", 0), 0u)
+      << refusal;
+}
+
+TEST(Simulation, RefusesAStepThatWouldTakeTooManyParts) {
+  Json scene = too_stiff("substep");
+  scene["material"]["stiffness"] = 6.4e21;
+  const std::string refusal = refusal_of(scene);
+  EXPECT_NE(refusal.find("parts, more than 1000000; expected at most "), std::string::npos) << refusal;
+}
+
+TEST(Simulation, StopsBeforeAStepThatAnEventHasMadeTooLongWhereTheSceneSaysSo) {
+  // as in LooksAtTheStepAgainAfterAnEvent: the highest frequency rises by more than 2 %
+  Json scene = with_events(too_stiff("warn"), R"([{"every": 1e-9, "remove": {"random": {"count": 1}}}])");
+  scene["gravity"] = {0, 0, 0};
+  scene["initial_velocity"] = {0, 0, 0};
+  const double stable = Simulation(parse(scene)).step_warning()->stable;
+  scene["step"] = 0.99 * stable;
+  scene["duration"] = 30 * stable;
+  scene["unstable_step"] = "refuse";
+  Simulation simulation(parse(scene));
+  std::optional<Divergence> refusal;
+  std::uint64_t before = 0;
+  while (!refusal && simulation.steps_done() < simulation.step_count()) {
+    before = simulation.body().state_hash();
+    refusal = simulation.advance();
+  }
   ASSERT_TRUE(refusal);
   EXPECT_TRUE(refusal->predicted);
-  EXPECT_EQ(simulation.steps_done(), 0u);
+  EXPECT_EQ(refusal->step, simulation.steps_done() + 1);
   EXPECT_EQ(simulation.body().state_hash(), before);
   EXPECT_NE(to_string(*refusal).find("stable"), std::string::npos);
 }
@@ -367,7 +414,7 @@ TEST(Simulation, NamesTheVertexWhoseStressIsNotFiniteAndGoesBack) {
   EXPECT_EQ(divergence->step, 5u);
   const std::uint32_t point = simulation.body().vertices().point[divergence->vertex];
   EXPECT_TRUE(std::set<std::uint32_t>({13, 14, 16, 17, 22, 23, 25, 26}).contains(point)) << point;
-  EXPECT_EQ(divergence->taken_back, 5u);
+  EXPECT_EQ(divergence->kept_step, 0u);
   EXPECT_EQ(simulation.body().vertices().position, start);
 }
 
@@ -379,7 +426,7 @@ TEST(Simulation, StaysWhereItIsWhereAnEventOfTheStepHasChangedTheBody) {
   while (!divergence && simulation.steps_done() < 10) divergence = simulation.advance();
   ASSERT_TRUE(divergence);
   EXPECT_EQ(divergence->quantity, "stress");
-  EXPECT_EQ(divergence->taken_back, 0u);
+  EXPECT_EQ(divergence->kept_step, 5u);
   EXPECT_EQ(simulation.operations(), 1u);
   EXPECT_EQ(cells(simulation), 47u);
 }
@@ -390,7 +437,7 @@ TEST(Simulation, SaysHowFarItGoesBack) {
   while (!divergence && simulation.steps_done() < 64) divergence = simulation.advance();
   ASSERT_TRUE(divergence);
   // before 64 steps no other state is kept than the start
-  EXPECT_EQ(divergence->taken_back, simulation.steps_done());
+  EXPECT_EQ(divergence->kept_step, 0u);
 }
 
 TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {
@@ -401,6 +448,11 @@ TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {
   EXPECT_FALSE(divergence->predicted);
   EXPECT_NE(divergence->quantity.find("UNSTABLE_DT"), std::string::npos) << divergence->quantity;
   for (const Eigen::Vector3d& v : simulation.body().vertices().velocity) EXPECT_LT(v.norm(), 10.0);
+  EXPECT_LT(divergence->kept_step, divergence->step);
+  EXPECT_EQ(divergence->kept_time, static_cast<double>(divergence->kept_step) * 0.01);
+  Simulation again(parse(too_stiff("warn")));
+  while (again.steps_done() < divergence->kept_step) ASSERT_FALSE(again.advance());
+  EXPECT_EQ(simulation.body().state_hash(), again.body().state_hash());
 }
 
 }  // namespace

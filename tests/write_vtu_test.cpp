@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "core/meshes/base64.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
+#include "core/scene/atomic_file.h"
 #include "core/scene/scene_output.h"
 #include "core/scene/simulated_body.h"
 #include "core/scene/write_pvd.h"
@@ -107,11 +109,32 @@ TEST(Base64Writer, GivesTheExamplesOfTheStandard) {  // RFC 4648, section 10
   EXPECT_EQ(decode_base64(encode_base64(all)), all);
 }
 
-TEST(WritePvd, ListsFramesWithTheirTimes) {
-  const std::vector<FrameFile> frames{{0.0, "a.vtu"}, {0.1, "b.vtu"}};
-  const std::string text = to_pvd(frames);
-  EXPECT_NE(text.find("timestep=\"0\" part=\"0\" file=\"a.vtu\""), text.npos);
-  EXPECT_NE(text.find("timestep=\"0.10000000000000001\" part=\"0\" file=\"b.vtu\""), text.npos);
+TEST(PvdFile, IsWholeAfterEveryFrameAndListsThemWithTheirTimes) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path);
+  PvdFile list(folder.path / "frames.pvd");
+  const std::string head =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  const std::string tail = "  </Collection>\n</VTKFile>\n";
+  std::string entries = "    <DataSet timestep=\"0\" part=\"0\" file=\"a.vtu\"/>\n";
+  list.add({0.0, "a.vtu"});
+  EXPECT_EQ(text_of(folder.path / "frames.pvd"), head + entries + tail);
+  entries += "    <DataSet timestep=\"0.10000000000000001\" part=\"0\" file=\"b.vtu\"/>\n";
+  list.add({0.1, "b.vtu"});
+  EXPECT_EQ(text_of(folder.path / "frames.pvd"), head + entries + tail);
+  EXPECT_EQ(list.size(), 2u);
+}
+
+TEST(WriteWhole, SaysWhyAFileCannotBeWritten) {
+  const TemporaryFolder folder;
+  try {
+    write_whole(folder.path / "nowhere" / "file", "text");
+    FAIL() << "no error";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("cannot be written: No such file or directory"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(SceneOutput, ListsAFrameAsSoonAsItIsThereAndLeavesNoPartOfOne) {
@@ -136,6 +159,21 @@ TEST(SceneOutput, WritesOneRowPerDiagnostics) {
   EXPECT_EQ(text, diagnostics_header() + diagnostics_row(diagnostics));
   const auto commas = [](const std::string& row) { return std::count(row.begin(), row.end(), ','); };
   EXPECT_EQ(commas(diagnostics_header()), commas(diagnostics_row(diagnostics)));
+}
+
+TEST(Diagnostics, HeadTheirColumnsWithTheUnitsOfTheBody) {
+  EXPECT_NE(diagnostics_header(3).find(",boundary [m^2],largest stress [Pa],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(2).find(",boundary [m],largest stress [N/m],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(0).find(",boundary [m],largest stress [N],"), std::string::npos);
+}
+
+TEST(Diagnostics, LeaveAFieldEmptyForWhatIsNotFinite) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(is_finite(diagnostics));
+  diagnostics.elastic = std::numeric_limits<double>::quiet_NaN();
+  diagnostics.largest_stress = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_finite(diagnostics));
+  EXPECT_EQ(diagnostics_row(diagnostics), "0,0,,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,0\n");
 }
 
 TEST(SceneOutput, RefusesAFolderThatHoldsSomething) {

@@ -9,6 +9,7 @@
 
 #include "core/meshes/text_scanner.h"
 #include "core/plain/cell_limits.h"
+#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t narrow_line(std::size_t line) { return static_cast<std::uint32_t>(std::min<std::size_t>(line, none)); }
-
-std::string counted(std::uint64_t n, std::string_view singular) {
-  return fmt::format("{} {}{}", n, singular, n == 1 ? "" : "s");
-}
 
 }  // namespace
 
@@ -118,7 +115,7 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
   const auto by_number = number_points();
 
-  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}};
+  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}, .place_of_point = {}};
   Mesh& mesh = loaded.mesh;
   std::vector<bool> used(points_.size(), false);
   std::vector<std::uint32_t> cell;
@@ -150,9 +147,11 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     mesh.points.push_back(points_[p]);
   }
   for (auto& node : mesh.nodes) node = kept[node];
-  if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0)
+  if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0) {
     loaded.notices.push_back(
         fmt::format("dropped {} that {} to no cell", counted(dropped, "point"), dropped == 1 ? "belongs" : "belong"));
+    loaded.place_of_point = std::move(kept);
+  }
   return loaded;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Meshes from and to files: Medit, TetGen, Gmsh, legacy VTK and VTU. Every error names file, line and expectation.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ struct LoadedMesh {
   Mesh mesh;
   std::string format;  // as read: "Gmsh MSH 2.2"
   std::vector<std::string> notices;
+  std::vector<std::uint32_t> place_of_point;  // of each point of the file in `mesh`; empty where none is dropped
+  static constexpr std::uint32_t dropped = 0xFFFFFFFF;  // a point of no cell has none
 };
 
 /// Read and check the mesh in a file whose format is told by its extension: .mesh, .node or .ele, .msh, .vtk, .vtu.

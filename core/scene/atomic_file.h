@@ -11,4 +11,8 @@ namespace dartboard {
 /// throws  IoError if it cannot be written
 void write_whole(const std::filesystem::path& path, std::string_view contents);
 
+/// throws  IoError "PATH: cannot be written: ..." with the reason that the system gave last
+/// pre     errno was set to 0 before the file was written
+[[noreturn]] void throw_not_written(const std::filesystem::path& path);
+
 }  // namespace dartboard

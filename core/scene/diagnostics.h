@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace dartboard {
 
@@ -27,9 +28,16 @@ struct Diagnostics {
   double energy() const { return kinetic + elastic + gravitational; }
 };
 
+bool is_finite(const Diagnostics& diagnostics);
+
+/// What the boundary and the largest stress of a body of cells of a dimension are in: "m^2" and "Pa" of a solid, "m"
+/// and "N/m" of a surface, "m" and "N" of a chain (0).
+std::string_view boundary_unit(int dimension);
+std::string_view stress_unit(int dimension);
+
 /// The names of the columns, with units, and one row; real numbers with 17 digits, so that they can be read back
-/// exactly. Both end with a line break.
-std::string diagnostics_header();
+/// exactly, and an empty field for what is not finite. Both end with a line break.
+std::string diagnostics_header(int dimension = 3);
 std::string diagnostics_row(const Diagnostics& diagnostics);
 
 }  // namespace dartboard

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/plain/error.h"
@@ -30,6 +32,15 @@ std::uint32_t vertex_of(const Probe& probe, const VertexColumns& v) {
     }
   }
   if (lowest == no_point) throw InputError(probe.path + "/near: the body has no vertex; expected one");
+  // farther away than the body is large it is another place that is meant
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : v.position) box.extend(x);
+  const double size = box.diagonal().norm();
+  if (std::sqrt(least) > size)
+    throw InputError(
+        fmt::format("{}/near: is {:.6g} m from the nearest vertex; expected a place no farther away than "
+                    "the body is large, {:.6g} m",
+                    probe.path, std::sqrt(least), size));
   return best;
 }
 

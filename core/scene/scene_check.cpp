@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -52,15 +54,22 @@ class Checker {
   }
 
   [[noreturn]] void fail_unknown(Shape shape, const std::string& path, const std::string& name) const {
-    std::string_view nearest;
-    std::size_t least = std::string::npos;
+    std::vector<std::string> keys;
     for (const SceneKey& key : scene_keys())
-      if (const std::size_t far = key.shape == shape ? edit_distance(name, key.name) : least; far < least) {
-        least = far;
-        nearest = key.name;
-      }
-    throw InputError(
-        fmt::format("{}: {}/{}: unknown key; the nearest valid key is '{}'", name_, path, pointer_step(name), nearest));
+      if (key.shape == shape) keys.emplace_back(key.name);
+    const auto nearest = nearest_of(keys, name);
+    const std::string hint = nearest ? fmt::format("the nearest valid key is '{}'", *nearest)
+                                     : "the valid keys are " + quoted_list(keys, ", ");
+    throw InputError(fmt::format("{}: {}/{}: unknown key; {}", name_, path, pointer_step(name), hint));
+  }
+
+  void require_choice(const SceneKey& key, const Json& value, const std::string& path) const {
+    if (!value.is_string()) fail(path, is_instead(value), expectation(key));
+    const auto text = value.get<std::string>();
+    if (std::ranges::find(key.choices, text) != key.choices.end()) return;
+    const auto nearest = nearest_of(key.choices, text);
+    fail(path, is_instead(value),
+         expectation(key) + (nearest ? fmt::format("; the nearest is '{}'", *nearest) : std::string()));
   }
 
   void require(const SceneRule& rule, const Json& value, const std::string& path) const {
@@ -86,11 +95,7 @@ class Checker {
       case ValueType::text:
         if (!value.is_string()) fail(path, is_instead(value), expectation(key));
         return value;
-      case ValueType::choice:
-        if (!value.is_string() ||
-            std::find(key.choices.begin(), key.choices.end(), value.get<std::string>()) == key.choices.end())
-          fail(path, is_instead(value), expectation(key));
-        return value;
+      case ValueType::choice: require_choice(key, value, path); return value;
       case ValueType::integer: return number(key, value, path, true);
       case ValueType::real: return number(key, value, path, false);
       case ValueType::integers: return list(key, value, path, 1, many, true);
@@ -136,11 +141,15 @@ class Checker {
       one.type = whole ? ValueType::integer : ValueType::real;
       return expectation(one);
     };
-    if (!value.is_number() || (whole && !value.is_number_integer())) fail(path, is_instead(value), expected());
+    if (!value.is_number()) fail(path, is_instead(value), expected());
     const auto x = value.get<double>();
+    // 3.0 and 3e0 are integers to JSON Schema too
+    const bool is_whole = value.is_number_integer() || x == std::floor(x);
+    if (whole && !is_whole) fail(path, is_instead(value), expected());
     const Range& range = key.range;
     if (!std::isfinite(x) || x < range.least || x > range.most || (range.above && x == range.least))
       fail(path, is_instead(value), expected());
+    if (whole && !value.is_number_integer()) return static_cast<std::int64_t>(x);  // all ranges of integers fit
     return value;
   }
 
@@ -166,6 +175,26 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[a.size()][b.size()];
+}
+
+std::optional<std::string> nearest_of(std::span<const std::string> words, std::string_view word) {
+  // what differs in case and dashes alone is the same word to a person
+  const auto plain = [](std::string_view text) {
+    std::string letters;
+    for (const char c : text)
+      if (c != '-' && c != '_' && c != ' ') letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return letters;
+  };
+  std::optional<std::string> nearest;
+  std::size_t least = std::string::npos;
+  for (const std::string& known : words) {
+    const std::string a = plain(word), b = plain(known);
+    const std::size_t far = edit_distance(a, b);
+    if (far >= least || 3 * far > std::max(a.size(), b.size())) continue;
+    least = far;
+    nearest = known;
+  }
+  return nearest;
 }
 
 std::string shown(const Json& value) {

@@ -2,6 +2,8 @@
 // A scene held against the table of keys, before anything is made of it.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,9 @@ nlohmann::ordered_json check_and_complete(const nlohmann::ordered_json& value, S
 ///
 /// source  optimal string alignment, the restricted distance of Damerau and Levenshtein
 std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The word that was meant: nearest by edit distance, case and dashes aside, if that is at most a third of the letters.
+std::optional<std::string> nearest_of(std::span<const std::string> words, std::string_view word);
 
 /// A value as an error shows it: on one line, shortened when long.
 std::string shown(const nlohmann::ordered_json& value);

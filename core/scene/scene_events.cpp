@@ -305,12 +305,13 @@ class ReadyTear : public ReadyEvent {
 template <class Map>
 class ReadyStress : public ReadyEvent {
  public:
-  ReadyStress(BodyOnMap<Map>& on, const TearWhereStressed& tear) : on_(on), rule_{tear.threshold} {
+  ReadyStress(BodyOnMap<Map>& on, const TearWhereStressed& tear, const std::string& path)
+      : on_(on), rule_{tear.threshold} {
     if (tear.most_per_step) rule_.most_per_step = *tear.most_per_step;
     if (!tear.seam) return;
-    filter_ = [&map = on.body().map, seam = FaceSet(on.body().map, seam_on(on, *tear.seam))](Dart d) {
-      return seam.contains(map, d);
-    };
+    const std::vector<Dart> faces = seam_on(on, *tear.seam);
+    if (faces.empty()) fail(path + "/plane", "has no two cells on different sides", "a seam through the body at rest");
+    filter_ = [&map = on.body().map, seam = FaceSet(on.body().map, faces)](Dart d) { return seam.contains(map, d); };
   }
   std::size_t apply() override {
     return tear_where_stressed(
@@ -350,7 +351,8 @@ std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& on, const SceneEven
   if constexpr (Map::dimension == 3) {
     if (const auto* tear = std::get_if<Tear>(&event.action))
       return std::make_unique<ReadyTear<Map>>(on, *tear, event.path + "/tear");
-    return std::make_unique<ReadyStress<Map>>(on, std::get<TearWhereStressed>(event.action));
+    return std::make_unique<ReadyStress<Map>>(on, std::get<TearWhereStressed>(event.action),
+                                              event.path + "/tear_where_stressed");
   } else {
     const bool by_stress = std::holds_alternative<TearWhereStressed>(event.action);
     fail(event.path + (by_stress ? "/tear_where_stressed" : "/tear"), "tears fans of faces, and the body is a surface",

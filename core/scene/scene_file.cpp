@@ -6,12 +6,14 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
+#include "core/scene/point_numbers.h"
 #include "core/scene/scene_check.h"
 #include "core/scene/step_times.h"
 #include "core/scene/strict_json.h"
@@ -87,6 +89,14 @@ class Reader {
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   }
 
+  // What a map keeps is numbered in 32 bits.
+  void require_room(const Json& cells, const std::string& path, double most) const {
+    double count = 1.0;
+    for (const Json& along : cells) count *= along.get<double>();
+    if (count > most)
+      fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {:.0f} in all", most));
+  }
+
   BodySource body(const Json& json) const {
     BodySource source{{}, json.at("scale"), point(json.at("translate"))};
     if (json.contains("mesh")) {
@@ -97,11 +107,17 @@ class Reader {
     if (generate.contains("box")) {
       const Json& box = generate.at("box");
       source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
+      // 2^27 tetrahedra have a map, six to a cube; of other cells it has 2^30 darts: 48 to a hexahedron, and at most
+      // 224 to four pyramids and four tetrahedra
+      require_room(box.at("cells"), "/body/generate/box/cells", box.at("kind") == "mixed" ? 4793490 : 22369621);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
+      // 2^32 / 3 darts, six to a triangle and eight to a quadrilateral
+      require_room(sheet.at("cells"), "/body/generate/sheet/cells",
+                   sheet.at("kind") == "triangles" ? 119304647 : 178956970);
     } else if (generate.contains("ball")) {
       source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
     } else {
@@ -117,12 +133,18 @@ class Reader {
     return v;
   }
 
+  /// Of length 1, whatever length it is given with.
+  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
+    Eigen::Vector3d d = point(json);
+    const double largest = d.lpNorm<Eigen::Infinity>();
+    if (largest == 0.0) fail(path, "is " + shown(json), "a direction, of a length other than 0");
+    // the square of a length must not overflow, nor lose digits; others keep their bits
+    if (largest > 1e150 || largest < 1e-140) d /= largest;
+    return d / d.norm();
+  }
+
   PlaneSelection plane(const Json& json, const std::string& path) const {
-    PlaneSelection plane{point(json.at("point")), point(json.at("normal"))};
-    const double length = plane.normal.norm();
-    if (!(length > 0.0) || !std::isfinite(length))
-      fail(path + "/normal", "is " + shown(json.at("normal")), "a direction, of a length other than 0");
-    plane.normal /= length;
+    PlaneSelection plane{point(json.at("point")), direction(json.at("normal"), path + "/normal")};
     return plane;
   }
 
@@ -144,13 +166,6 @@ class Reader {
   CellSelection cells(const Json& json, const std::string& path) const {
     if (const auto selection = region<CellSelection>(json, path)) return *selection;
     return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
-  }
-
-  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
-    const Eigen::Vector3d d = point(json);
-    if (!(d.norm() > 0.0) || !std::isfinite(d.norm()))
-      fail(path, "is " + shown(json), "a direction, of a length other than 0");
-    return d.normalized();
   }
 
   SceneDrive drive(const Json& json, const std::string& path, const SceneFile& scene) const {
@@ -239,6 +254,13 @@ class Reader {
   // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex between driven ones would
   // have no path of its own.
   void require_consistent(const SceneFile& scene) const {
+    if (scene.accuracy) {
+      // a step is found by comparison with references, which know neither
+      const char* unknown = scene.is_chain() ? "/body/generate/chain" : scene.driven.empty() ? nullptr : "/driven";
+      if (unknown != nullptr) fail("/accuracy", fmt::format("stands beside {}", unknown), "'step' in its place");
+      if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
+        fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
+    }
     const SceneEvent *seam = nullptr, *refinement = nullptr;
     for (const SceneEvent& event : scene.events) {
       if (scene.is_chain())
@@ -323,6 +345,15 @@ Mesh generate(const ChainMesh& chain) {
 }
 Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
 
+/// Nothing moves faster.
+void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v) {
+  const double speed = v.stableNorm();
+  if (speed <= speed_of_light) return;
+  const std::string shown = std::isfinite(speed) ? fmt::format("{:.6g} m/s", speed) : "not finite";
+  throw InputError(fmt::format("{}: is {} somewhere in the body; expected at most {:.0f} m/s, the speed of light", path,
+                               shown, speed_of_light));
+}
+
 }  // namespace
 
 OutputPlan OutputPlan::in_steps_of(double step) const {
@@ -359,7 +390,9 @@ SceneFile read_scene(const fs::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw IoError(fmt::format("{}: cannot be read; expected a scene", path.string()));
-  return parse_scene(text.str(), path.string(), path.parent_path());
+  SceneFile scene = parse_scene(text.str(), path.string(), path.parent_path());
+  number_points_as_kept(scene);
+  return scene;
 }
 
 Mesh make_mesh(const SceneFile& scene) {
@@ -371,6 +404,9 @@ Mesh make_mesh(const SceneFile& scene) {
     throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: /body/{}: {}", scene.file, from_file ? "mesh" : "generate", problem.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body/{}: there is not enough memory for so many cells; expected fewer",
+                                 scene.file, from_file ? "mesh" : "generate"));
   }
   for (Eigen::Vector3d& x : mesh.points) x = scene.body.scale * x + scene.body.translate;
   return mesh;
@@ -386,14 +422,19 @@ Problem make_problem(const SceneFile& scene) {
     problem.fixed = select_points(scene.fixed, problem.mesh.points);
     for (const SceneDrive& drive : scene.driven) {
       const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
+      for (const std::uint32_t p : driven)
+        require_slower_than_light(drive.path + "/velocity", drive.velocity.at(problem.mesh.points[p]));
       problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
     }
     std::sort(problem.fixed.begin(), problem.fixed.end());
     problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
+    for (const Eigen::Vector3d& x : problem.mesh.points) {
+      problem.initial_velocity.push_back(scene.initial_velocity.at(x));
+      require_slower_than_light("/initial_velocity", problem.initial_velocity.back());
+    }
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
-  for (const Eigen::Vector3d& x : problem.mesh.points) problem.initial_velocity.push_back(scene.initial_velocity.at(x));
   return problem;
 }
 

@@ -18,6 +18,8 @@
 
 namespace dartboard {
 
+inline constexpr double speed_of_light = 299792458.0;  // [m/s]
+
 struct BoxMesh {
   std::array<int, 3> cells;
   double spacing;
@@ -164,6 +166,9 @@ struct SceneFile {
 /// throws  InputError "NAME: /path: ..." or "NAME:LINE:COLUMN: ..." for a scene that is wrong
 SceneFile parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
+/// The scene in a file. Its point numbers, counted from 0 in the order of the mesh file, become those of the body,
+/// which has only the points of cells.
+///
 /// throws  IoError if the file cannot be read, InputError if it is wrong
 SceneFile read_scene(const std::filesystem::path& path);
 
@@ -175,7 +180,8 @@ Mesh make_mesh(const SceneFile& scene);
 /// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first. Driven vertices are fixed
 /// here: how they move is told by DrivenVertices alone.
 ///
-/// throws  as make_mesh; InputError for an id that is no point of the mesh
+/// throws  as make_mesh; InputError for an id that is no point of the mesh, a selection of none, a speed above that of
+///         light
 Problem make_problem(const SceneFile& scene);
 
 /// Let every random selection draw other cells: `seed` is added to its own. False where that changes none.

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+
 #include "core/plain/error.h"
+#include "core/scene/atomic_file.h"
 #include "core/scene/write_vtu.h"
 
 namespace dartboard {
@@ -31,22 +34,23 @@ void require_empty_folder(const fs::path& folder) {
 
 }  // namespace
 
-SceneOutput::SceneOutput(fs::path folder, std::span<const Probe> probes) : folder_(std::move(folder)) {
+SceneOutput::SceneOutput(fs::path folder, std::span<const Probe> probes, int dimension)
+    : folder_(std::move(folder)), list_(folder_ / "frames.pvd") {
   require_empty_folder(folder_);
   const auto begin = [this](std::ofstream& out, const char* name, const std::string& header) {
+    errno = 0;
     out.open(folder_ / name, std::ios::binary);
     out << header << std::flush;
-    if (!out) throw IoError(fmt::format("{}: cannot be written", (folder_ / name).string()));
+    if (!out) throw_not_written(folder_ / name);
   };
-  begin(diagnostics_, "diagnostics.csv", diagnostics_header());
+  begin(diagnostics_, "diagnostics.csv", diagnostics_header(dimension));
   if (!probes.empty()) begin(probes_, "probes.csv", probes_header(probes));
 }
 
 void SceneOutput::write(const Frame& frame) {
-  const std::string name = fmt::format("frame_{:06}.vtu", frames_.size());
+  const std::string name = fmt::format("frame_{:06}.vtu", list_.size());
   write_vtu(folder_ / name, frame);
-  frames_.push_back({frame.time, name});
-  write_pvd(folder_ / "frames.pvd", frames_);
+  list_.add({frame.time, name});
 }
 
 void SceneOutput::write(const Diagnostics& diagnostics) {
@@ -58,8 +62,9 @@ void SceneOutput::write(const ProbeRow& row) {
 }
 
 void SceneOutput::write_row(std::ofstream& out, const char* name, const std::string& row) const {
+  errno = 0;
   out << row << std::flush;
-  if (!out) throw IoError(fmt::format("{}: a row could not be written; is the disk full?", (folder_ / name).string()));
+  if (!out) throw_not_written(folder_ / name);
 }
 
 }  // namespace dartboard

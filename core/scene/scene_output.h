@@ -5,7 +5,6 @@
 #include <fstream>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/scene/diagnostics.h"
 #include "core/scene/frame.h"
@@ -19,9 +18,9 @@ namespace dartboard {
 /// one.
 class SceneOutput {
  public:
-  /// Creates the folder, and those above it.
+  /// Creates the folder, and those above it, for a body of cells of a dimension.
   /// throws  IoError if it exists and is not an empty folder, or cannot be created
-  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {});
+  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3);
 
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);
@@ -29,13 +28,13 @@ class SceneOutput {
   void write(const ProbeRow& row);
 
   const std::filesystem::path& folder() const { return folder_; }
-  std::size_t frame_count() const { return frames_.size(); }
+  std::size_t frame_count() const { return list_.size(); }
 
  private:
   void write_row(std::ofstream& out, const char* name, const std::string& row) const;
 
   std::filesystem::path folder_;
-  std::vector<FrameFile> frames_;
+  PvdFile list_;
   std::ofstream diagnostics_, probes_;
 };
 

@@ -35,12 +35,17 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   watcher.diagnostics(result.first);
   watcher.probes(simulation.probes());
   if (simulation.step_count() == 0) result.divergence = simulation.start_failure();
-  while (simulation.steps_done() < end) {
+  while (simulation.steps_done() < end && !result.interrupted) {
     result.divergence = simulation.advance();
-    if (result.divergence) break;
+    if (result.divergence) {
+      result.last = simulation.diagnostics();
+      result.last.time = result.divergence->kept_time;
+      break;
+    }
     const std::uint64_t n = simulation.steps_done();
-    const auto due = [n, end](const std::optional<std::uint64_t>& every) {
-      return n == end || (every && n % *every == 0);
+    result.interrupted = n < end && watcher.interrupts();
+    const auto due = [&](const std::optional<std::uint64_t>& every) {
+      return n == end || result.interrupted || (every && n % *every == 0);
     };
     if (due(plan.frame_steps)) watcher.frame(simulation.frame());
     if (due(plan.diagnostic_steps)) {

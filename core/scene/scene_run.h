@@ -16,17 +16,20 @@ class RunWatcher {
   virtual void diagnostics(const Diagnostics&) {}
   virtual void probes(const ProbeRow&) {}
   virtual void stepped(const Simulation&) {}
+  /// Asked after every step: must the run end here?
+  virtual bool interrupts() { return false; }
 };
 
 struct RunResult {
   std::optional<Divergence> divergence;
-  Diagnostics first, last;  // of those handed out
+  bool interrupted = false;
+  Diagnostics first, last;  // of those handed out; after a divergence the last of the state that is kept
   // largest change of the total energy in any of them, over the largest sum of kinetic and elastic energy
   double energy_drift = 0.0;
 };
 
-/// Run to the end, to `most_steps`, or until the motion diverges. The first state is always handed out, and the last if
-/// it is good: what was handed out last before a divergence stays.
+/// Run to the end, to `most_steps`, until the watcher interrupts it, or until the motion diverges. The first state is
+/// always handed out, and the last if it is good: what was handed out last before a divergence stays.
 RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps = {});
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -53,6 +55,10 @@ std::vector<std::uint32_t> numbers_of(const std::vector<bool>& chosen) {
 
 }  // namespace
 
+void require_some(std::span<const std::uint32_t> points, std::string_view path) {
+  if (points.empty()) throw InputError(fmt::format("{}: selects no vertex; expected at least one", path));
+}
+
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
                                          std::string_view path) {
   std::vector<bool> chosen(points.size(), false);
@@ -63,8 +69,11 @@ std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
                                          std::span<const Eigen::Vector3d> points, std::string_view path) {
   std::vector<bool> chosen(points.size(), false);
-  for (std::size_t s = 0; s < selections.size(); ++s)
-    choose(selections[s], points, fmt::format("{}/{}", path, s), chosen);
+  for (std::size_t s = 0; s < selections.size(); ++s) {
+    const std::string at = fmt::format("{}/{}", path, s);
+    require_some(select_points(selections[s], points, at), at);
+    choose(selections[s], points, at, chosen);
+  }
   return numbers_of(chosen);
 }
 

@@ -46,7 +46,12 @@ bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
                                          std::string_view path);
 /// The same for those in any of the selections in the list at `path`.
+///
+/// throws  InputError as above, and for a selection of no point
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
                                          std::span<const Eigen::Vector3d> points, std::string_view path = "/fixed");
+
+/// throws  InputError "PATH: ..." if there are none
+void require_some(std::span<const std::uint32_t> points, std::string_view path);
 
 }  // namespace dartboard

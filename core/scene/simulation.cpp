@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <tuple>
 
 #include "core/mechanics/stress.h"
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
+#include "core/scene/beyond_numbers.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
 #include "core/time/nan_proof.h"
+#include "core/time/preflight.h"
 
 namespace dartboard {
 namespace {
 
-constexpr double speed_of_light = 299792458.0;  // [m/s]
 // A step divided into more parts than this is a mistake in a unit.
 constexpr double most_parts = 1e6;
 
@@ -24,6 +28,32 @@ double settled_step(const SceneFile& scene) {
         "{}: /accuracy: is {} mean edge lengths, and no {} has been chosen for it; expected 'step' in its place",
         scene.file, *scene.accuracy, scene.step > 0.0 ? "integrator" : "step"));
   return scene.step;
+}
+
+/// The key that a body cannot be made for: with its default in its place there would be one.
+std::string key_without_body(const SceneFile& scene, const Problem& problem) {
+  SceneFile unmoved = scene, unscaled = scene, ordinary = scene;
+  unmoved.body.translate.setZero();
+  unscaled.body.scale = 1.0;
+  ordinary.material.density = Material{}.density;
+  const Eigen::Vector3d& t = scene.body.translate;
+  const std::tuple<bool, std::string, const SceneFile&> others[] = {
+      {!t.isZero(0.0), fmt::format("/body/translate: is [{}, {}, {}]", t.x(), t.y(), t.z()), unmoved},
+      {scene.body.scale != 1.0, fmt::format("/body/scale: is {}", scene.body.scale), unscaled},
+      {scene.material.density != ordinary.material.density,
+       fmt::format("/material/density: is {}", scene.material.density), ordinary}};
+  for (const auto& [differs, key, other] : others) {
+    if (!differs) continue;
+    try {
+      Problem changed = problem;
+      changed.mesh = make_mesh(other);
+      changed.material = other.material;
+      make_simulated_body(changed, needs_of(other, changed).body);
+      return key;
+    } catch (const InputError&) {
+    }
+  }
+  return "/body";
 }
 
 }  // namespace
@@ -49,7 +79,7 @@ struct Simulation::Sums {
 std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
   std::string text =
       fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
-                  w.step == 0 ? "at the start" : fmt::format("after {} steps", w.step), step, integrator, w.stable);
+                  w.step == 0 ? "at the start" : "after " + counted(w.step, "step"), step, integrator, w.stable);
   if (w.parts > 1) text += fmt::format(", so each is taken in {} parts", w.parts);
   return text;
 }
@@ -67,19 +97,24 @@ Simulation::Simulation(const SceneFile& scene)
       step_count_(step_of_time(scene.duration, step_)),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
+  dimension_ = problem.mesh.dimension();
   try {
     body_ = make_simulated_body(problem, needs_of(scene, problem).body);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: /body: {}", scene.file, error.what()));
+    throw InputError(fmt::format("{}: {}: {}", scene.file, key_without_body(scene, problem), error.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body: there is not enough memory for {}; expected fewer", scene.file,
+                                 counted(problem.mesh.cell_count(), "cell")));
   }
   try {
     driven_ = DrivenVertices(scene, problem.mesh.points, step_);
     track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator);
+    if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
     for (const SceneEvent& event : scene.events)
-      events_.push_back(
-          {body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
-           !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action)});
+      events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
+                         !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action),
+                         event.path});
     happen();
     drive();
   } catch (const InputError& error) {
@@ -87,7 +122,12 @@ Simulation::Simulation(const SceneFile& scene)
   }
   look_at_step();
   look_at_coordinates();
+  if (const auto refusal = refused())
+    throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
+                                 refusal->quantity, refusal->value));
+  look_before_run();
   start_ = detector_.start(body_->system(), body_->motion(), step_);
+  if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
 }
 
 Simulation::~Simulation() = default;
@@ -98,11 +138,14 @@ std::optional<Divergence> Simulation::advance() {
   for (std::uint64_t part = 0; part < parts_ && result.ok(); ++part)
     result = integrator_->step(body_->system(), body_->motion(), step_ / static_cast<double>(parts_));
   ++done_;
-  if (result.ok()) result = detector_.after_step(body_->system(), body_->motion());
+  if (result.ok()) {
+    watched_ = done_;
+    result = detector_.after_step(body_->system(), body_->motion());
+  }
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
   if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
   if (auto found = diverged()) {
-    found->taken_back = detector_.restore(body_->motion());
+    go_back(*found);
     return found;
   }
   if (done_ == step_count_) look_at_coordinates();
@@ -117,7 +160,7 @@ std::optional<Divergence> Simulation::advance() {
     const auto* stress = dynamic_cast<const StressError*>(&error);
     Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
     // what events of this step have changed is not what the state kept was of
-    if (operations_ == operations) d.taken_back = detector_.restore(body_->motion());
+    if (operations_ == operations) go_back(d);
     return d;
   }
   // no other step will look at what events leave at the end
@@ -151,9 +194,20 @@ void Simulation::look_at_step() {
       parts = std::ceil(std::max(parts * 1.2, std::min(step_ / allowed, parts * 4.0)));
     }
     too_long_ = !(parts <= most_parts);
+    parts_wanted_ = parts;
     if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
   }
   if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
+}
+
+// Steps too long and coordinates too large have warnings of their own, which a run may add to.
+void Simulation::look_before_run() {
+  warnings_ = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
+                               step_ / static_cast<double>(parts_), limits_)
+                  .warnings;
+  std::erase_if(warnings_, [](const StepResult& w) {
+    return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision;
+  });
 }
 
 void Simulation::look_at_coordinates() {
@@ -167,16 +221,25 @@ std::optional<Divergence> Simulation::refused() const {
   d.step = done_ + 1;
   d.time = time();
   d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
+  if (unstable_step_ == UnstableStep::substep)
+    d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
   d.value = limits_.safe_step(integrator_->scheme(),
                               {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
+  d.kept_step = done_;
+  d.kept_time = time();
   d.predicted = true;
   return d;
 }
 
 Divergence Simulation::failure(const StepResult& result) {
   Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  d.taken_back = detector_.restore(body_->motion());
+  go_back(d);
   return d;
+}
+
+void Simulation::go_back(Divergence& d) {
+  d.kept_step = watched_ - detector_.restore(body_->motion());
+  d.kept_time = static_cast<double>(d.kept_step) * step_;
 }
 
 // An event may throw: what those before it have done counts, and the integrator has to know.
@@ -187,10 +250,19 @@ void Simulation::happen() {
     std::optional<Sums> before;
     if (watch_ && scheduled.dissociates) before = sums();
     const std::size_t made = scheduled.event->apply();
+    scheduled.was_due = true;
+    scheduled.operations += made;
     if (before && made > 0) compare(*before);
     operations_ += made;
     if (made > 0) integrator_->restart();
   }
+}
+
+std::vector<std::string> Simulation::idle_events() const {
+  std::vector<std::string> paths;
+  for (const Scheduled& scheduled : events_)
+    if (scheduled.was_due && scheduled.operations == 0) paths.push_back(scheduled.path);
+  return paths;
 }
 
 bool Simulation::drive() {
@@ -232,7 +304,13 @@ std::optional<Divergence> Simulation::diverged() const {
 }
 
 Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
-  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
+  return {.step = done_,
+          .time = time(),
+          .quantity = std::move(quantity),
+          .vertex = vertex,
+          .value = value,
+          .kept_step = done_,
+          .kept_time = time()};
 }
 
 Diagnostics Simulation::diagnostics() const {

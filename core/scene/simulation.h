@@ -29,8 +29,9 @@ struct Divergence {
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
-  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
-  std::uint64_t taken_back = 0;  // steps that the body has gone back by
+  std::uint64_t kept_step = 0;  // the state that the body is in after it
+  double kept_time = 0.0;       // [s]
+  bool predicted = false;       // the step is too long, and was not taken; `value` is the longest that is stable
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
@@ -61,7 +62,8 @@ struct EventJumps {
 class Simulation {
  public:
   /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
-  ///         and has not been given a step and an integrator; IoError for a mesh that cannot be read
+  ///         and has not been given a step and an integrator, whose step is too long where it refuses one that is, or
+  ///         whose numbers are too large to move; IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
   ~Simulation();
   Simulation(const Simulation&) = delete;
@@ -79,7 +81,7 @@ class Simulation {
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
   /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector), or when a
   /// stress that an event asks for is not finite. The body then goes back to the state kept last, which is that of the
-  /// start, after the last event, or a later one whose energy could be explained: `taken_back` says how far. Where
+  /// start, after the last event, or a later one whose energy could be explained: `kept_step` says which. Where
   /// another event of the same step has changed the body already, and where the start is no state, there is none to go
   /// back to. `unstable_step` says what is done about a step that is too long.
   std::optional<Divergence> advance();
@@ -93,9 +95,16 @@ class Simulation {
   const std::optional<StepWarning>& step_warning() const { return warning_; }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
+  /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that rounding
+  /// loses, motions that a stable step does not resolve (check_before_run).
+  std::span<const StepResult> warnings() const { return warnings_; }
 
   const SimulatedBody& body() const { return *body_; }
+  /// Of the cells: 3, 2 of a surface, 0 of a chain.
+  int dimension() const { return dimension_; }
   std::size_t operations() const { return operations_; }
+  /// The paths of the events that have been due and never changed anything.
+  std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
   Frame frame() const;
   ProbeRow probes() const;
@@ -112,6 +121,9 @@ class Simulation {
     std::unique_ptr<ReadyEvent> event;
     EventClock clock;
     bool dissociates;  // and does nothing else
+    std::string path;
+    bool was_due = false;
+    std::size_t operations = 0;
   };
   struct Sums;
   Sums sums() const;
@@ -120,9 +132,11 @@ class Simulation {
   void compare(const Sums& before);
   void look_at_step();
   void look_at_coordinates();
+  void look_before_run();
   std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
   Divergence failure(const StepResult& result);
+  void go_back(Divergence& divergence);
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
@@ -138,10 +152,14 @@ class Simulation {
   StableStep limits_;
   std::optional<StepWarning> warning_;
   std::optional<CoordinatePrecision> coarse_;
+  std::vector<StepResult> warnings_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
-  StepResult start_;  // what the detector finds in the state before a step
+  double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
+  StepResult start_;           // what the detector finds in the state before a step
   DivergenceDetector detector_;
+  std::uint64_t watched_ = 0;  // steps that the detector has seen
+  int dimension_ = 0;
 };
 
 }  // namespace dartboard

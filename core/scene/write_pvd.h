@@ -2,8 +2,9 @@
 // The list of the frames of a run with their times, which ParaView plays.
 
 #include <filesystem>
-#include <span>
+#include <fstream>
 #include <string>
+#include <utility>
 
 namespace dartboard {
 
@@ -12,12 +13,21 @@ struct FrameFile {
   std::string file;  // relative to the .pvd
 };
 
-/// The text of a .pvd file.
-std::string to_pvd(std::span<const FrameFile> frames);
+/// A .pvd file that grows: each entry is written over the end of the file, together with a new end, so that the file is
+/// valid after every frame, however the run ends.
+class PvdFile {
+ public:
+  explicit PvdFile(std::filesystem::path path) : path_(std::move(path)) {}
 
-/// Replaces the file, so that it is valid after every frame, however the run ends.
-///
-/// throws  IoError if it cannot be written
-void write_pvd(const std::filesystem::path& path, std::span<const FrameFile> frames);
+  /// throws  IoError if it cannot be written
+  /// cost    that of the entry
+  void add(const FrameFile& frame);
+  std::size_t size() const { return size_; }
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;  // from the first frame on
+  std::size_t size_ = 0;
+};
 
 }  // namespace dartboard

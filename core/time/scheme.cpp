@@ -33,6 +33,8 @@ double first_growth(const Radius& radius, double steps, double gain, double ceil
   for (int i = 1; i * scan <= ceiling; ++i) {
     if (stable(i * scan)) continue;
     double low = (i - 1) * scan, high = i * scan;
+    // a limit below the first is looked for among the small numbers too: bisection stays near the large ones
+    for (int k = 0; low == 0.0 && k < 100; ++k) (stable(high / 1024) ? low : high) = high / 1024;
     for (int k = 0; k < 40; ++k) {
       const double middle = (low + high) / 2;
       (stable(middle) ? low : high) = middle;

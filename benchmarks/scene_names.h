@@ -1,0 +1,24 @@
+#pragma once
+// The scenes of the gallery by their names, for every verb that takes a scene file.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dartboard {
+
+/// benchmarks/scenes
+std::filesystem::path gallery_folder();
+
+/// The names of the scene files in a folder, without their ending, in alphabetical order.
+std::vector<std::string> scene_names(const std::filesystem::path& folder = gallery_folder());
+
+/// The file meant: the one that is there, else the scene of that name in the gallery.
+///
+/// throws  InputError for a name that neither has, IoError for a path; both list what is near, of the gallery and of
+/// the
+///         `others` that the verb knows
+std::filesystem::path scene_file(const std::string& given, std::span<const std::string> others = {});
+
+}  // namespace dartboard

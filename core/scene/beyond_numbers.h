@@ -1,0 +1,14 @@
+#pragma once
+// Which key of a scene to blame where the numbers of its first state are too large, or too small, for a double.
+
+#include <string>
+
+#include "core/scene/scene_file.h"
+
+namespace dartboard {
+
+/// The key whose value is the most orders of magnitude away from 1, in words:
+/// "/material/stiffness: is 1e+308, and energies or forces at the start are not finite; expected a smaller value".
+std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
+
+}  // namespace dartboard
