@@ -96,6 +96,23 @@ std::vector<AblationVariant> ablation_variants() {
   return all;
 }
 
+std::size_t bytes_not_asked_for(const MemoryReport& report) {
+  std::size_t bytes = 0;
+  for (const MemoryItem& item : report) {
+    const bool needed = item.part == Part::vertices || item.part == Part::springs || item.part == Part::integrator ||
+                        item.part == Part::detector || item.part == Part::output_cells;
+    if (!needed) bytes += item.bytes;
+  }
+  return bytes;
+}
+
+std::size_t bytes_of_damping(const MemoryReport& report, std::size_t springs) {
+  std::size_t bytes = 0;
+  for (const MemoryItem& item : report)
+    if (item.part == Part::springs || item.part == Part::damping) bytes += item.bytes;
+  return bytes - springs * (sizeof(Spring::rest_length) + sizeof(Spring::stiffness) + sizeof(SpringEnds));
+}
+
 std::vector<AblationPair> switched_on() {
   std::vector<AblationPair> pairs;
   for (const Feature& f : features())

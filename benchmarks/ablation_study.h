@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/paired.h"
+#include "core/scene/memory.h"
 #include "core/scene/scene_file.h"
 
 namespace dartboard {
@@ -17,6 +18,11 @@ struct AblationVariant {
   SceneFile scene;
   bool frames = false, diagnostics = false;
 };
+
+/// What built objects report of parts that a bare scene does not ask for.
+std::size_t bytes_not_asked_for(const MemoryReport& report);
+/// Of damping: its part, and what the springs take beyond a rest length, a stiffness and two ends each.
+std::size_t bytes_of_damping(const MemoryReport& report, std::size_t springs);
 
 /// What is compared: `task` takes the time of `baseline` and that of the feature.
 struct AblationPair {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/json_number.h"
 #include "core/time/nan_proof.h"
 
 namespace dartboard {
@@ -18,8 +19,6 @@ constexpr double step_gate_ms = 0.9;
 constexpr std::string_view default_policy = "as by default";
 
 Verdict verdict(bool holds) { return holds ? Verdict::holds : Verdict::falls_short; }
-nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
-
 // "by rows, AMD" or "by terms, AMD", whichever is faster, and the same for METIS.
 struct UpdateFigures {
   Figure amd, metis;  // again / follows, the same ordering

@@ -40,23 +40,17 @@ struct Bytes {
   double per_tetrahedron() const { return static_cast<double>(total) / static_cast<double>(tetrahedra); }
 };
 
-/// Asked of the built objects, with nothing of the plan but its names.
+/// Asked of the built objects, part by part, whatever a plan says.
 std::map<std::string, Bytes> bytes_of_variants() {
   std::map<std::string, Bytes> all;
   for (const AblationVariant& variant : ablation_variants()) {
-    const ScenePlan plan = plan_scene(variant.scene, make_problem(variant.scene));
-    const std::vector<std::size_t> found = measured_bytes(variant.scene, plan);
-    Bytes bytes{.tetrahedra = plan.counts.cells, .springs = plan.counts.edges};
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      bytes.total += found[k];
-      const Part part = plan.items[k].part;
-      const bool needed = part == Part::vertices || part == Part::springs || part == Part::integrator ||
-                          part == Part::detector || part == Part::output_cells;
-      if (!needed) bytes.not_asked_for += found[k];
-    }
-    for (const MemoryItem& item : Simulation(with_events_held_back(variant.scene)).memory())
-      if (item.part == Part::springs || item.part == Part::damping) bytes.damping += item.bytes;
-    bytes.damping -= bytes.springs * (sizeof(Spring::rest_length) + sizeof(Spring::stiffness) + sizeof(SpringEnds));
+    const MeshTally counts = plan_scene(variant.scene, make_problem(variant.scene)).counts;
+    const MemoryReport report = measured_memory(variant.scene);
+    Bytes bytes{.tetrahedra = counts.cells,
+                .springs = counts.edges,
+                .not_asked_for = bytes_not_asked_for(report),
+                .damping = bytes_of_damping(report, counts.edges)};
+    for (const MemoryItem& item : report) bytes.total += item.bytes;
     all[variant.name] = bytes;
   }
   return all;

@@ -28,7 +28,7 @@ struct Options {
 
 /// What --measure adds: the bytes of each item, and the time of the run.
 struct Measured {
-  std::vector<std::size_t> bytes;  // by item of the plan
+  MeasuredPlan found;
   bool equal = true;
   std::size_t total = 0;
   double ns = 0.0;  // per step, events and output included, at the pace of the estimate; nothing is written
@@ -76,11 +76,13 @@ double measured_ns(const SceneFile& scene, Pace& pace, double estimated_at) {
 
 Measured measure(const SceneFile& scene, const ScenePlan& plan, Pace& pace, double estimated_at) {
   Measured m;
-  m.bytes = measured_bytes(scene, plan);
+  m.found = measured_plan(scene, plan);
+  m.equal = m.found.unplanned.empty();
   for (std::size_t k = 0; k < plan.items.size(); ++k) {
-    m.total += m.bytes[k];
-    m.equal = m.equal && m.bytes[k] == plan.items[k].bytes;
+    m.total += m.found.bytes[k];
+    m.equal = m.equal && m.found.bytes[k] == plan.items[k].bytes;
   }
+  for (const MemoryItem& item : m.found.unplanned) m.total += item.bytes;
   m.ns = measured_ns(scene, pace, estimated_at);
   return m;
 }
@@ -107,9 +109,12 @@ void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Me
   };
   for (std::size_t k = 0; k < plan.items.size(); ++k) {
     const PlanItem& item = plan.items[k];
-    row(std::string(name(item.part)), item.bytes, measured ? measured->bytes[k] : 0, time_text(item.ns), item.what,
-        item.why);
+    row(std::string(name(item.part)), item.bytes, measured ? measured->found.bytes[k] : 0, time_text(item.ns),
+        item.what, item.why);
   }
+  if (measured)
+    for (const MemoryItem& item : measured->found.unplanned)
+      row(std::string(name(item.part)), 0, item.bytes, "", "not planned", "");
   row("in all", plan.bytes(), measured ? measured->total : 0, time_text(plan.ns()), "", "");
   Table without({{"left out", Align::left}, {"because", Align::left}});
   for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
@@ -145,12 +150,15 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, co
                             {"why", item.why},
                             {"bytes", item.bytes},
                             {"ns_per_step", item.ns}});
-    if (measured) json["plan"].back()["measured_bytes"] = measured->bytes[k];
+    if (measured) json["plan"].back()["measured_bytes"] = measured->found.bytes[k];
   }
   for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
-  if (measured)
+  if (measured) {
     json["measured"] = {
         {"bytes", measured->total}, {"bytes_as_planned", measured->equal}, {"ns_per_step", measured->ns}};
+    for (const MemoryItem& item : measured->found.unplanned)
+      json["measured"]["unplanned"].push_back({{"part", name(item.part)}, {"bytes", item.bytes}});
+  }
   return json;
 }
 

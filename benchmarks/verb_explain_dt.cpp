@@ -11,6 +11,7 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/scene_names.h"
+#include "benchmarks/json_number.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/scene/simulation.h"
@@ -196,10 +197,6 @@ void print(const Explanation& e) {
 }
 
 // JSON has no infinity: a step without a limit is null.
-nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 nlohmann::ordered_json to_json(const Explanation& e) {
   const Bounds ratio = e.limits.damping_ratio();
   nlohmann::ordered_json json{{"scene", e.scene.name},

@@ -10,6 +10,7 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/study_names.h"
+#include "benchmarks/json_number.h"
 #include "benchmarks/table.h"
 #include "benchmarks/verb_recommend.h"
 #include "core/plain/error.h"
@@ -25,8 +26,6 @@ struct Options {
   bool realtime = false, verify = false, json = false, audit = false;
   AuditOptions auditing;
 };
-
-nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
 
 nlohmann::json json_of(const Candidate& c) {
   nlohmann::json json{{"integrator", c.contender}, {"implicit", c.implicit}, {"order", c.order}};

@@ -9,6 +9,7 @@
 
 #include "benchmarks/audit_report.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_number.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
@@ -29,8 +30,6 @@ constexpr Extent full{14, 3, 2, 2, 2}, quick{4, 2, 0, 0, 0};
 
 /// What is done beside following the recommendations.
 enum class Check { reference_and_sweep, reference, costs_only };
-
-nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
 
 nlohmann::json json_of(const AuditedPair& p) {
   const Audit& a = p.audit;

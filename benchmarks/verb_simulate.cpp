@@ -12,6 +12,7 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/interrupt.h"
+#include "benchmarks/json_number.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scene_names.h"
@@ -165,10 +166,6 @@ void print(const Report& r) {
 }
 
 // JSON has no infinity: a number that is not finite is left null.
-nlohmann::ordered_json number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
 nlohmann::ordered_json to_json(const Diagnostics& d) {
   return {{"time", d.time},
           {"kinetic", number(d.kinetic)},

@@ -9,6 +9,7 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_number.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/study_names.h"
@@ -29,8 +30,6 @@ struct Options {
 };
 
 // JSON has no number for what is not finite.
-nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
-
 nlohmann::json json_of(const WorkCounters& w) {
   return {{"steps", w.steps},
           {"failed_steps", w.failed_steps},

@@ -174,6 +174,27 @@ Swing symplectic_euler_oscillate(double omega2, Swing start, double h, int n) {
   return turn(splitting_phase(std::sqrt(square)), -square / 2.0L, step, -step * omega2, start, n);
 }
 
+BlanesMoanNumbers blanes_moan_numbers() {
+  const long double a1 = 0.0792036964311957L, a2 = 0.353172906049774L, a3 = -0.0420650803577195L;
+  const long double b1 = 0.209515106613362L, b2 = -0.143851773179818L;
+  return {{a1, a2, a3, 1.0L - 2.0L * (a1 + a2 + a3)}, {b1, b2, 0.5L - (b1 + b2)}};
+}
+
+Eigen::Matrix<long double, 2, 2> blanes_moan_step(long double theta, long double zeta) {
+  const auto [a, b] = blanes_moan_numbers();
+  const long double drifts[]{a[0], a[1], a[2], a[3], a[2], a[1], a[0]}, kicks[]{b[0], b[1], b[2], b[2], b[1], b[0]};
+  Eigen::Matrix<long double, 2, 2> step, drift, kick;
+  step << 1.0L, drifts[0] * theta, 0.0L, 1.0L;
+  for (int k = 0; k < 6; ++k) {
+    const long double t = kicks[k] * theta, z = 2.0L * zeta * t;
+    const long double reach = t * (1.0L - z / 2.0L + z * z / 6.0L - z * z * z / 24.0L);
+    kick << 1.0L, 0.0L, -reach, 1.0L - 2.0L * zeta * reach;
+    drift << 1.0L, drifts[k + 1] * theta, 0.0L, 1.0L;
+    step = (drift * kick * step).eval();
+  }
+  return step;
+}
+
 double verlet_invariant(VerletForm form, double omega2, double h, Swing at) {
   const double less = 1.0 - h * h * omega2 / 4.0;
   return form == VerletForm::drift_kick_drift ? (less * at.v * at.v + omega2 * at.q * at.q) / 2.0

@@ -97,6 +97,19 @@ std::array<std::complex<double>, 2> bdf2_roots(std::complex<double> z);
 /// asin(theta/2).
 long double splitting_phase(long double theta);
 
+/// Drifts a and kicks b of the splitting S6 of order 4, in units of the step: a1 b1 a2 b2 a3 b3 a4 b3 a3 b2 a2 b1 a1.
+struct BlanesMoanNumbers {
+  std::array<long double, 4> a;
+  std::array<long double, 3> b;
+};
+/// As published: a1, a2, a3, b1, b2 to 15 digits, a4 and b3 from the sums that they complete.
+/// source  Blanes, Moan: Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom methods, Journal of
+///         Computational and Applied Mathematics 142 (2002), 313-330, S6 of order 4
+BlanesMoanNumbers blanes_moan_numbers();
+/// What one step of it makes of (omega q, v), theta = h omega: unit triangular factors. With a damping ratio each kick
+/// for t is v + t (1 - z/2 + z^2/6 - z^3/24) (a - B v) with B = 2 zeta omega, z = t B.
+Eigen::Matrix<long double, 2, 2> blanes_moan_step(long double theta, long double zeta);
+
 /// The two orders in which half and whole steps alternate.
 enum class VerletForm { drift_kick_drift, kick_drift_kick };
 

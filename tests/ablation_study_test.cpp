@@ -11,6 +11,7 @@
 
 #include "benchmarks/plain_loop.h"
 #include "core/meshes/mesh_generators.h"
+#include "core/scene/measured_plan.h"
 #include "core/scene/simulated_body.h"
 #include "core/time/integrators.h"
 
@@ -37,6 +38,31 @@ TEST(PlainLoop, MovesWithTheBitsOfTheIntegrator) {
   }
   EXPECT_EQ(x, body->vertices().position);
   EXPECT_EQ(v, body->vertices().velocity);
+}
+
+TEST(Ablation, CountsTheBytesOfWhatABareSceneDoesNotAskFor) {
+  MemoryReport report{{Part::vertices, 100}, {Part::springs, 480}, {Part::integrator, 30}};
+  EXPECT_EQ(bytes_not_asked_for(report), 0u);
+  EXPECT_EQ(bytes_of_damping(report, 20), 0u);  // 8 bytes each of rest length, stiffness and ends
+  report.push_back({Part::map, 7});
+  report.push_back({Part::viscosity, 5});
+  report.push_back({Part::damping, 160});
+  EXPECT_EQ(bytes_not_asked_for(report), 172u);
+  EXPECT_EQ(bytes_of_damping(report, 20), 160u);
+  report[1].bytes += 160;  // beside the others in a row
+  EXPECT_EQ(bytes_of_damping(report, 20), 320u);
+}
+
+TEST(Ablation, ASceneThatAsksForNothingHoldsNothingAndOneThatDoesHoldsIt) {
+  for (const AblationVariant& variant : ablation_variants()) {
+    const std::size_t bytes = bytes_not_asked_for(measured_memory(variant.scene));
+    const bool asks_for_nothing = variant.name == "bare" || variant.name == "bare, verlet";
+    const bool asks_for_bytes =
+        variant.name == "bare + viscosity" || variant.name == "bare + fixed vertices" || variant.name == "bare + map";
+    if (asks_for_nothing || asks_for_bytes) {
+      EXPECT_EQ(bytes == 0, asks_for_nothing) << variant.name;
+    }
+  }
 }
 
 TEST(Ablation, ComparesScenesThatThereAre) {

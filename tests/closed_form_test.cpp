@@ -234,6 +234,23 @@ TEST(SymplecticEuler, TurnsAsItsRecurrenceAndKeepsItsInvariant) {
   EXPECT_NEAR(symplectic_euler_invariant(omega2, step, end), before, 16 * u);
 }
 
+// Of order 4 with a symmetric table: half the trace is cos(theta) up to theta^6, so half the step leaves a 64th; a
+// digit wrong anywhere would leave a multiple of theta^2. In extended precision, where both are far above rounding.
+TEST(BlanesMoan, HasTheOrderOfItsTable) {
+  const auto off = [](long double theta) {
+    return static_cast<double>(blanes_moan_step(theta, 0.0L).trace() / 2 - std::cos(theta));
+  };
+  EXPECT_NEAR(off(0.25L) / off(0.125L), 64.0, 2.0);
+  EXPECT_LT(std::abs(off(0.125L)), 1e-9);
+  EXPECT_NEAR(static_cast<double>(blanes_moan_step(0.5L, 0.0L).determinant()), 1.0, u);
+}
+
+TEST(BlanesMoan, HasDriftsAndKicksThatAddUpToAStep) {
+  const auto [a, b] = blanes_moan_numbers();
+  EXPECT_NEAR(static_cast<double>(2.0L * (a[0] + a[1] + a[2]) + a[3]), 1.0, u);
+  EXPECT_NEAR(static_cast<double>(2.0L * (b[0] + b[1] + b[2])), 1.0, u);
+}
+
 TEST(EulerFall, IsOffTheParabolaByHalfAStepOfVelocity) {
   const Flight start{{1, 2, 3}, {4, 0, -2}};
   const Flight exact = free_fall(start, {0, 0, -8}, 0.0, 2.0);  // short binary fractions throughout

@@ -65,6 +65,28 @@ TEST(SolveForError, OrdersThatDoNotShowAskForLess) {
   EXPECT_GT(unsure.steps, sure.steps);
 }
 
+// Steps of 6 us at no slope: h = 6e-6 s, errors (h / 0.1)^4 of those at the pilot.
+TEST(RealTime, PassesOverPredictionsThatAreNoNumbers) {
+  Candidate good = fourth_order(), bad = fourth_order(), worse = fourth_order();
+  good.contender = "good";
+  bad.contender = "bad";
+  worse.contender = "worse";
+  worse.error_at_pilot *= 2.0;
+  const double expected = good.error_at(6e-6);
+  for (const double no_number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    bad.error_at_pilot = no_number;
+    for (const auto& candidates : {std::vector{bad, good, worse}, std::vector{good, worse, bad},
+                                   std::vector{worse, bad, good}, std::vector{good, bad, worse}}) {
+      const RealTime best = best_in_real_time(candidates, 1e-6, 0.95);
+      EXPECT_EQ(best.by, "good");
+      EXPECT_NEAR(best.error, expected, 1e-12 * expected);
+    }
+    const RealTime none = best_in_real_time(std::vector{bad}, 1e-6, 0.95);
+    EXPECT_TRUE(std::isnan(none.error));
+    EXPECT_EQ(none.by, "");
+  }
+}
+
 TEST(SolveForError, StepsThatEndAtEventsAreCounted) {
   reference::NetworkMotion motion = eight_seconds();
   motion.events.push_back({2.7505, {}, {}});

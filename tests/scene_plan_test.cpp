@@ -25,9 +25,10 @@ ScenePlan plan(const SceneFile& scene) { return plan_scene(scene, make_problem(s
 void expect_exact(const Json& json, const std::string& what) {
   const SceneFile scene = parse(json);
   const ScenePlan planned = plan(scene);
-  const std::vector<std::size_t> found = measured_bytes(scene, planned);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    EXPECT_EQ(planned.items[k].bytes, found[k]) << what << ": " << name(planned.items[k].part);
+  const MeasuredPlan found = measured_plan(scene, planned);
+  for (std::size_t k = 0; k < found.bytes.size(); ++k)
+    EXPECT_EQ(planned.items[k].bytes, found.bytes[k]) << what << ": " << name(planned.items[k].part);
+  for (const MemoryItem& item : found.unplanned) ADD_FAILURE() << what << ": not planned: " << name(item.part);
 }
 
 const PlanItem* item(const ScenePlan& plan, Part part) {
@@ -187,12 +188,26 @@ TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
   EXPECT_NEAR(planned.mean.cells, (2 * 48 + 2 * 44 + 2 * 40 + 4 * 36) / 480.0, 1e-12);
 }
 
+// ---- what no item plans
+
+TEST(MeasuredPlan, TellsApartWhatNoItemPlans) {
+  const SceneFile scene = parse(with_events(moving_box(), one_removal));
+  ScenePlan planned = plan(scene);
+  const std::size_t bytes = item(planned, Part::map)->bytes;
+  std::erase_if(planned.items, [](const PlanItem& i) { return i.part == Part::map; });
+  const MeasuredPlan found = measured_plan(scene, planned);
+  EXPECT_EQ(found.bytes[0], planned.items[0].bytes);
+  ASSERT_EQ(found.unplanned.size(), 1u);
+  EXPECT_EQ(found.unplanned[0].part, Part::map);
+  EXPECT_EQ(found.unplanned[0].bytes, bytes);
+}
+
 // ---- the same bits
 
 TEST(ScenePlan, ChangesNoBitOfTheTrajectory) {
   const SceneFile scene = parse(with_events(moving_box(), R"([{"every": 0.003, "remove": {"random": {"count": 3}}}])"));
   const auto hash = [&scene](bool explained) {
-    if (explained) measured_bytes(scene, plan(scene));
+    if (explained) measured_plan(scene, plan(scene));
     Simulation simulation(scene);
     while (simulation.steps_done() < simulation.step_count()) {
       simulation.advance();

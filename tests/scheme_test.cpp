@@ -13,6 +13,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "core/time/splitting.h"
 #include "reference/closed_form.h"
 #include "tests/spring_arrays_for_tests.h"
 
@@ -37,6 +38,31 @@ TEST(Scheme, AmplifiesAsTheClosedFormsSay) {
     // what splittings do to areas is exact, here of the oscillator without a force constant: exp(-2 zeta theta)
     EXPECT_NEAR(scheme("verlet").amplification(theta, 0.3).determinant(), std::exp(-0.6 * theta), 16 * u);
   }
+}
+
+// To the rounding of each to a double, and of the three sums below 1 behind a4 and b3.
+TEST(Scheme, HasTheCoefficientsThatBlanesAndMoanPublished) {
+  const auto [a, b] = reference::blanes_moan_numbers();
+  const Splitting& ours = blanes_moan_4_splitting();
+  ASSERT_EQ(ours.drifts.size(), 6u);
+  ASSERT_EQ(ours.kicks.size(), 6u);
+  const long double drifts[]{a[0], a[1], a[2], a[3], a[2], a[1]}, kicks[]{b[0], b[1], b[2], b[2], b[1], b[0]};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(ours.drifts[k], static_cast<double>(drifts[k]), 8 * u) << "drift " << k;
+    EXPECT_NEAR(ours.kicks[k], static_cast<double>(kicks[k]), 8 * u) << "kick " << k;
+  }
+  EXPECT_NEAR(ours.last_drift, static_cast<double>(a[0]), u);
+}
+
+// Thirteen products of matrices whose entries are below 3.
+TEST(Scheme, OfBlanesAndMoanAmplifiesAsTheirNumbersSay) {
+  for (const char* name : {"blanes-moan-4", "blanes-moan-4-compensated"})
+    for (const double theta : {0.1, 1.0, 3.0})
+      for (const double zeta : {0.0, 0.3}) {
+        const Eigen::Matrix2d theory = reference::blanes_moan_step(theta, zeta).cast<double>();
+        EXPECT_LE((scheme(name).amplification(theta, zeta) - theory).cwiseAbs().maxCoeff(), 13 * 9 * 4 * u)
+            << name << " at " << theta << ", zeta " << zeta;
+      }
 }
 
 // The amplification differs from exp of the oscillator's matrix by O(theta^(order + 1)): halving theta divides the

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/plain/error.h"
@@ -188,6 +189,17 @@ TEST(StateBound, HoldsHalfForOneImplementationAgainstTheExactRun) {
       EXPECT_LE(largest(widen(body.state().v), v), bound.velocity / 2) << seed;
     }
   }
+}
+
+// At rest nothing but gravity moves, so that all else stays a number.
+TEST(StateBound, IsInfiniteWhereARunHasNoNumbers) {
+  Case c(0, 0.0);
+  c.state.x = c.problem.mesh.points;
+  for (auto& v : c.state.v) v.setZero();
+  c.problem.surroundings.gravity = {0, 0, std::numeric_limits<double>::quiet_NaN()};
+  const StateBound bound = state_bound(c.problem, c.state, 1);
+  EXPECT_TRUE(std::isinf(bound.position));
+  EXPECT_TRUE(std::isinf(bound.velocity));
 }
 
 TEST(StateBound, HoldsForTheSameBodyNumberedBackwards) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/plain/error.h"
-#include "core/time/splitting.h"
 #include "reference/closed_form.h"
 
 namespace dartboard {
@@ -26,21 +25,6 @@ constexpr double ulp = 2 * std::numeric_limits<double>::epsilon();  // of positi
 Complex upper_eigenvalue(long double trace, long double determinant) {
   const long double mean = trace / 2, below = determinant - mean * mean;
   return {static_cast<double>(mean), static_cast<double>(below > 0 ? std::sqrt(below) : 0)};
-}
-
-Complex splitting_amplification_of(const Splitting& splitting, long double theta) {
-  Eigen::Matrix<long double, 2, 2> product, step;
-  product.setIdentity();
-  const auto apply = [&](long double q_from_v, long double v_from_q) {
-    step << 1, q_from_v, v_from_q, 1;
-    product = (step * product).eval();
-  };
-  for (std::size_t k = 0; k < splitting.kicks.size(); ++k) {
-    apply(splitting.drifts[k] * theta, 0);
-    apply(0, -splitting.kicks[k] * theta);
-  }
-  apply(splitting.last_drift * theta, 0);
-  return upper_eigenvalue(product.trace(), product.determinant());
 }
 
 /// (omega q, v) after each of so many steps from (1, 0) or (0, 1) times `size`, as columns: the powers of the step's
@@ -98,7 +82,10 @@ Complex theoretical_amplification(const Scheme& scheme, double theta) {
   if (name == "explicit-euler") return 1.0 + z;
   if (name == "symplectic-euler" || name.starts_with("verlet"))
     return std::polar(1.0, static_cast<double>(reference::splitting_phase(theta)));
-  if (name.starts_with("blanes-moan-4")) return splitting_amplification_of(blanes_moan_4_splitting(), theta);
+  if (name.starts_with("blanes-moan-4")) {
+    const auto step = reference::blanes_moan_step(theta, 0.0L);
+    return upper_eigenvalue(step.trace(), step.determinant());
+  }
   if (name == "rk4") return reference::rk4_amplification(z);
   if (name == "dormand-prince-54") return reference::dormand_prince_amplification(z);
   if (name == "backward-euler" || name == "baraff-witkin" || name == "local-global")

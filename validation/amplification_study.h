@@ -30,7 +30,7 @@ struct AmplificationPoint {
   double theoretical_damping_ratio() const;
 };
 
-/// The closed form of a method (reference/closed_form.h), or of a splitting its matrix in extended precision.
+/// The closed form of a method (reference/closed_form.h), never what the integrator says of itself.
 ///
 /// throws  InputError for an integrator without one
 std::complex<double> theoretical_amplification(const Scheme& scheme, double theta);

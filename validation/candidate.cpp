@@ -92,6 +92,25 @@ std::unique_ptr<Integrator> Candidate::make() const {
   return make_integrator(std::string_view(contender).substr(0, contender.find(',')));
 }
 
+RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s, double stability) {
+  RealTime best;
+  for (const Candidate& candidate : candidates) {
+    if (!candidate.usable() || candidate.adaptive) continue;
+    Candidate c = candidate;
+    if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
+    // seconds of the run = duration / h * step_s (h / pilot_h)^step_slope <= duration
+    const double step_s = c.step_cost * force_s;
+    const double h = c.step_slope < 1.0
+                         ? std::pow(step_s / std::pow(c.pilot_h, c.step_slope), 1.0 / (1.0 - c.step_slope))
+                         : std::numeric_limits<double>::infinity();
+    if (!(h < stability * c.limit_h)) continue;
+    const double reached = c.error_at(h);
+    if (!std::isfinite(reached) || reached >= best.error) continue;
+    best = {reached, c.contender};
+  }
+  return best;
+}
+
 void solve_for_error(Candidate& c, double error, const reference::NetworkMotion& motion, double force_s,
                      const RecommendOptions& options) {
   // an order that is still rising errs on the safe side

@@ -2,7 +2,9 @@
 // What is predicted of one method on one scene: its errors, its costs, and the setting for an error.
 
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -69,6 +71,16 @@ struct Candidate {
   /// The integrator to run it with.
   std::unique_ptr<Integrator> make() const;
 };
+
+/// What fixed steps reach when the run may take as long as what it simulates.
+struct RealTime {
+  double error = std::numeric_limits<double>::quiet_NaN();  // [edges]; NaN when nobody is fast enough
+  std::string by;
+};
+/// The least error of the usable candidates. Predictions that are no finite number are passed over.
+///
+/// units   force_s is what an evaluation of the forces takes; stability as in RecommendOptions
+RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s, double stability);
 
 /// The step or tolerance that meets an error, and what it costs, by a candidate's fits; sets the last group of its
 /// members.

@@ -1,33 +1,47 @@
 #include "validation/motion_agreement.h"
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "reference/larger.h"
 #include "reference/summation_bound.h"
 
 namespace dartboard {
 namespace {
 
-double largest_difference(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+using reference::larger;
+using Vectors = std::vector<Eigen::Vector3d>;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+// Eigen's norms and std::max lose a NaN.
+double largest_coordinate(const Eigen::Vector3d& d) {
+  return larger(larger(std::abs(d[0]), std::abs(d[1])), std::abs(d[2]));
+}
+
+double largest_difference(const Vectors& a, const Vectors& b) {
+  if (a.size() != b.size()) return no_number;
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).lpNorm<Eigen::Infinity>());
+  for (std::size_t i = 0; i < a.size(); ++i) largest = larger(largest, largest_coordinate(a[i] - b[i]));
   return largest;
 }
 
-double largest_share_of_bound(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b,
-                              const std::vector<double>& bound) {
+double largest_share_of_bound(const Vectors& a, const Vectors& b, const std::vector<double>& bound) {
+  if (a.size() != b.size() || a.size() != bound.size()) return no_number;
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = (a[i] - b[i]).lpNorm<Eigen::Infinity>();
-    if (difference > 0.0) largest = std::max(largest, difference / bound[i]);
+    const double difference = largest_coordinate(a[i] - b[i]);
+    if (!std::isfinite(bound[i])) return no_number;
+    if (difference != 0.0) largest = larger(largest, difference / bound[i]);
   }
   return largest;
 }
 
 }  // namespace
 
-std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps) {
+std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps, std::span<const Contender> all) {
   // Off equilibrium in positions and velocities: some steps of the first contender from rest under gravity.
-  const auto first = contenders()[0].make(problem);
+  const auto first = all.front().make(problem);
   first->step(20);
   const PointState start = first->state();
   const auto first_forces = first->forces();
@@ -38,8 +52,8 @@ std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps) {
   const auto force_bound = reference::force_bound(problem, start);
   const auto state_bound = reference::state_bound(problem, start, steps);
 
-  std::vector<MotionAgreement> all;
-  for (const Contender& c : contenders()) {
+  std::vector<MotionAgreement> compared;
+  for (const Contender& c : all) {
     const auto simulation = c.make(problem);
     simulation->set_state(start);
     const auto forces = simulation->forces();
@@ -53,16 +67,18 @@ std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps) {
     a.position_difference = largest_difference(end.x, first_end.x);
     a.velocity_difference = largest_difference(end.v, first_end.v);
     if (c.carrier == Carrier::core_map) {
-      a.agrees = a.hash == first_hash && forces == first_forces;
+      // equal hashes of states that are no numbers are no agreement
+      a.agrees = a.hash == first_hash && forces == first_forces && a.position_difference == 0.0 &&
+                 a.velocity_difference == 0.0;
     } else {
       a.position_bound = state_bound.position;
       a.velocity_bound = state_bound.velocity;
-      a.agrees = a.force_difference <= 1.0 && a.position_difference <= a.position_bound &&
-                 a.velocity_difference <= a.velocity_bound;
+      a.agrees = std::isfinite(a.position_bound) && std::isfinite(a.velocity_bound) && a.force_difference <= 1.0 &&
+                 a.position_difference <= a.position_bound && a.velocity_difference <= a.velocity_bound;
     }
-    all.push_back(a);
+    compared.push_back(a);
   }
-  return all;
+  return compared;
 }
 
 }  // namespace dartboard

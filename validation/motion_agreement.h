@@ -2,6 +2,7 @@
 // The second gate: forces and states of all contenders are those of the first, bit for bit or within a derived bound.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,11 @@ struct MotionAgreement {
 /// Let every contender evaluate the forces in a deformed, moving state and take `steps` steps from it.
 ///
 /// The walks of the core sum in the same order and must give the same bits; the others add the same terms in another
-/// order and must lie within the rounding bound of reference/summation_bound.
-std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps);
+/// order and must lie within the rounding bound of reference/summation_bound. What is not a number agrees with nothing,
+/// and where the bound is not finite nobody else agrees: it then says nothing.
+///
+/// pre     `all` is not empty; the first one is of the core
+std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps,
+                                            std::span<const Contender> all = contenders());
 
 }  // namespace dartboard

@@ -188,8 +188,10 @@ class Search {
     const Candidate* pick = r_.pick();
     if (pick == nullptr) return;
     r_.realtime_factor = scene_.duration / pick->predicted_s;
+    const RealTime realtime = best_in_real_time(r_.candidates, r_.features.force_s, options_.stability);
+    r_.realtime_error = realtime.error;
+    r_.realtime_by = realtime.by;
     double best = infinity;
-    r_.realtime_error = std::numeric_limits<double>::quiet_NaN();
     for (const Candidate& candidate : r_.candidates) {
       if (!candidate.usable()) continue;
       Candidate c = candidate;
@@ -198,18 +200,6 @@ class Search {
       if (c.predicted_s < best) {
         best = c.predicted_s;
         r_.one_more_digit_by = c.contender;
-      }
-      if (c.adaptive) continue;
-      // seconds of the run = duration / h * step_s (h / pilot_h)^step_slope <= duration
-      const double step_s = c.step_cost * r_.features.force_s;
-      const double h = c.step_slope < 1.0
-                           ? std::pow(step_s / std::pow(c.pilot_h, c.step_slope), 1.0 / (1.0 - c.step_slope))
-                           : infinity;
-      if (!(h < options_.stability * c.limit_h)) continue;
-      const double reached = c.error_at(h);
-      if (!(reached >= r_.realtime_error)) {
-        r_.realtime_error = reached;
-        r_.realtime_by = c.contender;
       }
     }
     r_.one_more_digit = best / pick->predicted_s;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/plain/error.h"
+#include "validation/median.h"
 
 namespace dartboard {
 namespace {
@@ -11,11 +12,6 @@ namespace {
 using reference::motion_errors;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 

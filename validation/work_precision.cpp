@@ -14,18 +14,12 @@
 #include "core/time/ros2.h"
 #include "core/time/sdirk2.h"
 #include "validation/cvode_adams.h"
+#include "validation/median.h"
 
 namespace dartboard {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 template <class T>
 void add_solvers(std::vector<TradeoffContender>& contenders, std::string_view name) {

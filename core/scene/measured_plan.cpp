@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/scene/simulation.h"
+#include "core/time/integrators.h"
 
 namespace dartboard {
 
@@ -20,23 +21,30 @@ SceneFile with_events_held_back(SceneFile scene) {
   return scene;
 }
 
-std::vector<std::size_t> measured_bytes(const SceneFile& scene, const ScenePlan& plan) {
+MemoryReport measured_memory(const SceneFile& scene) {
   Simulation simulation(with_events_held_back(scene));
+  const bool solves = make_integrator(scene.integrator)->scheme().implicit;
   // a step at rest has nothing to solve; some steps on there is
   constexpr int most_steps = 32;
   for (int k = 0; k < most_steps; ++k) {
     if (simulation.advance()) break;
-    if (!plan.needs.solver || simulation.work().solves > 0) break;
+    if (!solves || simulation.work().solves > 0) break;
   }
-  std::vector<std::size_t> bytes(plan.items.size(), 0);
-  for (const MemoryItem& found : simulation.memory()) {
+  return simulation.memory();
+}
+
+MeasuredPlan measured_plan(const SceneFile& scene, const ScenePlan& plan) {
+  MeasuredPlan measured{std::vector<std::size_t>(plan.items.size(), 0), {}};
+  for (const MemoryItem& found : measured_memory(scene)) {
     const auto item = std::ranges::find_if(plan.items, [&found](const PlanItem& planned) {
       return planned.part == found.part && planned.event == found.event;
     });
-    const auto place = item == plan.items.end() ? 0 : item - plan.items.begin();
-    bytes[static_cast<std::size_t>(place)] += found.bytes;
+    if (item != plan.items.end())
+      measured.bytes[static_cast<std::size_t>(item - plan.items.begin())] += found.bytes;
+    else if (found.bytes > 0)
+      measured.unplanned.push_back(found);
   }
-  return bytes;
+  return measured;
 }
 
 }  // namespace dartboard

@@ -9,10 +9,18 @@ namespace dartboard {
 /// watched and tears nothing.
 SceneFile with_events_held_back(SceneFile scene);
 
-/// The bytes of each item of the plan, asked of the built objects after a step that had something to solve. What there
-/// is and no item plans is added to the first item, so that it shows.
+/// The bytes of every part, asked of the built objects after a step that had something to solve.
 ///
 /// throws  InputError as Simulation does
-std::vector<std::size_t> measured_bytes(const SceneFile& scene, const ScenePlan& plan);
+MemoryReport measured_memory(const SceneFile& scene);
+
+/// What there is of the items of a plan, and beside them.
+struct MeasuredPlan {
+  std::vector<std::size_t> bytes;  // by item
+  MemoryReport unplanned;          // parts with bytes that no item plans
+};
+
+/// throws  InputError as Simulation does
+MeasuredPlan measured_plan(const SceneFile& scene, const ScenePlan& plan);
 
 }  // namespace dartboard
