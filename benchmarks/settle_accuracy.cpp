@@ -59,6 +59,11 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     options.only = scene.integrator;
     const Recommendation r = recommend(studied, *scene.accuracy, clock, options);
     const Candidate* pick = r.pick();
+    if (pick == nullptr && std::isfinite(r.best_error))
+      throw InputError(
+          fmt::format("{}: /accuracy: is {} mean edge lengths, which cannot be met in double precision; expected a "
+                      "larger one: about {:.1e} is the best, with {}",
+                      scene.file, *scene.accuracy, r.best_error, r.best_error_by));
     if (pick == nullptr)
       throw InputError(
           fmt::format("{}: /accuracy: is {} mean edge lengths, and no step{} was found to meet it; "

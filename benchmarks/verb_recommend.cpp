@@ -31,6 +31,7 @@ nlohmann::json json_of(const Candidate& c) {
   nlohmann::json json{{"integrator", c.contender}, {"implicit", c.implicit}, {"order", c.order}};
   if (!c.usable()) {
     json["pruned"] = c.pruned;
+    if (c.least_error > 0.0) json["least_error"] = c.least_error;
     return json;
   }
   if (c.adaptive) json["tolerance"] = c.tolerance;
@@ -67,6 +68,7 @@ nlohmann::json json_of(const Recommendation& r) {
             {"force_s", f.force_s},
             {"implicit_step_s", number(f.implicit_step_s)}}},
           {"candidates", candidates},
+          {"best_error", {{"error", number(r.best_error)}, {"integrator", r.best_error_by}}},
           {"one_more_digit", {{"cost_ratio", number(r.one_more_digit)}, {"integrator", r.one_more_digit_by}}},
           {"realtime",
            {{"factor", number(r.realtime_factor)}, {"error", number(r.realtime_error)}, {"integrator", r.realtime_by}}},
@@ -124,7 +126,13 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
   for (const Candidate& c : r.candidates)
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   const Candidate* pick = r.pick();
-  if (pick == nullptr) return text + "\nNothing can be recommended.\n";
+  if (pick == nullptr)
+    return text +
+           (std::isfinite(r.best_error)
+                ? fmt::format("\nAn error of {:.3g} edges cannot be met in double precision; about {:.1e} is the "
+                              "best, with {}.\n",
+                              r.error, r.best_error, r.best_error_by)
+                : "\nNothing can be recommended.\n");
   text += fmt::format("\nTake {} with {}{}: error {:.1e}, {} here ({:.0f} force evaluations).\n", pick->contender,
                       pick->adaptive
                           ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
@@ -135,7 +143,9 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,
                         second->predicted_cost / pick->predicted_cost);
-  text += fmt::format("One more digit costs {:.2f} times as much, with {}.\n", r.one_more_digit, r.one_more_digit_by);
+  text += r.one_more_digit_by.empty() ? "One more digit is beyond double precision, or takes too many steps.\n"
+                                      : fmt::format("One more digit costs {:.2f} times as much, with {}.\n",
+                                                    r.one_more_digit, r.one_more_digit_by);
   text += fmt::format("The pilots took {}, {:.3g} times the run.\n", milliseconds(r.pilot_s),
                       r.pilot_s / pick->predicted_s);
   if (realtime) {

@@ -126,6 +126,38 @@ TEST(SolveForError, NoToleranceIsLooserThanThoseThatWereTried) {
   EXPECT_EQ(c.steps, 50u);
 }
 
+TEST(SolveForError, RoundingIsPartOfTheErrorThatIsPromised) {
+  Candidate c = fourth_order();
+  c.rounding = {.factor = 1e-12, .power = 0.5};
+  solve_for_error(c, 1e-10, eight_seconds(), 2e-6, {});
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  // steps of 1 ms: 1e-10 by the order, 3e-11 by rounding; together they have to fit
+  EXPECT_LE(c.predicted_error, 1e-10);
+  EXPECT_GT(c.predicted_error, c.rounding.at(c.h));
+  EXPECT_GE(c.h, c.best_step());
+  // half and twice the best step are worse
+  EXPECT_GT(c.error_at(0.5 * c.best_step()), c.error_at(c.best_step()));
+  EXPECT_GT(c.error_at(2.0 * c.best_step()), c.error_at(c.best_step()));
+}
+
+TEST(SolveForError, AnErrorBelowRoundingIsNotPromised) {
+  for (const double error : {1e-15, 1e-30}) {
+    Candidate c = fourth_order();
+    c.rounding = {.factor = 1e-12, .power = 0.5};
+    solve_for_error(c, error, eight_seconds(), 2e-6, {});
+    EXPECT_FALSE(c.usable());
+    // the steps are whole, and at most the best: the error is flat there, of second order in their difference
+    EXPECT_NEAR(c.least_error, c.error_at(c.best_step()), 1e-3 * c.least_error);
+  }
+}
+
+TEST(SolveForError, TooManyStepsAreNotOffered) {
+  Candidate c = fourth_order();
+  solve_for_error(c, 1e-50, eight_seconds(), 2e-6, {});
+  // (1e-48)^(1/4) of 0.1 s
+  EXPECT_NE(c.pruned.find("8.6e+13 steps"), std::string::npos) << c.pruned;
+}
+
 class RecommendChain : public ::testing::TestWithParam<double> {};
 
 TEST_P(RecommendChain, ThePickMeetsTheError) {
@@ -199,6 +231,24 @@ TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
   ASSERT_NE(r.pick(), nullptr);
   EXPECT_TRUE(
       std::ranges::any_of(r.candidates, [](const Candidate& c) { return c.pruned == "the time for pilots is up"; }));
+}
+
+TEST(Recommend, AnErrorThatDoublesCannotMeetIsNotPromised) {
+  for (const double error : {1e-16, 1e-30}) {
+    const Recommendation r = recommend(chain_scene(8, 64.0), error, ticking());
+    EXPECT_EQ(r.pick(), nullptr);
+    // coordinates of some ten edges: 1e-15 with compensation, a few thousand steps without it 1e-13
+    EXPECT_GT(r.best_error, 1e-16);
+    EXPECT_LT(r.best_error, 1e-13);
+  }
+}
+
+TEST(Recommend, ACompensatedMethodGoesWherePlainOnesCannot) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const Recommendation r = recommend(scene, 1e-14, ticking());
+  ASSERT_NE(r.pick(), nullptr);
+  EXPECT_EQ(r.pick()->contender, "blanes-moan-4-compensated");
+  EXPECT_TRUE(audit(scene, reference_of(scene, ticking()), r, {}, ticking()).met());
 }
 
 TEST(Recommend, ANonsensicalErrorIsRefused) {

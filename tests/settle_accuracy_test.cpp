@@ -78,6 +78,19 @@ TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {
   EXPECT_TRUE(settled->integrator_named);
 }
 
+TEST(SettleAccuracy, RefusesWhatDoublesCannotMeet) {
+  for (const double accuracy : {1e-17, 1e-30}) {
+    SceneFile scene = parse(accurate_box(accuracy));
+    try {
+      settle_accuracy(scene, ticking());
+      ADD_FAILURE() << "settled on " << scene.integrator << " with " << scene.step;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("/accuracy: is"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("cannot be met in double precision"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(SettleAccuracy, LeavesASceneWithAStepAlone) {
   SceneFile scene = parse(moving_box());
   EXPECT_FALSE(settle_accuracy(scene, ticking()));

@@ -30,12 +30,13 @@ void rank(std::vector<Candidate>& candidates) {
 }
 
 /// Explicit methods before implicit ones, high orders before low ones: what they cost is what the others have to beat.
-/// Where nothing is damped the symplectic method of order 4 comes before all.
-std::vector<Scheme> schemes_in_order(bool damped, const std::string& only) {
+/// Where nothing is damped the symplectic method of order 4 comes before all. A compensated method is the plain one
+/// until rounding shows, at some more cost: these are the others, or they alone.
+std::vector<Scheme> schemes_in_order(bool damped, const std::string& only, bool compensated = false) {
   std::vector<Scheme> schemes;
-  // a compensated method is the plain one until rounding shows, at some more cost
   for (const IntegratorEntry& entry : integrators())
-    if (const Scheme& scheme = entry.make()->scheme(); only.empty() ? !scheme.compensated : entry.name == only)
+    if (const Scheme& scheme = entry.make()->scheme();
+        only.empty() ? scheme.compensated == compensated : entry.name == only)
       schemes.push_back(scheme);
   const auto rank = [damped](const Scheme& s) {
     return (s.implicit ? 0.0 : 100.0) + s.order + (s.symplectic && !damped && s.order > 2 ? 2.0 : 0.0);
@@ -51,7 +52,10 @@ class Search {
       : scene_(scene), error_(error), clock_(clock), options_(options), start_(clock()) {
     r_.scene = scene.name;
     r_.error = error;
+    r_.best_error = std::numeric_limits<double>::quiet_NaN();
     r_.features = features_of(scene, clock);
+    for (const IntegratorEntry& entry : integrators())
+      least_error_ = std::min(least_error_, rounding_floor(scene, entry.make()->scheme()).at(per_interval()));
     pilots_.emplace(scene, clock, options, start_);
   }
 
@@ -66,8 +70,18 @@ class Search {
       if (scheme.implicit) try_implicit(scheme);
     rank(r_.candidates);
     confirm();
+    if (r_.pick() == nullptr && options_.only.empty() && std::ranges::any_of(r_.candidates, kept_by_rounding)) {
+      for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, "", true)) try_explicit(scheme);
+      rank(r_.candidates);
+      confirm();
+    }
     time_the_best();
     look_around();
+    for (const Candidate& c : r_.candidates)
+      if (r_.pick() == nullptr && kept_by_rounding(c) && !(c.least_error >= r_.best_error)) {
+        r_.best_error = c.least_error;
+        r_.best_error_by = c.contender;
+      }
     r_.pilot_s = pilots_->spent_s();
     return std::move(r_);
   }
@@ -78,11 +92,13 @@ class Search {
     c.contender = scheme.name;
     c.implicit = scheme.implicit;
     c.order = scheme.order;
+    c.rounding = rounding_floor(scene_, scheme);
     c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
     return c;
   }
   void solve(Candidate& c) {
     solve_for_error(c, error_, scene_.motion, r_.features.force_s, options_);
+    if (!c.usable() && !kept_by_rounding(c)) return;  // too many steps
     if (std::isfinite(c.predicted_s))
       pilots_->predicted(c.predicted_s);
     else
@@ -94,14 +110,14 @@ class Search {
     else if (!(pilots_->left_s() > 0.0))
       c.pruned = "the time for pilots is up";
     else
-      pilot_prefix(c, *pilots_, h, step_s, error_);
+      pilot_prefix(c, *pilots_, h, step_s, sought());
     if (c.usable()) solve(c);
   }
 
   void try_explicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
     const double step_s = scheme.stages * r_.features.force_s;
-    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     const double least_s = scene_.duration / c.limit_h * step_s;
     if (needed * step_s > doubt * pilots_->cheapest_s())
       c.pruned = law(needed, step_s);
@@ -116,7 +132,7 @@ class Search {
 
   void try_implicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
-    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     double& measured_s = r_.features.implicit_step_s;
     double step_s = scheme.stages * (measured_s > 0.0 ? measured_s : least_implicit_step * r_.features.force_s);
     if (measured_s == 0.0 && needed * step_s <= doubt * pilots_->cheapest_s()) {
@@ -147,7 +163,7 @@ class Search {
     else if (1.5 * fixed->predicted_s > pilots_->left_s())
       c.pruned = "its pilots would take too long";
     else
-      pilot_tolerances(c, *pilots_, error_);
+      pilot_tolerances(c, *pilots_, sought());
     if (c.usable()) solve(c);
     r_.candidates.push_back(std::move(c));
   }
@@ -195,7 +211,7 @@ class Search {
       Candidate c = candidate;
       if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
       solve_for_error(c, error_ / 10.0, scene_.motion, r_.features.force_s, options_);
-      if (c.predicted_s < best) {
+      if (c.usable() && c.predicted_s < best) {
         best = c.predicted_s;
         r_.one_more_digit_by = c.contender;
       }
@@ -206,7 +222,8 @@ class Search {
                            ? std::pow(step_s / std::pow(c.pilot_h, c.step_slope), 1.0 / (1.0 - c.step_slope))
                            : infinity;
       if (!(h < options_.stability * c.limit_h)) continue;
-      const double reached = c.error_at(h);
+      // shorter steps than the best lose more to rounding than they gain
+      const double reached = c.error_at(std::max(h, std::min(c.best_step(), options_.stability * c.limit_h)));
       if (!(reached >= r_.realtime_error)) {
         r_.realtime_error = reached;
         r_.realtime_by = c.contender;
@@ -215,6 +232,9 @@ class Search {
     r_.one_more_digit = best / pick->predicted_s;
   }
 
+  static bool kept_by_rounding(const Candidate& c) { return c.least_error > 0.0; }
+  /// Pilots and the law look for an error that rounding leaves room for.
+  double sought() const { return std::max(error_, least_error_); }
   double per_interval() const { return scene_.duration / static_cast<double>(scene_.motion.checkpoints.size()); }
   std::string law(double needed, double step_s) const {
     return fmt::format("break-even law: about {:.2g} steps of {:.1e} s, {:.1e} s against {:.1e} s", needed, step_s,
@@ -222,7 +242,7 @@ class Search {
   }
 
   const TradeoffScene& scene_;
-  double error_;
+  double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
   const CpuClock& clock_;
   const RecommendOptions& options_;
   std::int64_t start_;

@@ -20,6 +20,8 @@ struct Recommendation {
   double realtime_factor = 0.0;       // simulated over predicted seconds of the pick
   double realtime_error = 0.0;        // what the best method would reach in real time; NaN when none is fast enough
   std::string realtime_by;
+  double best_error = 0.0;  // [edges] where rounding keeps every method from the error: the least of theirs
+  std::string best_error_by;
   double pilot_s = 0.0;  // spent on all of this
 
   const Candidate* pick() const;
@@ -37,7 +39,7 @@ struct Recommendation {
 ///    only those that might beat the cheapest explicit one get pilots;
 /// 5. the step or tolerance for the error, by the order, with safety and within stability; longer pilots, coarser than
 ///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`); their steps timed again;
-/// 6. the ranking by predicted cost.
+/// 6. the ranking by predicted cost; compensated methods take part where rounding keeps all others from the error.
 ///
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); what
 /// has had none by then is left out, and says so.
