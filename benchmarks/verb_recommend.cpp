@@ -98,6 +98,7 @@ Table candidates_table(const Recommendation& r) {
                {"h [ms]", Align::right},
                {"limit of h [ms]", Align::right},
                {"error", Align::right},
+               {"cost [evaluations' time]", Align::right},
                {"force evaluations", Align::right},
                {"time", Align::right},
                {"order seen", Align::right},
@@ -108,7 +109,7 @@ Table candidates_table(const Recommendation& r) {
                      fmt::format("{:.4g}", 1e3 * c.h),
                      std::isfinite(c.limit_h) ? fmt::format("{:.4g}", 1e3 * c.limit_h) : "none",
                      fmt::format("{:.1e}", c.predicted_error), fmt::format("{:.0f}", c.predicted_cost),
-                     milliseconds(c.predicted_s),
+                     fmt::format("{:.0f}", c.predicted_evaluations), milliseconds(c.predicted_s),
                      c.confidence == Confidence::sufficient ? "-"
                      : c.adaptive                           ? fmt::format("{:.2f} of the tolerance", c.observed_order)
                                                             : fmt::format("{:.2f} of {}", c.observed_order, c.order),
@@ -133,12 +134,13 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
                               "best, with {}.\n",
                               r.error, r.best_error, r.best_error_by)
                 : "\nNothing can be recommended.\n");
-  text += fmt::format("\nTake {} with {}{}: error {:.1e}, {} here ({:.0f} force evaluations).\n", pick->contender,
-                      pick->adaptive
-                          ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
-                          : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
-                      pick->limited_by_stability ? ", all that stability allows" : "", pick->predicted_error,
-                      milliseconds(pick->predicted_s), pick->predicted_cost);
+  text += fmt::format(
+      "\nTake {} with {}{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes {:.0f}).\n",
+      pick->contender,
+      pick->adaptive ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
+                     : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
+      pick->limited_by_stability ? ", all that stability allows" : "", pick->predicted_error,
+      milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,
@@ -214,7 +216,7 @@ void recommend_verb(const Options& options, Outcome& outcome) {
                  {"actual", Align::right},
                  {"predicted", Align::right},
                  {"met"},
-                 {"cost", Align::right},
+                 {"cost [evaluations' time]", Align::right},
                  {"predicted/actual", Align::right},
                  {"best of the sweep"},
                  {"regret", Align::right}});

@@ -53,7 +53,7 @@ struct Candidate {
   };
   std::vector<Seen> coarser{};  // ascending in step and error
   RoundingFloor rounding{};
-  // force evaluations that a step is worth (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
+  // force evaluations whose time a step takes (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
   double step_cost = 0.0, step_slope = 0.0, step_evaluations = 0.0;
   // the steps that an adaptive one takes = pilot_steps (tolerance / pilot_h)^-steps_slope, below pilot_h
   double pilot_steps = 0.0, steps_slope = 0.0;
@@ -62,8 +62,8 @@ struct Candidate {
   // for the error asked for
   std::uint64_t steps = 0;
   double h = 0.0, tolerance = 0.0;  // [s], of an adaptive one the mean; [edges] 0 for fixed steps
-  double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in force evaluations
-  double predicted_evaluations = 0.0;                                     // counted ones
+  double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in the time of one
+  double predicted_evaluations = 0.0;                                     // of the forces, counted
   bool limited_by_stability = false;
   // [edges] the least that the method reaches, where rounding keeps it from the error asked for; else 0
   double least_error = 0.0;
