@@ -40,6 +40,7 @@ nlohmann::json json_of(const Candidate& c) {
                {"observed_order", number(c.observed_order)},
                {"stability_limit_h", number(c.limit_h)},
                {"limited_by_stability", c.limited_by_stability},
+               {"fewest_steps_tried", c.fewest_steps},
                {"steps", c.steps},
                {"h", c.h},
                {"predicted_error", number(c.predicted_error)},
@@ -139,8 +140,10 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
       pick->contender,
       pick->adaptive ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
                      : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
-      pick->limited_by_stability ? ", all that stability allows" : "", pick->predicted_error,
-      milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
+      pick->limited_by_stability ? ", all that stability allows"
+      : pick->fewest_steps       ? ", the fewest steps tried"
+                                 : "",
+      pick->predicted_error, milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,

@@ -57,6 +57,20 @@ TEST(SolveForError, TheStepStaysWithinTheStabilityLimit) {
   EXPECT_TRUE(c.limited_by_stability);
 }
 
+TEST(SolveForError, OneStepForEachCheckpointIsTheFewestTriedAndNoLimitOfStability) {
+  Candidate c = fourth_order();
+  c.limit_h = 3.0;  // a step of 2.85 s would be stable, one of 1 s is the largest considered
+  solve_for_error(c, 1e9, eight_seconds(), 2e-6, {});
+  EXPECT_EQ(c.steps, 8u);
+  EXPECT_TRUE(c.fewest_steps);
+  EXPECT_FALSE(c.limited_by_stability);
+  c.limit_h = 0.9;  // 0.855 s
+  solve_for_error(c, 1e9, eight_seconds(), 2e-6, {});
+  EXPECT_EQ(c.steps, 16u);
+  EXPECT_FALSE(c.fewest_steps);
+  EXPECT_TRUE(c.limited_by_stability);
+}
+
 TEST(SolveForError, OrdersThatDoNotShowAskForLess) {
   Candidate sure = fourth_order(), unsure = fourth_order();
   unsure.confidence = Confidence::pre_asymptotic;

@@ -149,7 +149,8 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
     const double for_stability = options.stability * c.limit_h;
     const auto checkpoints = motion.checkpoints.size();
     const double per_interval = duration / static_cast<double>(checkpoints);
-    c.limited_by_stability = for_stability < for_error;
+    c.fewest_steps = per_interval <= std::min(for_error, for_stability);
+    c.limited_by_stability = !c.fewest_steps && for_stability < for_error;
     const double h = std::min({for_error, for_stability, per_interval});
     const double steps = static_cast<double>(checkpoints) * std::ceil(per_interval / h);
     if (!(steps <= options.most_steps)) {

@@ -65,6 +65,7 @@ struct Candidate {
   double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in the time of one
   double predicted_evaluations = 0.0;                                     // of the forces, counted
   bool limited_by_stability = false;
+  bool fewest_steps = false;  // one for each checkpoint: fewer were not tried
   // [edges] the least that the method reaches, where rounding keeps it from the error asked for; else 0
   double least_error = 0.0;
 
