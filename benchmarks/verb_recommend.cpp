@@ -1,6 +1,7 @@
 // dartboard recommend: the cheapest integrator and step for an error, predicted, and audited on request.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,7 @@ nlohmann::json json_of(const Candidate& c) {
   nlohmann::json json{{"integrator", c.contender}, {"implicit", c.implicit}, {"order", c.order}};
   if (!c.usable()) {
     json["pruned"] = c.pruned;
+    json["untried"] = c.untried;
     if (c.least_error > 0.0) json["least_error"] = c.least_error;
     return json;
   }
@@ -69,6 +71,7 @@ nlohmann::json json_of(const Recommendation& r) {
             {"force_s", f.force_s},
             {"implicit_step_s", number(f.implicit_step_s)}}},
           {"candidates", candidates},
+          {"untried", r.untried()},
           {"best_error", {{"error", number(r.best_error)}, {"integrator", r.best_error_by}}},
           {"one_more_digit", {{"cost_ratio", number(r.one_more_digit)}, {"integrator", r.one_more_digit_by}}},
           {"realtime",
@@ -127,6 +130,9 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
       1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
+  if (const auto untried = r.untried(); !untried.empty())
+    text += fmt::format("{} of {} methods were not tried for want of time, and another run may pick one of them: {}\n",
+                        untried.size(), r.candidates.size(), fmt::join(untried, "; "));
   const Candidate* pick = r.pick();
   if (pick == nullptr)
     return text +

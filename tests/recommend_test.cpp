@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/recommendation_audit.h"
@@ -245,6 +246,13 @@ TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
   ASSERT_NE(r.pick(), nullptr);
   EXPECT_TRUE(
       std::ranges::any_of(r.candidates, [](const Candidate& c) { return c.pruned == "the time for pilots is up"; }));
+  // who was not tried is named; who was tried, or lost to the law, is not
+  const auto untried = r.untried();
+  EXPECT_FALSE(untried.empty());
+  for (const Candidate& c : r.candidates) {
+    EXPECT_EQ(std::ranges::count(untried, c.contender), c.untried ? 1 : 0) << c.contender << ": " << c.pruned;
+    EXPECT_FALSE(c.untried && c.usable());
+  }
 }
 
 TEST(Recommend, AnErrorThatDoublesCannotMeetIsNotPromised) {
@@ -263,6 +271,18 @@ TEST(Recommend, ACompensatedMethodGoesWherePlainOnesCannot) {
   ASSERT_NE(r.pick(), nullptr);
   EXPECT_EQ(r.pick()->contender, "blanes-moan-4-compensated");
   EXPECT_TRUE(audit(scene, reference_of(scene, ticking()), r, {}, ticking()).met());
+}
+
+TEST(Recommend, OnAStiffSceneImplicitMethodsAreTriedBeforeTheTimeForPilotsIsUp) {
+  // springs 1e8 times as stiff as those that the motion shows, and an error that a few steps of that motion meet
+  const TradeoffScene scene = stiff_scene("stiff", kuhn_box(3, 3, 3, 0.1), 1e8, {});
+  const Recommendation r = recommend(scene, 1e-1, ticking());
+  std::size_t first_implicit_tried = 0;
+  for (const Candidate& c : r.candidates)
+    if (c.implicit && !c.untried) ++first_implicit_tried;
+  EXPECT_GT(first_implicit_tried, 0u);
+  ASSERT_NE(r.pick(), nullptr);
+  EXPECT_TRUE(r.pick()->implicit) << r.pick()->contender;
 }
 
 TEST(Recommend, ANonsensicalErrorIsRefused) {

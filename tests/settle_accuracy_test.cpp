@@ -67,6 +67,13 @@ TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
         << k;
   EXPECT_NE(to_string(*settled).find(scene.integrator), std::string::npos);
   EXPECT_EQ(nlohmann::json(*settled).at("step"), scene.step);
+  // the members that are printed to be pasted make a scene of the same step, to the last bit
+  const std::string said = to_string(*settled);
+  const auto from = said.find("\"integrator\": ");
+  ASSERT_NE(from, std::string::npos) << said;
+  const Json pasted = Json::parse("{" + said.substr(from, said.find('\n', from) - from) + "}");
+  EXPECT_EQ(pasted.at("step").get<double>(), scene.step);
+  EXPECT_EQ(pasted.at("integrator"), scene.integrator);
 }
 
 TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {

@@ -37,7 +37,8 @@ std::string_view name(Confidence confidence);
 struct Candidate {
   std::string contender;  // as in tradeoff_contenders(): "rk4", "dormand-prince-54, adaptive"
   bool implicit = false, adaptive = false;
-  std::string pruned;  // why it was left out before or after its pilots; empty when it was not
+  std::string pruned;    // why it was left out before or after its pilots; empty when it was not
+  bool untried = false;  // because there was no time left for pilots: nothing is known against it
   Confidence confidence = Confidence::none;
   bool full_length = false;  // pilots over the whole duration confirm it
   int order = 1;

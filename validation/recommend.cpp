@@ -61,13 +61,20 @@ class Search {
 
   Recommendation run() {
     const auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
-    for (const Scheme& scheme : schemes)
-      if (!scheme.implicit) try_explicit(scheme);
+    for (const Scheme& scheme : schemes) {
+      if (scheme.implicit) continue;
+      const bool first = r_.candidates.empty();
+      try_explicit(scheme);
+      for (const Scheme& other : schemes)
+        if (first && other.implicit && is_promising(other)) try_implicit(other);
+    }
     if (options_.adaptive)
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)
-      if (scheme.implicit) try_implicit(scheme);
+      if (scheme.implicit &&
+          std::ranges::find(r_.candidates, scheme.name, &Candidate::contender) == r_.candidates.end())
+        try_implicit(scheme);
     rank(r_.candidates);
     confirm();
     if (r_.pick() == nullptr && options_.only.empty() && std::ranges::any_of(r_.candidates, kept_by_rounding)) {
@@ -107,9 +114,10 @@ class Search {
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
-    else if (!(pilots_->left_s() > 0.0))
+    else if (!(pilots_->left_s() > 0.0)) {
+      c.untried = true;
       c.pruned = "the time for pilots is up";
-    else
+    } else
       pilot_prefix(c, *pilots_, h, step_s, sought());
     if (c.usable()) solve(c);
   }
@@ -128,6 +136,14 @@ class Search {
       // the longest step that could be recommended is tried: close to the limit errors grow faster than any order says
       pilot(c, std::min({options_.stability * c.limit_h, per_interval(), 2.7 / r_.features.omega_low}), step_s);
     r_.candidates.push_back(std::move(c));
+  }
+
+  /// Does the law give an implicit method less than what the best method so far takes?
+  bool is_promising(const Scheme& scheme) const {
+    const double step_s = std::max(r_.features.implicit_step_s, least_implicit_step * r_.features.force_s);
+    const double needed = std::max(steps_for_error(r_.features, scheme.order, scene_.duration, sought()),
+                                   static_cast<double>(scene_.motion.checkpoints.size()));
+    return needed * scheme.stages * step_s < pilots_->cheapest_s();
   }
 
   void try_implicit(const Scheme& scheme) {
@@ -160,9 +176,10 @@ class Search {
     else if (fixed->predicted_s > hope * pilots_->cheapest_s())
       c.pruned =
           fmt::format("with fixed steps it costs {:.1f} times the best", fixed->predicted_s / pilots_->cheapest_s());
-    else if (1.5 * fixed->predicted_s > pilots_->left_s())
+    else if (1.5 * fixed->predicted_s > pilots_->left_s()) {
+      c.untried = true;
       c.pruned = "its pilots would take too long";
-    else
+    } else
       pilot_tolerances(c, *pilots_, sought());
     if (c.usable()) solve(c);
     r_.candidates.push_back(std::move(c));
@@ -257,6 +274,13 @@ const Candidate* Recommendation::pick() const {
 }
 const Candidate* Recommendation::runner_up() const {
   return candidates.size() > 1 && candidates[1].usable() ? &candidates[1] : nullptr;
+}
+
+std::vector<std::string> Recommendation::untried() const {
+  std::vector<std::string> names;
+  for (const Candidate& c : candidates)
+    if (c.untried) names.push_back(c.contender);
+  return names;
 }
 
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
