@@ -11,6 +11,10 @@ namespace dartboard {
 /// Text within gnuplot's double quotes.
 std::string quoted(const std::string& text);
 
+/// The same of a title for a picture of that width [pixels] and font [points]: broken between words into at most
+/// `lines` lines, shortened with "..." where these do not hold it.
+std::string quoted_title(const std::string& text, int width, double font, int lines = 3);
+
 /// "file" using 1:2 with ...: a series drawn from its data file, with its labels if it has some.
 std::string plot_element(const PlotSeries& series, const std::string& data_file);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "benchmarks/gnuplot.h"
@@ -9,6 +10,15 @@
 
 namespace dartboard {
 namespace {
+
+constexpr double title_font = 15.0;
+
+/// Where the title is centred: the picture without its legend [pixels].
+int plot_width(const Plot& plot) {
+  std::size_t longest = 0;
+  for (const PlotSeries& s : plot.series) longest = std::max(longest, s.title.size());
+  return plot.width - (longest == 0 ? 0 : 60 + 9 * static_cast<int>(std::min<std::size_t>(longest, 80)));
+}
 
 std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
 
@@ -26,7 +36,7 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set logscale xy\n"
       "set format x \"10^{{%T}}\"\nset format y \"10^{{%T}}\"\n"
       "set xrange [{:.17g}:{:.17g}]\nset yrange [{:.17g}:{:.17g}]\n"
-      "set title {} font \",17\" noenhanced offset 0,0.3\n"
+      "set title {} font \",{:g}\" noenhanced offset 0,0.3\n"
       "set xlabel {} font \",14\" noenhanced\nset ylabel {} font \",14\" noenhanced offset -0.5,0\n"
       "set tics out nomirror\nset border 3 linewidth 1.2 linecolor rgb \"#404040\"\n"
       "set mxtics 10\nset mytics 10\n"
@@ -34,8 +44,8 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set key outside right top vertical Left reverse noenhanced samplen 2.2 spacing 1.25 font \",12\"\n"
       "set datafile separator whitespace\n",
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
-      quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
-      quoted(plot.y_axis));
+      quoted_title(plot.title + (plot.subtitle.empty() ? "" : " - " + plot.subtitle), plot_width(plot), title_font),
+      title_font, quoted(plot.x_axis), quoted(plot.y_axis));
   if (!plot.rows.empty()) {
     std::string names;
     for (std::size_t k = 0; k < plot.rows.size(); ++k)

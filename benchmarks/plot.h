@@ -21,7 +21,8 @@ struct PlotSeries {
   double width = 0.0;  // of a line through the points in their order; 0: none
   std::string dash{};  // "-", ".": gnuplot's dash type; empty: solid
   double opacity = 1.0;
-  bool slanted = false;  // labels, above and at 45 degrees
+  bool slanted = false;    // labels, above and at 45 degrees
+  bool staircase = false;  // a line that keeps the y of a point up to the x of the next
 };
 
 struct Plot {

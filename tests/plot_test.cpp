@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "benchmarks/gnuplot.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 
@@ -56,6 +57,21 @@ TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
   EXPECT_NE(script.find("\"figure-0.dat\" using 1:2 with linespoints linecolor rgb \"#80ff0000\""), std::string::npos);
   EXPECT_EQ(script.find("figure-1.dat"), std::string::npos);
   EXPECT_NE(script.find("A \\\"quoted\\\" title"), std::string::npos);
+}
+
+TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
+  // 200 pixels of 10-point letters, 8 pixels each: 23 letters a line
+  EXPECT_EQ(quoted_title("short", 200, 10.0), "\"short\"");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0), "\"one two three four five\\nsix seven\"");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0, 1), "\"one two three four ...\"");
+  // letters beyond ASCII count once, quotes are escaped, blanks and breaks are one blank
+  EXPECT_EQ(
+      quoted_title(
+          "\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9",
+          200, 10.0),
+      "\"\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 "
+      "\xC3\xA9t\xC3\xA9\"");
+  EXPECT_EQ(quoted_title("a \"b\"\n  c", 200, 10.0), "\"a \\\"b\\\" c\"");
 }
 
 TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
@@ -133,6 +149,8 @@ TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
   ASSERT_EQ(front->points.size(), 2u);
   EXPECT_EQ(front->points[0].x, 10.0);
   EXPECT_EQ(front->points[1].x, 100.0);
+  // what lies between two runs was not reached
+  EXPECT_NE(plot_element(*front, "front").find("with steps"), std::string::npos);
 }
 
 }  // namespace
