@@ -66,8 +66,14 @@ std::string quoted_title(const std::string& text, int width, double font, int li
   return "\"" + out + "\"";
 }
 
-std::string plot_element(const PlotSeries& s, const std::string& data_file) {
-  const std::string file = quoted(data_file);
+std::string DataBlocks::add(const std::string& what, const std::string& lines) {
+  std::string comment = what;
+  std::ranges::replace(comment, '\n', ' ');
+  text_ += fmt::format("{}# {}\n{}", count_ == 0 ? "" : "\n\n", comment, lines);
+  return fmt::format("{} index {}", quoted(file()), count_++);
+}
+
+std::string plot_element(const PlotSeries& s, const std::string& data) {
   const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
   std::string look = s.staircase                     ? "steps"
                      : s.width > 0.0 && s.symbol > 0 ? "linespoints"
@@ -77,13 +83,13 @@ std::string plot_element(const PlotSeries& s, const std::string& data_file) {
   if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
   if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
   if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
-  std::string element = fmt::format("{} using 1:2 with {} {}", file, look, title);
+  std::string element = fmt::format("{} using 1:2 with {} {}", data, look, title);
   bool labelled = false;
   for (const auto& p : s.points) labelled |= !p.label.empty();
   if (labelled)
     element +=
         fmt::format(", \\\n     {} using 1:2:3 with labels {} left noenhanced font \",9\" textcolor rgb {} notitle",
-                    file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
+                    data, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
   return element;
 }
 

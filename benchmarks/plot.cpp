@@ -20,7 +20,21 @@ int plot_width(const Plot& plot) {
   return plot.width - (longest == 0 ? 0 : 60 + 9 * static_cast<int>(std::min<std::size_t>(longest, 80)));
 }
 
-std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
+struct Drawing {
+  DataBlocks data;
+  std::string lines;  // of the command that plots them
+};
+
+Drawing drawing_of(const Plot& plot, const std::string& name) {
+  Drawing drawing{DataBlocks(name), ""};
+  for (const PlotSeries& s : plot.series) {
+    if (s.points.empty()) continue;
+    drawing.lines += (drawing.lines.empty() ? "plot " : ", \\\n     ") +
+                     plot_element(s, drawing.data.add(s.title.empty() ? "without a name" : s.title, plot_data(s)));
+  }
+  if (drawing.lines.empty()) drawing.lines = "plot NaN notitle";
+  return drawing;
+}
 
 }  // namespace
 
@@ -75,22 +89,15 @@ std::string plot_script(const Plot& plot, const std::string& name) {
         "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
         quoted(plot.shaded_label));
   }
-  std::string lines;
-  for (std::size_t k = 0; k < plot.series.size(); ++k) {
-    const PlotSeries& s = plot.series[k];
-    if (s.points.empty()) continue;
-    lines += (lines.empty() ? "plot " : ", \\\n     ") + plot_element(s, data_file(name, k));
-  }
-  if (lines.empty()) lines = "plot NaN notitle";
-  return script + for_both_pictures(lines, name, plot.width, plot.height);
+  return script + for_both_pictures(drawing_of(plot, name).lines, name, plot.width, plot.height);
 }
 
 std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
                  const std::string& gnuplot) {
   if (!(plot.x_low > 0.0 && plot.x_low < plot.x_high && plot.y_low > 0.0 && plot.y_low < plot.y_high))
     throw InputError("a logarithmic axis must be positive and ascending");
-  for (std::size_t k = 0; k < plot.series.size(); ++k)
-    if (!plot.series[k].points.empty()) write_plot_file(folder / data_file(name, k), plot_data(plot.series[k]));
+  const DataBlocks data = drawing_of(plot, name).data;
+  write_plot_file(folder / data.file(), data.text());
   // the script names its files without a folder, so that they can be moved together
   write_plot_file(folder / (name + ".gnuplot"), plot_script(plot, name));
   return run_gnuplot(gnuplot, folder, name);

@@ -54,8 +54,9 @@ TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
   const std::string script = plot_script(small_plot(), "figure");
   EXPECT_NE(script.find("set output \"figure.png\""), std::string::npos);
   EXPECT_NE(script.find("set output \"figure.svg\""), std::string::npos);
-  EXPECT_NE(script.find("\"figure-0.dat\" using 1:2 with linespoints linecolor rgb \"#80ff0000\""), std::string::npos);
-  EXPECT_EQ(script.find("figure-1.dat"), std::string::npos);
+  EXPECT_NE(script.find("\"figure.dat\" index 0 using 1:2 with linespoints linecolor rgb \"#80ff0000\""),
+            std::string::npos);
+  EXPECT_EQ(script.find("index 1"), std::string::npos);
   EXPECT_NE(script.find("A \\\"quoted\\\" title"), std::string::npos);
 }
 
@@ -77,8 +78,16 @@ TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
 TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
   const std::string trouble = draw(small_plot(), folder_, "figure", "no-such-gnuplot");
   EXPECT_NE(trouble.find("no-such-gnuplot"), std::string::npos) << trouble;
-  EXPECT_NE(text("figure-0.dat").find("100 1 \"end\""), std::string::npos);
+  EXPECT_NE(text("figure.dat").find("100 1 \"end\""), std::string::npos);
   EXPECT_FALSE(text("figure.gnuplot").empty());
+}
+
+TEST_F(PlotTest, OneFileHoldsTheDataOfAllSeries) {
+  Plot plot = small_plot();
+  plot.series.push_back({.title = "second", .points = {{2.0, 3.0}}, .colour = "#00ff00"});
+  ASSERT_EQ(draw(plot, folder_, "figure"), "");
+  EXPECT_EQ(text("figure.dat"), "# line\n1 100 \"\"\n10 10 \"\"\n100 1 \"end\"\n\n\n# second\n2 3 \"\"\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 4);  // data, script, pictures
 }
 
 TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
