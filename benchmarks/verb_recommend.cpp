@@ -235,9 +235,9 @@ void recommend_verb(const Options& options, Outcome& outcome) {
       report[k]["audit"] = json_of(a);
       const bool told = a.error >= reference.floor;
       if (told && !a.met()) outcome.exit_code = exit_disagrees;
-      table.add_row({fmt::format("{:.0e}", a.error), all[k].pick()->contender, fmt::format("{:.2e}", a.actual_error),
-                     fmt::format("{:.2e}", a.predicted_error),
-                     !told     ? "below the floor"
+      table.add_row({fmt::format("{:.0e}", a.error), all[k].pick()->contender,
+                     told ? fmt::format("{:.2e}", a.actual_error) : "-", fmt::format("{:.2e}", a.predicted_error),
+                     !told     ? "not judged: the reference is no better than that"
                      : a.met() ? "yes"
                                : "NO",
                      fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),
