@@ -116,9 +116,10 @@ Table audit_table(const std::vector<AuditedPair>& pairs) {
       continue;
     }
     const bool compared = p.swept && std::isfinite(a.best_cost);
-    table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick, fmt::format("{:.3f}", a.actual_error / a.error),
-                   !std::isfinite(p.floor) ? "not checked"
-                   : !p.told()             ? "below the floor"
+    table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick,
+                   p.told() ? fmt::format("{:.3f}", a.actual_error / a.error) : "-",
+                   !std::isfinite(p.floor) ? "not judged: followed for its cost only"
+                   : !p.told()             ? "not judged: the reference is no better than that"
                    : a.met()               ? "yes"
                                            : "NO",
                    fmt::format("{:.0f}", a.actual_evaluations), fmt::format("{:.3f}", p.count_ratio()),

@@ -191,7 +191,8 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
       "set encoding utf8\nunset key\nunset border\nunset tics\nset margins 0,0,0,3\nset size ratio -1\n"
       "set title {} font \",16\" noenhanced\n{}set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
       "set style fill solid 1.0 noborder\n",
-      quoted(title), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(), 0.5 * size.y());
+      quoted_title(title, width, 16.0, 1), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(),
+      0.5 * size.y());
   const std::string commands =
       data.empty() ? "plot NaN"
                    : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable", quoted(name + ".dat"));

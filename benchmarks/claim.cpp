@@ -54,13 +54,21 @@ std::string to_text(std::span<const Claim> claims) {
 Table table_of(std::span<const Claim> claims) {
   const bool reasons =
       std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return !claim.reason.empty(); });
-  std::vector<Column> columns{
-      {"claim"}, {"section"}, {"paper", Align::right}, {"measured", Align::right}, {"interval or bound"}, {"verdict"}};
+  // without a section of the paper it is a target of our own
+  const auto of_paper = std::count_if(claims.begin(), claims.end(), [](const Claim& c) { return !c.section.empty(); });
+  const bool sections = of_paper > 0;
+  const std::string asserted = !sections ? "target" : of_paper == std::ssize(claims) ? "paper" : "paper, or target";
+  std::vector<Column> columns{{"claim"}};
+  if (sections) columns.push_back({"section"});
+  columns.insert(columns.end(),
+                 {{asserted, Align::right}, {"measured", Align::right}, {"interval or bound"}, {"verdict"}});
   if (reasons) columns.push_back({"reason"});
   Table table(std::move(columns));
   for (const Claim& claim : claims) {
-    std::vector<std::string> row{claim.text,     claim.section,           claim.paper_value,
-                                 claim.measured, claim.bound_or_interval, std::string(name(claim.verdict))};
+    std::vector<std::string> row{claim.text};
+    if (sections) row.push_back(claim.section);
+    row.insert(row.end(),
+               {claim.paper_value, claim.measured, claim.bound_or_interval, std::string(name(claim.verdict))});
     if (reasons) row.push_back(claim.reason);
     table.add_row(std::move(row));
   }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "benchmarks/processes.h"
 #include "core/plain/error.h"
@@ -18,6 +21,12 @@ std::string colour(const PlotSeries& series) {
   return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
 }
 
+/// Of a text in UTF-8.
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text) {
@@ -29,21 +38,58 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string plot_element(const PlotSeries& s, const std::string& data_file) {
-  const std::string file = quoted(data_file);
+std::string quoted_title(const std::string& text, int width, double font, int lines) {
+  // DejaVu Sans: letters are 0.6 of the font wide on average, blanks included; a point is 4/3 pixels
+  const auto most = static_cast<std::size_t>(std::max(20.0, 0.94 * width / (0.6 * font * 4.0 / 3.0)));
+  std::vector<std::string> broken(1);
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = broken.back();
+    if (line.empty())
+      line = word;
+    else if (letters(line) + 1 + letters(word) <= most)
+      line += " " + word;
+    else if (broken.size() < static_cast<std::size_t>(lines))
+      broken.push_back(word);
+    else {
+      // words go until the dots fit
+      while (letters(line) + 4 > most && line.find(' ') != std::string::npos) line.erase(line.rfind(' '));
+      line += " ...";
+      break;
+    }
+  }
+  std::string out;
+  for (const std::string& line : broken) {
+    const std::string part = quoted(line);
+    out += (out.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
+  }
+  return "\"" + out + "\"";
+}
+
+std::string DataBlocks::add(const std::string& what, const std::string& lines) {
+  std::string comment = what;
+  std::ranges::replace(comment, '\n', ' ');
+  text_ += fmt::format("{}# {}\n{}", count_ == 0 ? "" : "\n\n", comment, lines);
+  return fmt::format("{} index {}", quoted(file()), count_++);
+}
+
+std::string plot_element(const PlotSeries& s, const std::string& data) {
   const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
-  std::string look = s.width > 0.0 && s.symbol > 0 ? "linespoints" : s.width > 0.0 ? "lines" : "points";
+  std::string look = s.staircase                     ? "steps"
+                     : s.width > 0.0 && s.symbol > 0 ? "linespoints"
+                     : s.width > 0.0                 ? "lines"
+                                                     : "points";
   look += " linecolor rgb " + colour(s);
   if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
   if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
   if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
-  std::string element = fmt::format("{} using 1:2 with {} {}", file, look, title);
+  std::string element = fmt::format("{} using 1:2 with {} {}", data, look, title);
   bool labelled = false;
   for (const auto& p : s.points) labelled |= !p.label.empty();
   if (labelled)
     element +=
         fmt::format(", \\\n     {} using 1:2:3 with labels {} left noenhanced font \",9\" textcolor rgb {} notitle",
-                    file, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
+                    data, s.slanted ? "rotate by 45 offset 0.3,0.5" : "offset 0.8,0", colour(s));
   return element;
 }
 

@@ -11,8 +11,28 @@ namespace dartboard {
 /// Text within gnuplot's double quotes.
 std::string quoted(const std::string& text);
 
-/// "file" using 1:2 with ...: a series drawn from its data file, with its labels if it has some.
-std::string plot_element(const PlotSeries& series, const std::string& data_file);
+/// The same of a title for a picture of that width [pixels] and font [points]: broken between words into at most
+/// `lines` lines, shortened with "..." where these do not hold it.
+std::string quoted_title(const std::string& text, int width, double font, int lines = 3);
+
+/// ... using 1:2 with ...: a series drawn from its data ("figure.dat" index 3), with its labels if it has some.
+std::string plot_element(const PlotSeries& series, const std::string& data);
+
+/// The data of all that one picture shows, in one file beside it: blocks, which gnuplot calls by their index.
+class DataBlocks {
+ public:
+  explicit DataBlocks(const std::string& name) : name_(name) {}
+  /// Another block under a comment: lines of numbers, without an empty one.
+  ///
+  /// returns what a script calls it by
+  std::string add(const std::string& what, const std::string& lines);
+  const std::string& text() const { return text_; }
+  std::string file() const { return name_ + ".dat"; }
+
+ private:
+  std::string name_, text_;
+  int count_ = 0;
+};
 
 /// throws  IoError if it cannot be written
 void write_plot_file(const std::filesystem::path& file, const std::string& text);

@@ -10,11 +10,13 @@
 namespace dartboard {
 namespace {
 
-std::string series_file(const std::string& name, std::size_t panel, std::size_t k) {
-  return fmt::format("{}-{}-{}.dat", name, panel, k);
-}
-std::string field_file(const std::string& name, std::size_t panel) {
-  return fmt::format("{}-{}-field.dat", name, panel);
+std::string field_data(const Panels& panels, const Field& field) {
+  std::string text;
+  for (std::size_t y = 0; y < field.y.size(); ++y)
+    for (std::size_t x = 0; x < field.x.size(); ++x)
+      text += fmt::format("{:.6g} {:.6g} {:.6g}\n", field.x[x], field.y[y],
+                          std::clamp(field.values[y * field.x.size() + x], panels.field_low, panels.field_high));
+  return text;
 }
 
 std::string axis(char which, bool logarithmic, double low, double high, const std::string& label) {
@@ -23,7 +25,7 @@ std::string axis(char which, bool logarithmic, double low, double high, const st
       logarithmic ? "set" : "unset", which, logarithmic ? "10^{%T}" : "%g", low, high, quoted(label));
 }
 
-std::string panel_script(const Panels& panels, std::size_t k, const std::string& name) {
+std::string panel_script(const Panels& panels, std::size_t k, DataBlocks& data) {
   const Panel& panel = panels.panels[k];
   std::string script = fmt::format("set title {} noenhanced font \",13\" offset 0,-0.5\n", quoted(panel.title)) +
                        axis('x', panel.x_log, panel.x_low, panel.x_high, panel.x_axis) +
@@ -41,9 +43,11 @@ std::string panel_script(const Panels& panels, std::size_t k, const std::string&
   const auto add = [&lines](const std::string& element) {
     lines += (lines.empty() ? "plot " : ", \\\n     ") + element;
   };
-  if (!panel.field.values.empty()) add(fmt::format("{} using 1:2:3 with image notitle", quoted(field_file(name, k))));
-  for (std::size_t s = 0; s < panel.series.size(); ++s)
-    if (!panel.series[s].points.empty()) add(plot_element(panel.series[s], series_file(name, k, s)));
+  if (!panel.field.values.empty())
+    add(fmt::format("{} using 1:2:3 with image notitle",
+                    data.add(panel.title + ": the field", field_data(panels, panel.field))));
+  for (const PlotSeries& s : panel.series)
+    if (!s.points.empty()) add(plot_element(s, data.add(fmt::format("{}: {}", panel.title, s.title), plot_data(s))));
   return script + (lines.empty() ? "plot NaN notitle" : lines) + "\n";
 }
 
@@ -78,8 +82,9 @@ std::string panels_script(const Panels& panels, const std::string& name) {
         "set multiplot layout {},{} rowsfirst margins 0.055,{},0.075,0.9 spacing 0.055,0.13 title {} noenhanced font "
         "\",17\"\n",
         terminal, quoted(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
-        quoted(panels.title));
-    for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, name);
+        quoted_title(panels.title, panels.width, 17.0, 2));
+    DataBlocks data(name);
+    for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, data);
     script += "unset multiplot\nunset output\n";
   }
   return script;
@@ -87,21 +92,12 @@ std::string panels_script(const Panels& panels, const std::string& name) {
 
 std::string draw(const Panels& panels, const std::filesystem::path& folder, const std::string& name,
                  const std::string& gnuplot) {
+  DataBlocks data(name);
   for (std::size_t k = 0; k < panels.panels.size(); ++k) {
-    const Panel& panel = panels.panels[k];
-    check(panel);
-    for (std::size_t s = 0; s < panel.series.size(); ++s)
-      if (!panel.series[s].points.empty())
-        write_plot_file(folder / series_file(name, k, s), plot_data(panel.series[s]));
-    if (panel.field.values.empty()) continue;
-    std::string text;
-    for (std::size_t y = 0; y < panel.field.y.size(); ++y)
-      for (std::size_t x = 0; x < panel.field.x.size(); ++x)
-        text += fmt::format(
-            "{:.6g} {:.6g} {:.6g}\n", panel.field.x[x], panel.field.y[y],
-            std::clamp(panel.field.values[y * panel.field.x.size() + x], panels.field_low, panels.field_high));
-    write_plot_file(folder / field_file(name, k), text);
+    check(panels.panels[k]);
+    panel_script(panels, k, data);
   }
+  write_plot_file(folder / data.file(), data.text());
   // the script names its files without a folder, so that they can be moved together
   write_plot_file(folder / (name + ".gnuplot"), panels_script(panels, name));
   return run_gnuplot(gnuplot, folder, name);

@@ -41,7 +41,8 @@ struct Panels {
   int width = 1800, height = 1000;  // pixels of the PNG
 };
 
-/// gnuplot's script for `name`.svg and `name`.png; data of panel p are in "`name`-p-k.dat" and "`name`-p-field.dat".
+/// gnuplot's script for `name`.svg and `name`.png; the data of the panels are the blocks of
+/// "`name`.dat", of each the field and then its series.
 std::string panels_script(const Panels& panels, const std::string& name);
 
 /// As `draw` of a plot.

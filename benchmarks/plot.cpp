@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "benchmarks/gnuplot.h"
@@ -10,7 +11,30 @@
 namespace dartboard {
 namespace {
 
-std::string data_file(const std::string& name, std::size_t k) { return fmt::format("{}-{}.dat", name, k); }
+constexpr double title_font = 15.0;
+
+/// Where the title is centred: the picture without its legend [pixels].
+int plot_width(const Plot& plot) {
+  std::size_t longest = 0;
+  for (const PlotSeries& s : plot.series) longest = std::max(longest, s.title.size());
+  return plot.width - (longest == 0 ? 0 : 60 + 9 * static_cast<int>(std::min<std::size_t>(longest, 80)));
+}
+
+struct Drawing {
+  DataBlocks data;
+  std::string lines;  // of the command that plots them
+};
+
+Drawing drawing_of(const Plot& plot, const std::string& name) {
+  Drawing drawing{DataBlocks(name), ""};
+  for (const PlotSeries& s : plot.series) {
+    if (s.points.empty()) continue;
+    drawing.lines += (drawing.lines.empty() ? "plot " : ", \\\n     ") +
+                     plot_element(s, drawing.data.add(s.title.empty() ? "without a name" : s.title, plot_data(s)));
+  }
+  if (drawing.lines.empty()) drawing.lines = "plot NaN notitle";
+  return drawing;
+}
 
 }  // namespace
 
@@ -26,7 +50,7 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set logscale xy\n"
       "set format x \"10^{{%T}}\"\nset format y \"10^{{%T}}\"\n"
       "set xrange [{:.17g}:{:.17g}]\nset yrange [{:.17g}:{:.17g}]\n"
-      "set title {} font \",17\" noenhanced offset 0,0.3\n"
+      "set title {} font \",{:g}\" noenhanced offset 0,0.3\n"
       "set xlabel {} font \",14\" noenhanced\nset ylabel {} font \",14\" noenhanced offset -0.5,0\n"
       "set tics out nomirror\nset border 3 linewidth 1.2 linecolor rgb \"#404040\"\n"
       "set mxtics 10\nset mytics 10\n"
@@ -34,8 +58,8 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set key outside right top vertical Left reverse noenhanced samplen 2.2 spacing 1.25 font \",12\"\n"
       "set datafile separator whitespace\n",
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
-      quoted(plot.title + (plot.subtitle.empty() ? "" : "  -  " + plot.subtitle)), quoted(plot.x_axis),
-      quoted(plot.y_axis));
+      quoted_title(plot.title + (plot.subtitle.empty() ? "" : " - " + plot.subtitle), plot_width(plot), title_font),
+      title_font, quoted(plot.x_axis), quoted(plot.y_axis));
   if (!plot.rows.empty()) {
     std::string names;
     for (std::size_t k = 0; k < plot.rows.size(); ++k)
@@ -65,22 +89,15 @@ std::string plot_script(const Plot& plot, const std::string& name) {
         "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
         quoted(plot.shaded_label));
   }
-  std::string lines;
-  for (std::size_t k = 0; k < plot.series.size(); ++k) {
-    const PlotSeries& s = plot.series[k];
-    if (s.points.empty()) continue;
-    lines += (lines.empty() ? "plot " : ", \\\n     ") + plot_element(s, data_file(name, k));
-  }
-  if (lines.empty()) lines = "plot NaN notitle";
-  return script + for_both_pictures(lines, name, plot.width, plot.height);
+  return script + for_both_pictures(drawing_of(plot, name).lines, name, plot.width, plot.height);
 }
 
 std::string draw(const Plot& plot, const std::filesystem::path& folder, const std::string& name,
                  const std::string& gnuplot) {
   if (!(plot.x_low > 0.0 && plot.x_low < plot.x_high && plot.y_low > 0.0 && plot.y_low < plot.y_high))
     throw InputError("a logarithmic axis must be positive and ascending");
-  for (std::size_t k = 0; k < plot.series.size(); ++k)
-    if (!plot.series[k].points.empty()) write_plot_file(folder / data_file(name, k), plot_data(plot.series[k]));
+  const DataBlocks data = drawing_of(plot, name).data;
+  write_plot_file(folder / data.file(), data.text());
   // the script names its files without a folder, so that they can be moved together
   write_plot_file(folder / (name + ".gnuplot"), plot_script(plot, name));
   return run_gnuplot(gnuplot, folder, name);

@@ -21,7 +21,8 @@ struct PlotSeries {
   double width = 0.0;  // of a line through the points in their order; 0: none
   std::string dash{};  // "-", ".": gnuplot's dash type; empty: solid
   double opacity = 1.0;
-  bool slanted = false;  // labels, above and at 45 degrees
+  bool slanted = false;    // labels, above and at 45 degrees
+  bool staircase = false;  // a line that keeps the y of a point up to the x of the next
 };
 
 struct Plot {
@@ -36,12 +37,13 @@ struct Plot {
   int width = 1400, height = 900;  // pixels of the PNG
 };
 
-/// gnuplot's script; the data of series k are in "`name`-k.dat". Two pictures: `name`.svg and `name`.png.
+/// gnuplot's script; the data of the series that have points are the blocks of "`name`.dat", in their order. Two
+/// pictures: `name`.svg and `name`.png.
 std::string plot_script(const Plot& plot, const std::string& name);
 /// The data of a series: x, y and label, one point a line.
 std::string plot_data(const PlotSeries& series);
 
-/// Write the data into files of `folder` and draw the pictures.
+/// Write the data into a file of `folder` and draw the pictures.
 ///
 /// returns what went wrong, in a sentence, when gnuplot is missing or fails: data and script are kept then; empty when
 ///         all is well

@@ -1,6 +1,7 @@
 #include "benchmarks/settle_accuracy.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +18,14 @@ namespace dartboard {
 std::string to_string(const SettledAccuracy& s) {
   return fmt::format(
       "for an accuracy of {:.3g} edges: {}{} with h = {:.6g} s; expected error {:.1e} edges{}, expected time {:.3g} s; "
-      "the choice took {:.3g} s",
+      "the choice took {:.3g} s\n  in place of /accuracy, these settle it for good: \"integrator\": \"{}\", \"step\": "
+      "{}{}",
       s.accuracy, s.integrator, s.integrator_named ? " (named by the scene)" : "", s.step, s.predicted_error,
       s.omissions.empty() ? "" : fmt::format(", {} aside", counted(s.omissions.size(), "thing")), s.predicted_s,
-      s.pilot_s);
+      s.pilot_s, s.integrator, nlohmann::json(s.step).dump(),
+      s.untried.empty() ? ""
+                        : fmt::format("\n  not tried for want of time, and another run may choose one of them: {}",
+                                      fmt::join(s.untried, "; ")));
 }
 
 void to_json(nlohmann::json& json, const SettledAccuracy& s) {
@@ -32,7 +37,8 @@ void to_json(nlohmann::json& json, const SettledAccuracy& s) {
           {"predicted_error", s.predicted_error},
           {"predicted_s", s.predicted_s},
           {"pilot_s", s.pilot_s},
-          {"omissions", s.omissions}};
+          {"omissions", s.omissions},
+          {"untried", s.untried}};
 }
 
 double step_fitting_times(const SceneFile& scene, double largest) {
@@ -61,6 +67,11 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     options.only = scene.integrator;
     const Recommendation r = recommend(studied, *scene.accuracy, clock, options);
     const Candidate* pick = r.pick();
+    if (pick == nullptr && std::isfinite(r.best_error))
+      throw InputError(
+          fmt::format("{}: /accuracy: is {} mean edge lengths, which cannot be met in double precision; expected a "
+                      "larger one: about {:.1e} is the best, with {}",
+                      scene.file, *scene.accuracy, r.best_error, r.best_error_by));
     if (pick == nullptr)
       throw InputError(
           fmt::format("{}: /accuracy: is {} mean edge lengths, and no step{} was found to meet it; "
@@ -73,6 +84,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);
     settled.pilot_s = r.pilot_s;
     settled.omissions = studied.omissions;
+    settled.untried = r.untried();
   } else {
     // nothing moves: any will do
     scene.step = 1.0;

@@ -22,8 +22,10 @@ struct SettledAccuracy {
   double predicted_s = 0.0;            // [s] of the run
   double pilot_s = 0.0;                // [s] that the choice took
   std::vector<std::string> omissions;  // what it leaves out of consideration
+  std::vector<std::string> untried;    // the methods that there was no time to try
 };
-/// In one line.
+/// In one line, and a second with the members of the scene that make the choice a fixed one; a third for what was not
+/// tried.
 std::string to_string(const SettledAccuracy& settled);
 void to_json(nlohmann::json& json, const SettledAccuracy& settled);
 

@@ -1,6 +1,7 @@
 // dartboard recommend: the cheapest integrator and step for an error, predicted, and audited on request.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,8 @@ nlohmann::json json_of(const Candidate& c) {
   nlohmann::json json{{"integrator", c.contender}, {"implicit", c.implicit}, {"order", c.order}};
   if (!c.usable()) {
     json["pruned"] = c.pruned;
+    json["untried"] = c.untried;
+    if (c.least_error > 0.0) json["least_error"] = c.least_error;
     return json;
   }
   if (c.adaptive) json["tolerance"] = c.tolerance;
@@ -39,6 +42,7 @@ nlohmann::json json_of(const Candidate& c) {
                {"observed_order", number(c.observed_order)},
                {"stability_limit_h", number(c.limit_h)},
                {"limited_by_stability", c.limited_by_stability},
+               {"fewest_steps_tried", c.fewest_steps},
                {"steps", c.steps},
                {"h", c.h},
                {"predicted_error", number(c.predicted_error)},
@@ -67,6 +71,8 @@ nlohmann::json json_of(const Recommendation& r) {
             {"force_s", f.force_s},
             {"implicit_step_s", number(f.implicit_step_s)}}},
           {"candidates", candidates},
+          {"untried", r.untried()},
+          {"best_error", {{"error", number(r.best_error)}, {"integrator", r.best_error_by}}},
           {"one_more_digit", {{"cost_ratio", number(r.one_more_digit)}, {"integrator", r.one_more_digit_by}}},
           {"realtime",
            {{"factor", number(r.realtime_factor)}, {"error", number(r.realtime_error)}, {"integrator", r.realtime_by}}},
@@ -96,6 +102,7 @@ Table candidates_table(const Recommendation& r) {
                {"h [ms]", Align::right},
                {"limit of h [ms]", Align::right},
                {"error", Align::right},
+               {"cost [evaluations' time]", Align::right},
                {"force evaluations", Align::right},
                {"time", Align::right},
                {"order seen", Align::right},
@@ -106,7 +113,7 @@ Table candidates_table(const Recommendation& r) {
                      fmt::format("{:.4g}", 1e3 * c.h),
                      std::isfinite(c.limit_h) ? fmt::format("{:.4g}", 1e3 * c.limit_h) : "none",
                      fmt::format("{:.1e}", c.predicted_error), fmt::format("{:.0f}", c.predicted_cost),
-                     milliseconds(c.predicted_s),
+                     fmt::format("{:.0f}", c.predicted_evaluations), milliseconds(c.predicted_s),
                      c.confidence == Confidence::sufficient ? "-"
                      : c.adaptive                           ? fmt::format("{:.2f} of the tolerance", c.observed_order)
                                                             : fmt::format("{:.2f} of {}", c.observed_order, c.order),
@@ -123,19 +130,33 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
       1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
+  if (const auto untried = r.untried(); !untried.empty())
+    text += fmt::format("{} of {} methods were not tried for want of time, and another run may pick one of them: {}\n",
+                        untried.size(), r.candidates.size(), fmt::join(untried, "; "));
   const Candidate* pick = r.pick();
-  if (pick == nullptr) return text + "\nNothing can be recommended.\n";
-  text += fmt::format("\nTake {} with {}{}: error {:.1e}, {} here ({:.0f} force evaluations).\n", pick->contender,
-                      pick->adaptive
-                          ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
-                          : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
-                      pick->limited_by_stability ? ", all that stability allows" : "", pick->predicted_error,
-                      milliseconds(pick->predicted_s), pick->predicted_cost);
+  if (pick == nullptr)
+    return text +
+           (std::isfinite(r.best_error)
+                ? fmt::format("\nAn error of {:.3g} edges cannot be met in double precision; about {:.1e} is the "
+                              "best, with {}.\n",
+                              r.error, r.best_error, r.best_error_by)
+                : "\nNothing can be recommended.\n");
+  text += fmt::format(
+      "\nTake {} with {}{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes {:.0f}).\n",
+      pick->contender,
+      pick->adaptive ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
+                     : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
+      pick->limited_by_stability ? ", all that stability allows"
+      : pick->fewest_steps       ? ", the fewest steps tried"
+                                 : "",
+      pick->predicted_error, milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,
                         second->predicted_cost / pick->predicted_cost);
-  text += fmt::format("One more digit costs {:.2f} times as much, with {}.\n", r.one_more_digit, r.one_more_digit_by);
+  text += r.one_more_digit_by.empty() ? "One more digit is beyond double precision, or takes too many steps.\n"
+                                      : fmt::format("One more digit costs {:.2f} times as much, with {}.\n",
+                                                    r.one_more_digit, r.one_more_digit_by);
   text += fmt::format("The pilots took {}, {:.3g} times the run.\n", milliseconds(r.pilot_s),
                       r.pilot_s / pick->predicted_s);
   if (realtime) {
@@ -204,7 +225,7 @@ void recommend_verb(const Options& options, Outcome& outcome) {
                  {"actual", Align::right},
                  {"predicted", Align::right},
                  {"met"},
-                 {"cost", Align::right},
+                 {"cost [evaluations' time]", Align::right},
                  {"predicted/actual", Align::right},
                  {"best of the sweep"},
                  {"regret", Align::right}});
@@ -214,9 +235,9 @@ void recommend_verb(const Options& options, Outcome& outcome) {
       report[k]["audit"] = json_of(a);
       const bool told = a.error >= reference.floor;
       if (told && !a.met()) outcome.exit_code = exit_disagrees;
-      table.add_row({fmt::format("{:.0e}", a.error), all[k].pick()->contender, fmt::format("{:.2e}", a.actual_error),
-                     fmt::format("{:.2e}", a.predicted_error),
-                     !told     ? "below the floor"
+      table.add_row({fmt::format("{:.0e}", a.error), all[k].pick()->contender,
+                     told ? fmt::format("{:.2e}", a.actual_error) : "-", fmt::format("{:.2e}", a.predicted_error),
+                     !told     ? "not judged: the reference is no better than that"
                      : a.met() ? "yes"
                                : "NO",
                      fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),

@@ -94,6 +94,7 @@ std::string show(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) 
 Table winners_table(const WorkPrecision& study) {
   Table table({{"error [edges]"},
                {"cheapest"},
+               {"cost [evaluations' time]", Align::right},
                {"force evaluations", Align::right},
                {"seconds", Align::right},
                {"runner-up"},
@@ -108,9 +109,10 @@ Table winners_table(const WorkPrecision& study) {
   for (const Winner& w : winners(study.points, decades(study))) {
     const double peer = cost_at(study.points, "cvode-adams", w.error);
     if (w.contender.empty())
-      table.add_row({fmt::format("{:.0e}", w.error), "none", "-", "-", "-", "-", "-"});
+      table.add_row({fmt::format("{:.0e}", w.error), "none", "-", "-", "-", "-", "-", "-"});
     else
-      table.add_row({fmt::format("{:.0e}", w.error), w.contender, fmt::format("{:.0f}", w.cost), show(w.cost * force_s),
+      table.add_row({fmt::format("{:.0e}", w.error), w.contender, fmt::format("{:.0f}", w.cost),
+                     fmt::format("{:.0f}", w.evaluations), show(w.cost * force_s),
                      w.runner_up.empty() ? "-" : w.runner_up,
                      w.runner_up.empty() ? "-" : ratio(w.runner_up_cost, w.cost), ratio(peer, w.cost)});
   }
@@ -142,7 +144,7 @@ Table points_table(const WorkPrecision& study) {
                {"force evaluations", Align::right},
                {"factorisations", Align::right},
                {"solves", Align::right},
-               {"cost", Align::right},
+               {"cost [evaluations' time]", Align::right},
                {"range"},
                {"standing"}});
   for (const WorkPoint& p : study.points) {
@@ -165,7 +167,8 @@ std::string bullets(const std::vector<std::string>& lines) {
 }
 
 constexpr std::string_view reading =
-    "Costs are processor time over that of one evaluation of the forces of the same system, timed in turn with the "
+    "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
+    "with the "
     "runs; a run includes all of its factorisations and what its scene does to the body. Between two steps the cost is "
     "interpolated on the log-log scale. The regret of a fixed choice is its cost over that of the best; '-' where it "
     "does not reach the error. A point is dominated when another is no less accurate and its slowest repetition is "
@@ -228,6 +231,7 @@ nlohmann::json summary_of(const WorkPrecision& study) {
     best.push_back({{"error", w.error},
                     {"integrator", w.contender},
                     {"cost", number(w.cost)},
+                    {"force_evaluations", number(w.evaluations)},
                     {"runner_up", w.runner_up},
                     {"runner_up_cost", number(w.runner_up_cost)},
                     {"cvode_adams_cost", number(cost_at(study.points, "cvode-adams", w.error))}});

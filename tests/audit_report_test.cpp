@@ -103,6 +103,22 @@ TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
 
 TEST(AuditTable, HasARowForEachPair) { EXPECT_EQ(audit_table(std::vector(3, good_pair())).rows().size(), 3u); }
 
+TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
+  std::vector<AuditedPair> pairs(3, good_pair());
+  pairs[0].floor = 10.0;  // of a chaotic scene: two references are as far apart as that
+  pairs[0].audit.actual_error = 2.8;
+  pairs[1].floor = std::numeric_limits<double>::infinity();
+  pairs[1].audit.actual_error = std::numeric_limits<double>::quiet_NaN();
+  const Table table = audit_table(pairs);
+  EXPECT_EQ(table.rows()[0][3], "-");
+  EXPECT_EQ(table.rows()[0][4], "not judged: the reference is no better than that");
+  EXPECT_EQ(table.rows()[1][3], "-");
+  EXPECT_EQ(table.rows()[1][4], "not judged: followed for its cost only");
+  EXPECT_EQ(table.rows()[2][3], "0.500");
+  for (const auto& row : table.rows())
+    for (const std::string& cell : row) EXPECT_EQ(cell.find("nan"), std::string::npos) << cell;
+}
+
 TEST(AuditPlot, PlacesEachPairByWhatItPromised) {
   std::vector<AuditedPair> pairs(2, good_pair());
   pairs[1].pick = "verlet";

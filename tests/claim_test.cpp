@@ -46,6 +46,23 @@ TEST(Claim, TableGainsAColumnWhenThereIsAReason) {
   EXPECT_EQ(table.rows()[1].back(), "a quick run");
 }
 
+TEST(Claim, TableHeadsTargetsOfOurOwnAsTargetsAndThePapersAsThePapers) {
+  const auto heads = [](const std::vector<Claim>& claims) {
+    std::vector<std::string> names;
+    for (const Column& column : table_of(claims).columns()) names.push_back(column.title);
+    return names;
+  };
+  const Claim papers = claim_with(Verdict::holds);
+  Claim ours = papers;
+  ours.section.clear();
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(heads({ours}), (Names{"claim", "target", "measured", "interval or bound", "verdict"}));
+  EXPECT_EQ(heads({papers}), (Names{"claim", "section", "paper", "measured", "interval or bound", "verdict"}));
+  EXPECT_EQ(heads({papers, ours}),
+            (Names{"claim", "section", "paper, or target", "measured", "interval or bound", "verdict"}));
+  EXPECT_EQ(table_of(std::vector{ours}).rows()[0][1], "<= 1.10");
+}
+
 TEST(Claim, AsTextHasTheVerdictFirstAndWhatItRestsOnBelow) {
   const Claim claim{"a", "arrays are fast", "5.2", "<= 1.10", "1.04", "[1.02, 1.07]", Verdict::holds, ""};
   EXPECT_EQ(to_text(std::span(&claim, 1)),

@@ -48,14 +48,17 @@ Panels two_panels() {
 
 TEST(PanelsText, ScriptHasEveryPanelInBothPictures) {
   const std::string script = panels_script(two_panels(), "figure");
-  for (const char* part : {"figure.png", "figure.svg", "layout 1,2", "set ytics (\"none\" 0, \"all\" 1)",
-                           "\"figure-0-field.dat\" using 1:2:3 with image", "set logscale x", "\"figure-1-0.dat\""})
+  for (const char* part :
+       {"figure.png", "figure.svg", "layout 1,2", "set ytics (\"none\" 0, \"all\" 1)",
+        "\"figure.dat\" index 0 using 1:2:3 with image", "set logscale x", "\"figure.dat\" index 1 using 1:2"})
     EXPECT_NE(script.find(part), std::string::npos) << part;
 }
 
 TEST_F(PanelsTest, FieldsAreWrittenRowByRowWithinTheColours) {
   ASSERT_EQ(draw(two_panels(), folder_, "figure"), "");
-  EXPECT_EQ(text("figure-0-field.dat"), "0.25 0 1\n0.75 0 1\n0.25 0.5 1\n0.75 0.5 1\n0.25 1 1\n0.75 1 -1\n");
+  EXPECT_EQ(text("figure.dat"),
+            "# a field: the field\n0.25 0 1\n0.75 0 1\n0.25 0.5 1\n0.75 0.5 1\n0.25 1 1\n0.75 1 -1\n"
+            "\n\n# a curve: falls\n0.01 1 \"\"\n1 0 \"\"\n");
   EXPECT_EQ(text("figure.png").substr(1, 3), "PNG");
   EXPECT_NE(text("figure.svg").find("<svg"), std::string::npos);
 }
@@ -63,7 +66,7 @@ TEST_F(PanelsTest, FieldsAreWrittenRowByRowWithinTheColours) {
 TEST_F(PanelsTest, AMissingGnuplotIsToldAndTheDataStay) {
   EXPECT_NE(draw(two_panels(), folder_, "figure", "no-such-gnuplot").find("no-such-gnuplot"), std::string::npos);
   EXPECT_FALSE(text("figure.gnuplot").empty());
-  EXPECT_FALSE(text("figure-1-0.dat").empty());
+  EXPECT_FALSE(text("figure.dat").empty());
 }
 
 TEST_F(PanelsTest, APanelThatCannotBeDrawnIsRefused) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "benchmarks/gnuplot.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 
@@ -53,16 +54,40 @@ TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
   const std::string script = plot_script(small_plot(), "figure");
   EXPECT_NE(script.find("set output \"figure.png\""), std::string::npos);
   EXPECT_NE(script.find("set output \"figure.svg\""), std::string::npos);
-  EXPECT_NE(script.find("\"figure-0.dat\" using 1:2 with linespoints linecolor rgb \"#80ff0000\""), std::string::npos);
-  EXPECT_EQ(script.find("figure-1.dat"), std::string::npos);
+  EXPECT_NE(script.find("\"figure.dat\" index 0 using 1:2 with linespoints linecolor rgb \"#80ff0000\""),
+            std::string::npos);
+  EXPECT_EQ(script.find("index 1"), std::string::npos);
   EXPECT_NE(script.find("A \\\"quoted\\\" title"), std::string::npos);
+}
+
+TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
+  // 200 pixels of 10-point letters, 8 pixels each: 23 letters a line
+  EXPECT_EQ(quoted_title("short", 200, 10.0), "\"short\"");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0), "\"one two three four five\\nsix seven\"");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0, 1), "\"one two three four ...\"");
+  // letters beyond ASCII count once, quotes are escaped, blanks and breaks are one blank
+  EXPECT_EQ(
+      quoted_title(
+          "\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9",
+          200, 10.0),
+      "\"\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 "
+      "\xC3\xA9t\xC3\xA9\"");
+  EXPECT_EQ(quoted_title("a \"b\"\n  c", 200, 10.0), "\"a \\\"b\\\" c\"");
 }
 
 TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
   const std::string trouble = draw(small_plot(), folder_, "figure", "no-such-gnuplot");
   EXPECT_NE(trouble.find("no-such-gnuplot"), std::string::npos) << trouble;
-  EXPECT_NE(text("figure-0.dat").find("100 1 \"end\""), std::string::npos);
+  EXPECT_NE(text("figure.dat").find("100 1 \"end\""), std::string::npos);
   EXPECT_FALSE(text("figure.gnuplot").empty());
+}
+
+TEST_F(PlotTest, OneFileHoldsTheDataOfAllSeries) {
+  Plot plot = small_plot();
+  plot.series.push_back({.title = "second", .points = {{2.0, 3.0}}, .colour = "#00ff00"});
+  ASSERT_EQ(draw(plot, folder_, "figure"), "");
+  EXPECT_EQ(text("figure.dat"), "# line\n1 100 \"\"\n10 10 \"\"\n100 1 \"end\"\n\n\n# second\n2 3 \"\"\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 4);  // data, script, pictures
 }
 
 TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
@@ -133,6 +158,8 @@ TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
   ASSERT_EQ(front->points.size(), 2u);
   EXPECT_EQ(front->points[0].x, 10.0);
   EXPECT_EQ(front->points[1].x, 100.0);
+  // what lies between two runs was not reached
+  EXPECT_NE(plot_element(*front, "front").find("with steps"), std::string::npos);
 }
 
 }  // namespace

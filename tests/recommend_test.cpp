@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/recommendation_audit.h"
@@ -54,6 +55,20 @@ TEST(SolveForError, TheStepStaysWithinTheStabilityLimit) {
   c.limit_h = 0.004;
   solve_for_error(c, 1e-6, eight_seconds(), 2e-6, {});
   EXPECT_LE(c.h, 0.95 * 0.004);
+  EXPECT_TRUE(c.limited_by_stability);
+}
+
+TEST(SolveForError, OneStepForEachCheckpointIsTheFewestTriedAndNoLimitOfStability) {
+  Candidate c = fourth_order();
+  c.limit_h = 3.0;  // a step of 2.85 s would be stable, one of 1 s is the largest considered
+  solve_for_error(c, 1e9, eight_seconds(), 2e-6, {});
+  EXPECT_EQ(c.steps, 8u);
+  EXPECT_TRUE(c.fewest_steps);
+  EXPECT_FALSE(c.limited_by_stability);
+  c.limit_h = 0.9;  // 0.855 s
+  solve_for_error(c, 1e9, eight_seconds(), 2e-6, {});
+  EXPECT_EQ(c.steps, 16u);
+  EXPECT_FALSE(c.fewest_steps);
   EXPECT_TRUE(c.limited_by_stability);
 }
 
@@ -148,6 +163,38 @@ TEST(SolveForError, NoToleranceIsLooserThanThoseThatWereTried) {
   EXPECT_EQ(c.steps, 50u);
 }
 
+TEST(SolveForError, RoundingIsPartOfTheErrorThatIsPromised) {
+  Candidate c = fourth_order();
+  c.rounding = {.factor = 1e-12, .power = 0.5};
+  solve_for_error(c, 1e-10, eight_seconds(), 2e-6, {});
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  // steps of 1 ms: 1e-10 by the order, 3e-11 by rounding; together they have to fit
+  EXPECT_LE(c.predicted_error, 1e-10);
+  EXPECT_GT(c.predicted_error, c.rounding.at(c.h));
+  EXPECT_GE(c.h, c.best_step());
+  // half and twice the best step are worse
+  EXPECT_GT(c.error_at(0.5 * c.best_step()), c.error_at(c.best_step()));
+  EXPECT_GT(c.error_at(2.0 * c.best_step()), c.error_at(c.best_step()));
+}
+
+TEST(SolveForError, AnErrorBelowRoundingIsNotPromised) {
+  for (const double error : {1e-15, 1e-30}) {
+    Candidate c = fourth_order();
+    c.rounding = {.factor = 1e-12, .power = 0.5};
+    solve_for_error(c, error, eight_seconds(), 2e-6, {});
+    EXPECT_FALSE(c.usable());
+    // the steps are whole, and at most the best: the error is flat there, of second order in their difference
+    EXPECT_NEAR(c.least_error, c.error_at(c.best_step()), 1e-3 * c.least_error);
+  }
+}
+
+TEST(SolveForError, TooManyStepsAreNotOffered) {
+  Candidate c = fourth_order();
+  solve_for_error(c, 1e-50, eight_seconds(), 2e-6, {});
+  // (1e-48)^(1/4) of 0.1 s
+  EXPECT_NE(c.pruned.find("8.6e+13 steps"), std::string::npos) << c.pruned;
+}
+
 class RecommendChain : public ::testing::TestWithParam<double> {};
 
 TEST_P(RecommendChain, ThePickMeetsTheError) {
@@ -221,6 +268,43 @@ TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
   ASSERT_NE(r.pick(), nullptr);
   EXPECT_TRUE(
       std::ranges::any_of(r.candidates, [](const Candidate& c) { return c.pruned == "the time for pilots is up"; }));
+  // who was not tried is named; who was tried, or lost to the law, is not
+  const auto untried = r.untried();
+  EXPECT_FALSE(untried.empty());
+  for (const Candidate& c : r.candidates) {
+    EXPECT_EQ(std::ranges::count(untried, c.contender), c.untried ? 1 : 0) << c.contender << ": " << c.pruned;
+    EXPECT_FALSE(c.untried && c.usable());
+  }
+}
+
+TEST(Recommend, AnErrorThatDoublesCannotMeetIsNotPromised) {
+  for (const double error : {1e-16, 1e-30}) {
+    const Recommendation r = recommend(chain_scene(8, 64.0), error, ticking());
+    EXPECT_EQ(r.pick(), nullptr);
+    // coordinates of some ten edges: 1e-15 with compensation, a few thousand steps without it 1e-13
+    EXPECT_GT(r.best_error, 1e-16);
+    EXPECT_LT(r.best_error, 1e-13);
+  }
+}
+
+TEST(Recommend, ACompensatedMethodGoesWherePlainOnesCannot) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const Recommendation r = recommend(scene, 1e-14, ticking());
+  ASSERT_NE(r.pick(), nullptr);
+  EXPECT_EQ(r.pick()->contender, "blanes-moan-4-compensated");
+  EXPECT_TRUE(audit(scene, reference_of(scene, ticking()), r, {}, ticking()).met());
+}
+
+TEST(Recommend, OnAStiffSceneImplicitMethodsAreTriedBeforeTheTimeForPilotsIsUp) {
+  // springs 1e8 times as stiff as those that the motion shows, and an error that a few steps of that motion meet
+  const TradeoffScene scene = stiff_scene("stiff", kuhn_box(3, 3, 3, 0.1), 1e8, {});
+  const Recommendation r = recommend(scene, 1e-1, ticking());
+  std::size_t first_implicit_tried = 0;
+  for (const Candidate& c : r.candidates)
+    if (c.implicit && !c.untried) ++first_implicit_tried;
+  EXPECT_GT(first_implicit_tried, 0u);
+  ASSERT_NE(r.pick(), nullptr);
+  EXPECT_TRUE(r.pick()->implicit) << r.pick()->contender;
 }
 
 TEST(Recommend, ANonsensicalErrorIsRefused) {

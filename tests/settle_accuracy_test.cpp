@@ -67,6 +67,13 @@ TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
         << k;
   EXPECT_NE(to_string(*settled).find(scene.integrator), std::string::npos);
   EXPECT_EQ(nlohmann::json(*settled).at("step"), scene.step);
+  // the members that are printed to be pasted make a scene of the same step, to the last bit
+  const std::string said = to_string(*settled);
+  const auto from = said.find("\"integrator\": ");
+  ASSERT_NE(from, std::string::npos) << said;
+  const Json pasted = Json::parse("{" + said.substr(from, said.find('\n', from) - from) + "}");
+  EXPECT_EQ(pasted.at("step").get<double>(), scene.step);
+  EXPECT_EQ(pasted.at("integrator"), scene.integrator);
 }
 
 TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {
@@ -76,6 +83,19 @@ TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {
   const auto settled = settle_accuracy(scene, ticking());
   EXPECT_EQ(scene.integrator, "verlet");
   EXPECT_TRUE(settled->integrator_named);
+}
+
+TEST(SettleAccuracy, RefusesWhatDoublesCannotMeet) {
+  for (const double accuracy : {1e-17, 1e-30}) {
+    SceneFile scene = parse(accurate_box(accuracy));
+    try {
+      settle_accuracy(scene, ticking());
+      ADD_FAILURE() << "settled on " << scene.integrator << " with " << scene.step;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("/accuracy: is"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("cannot be met in double precision"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(SettleAccuracy, LeavesASceneWithAStepAlone) {

@@ -66,6 +66,18 @@ TEST(CostAt, DoesNotInterpolateAcrossARunThatFailed) {
   EXPECT_EQ(cost_at(points, "a", 1e-3), 1000.0);
 }
 
+TEST(Winners, SayHowOftenForcesAreEvaluatedBesideTheCost) {
+  std::vector<WorkPoint> points{point("a", 1e-2, {10}), point("a", 1e-4, {1000})};
+  points[0].work.force_evaluations = 4;
+  points[1].work.force_evaluations = 400;
+  classify(points, 0.0);
+  const double errors[]{1e-3, 1e-4, 1e-6};
+  const auto best = winners(points, errors);
+  EXPECT_NEAR(best[0].evaluations, 40.0, 1e-11);  // as the cost, halfway on both scales
+  EXPECT_EQ(best[1].evaluations, 400.0);
+  EXPECT_EQ(best[2].evaluations, 0.0);  // none reaches it
+}
+
 TEST(Winners, PeersDoNotTakePartAndHaveARegret) {
   std::vector<WorkPoint> points{point("a", 1e-3, {10}), point("b", 1e-3, {30}), point("peer", 1e-3, {5})};
   points[2].peer = true;

@@ -1,5 +1,7 @@
 #include "validation/candidate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,8 +46,8 @@ std::vector<Segment> segments_of(const Candidate& c) {
   return segments;
 }
 
-/// The largest step whose error is at most `error`.
-double step_for(const Candidate& c, double error) {
+/// The largest step whose error but for rounding is at most `error`.
+double step_for_truncation(const Candidate& c, double error) {
   if (!(error > c.error_at_pilot)) return c.pilot_h * std::pow(error / c.error_at_pilot, 1.0 / c.slope);
   double h = c.pilot_h;
   for (const Segment& s : segments_of(c)) {
@@ -69,13 +71,42 @@ double steps_within(const Candidate& c, double tolerance) {
   return from.steps;
 }
 
+/// Over the whole duration; `step` is a tolerance of an adaptive candidate.
+double rounding_at(const Candidate& c, double step) {
+  if (!(c.rounding.factor > 0.0)) return 0.0;
+  return c.rounding.at(c.adaptive ? c.duration / steps_within(c, step) : step);
+}
+
+/// The largest step whose error is at most `error`, or the best where there is none.
+double step_for(const Candidate& c, double error) {
+  double high = step_for_truncation(c, error), low = c.best_step();
+  if (!(c.rounding.factor > 0.0)) return high;
+  if (!(low < high)) return low;
+  if (c.error_at(high) <= error) return high;
+  // above the best step the sum of both errors grows with the step
+  for (int k = 0; k < 60; ++k) {
+    const double middle = std::sqrt(low * high);
+    (c.error_at(middle) <= error ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
 
 double Candidate::error_at(double step) const {
-  if (step <= pilot_h) return error_at_pilot * std::pow(step / pilot_h, slope);
+  const double rounded = rounding_at(*this, step);
+  if (step <= pilot_h) return error_at_pilot * std::pow(step / pilot_h, slope) + rounded;
   for (const Segment& s : segments_of(*this))
-    if (step <= s.until) return s.from.error * std::pow(step / s.from.h, s.power);
+    if (step <= s.until) return s.from.error * std::pow(step / s.from.h, s.power) + rounded;
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+double Candidate::best_step() const {
+  // of a h^s + r h^-p the least is where s a h^s = p r h^-p; of an adaptive one h ~ tolerance^steps_slope
+  const double p = adaptive ? rounding.power * steps_slope : rounding.power;
+  const double falls = slope * error_at_pilot, grows = p * rounding_at(*this, pilot_h);
+  if (!(falls > 0.0)) return pilot_h;
+  return pilot_h * std::min(1.0, std::pow(grows / falls, 1.0 / (slope + p)));
 }
 
 std::string_view name(Confidence confidence) {
@@ -104,7 +135,8 @@ RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s
                          ? std::pow(step_s / std::pow(c.pilot_h, c.step_slope), 1.0 / (1.0 - c.step_slope))
                          : std::numeric_limits<double>::infinity();
     if (!(h < stability * c.limit_h)) continue;
-    const double reached = c.error_at(h);
+    // shorter steps than the best lose more to rounding than they gain
+    const double reached = c.error_at(std::max(h, std::min(c.best_step(), stability * c.limit_h)));
     if (!std::isfinite(reached) || reached >= best.error) continue;
     best = {reached, c.contender};
   }
@@ -118,25 +150,34 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
                      : c.full_length                                                                  ? 0.8 * error
                                                                                                       : 0.35 * error;
   const double duration = motion.checkpoints.back();
+  c.duration = duration;
+  c.least_error = 0.0;
   double count = 0.0;
   if (c.adaptive) {
     // the tolerance is a step to the power of the order
     const double safety = std::pow(options.safety, c.order);
     const double loosest = c.coarser.empty() ? c.pilot_h : c.coarser.back().h;
-    c.tolerance = std::clamp(step_for(c, safety * aim), 1e-15, loosest);
+    c.tolerance = std::clamp(std::max(step_for(c, safety * aim), c.best_step()), 1e-15, loosest);
     c.predicted_error = c.error_at(c.tolerance);
     count = steps_within(c, c.tolerance);
     c.steps = static_cast<std::uint64_t>(count);
     c.h = duration / count;
     c.predicted_cost = count * c.step_cost;
   } else {
-    const double for_error = options.safety * step_for(c, aim);
+    const double largest = step_for(c, aim);
+    const double for_error = std::max(options.safety * largest, std::min(largest, c.best_step()));
     const double for_stability = options.stability * c.limit_h;
     const auto checkpoints = motion.checkpoints.size();
     const double per_interval = duration / static_cast<double>(checkpoints);
-    c.limited_by_stability = for_stability < for_error;
+    c.fewest_steps = per_interval <= std::min(for_error, for_stability);
+    c.limited_by_stability = !c.fewest_steps && for_stability < for_error;
     const double h = std::min({for_error, for_stability, per_interval});
-    c.steps = checkpoints * static_cast<std::uint64_t>(std::ceil(per_interval / h));
+    const double steps = static_cast<double>(checkpoints) * std::ceil(per_interval / h);
+    if (!(steps <= options.most_steps)) {
+      c.pruned = fmt::format("it would take {:.1e} steps; {:.0e} are sensible", steps, options.most_steps);
+      return;
+    }
+    c.steps = static_cast<std::uint64_t>(steps);
     c.h = duration / static_cast<double>(c.steps);
     c.predicted_error = c.error_at(c.h);
     count = steps_taken(motion, c.steps);
@@ -144,6 +185,10 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
   }
   c.predicted_evaluations = count * c.step_evaluations;
   c.predicted_s = c.predicted_cost * force_s;
+  // of an exact motion nothing but rounding is left
+  if (c.predicted_error <= error || !std::isfinite(c.predicted_error)) return;
+  c.least_error = c.predicted_error;
+  c.pruned = fmt::format("double precision leaves it {:.1e} edges at best", c.least_error);
 }
 
 }  // namespace dartboard

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/time/integrator.h"
+#include "validation/rounding_floor.h"
 #include "validation/scene_stage.h"
 
 namespace dartboard {
@@ -20,6 +21,7 @@ struct RecommendOptions {
   double pilot_part = 0.1;     // of the cheapest predicted run that all pilots together may take,
   double pilot_floor_s = 0.5;  // beyond this
   double most_pilot_s = 4.0;   // of one pilot, as long as nothing is predicted
+  double most_steps = 1e9;     // of a run; what needs more is left out
   bool adaptive = true;        // may the method choose its steps?
   std::string only{};          // the one integrator to consider; empty for all
 };
@@ -37,7 +39,8 @@ std::string_view name(Confidence confidence);
 struct Candidate {
   std::string contender;  // as in tradeoff_contenders(): "rk4", "dormand-prince-54, adaptive"
   bool implicit = false, adaptive = false;
-  std::string pruned;  // why it was left out before or after its pilots; empty when it was not
+  std::string pruned;    // why it was left out before or after its pilots; empty when it was not
+  bool untried = false;  // because there was no time left for pilots: nothing is known against it
   Confidence confidence = Confidence::none;
   bool full_length = false;  // pilots over the whole duration confirm it
   int order = 1;
@@ -45,28 +48,35 @@ struct Candidate {
   double limit_h = 0.0;         // [s] the predicted limit of stability; infinite when there is none
 
   // error(h) = error_at_pilot (h / pilot_h)^slope, over the whole duration; above pilot_h what coarser pilots showed.
-  // Of an adaptive one, h is a tolerance [edges] here, and is not extrapolated upwards.
+  // Of an adaptive one, h is a tolerance [edges] here, and is not extrapolated upwards. Rounding comes on top.
   double pilot_h = 0.0, error_at_pilot = 0.0, slope = 1.0;
   struct Seen {
     double h, error;
     double steps = 0.0;  // taken in all; of adaptive ones
   };
   std::vector<Seen> coarser{};  // ascending in step and error
-  // force evaluations that a step is worth (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
+  RoundingFloor rounding{};
+  // force evaluations whose time a step takes (h) = step_cost (h / pilot_h)^step_slope; and those counted in a step
   double step_cost = 0.0, step_slope = 0.0, step_evaluations = 0.0;
   // the steps that an adaptive one takes = pilot_steps (tolerance / pilot_h)^-steps_slope, below pilot_h
   double pilot_steps = 0.0, steps_slope = 0.0;
+  double duration = 0.0;  // [s] of the whole run
 
   // for the error asked for
   std::uint64_t steps = 0;
   double h = 0.0, tolerance = 0.0;  // [s], of an adaptive one the mean; [edges] 0 for fixed steps
-  double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in force evaluations
-  double predicted_evaluations = 0.0;                                     // counted ones
+  double predicted_error = 0.0, predicted_s = 0.0, predicted_cost = 0.0;  // cost: in the time of one
+  double predicted_evaluations = 0.0;                                     // of the forces, counted
   bool limited_by_stability = false;
+  bool fewest_steps = false;  // one for each checkpoint: fewer were not tried
+  // [edges] the least that the method reaches, where rounding keeps it from the error asked for; else 0
+  double least_error = 0.0;
 
   bool usable() const { return pruned.empty(); }
-  /// Over the whole duration [edges].
+  /// Over the whole duration [edges], rounding included.
   double error_at(double step) const;
+  /// The step (or tolerance) of the least error: in shorter ones rounding adds up to more than they save.
+  double best_step() const;
   RunSetting setting() const { return adaptive ? RunSetting{.tolerance = tolerance} : RunSetting{.steps = steps}; }
   /// The integrator to run it with.
   std::unique_ptr<Integrator> make() const;
@@ -83,7 +93,8 @@ struct RealTime {
 RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s, double stability);
 
 /// The step or tolerance that meets an error, and what it costs, by a candidate's fits; sets the last group of its
-/// members.
+/// members. Where rounding leaves more than the error at every step, or the steps are too many, the candidate is left
+/// out; what is predicted then is of its best step.
 ///
 /// Steps are whole between checkpoints; those split at the times of events are counted.
 void solve_for_error(Candidate& candidate, double error, const reference::NetworkMotion& motion, double force_s,

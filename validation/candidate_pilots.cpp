@@ -129,6 +129,7 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   }
   const bool at_once = change.size() == 1 && std::isfinite(largest(change[0])) && runs.size() == 2;
   if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
+    c.untried = !runs.empty();
     c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
     return;
   }
@@ -166,7 +167,8 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
     if (std::abs(c.observed_order - 1.0) < 0.2) break;
   }
   if (change.size() < 2 || !(change.back() > 0.0) || !std::isfinite(c.observed_order)) {
-    c.pruned = change.size() < 2 ? "its pilots take too long" : "its pilots show no order";
+    c.untried = change.size() < 2;
+    c.pruned = c.untried ? "its pilots take too long" : "its pilots show no order";
     return;
   }
   c.confidence = std::abs(c.observed_order - 1.0) < 0.2 ? Confidence::asymptotic : Confidence::pre_asymptotic;

@@ -30,12 +30,13 @@ void rank(std::vector<Candidate>& candidates) {
 }
 
 /// Explicit methods before implicit ones, high orders before low ones: what they cost is what the others have to beat.
-/// Where nothing is damped the symplectic method of order 4 comes before all.
-std::vector<Scheme> schemes_in_order(bool damped, const std::string& only) {
+/// Where nothing is damped the symplectic method of order 4 comes before all. A compensated method is the plain one
+/// until rounding shows, at some more cost: these are the others, or they alone.
+std::vector<Scheme> schemes_in_order(bool damped, const std::string& only, bool compensated = false) {
   std::vector<Scheme> schemes;
-  // a compensated method is the plain one until rounding shows, at some more cost
   for (const IntegratorEntry& entry : integrators())
-    if (const Scheme& scheme = entry.make()->scheme(); only.empty() ? !scheme.compensated : entry.name == only)
+    if (const Scheme& scheme = entry.make()->scheme();
+        only.empty() ? scheme.compensated == compensated : entry.name == only)
       schemes.push_back(scheme);
   const auto rank = [damped](const Scheme& s) {
     return (s.implicit ? 0.0 : 100.0) + s.order + (s.symplectic && !damped && s.order > 2 ? 2.0 : 0.0);
@@ -51,23 +52,43 @@ class Search {
       : scene_(scene), error_(error), clock_(clock), options_(options), start_(clock()) {
     r_.scene = scene.name;
     r_.error = error;
+    r_.best_error = std::numeric_limits<double>::quiet_NaN();
     r_.features = features_of(scene, clock);
+    for (const IntegratorEntry& entry : integrators())
+      least_error_ = std::min(least_error_, rounding_floor(scene, entry.make()->scheme()).at(per_interval()));
     pilots_.emplace(scene, clock, options, start_);
   }
 
   Recommendation run() {
     const auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
-    for (const Scheme& scheme : schemes)
-      if (!scheme.implicit) try_explicit(scheme);
+    for (const Scheme& scheme : schemes) {
+      if (scheme.implicit) continue;
+      const bool first = r_.candidates.empty();
+      try_explicit(scheme);
+      for (const Scheme& other : schemes)
+        if (first && other.implicit && is_promising(other)) try_implicit(other);
+    }
     if (options_.adaptive)
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)
-      if (scheme.implicit) try_implicit(scheme);
+      if (scheme.implicit &&
+          std::ranges::find(r_.candidates, scheme.name, &Candidate::contender) == r_.candidates.end())
+        try_implicit(scheme);
     rank(r_.candidates);
     confirm();
+    if (r_.pick() == nullptr && options_.only.empty() && std::ranges::any_of(r_.candidates, kept_by_rounding)) {
+      for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, "", true)) try_explicit(scheme);
+      rank(r_.candidates);
+      confirm();
+    }
     time_the_best();
     look_around();
+    for (const Candidate& c : r_.candidates)
+      if (r_.pick() == nullptr && kept_by_rounding(c) && !(c.least_error >= r_.best_error)) {
+        r_.best_error = c.least_error;
+        r_.best_error_by = c.contender;
+      }
     r_.pilot_s = pilots_->spent_s();
     return std::move(r_);
   }
@@ -78,11 +99,13 @@ class Search {
     c.contender = scheme.name;
     c.implicit = scheme.implicit;
     c.order = scheme.order;
+    c.rounding = rounding_floor(scene_, scheme);
     c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
     return c;
   }
   void solve(Candidate& c) {
     solve_for_error(c, error_, scene_.motion, r_.features.force_s, options_);
+    if (!c.usable() && !kept_by_rounding(c)) return;  // too many steps
     if (std::isfinite(c.predicted_s))
       pilots_->predicted(c.predicted_s);
     else
@@ -91,17 +114,18 @@ class Search {
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
-    else if (!(pilots_->left_s() > 0.0))
+    else if (!(pilots_->left_s() > 0.0)) {
+      c.untried = true;
       c.pruned = "the time for pilots is up";
-    else
-      pilot_prefix(c, *pilots_, h, step_s, error_);
+    } else
+      pilot_prefix(c, *pilots_, h, step_s, sought());
     if (c.usable()) solve(c);
   }
 
   void try_explicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
     const double step_s = scheme.stages * r_.features.force_s;
-    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     const double least_s = scene_.duration / c.limit_h * step_s;
     if (needed * step_s > doubt * pilots_->cheapest_s())
       c.pruned = law(needed, step_s);
@@ -114,9 +138,17 @@ class Search {
     r_.candidates.push_back(std::move(c));
   }
 
+  /// Does the law give an implicit method less than what the best method so far takes?
+  bool is_promising(const Scheme& scheme) const {
+    const double step_s = std::max(r_.features.implicit_step_s, least_implicit_step * r_.features.force_s);
+    const double needed = std::max(steps_for_error(r_.features, scheme.order, scene_.duration, sought()),
+                                   static_cast<double>(scene_.motion.checkpoints.size()));
+    return needed * scheme.stages * step_s < pilots_->cheapest_s();
+  }
+
   void try_implicit(const Scheme& scheme) {
     Candidate c = begin(scheme);
-    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, error_);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     double& measured_s = r_.features.implicit_step_s;
     double step_s = scheme.stages * (measured_s > 0.0 ? measured_s : least_implicit_step * r_.features.force_s);
     if (measured_s == 0.0 && needed * step_s <= doubt * pilots_->cheapest_s()) {
@@ -144,10 +176,11 @@ class Search {
     else if (fixed->predicted_s > hope * pilots_->cheapest_s())
       c.pruned =
           fmt::format("with fixed steps it costs {:.1f} times the best", fixed->predicted_s / pilots_->cheapest_s());
-    else if (1.5 * fixed->predicted_s > pilots_->left_s())
+    else if (1.5 * fixed->predicted_s > pilots_->left_s()) {
+      c.untried = true;
       c.pruned = "its pilots would take too long";
-    else
-      pilot_tolerances(c, *pilots_, error_);
+    } else
+      pilot_tolerances(c, *pilots_, sought());
     if (c.usable()) solve(c);
     r_.candidates.push_back(std::move(c));
   }
@@ -197,7 +230,7 @@ class Search {
       Candidate c = candidate;
       if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
       solve_for_error(c, error_ / 10.0, scene_.motion, r_.features.force_s, options_);
-      if (c.predicted_s < best) {
+      if (c.usable() && c.predicted_s < best) {
         best = c.predicted_s;
         r_.one_more_digit_by = c.contender;
       }
@@ -205,6 +238,9 @@ class Search {
     r_.one_more_digit = best / pick->predicted_s;
   }
 
+  static bool kept_by_rounding(const Candidate& c) { return c.least_error > 0.0; }
+  /// Pilots and the law look for an error that rounding leaves room for.
+  double sought() const { return std::max(error_, least_error_); }
   double per_interval() const { return scene_.duration / static_cast<double>(scene_.motion.checkpoints.size()); }
   std::string law(double needed, double step_s) const {
     return fmt::format("break-even law: about {:.2g} steps of {:.1e} s, {:.1e} s against {:.1e} s", needed, step_s,
@@ -212,7 +248,7 @@ class Search {
   }
 
   const TradeoffScene& scene_;
-  double error_;
+  double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
   const CpuClock& clock_;
   const RecommendOptions& options_;
   std::int64_t start_;
@@ -227,6 +263,13 @@ const Candidate* Recommendation::pick() const {
 }
 const Candidate* Recommendation::runner_up() const {
   return candidates.size() > 1 && candidates[1].usable() ? &candidates[1] : nullptr;
+}
+
+std::vector<std::string> Recommendation::untried() const {
+  std::vector<std::string> names;
+  for (const Candidate& c : candidates)
+    if (c.untried) names.push_back(c.contender);
+  return names;
 }
 
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,

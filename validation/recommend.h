@@ -20,7 +20,11 @@ struct Recommendation {
   double realtime_factor = 0.0;       // simulated over predicted seconds of the pick
   double realtime_error = 0.0;        // what the best method would reach in real time; NaN when none is fast enough
   std::string realtime_by;
+  double best_error = 0.0;  // [edges] where rounding keeps every method from the error: the least of theirs
+  std::string best_error_by;
   double pilot_s = 0.0;  // spent on all of this
+  /// The methods that there was no time to try: another run may pick one of them.
+  std::vector<std::string> untried() const;
 
   const Candidate* pick() const;
   const Candidate* runner_up() const;
@@ -29,7 +33,9 @@ struct Recommendation {
 /// The algorithm:
 ///
 /// 1. features of the scene, and of this machine;
-/// 2. explicit methods, those first that are cheapest as a rule: three pilots with h, h/2 and h/4, from the largest
+/// 2. before the second explicit method, implicit ones that the law (4.) gives less than what the first one takes: on
+///    stiff scenes explicit methods would use up the time for pilots;
+///    explicit methods, those first that are cheapest as a rule: three pilots with h, h/2 and h/4, from the largest
 ///    stable step on (`pilot_prefix`); those are left out of which even the largest stable step costs more than what
 ///    was found before;
 /// 3. methods that choose their steps, where they might win: pilots with three tolerances;
@@ -37,10 +43,10 @@ struct Recommendation {
 ///    only those that might beat the cheapest explicit one get pilots;
 /// 5. the step or tolerance for the error, by the order, with safety and within stability; longer pilots, coarser than
 ///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`); their steps timed again;
-/// 6. the ranking by predicted cost.
+/// 6. the ranking by predicted cost; compensated methods take part where rounding keeps all others from the error.
 ///
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); what
-/// has had none by then is left out, and says so.
+/// has had none by then is left out, and says so (`untried`). What is left out so may differ from run to run.
 ///
 /// throws  InputError unless error > 0
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,

@@ -230,8 +230,18 @@ void classify(std::span<WorkPoint> points, double floor, double useless_from) {
   }
 }
 
-double cost_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
-  double best = infinity;
+namespace {
+
+struct Need {
+  double cost = infinity, evaluations = std::numeric_limits<double>::quiet_NaN();
+};
+
+Need need_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
+  Need best;
+  const auto evaluations = [](const WorkPoint& p) { return static_cast<double>(p.work.force_evaluations); };
+  const auto consider = [&best](double cost, double count) {
+    if (cost < best.cost) best = {cost, count};
+  };
   const WorkPoint* previous = nullptr;
   for (const WorkPoint& p : points) {
     if (p.contender != contender) continue;
@@ -240,15 +250,27 @@ double cost_at(std::span<const WorkPoint> points, std::string_view contender, do
       continue;
     }
     if (p.errors.x <= error) {
-      best = std::min(best, p.cost);
+      consider(p.cost, evaluations(p));
       if (previous != nullptr && previous->errors.x > error && p.errors.x > 0.0) {
         const double s = std::log(previous->errors.x / error) / std::log(previous->errors.x / p.errors.x);
-        best = std::min(best, previous->cost * std::pow(p.cost / previous->cost, s));
+        const double count = evaluations(*previous) > 0.0
+                                 ? evaluations(*previous) * std::pow(evaluations(p) / evaluations(*previous), s)
+                                 : evaluations(p);
+        consider(previous->cost * std::pow(p.cost / previous->cost, s), count);
       }
     }
     previous = &p;
   }
   return best;
+}
+
+}  // namespace
+
+double cost_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
+  return need_at(points, contender, error).cost;
+}
+double evaluations_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
+  return need_at(points, contender, error).evaluations;
 }
 
 std::vector<Winner> winners(std::span<const WorkPoint> points, std::span<const double> errors) {
@@ -261,8 +283,11 @@ std::vector<Winner> winners(std::span<const WorkPoint> points, std::span<const d
     for (const std::string& contender : contenders)
       if (const double cost = cost_at(points, contender, error); cost < infinity) order.emplace_back(cost, contender);
     std::sort(order.begin(), order.end());
-    Winner winner{error, "", 0.0, "", 0.0};
-    if (!order.empty()) std::tie(winner.cost, winner.contender) = order[0];
+    Winner winner{error, "", 0.0, "", 0.0, 0.0};
+    if (!order.empty()) {
+      std::tie(winner.cost, winner.contender) = order[0];
+      winner.evaluations = evaluations_at(points, winner.contender, error);
+    }
     if (order.size() > 1) std::tie(winner.runner_up_cost, winner.runner_up) = order[1];
     result.push_back(std::move(winner));
   }

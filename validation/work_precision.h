@@ -47,7 +47,7 @@ struct WorkPoint {
   std::string code, diagnosis;  // why it failed, "UNSTABLE_DT" and a sentence; empty when it did not
   // Of each repetition: the run over the mean of the force evaluations timed before and after it.
   std::vector<double> costs;
-  double cost = std::numeric_limits<double>::quiet_NaN();  // their median, in force evaluations
+  double cost = std::numeric_limits<double>::quiet_NaN();  // their median, in the time of a force evaluation
   double cpu_s = 0.0;                                      // median
   double force_s = 0.0;                                    // of one evaluation, median
   bool under_floor = false;                                // the reference cannot tell the error
@@ -89,10 +89,12 @@ double error_of_rest(const TradeoffScene& scene, const SceneReference& reference
 /// Find the standing of all points. Errors below the floor count as the floor.
 void classify(std::span<WorkPoint> points, double floor, double useless_from = 1.0);
 
-/// What a method needs for an error of at most `error` edges, in force evaluations: of its points that are as good the
-/// cheapest, or, where two successive steps enclose the error, what lies between them on a log-log scale. Infinite when
-/// it was not seen to reach it.
+/// What a method needs for an error of at most `error` edges, in the time of a force evaluation: of its points that are
+/// as good the cheapest, or, where two successive steps enclose the error, what lies between them on a log-log scale.
+/// Infinite when it was not seen to reach it.
 double cost_at(std::span<const WorkPoint> points, std::string_view contender, double error);
+/// The force evaluations counted in that; not a number where it does not reach the error.
+double evaluations_at(std::span<const WorkPoint> points, std::string_view contender, double error);
 
 /// The cheapest method for an error.
 struct Winner {
@@ -101,6 +103,7 @@ struct Winner {
   double cost = 0.0;
   std::string runner_up;  // empty when there is none
   double runner_up_cost = 0.0;
+  double evaluations = 0.0;  // of the forces, counted; between two steps interpolated as the cost is
 };
 
 /// For each error; peers do not take part.

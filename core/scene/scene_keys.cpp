@@ -46,7 +46,9 @@ std::vector<SceneKey> make_keys() {
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
-               "none is named; not for a chain, nor with driven vertices"},
+               "none is named; not for a chain, nor with driven vertices. The choice rests on timings: it may differ from "
+               "machine to machine and from run to run, and the hash with it; 'simulate' prints the 'integrator' and "
+               "'step' that settle it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
