@@ -103,10 +103,12 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
     add(!whole.viscosity.empty(), costs.viscosity);
     system.springs = whole.springs;
     add(terms_of(whole).damping, costs.damping);
-    const std::vector<double> ns = costs_of(std::move(calls));
-    costs.force = ns[0];
+    std::vector<double> ns = costs_of(std::move(calls));
     costs.evaluations = scheme.stages;
-    costs.stages = ns[1] - costs.evaluations * costs.force;
+    ns[0] *= costs.evaluations;
+    costs.noise = make_ascending(ns);
+    costs.force = ns[0] / costs.evaluations;
+    costs.stages = ns[1] - ns[0];
     for (std::size_t k = 0; k < of.size(); ++k) *of[k] = ns[k + 2] - ns[k + 1];
   }
 
@@ -253,6 +255,15 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
 
 }  // namespace
 
+double make_ascending(std::span<double> ns) {
+  double most = 0.0;
+  for (std::size_t k = ns.size(); k-- > 1;) {
+    most = std::max(most, ns[k - 1] - ns[k]);
+    ns[k - 1] = std::min(ns[k - 1], ns[k]);
+  }
+  return most;
+}
+
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
   UnitCosts costs;
   if (plan.counts.edges == 0) return costs;
@@ -293,13 +304,17 @@ void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& c) {
   const MeanSizes& m = plan.mean;
   double changes = 0.0;
   for (const EventForecast& f : plan.events) changes += f.with_operations;
+  const auto charge = [&c](PlanItem& item, double size, double cost) {
+    item.ns = size * cost;
+    item.ns_below = cost > 0.0 ? 0.0 : size * c.noise;
+  };
   for (PlanItem& item : plan.items) {
     switch (item.part) {
       case Part::springs: item.ns = m.springs * c.evaluations * c.force; break;
-      case Part::damping: item.ns = m.springs * c.damping; break;
-      case Part::viscosity: item.ns = m.vertices * c.viscosity; break;
-      case Part::fixed: item.ns = m.vertices * c.fixed; break;
-      case Part::integrator: item.ns = m.vertices * c.stages; break;
+      case Part::damping: charge(item, m.springs, c.damping); break;
+      case Part::viscosity: charge(item, m.vertices, c.viscosity); break;
+      case Part::fixed: charge(item, m.vertices, c.fixed); break;
+      case Part::integrator: charge(item, m.vertices, c.stages); break;
       case Part::solver: item.ns = m.springs * c.solver; break;
       case Part::driven:  // a term of one spring more for each
         item.ns = static_cast<double>(plan.driven_springs) / static_cast<double>(plan.counts.edges) * c.force;

@@ -1,6 +1,8 @@
 #pragma once
 // What the pieces of a step cost on this machine: measured in a fraction of a second, before a scene is built.
 
+#include <span>
+
 #include "core/scene/scene_plan.h"
 
 namespace dartboard {
@@ -14,6 +16,7 @@ struct UnitCosts {
   double evaluations = 0.0;
   double damping = 0.0, viscosity = 0.0, fixed = 0.0;  // what each adds to a step
   double stages = 0.0;                                 // a step without these, but for its force evaluations
+  double noise = 0.0;   // the most by which a step with a term took less than one without: less cannot be measured
   double solver = 0.0;  // a step of an implicit method, all in all, in place of the above
   double detector = 0.0, speed_check = 0.0;
   // after operations
@@ -27,6 +30,12 @@ struct UnitCosts {
   // output
   double frame = 0.0, row = 0.0;
 };
+
+/// The times of steps with more and more terms, made to ascend: what took longer than a step with a term more takes as
+/// long. The last, a step with all of them, stays.
+///
+/// returns the most that was taken off
+double make_ascending(std::span<double> ns);
 
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan);
 

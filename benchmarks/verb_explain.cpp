@@ -92,7 +92,11 @@ std::string counted(const ScenePlan& plan) {
                      plan.counts.faces, plan.counts.cells, plan.counts.darts);
 }
 
-std::string time_text(double ns) { return ns == 0.0 ? "" : fmt::format("{:.0f}", ns); }
+std::string time_text(double ns, double below = 0.0) {
+  return below > 0.0 ? fmt::format("not measurable (< {:.0f})", std::max(1.0, below))
+         : ns == 0.0 ? ""
+                     : fmt::format("{:.0f}", ns);
+}
 
 void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Measured>& measured) {
   fmt::print("{}\n{}; {}; {} steps of {:.6g} s\n\n", scene.name, plan.map, counted(plan), plan.steps, scene.step);
@@ -109,7 +113,8 @@ void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Me
   };
   for (std::size_t k = 0; k < plan.items.size(); ++k) {
     const PlanItem& item = plan.items[k];
-    row(std::string(name(item.part)), item.bytes, measured ? measured->found.bytes[k] : 0, time_text(item.ns),
+    row(std::string(name(item.part)), item.bytes, measured ? measured->found.bytes[k] : 0,
+        time_text(item.ns, item.ns_below),
         item.what, item.why);
   }
   if (measured)
@@ -150,6 +155,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, co
                             {"why", item.why},
                             {"bytes", item.bytes},
                             {"ns_per_step", item.ns}});
+    if (item.ns_below > 0.0) json["plan"].back()["ns_per_step_below"] = item.ns_below;
     if (measured) json["plan"].back()["measured_bytes"] = measured->found.bytes[k];
   }
   for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});

@@ -264,11 +264,13 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   verb->add_flag("--realtime", options->realtime,
                  "say whether that is as fast as the motion itself, and what would be");
   verb->add_flag("--verify", options->verify, "run it, against the oracle and a sweep of all methods");
-  verb->add_flag("--audit", options->audit,
-                 "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
-  verb->add_option("--seed", options->auditing.seed, "of the audit [1]");
-  verb->add_flag("--quick", options->auditing.quick, "audit a few small scenes only");
-  verb->add_option("--out", options->auditing.out, "folder of the audit, new or empty [results/recommend-TIME]");
+  auto* audit = verb->add_flag(
+      "--audit", options->audit,
+      "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
+  verb->add_option("--seed", options->auditing.seed, "of the audit [1]")->needs(audit);
+  verb->add_flag("--quick", options->auditing.quick, "audit a few small scenes only")->needs(audit);
+  verb->add_option("--out", options->auditing.out, "folder of the audit, new or empty [results/recommend-TIME]")
+      ->needs(audit);
   verb->add_flag("--json", options->json, "print the report as JSON on standard output, the rest on standard error");
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }

@@ -174,6 +174,23 @@ constexpr std::string_view reading =
     "does not reach the error. A point is dominated when another is no less accurate and its slowest repetition is "
     "faster than the fastest of the point.";
 
+/// Those that take part.
+///
+/// throws  InputError for a name that none has
+std::vector<TradeoffContender> contenders_of(const Options& options) {
+  std::vector<TradeoffContender> contenders = tradeoff_contenders(options.solvers);
+  std::string known;
+  for (const TradeoffContender& c : contenders) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", c.name);
+  for (const std::string& name : options.only)
+    if (std::ranges::find(contenders, name, &TradeoffContender::name) == contenders.end())
+      throw InputError(fmt::format("--only: no integrator '{}' takes part; expected some of {}", name, known));
+  if (!options.only.empty())
+    std::erase_if(contenders, [&](const TradeoffContender& c) {
+      return std::ranges::find(options.only, c.name) == options.only.end();
+    });
+  return contenders;
+}
+
 WorkPrecision study_scene(const std::string& scene_name, const Options& options, const RunFolder& folder,
                           JsonLines& samples, const std::function<void(const std::string&)>& say) {
   const TradeoffScene scene =
@@ -192,12 +209,7 @@ WorkPrecision study_scene(const std::string& scene_name, const Options& options,
     how.fewest_repetitions = 2;
     how.repetitions_s = 0.05;
   }
-  std::vector<TradeoffContender> contenders = tradeoff_contenders(options.solvers);
-  if (!options.only.empty())
-    std::erase_if(contenders, [&](const TradeoffContender& c) {
-      return std::ranges::find(options.only, c.name) == options.only.end();
-    });
-  if (contenders.empty()) throw InputError("no integrator of these names takes part");
+  const std::vector<TradeoffContender> contenders = contenders_of(options);
   WorkPrecision study = work_precision(scene, reference, contenders, clock, how,
                                        [&](const WorkPoint& p) { samples.append(json_of(scene.name, p)); });
   if (reference.gain > 0.0) say(fmt::format("a small disturbance grows by {:.3g}", reference.gain));
@@ -255,6 +267,7 @@ void tradeoff(const Options& options, Outcome& outcome) {
   for (const TradeoffEntry& entry : tradeoff_scenes())
     if (options.all || entry.name == given) names.emplace_back(entry.name);
   if (names.empty()) make_tradeoff_scene(given, "");  // tells which there are
+  contenders_of(options);                             // and this, which integrators
 
   const RunFolder folder(options.out.empty()
                              ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "tradeoff")

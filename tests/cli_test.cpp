@@ -340,10 +340,28 @@ TEST(Recommend, TakesASceneFileAndSaysWhatItLeavesOut) {
   EXPECT_NE(answer.out.find("Take "), std::string::npos) << answer.out;
 }
 
+TEST(Recommend, SaysWhatDoublePrecisionReachesWhereAnErrorIsBelowIt) {
+  const Answer answer = run("recommend chain --error 1e-30");
+  EXPECT_EQ(answer.status, 1) << answer.out;
+  EXPECT_NE(answer.out.find("cannot be met in double precision"), std::string::npos) << answer.out;
+}
+
+TEST(Tradeoff, ChecksTheNamesOfIntegratorsBeforeItWorks) {
+  const Answer answer = run("tradeoff chain --only verlet nosuch --out /nowhere/at/all");
+  EXPECT_EQ(answer.status, 2) << answer.out;
+  EXPECT_NE(answer.out.find("'nosuch'"), std::string::npos) << answer.out;
+  EXPECT_NE(answer.out.find("'blanes-moan-4'"), std::string::npos) << answer.out;
+}
+
 TEST(Recommend, NeedsASceneAndAnErrorOrDrawsThemItself) {
   EXPECT_EQ(run("recommend chain").status, 2);
   EXPECT_EQ(run("recommend --error 1e-3").status, 2);
   EXPECT_EQ(run("recommend chain --error 1e-3 --audit").status, 2);
+  for (const char* of_the_audit : {"--quick", "--seed 3", "--out /nowhere"}) {
+    const Answer answer = run(std::string("recommend chain --error 1e-3 ") + of_the_audit);
+    EXPECT_EQ(answer.status, 2) << of_the_audit;
+    EXPECT_NE(answer.out.find("--audit"), std::string::npos) << answer.out;
+  }
 }
 
 TEST(Scene, SchemaIsJson) {

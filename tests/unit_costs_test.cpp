@@ -32,6 +32,23 @@ TEST(UnitCosts, ChargeAForceEvaluationForEachStage) {
   EXPECT_EQ(plan.ns(), 50);
 }
 
+TEST(UnitCosts, OfTermsThatNoiseHidesAreNotBelowZero) {
+  // forces, the bare step, with viscosity, with damping: viscosity seems to save 5
+  std::vector<double> ns{40, 52, 47, 60};
+  EXPECT_EQ(make_ascending(ns), 5);
+  EXPECT_EQ(ns, (std::vector<double>{40, 47, 47, 60}));
+  std::vector<double> forces_alone{50, 48};
+  EXPECT_EQ(make_ascending(forces_alone), 2);
+  EXPECT_EQ(forces_alone, (std::vector<double>{48, 48}));
+  const ScenePlan plan =
+      timed(moving_box(), {.force = 10, .evaluations = 4, .damping = 13, .viscosity = 0, .stages = 7, .noise = 5});
+  const auto item = std::ranges::find(plan.items, Part::viscosity, &PlanItem::part);
+  EXPECT_EQ(item->ns, 0);
+  EXPECT_EQ(item->ns_below, 5);
+  EXPECT_EQ(std::ranges::find(plan.items, Part::damping, &PlanItem::part)->ns_below, 0);
+  EXPECT_EQ(plan.ns(), 60);  // a whole step is known all the same
+}
+
 TEST(UnitCosts, ChargeOutputAsOftenAsItIsDue) {
   Json scene = moving_box();  // ten steps
   scene["output"] = Json::parse(R"({"frames_every_steps": 4})");

@@ -20,6 +20,7 @@ struct PlanItem {
   std::string why;        // "/material/damping: 0.05"
   std::size_t bytes = 0;  // as Part says; exact
   double ns = 0.0;        // per step, averaged over the run; an estimate (unit_costs.h)
+  double ns_below = 0.0;  // where it was too little to be measured: it is less than this, and ns is 0
   std::size_t event = 0;  // of Part::event: which one
 };
 
