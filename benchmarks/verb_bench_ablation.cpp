@@ -13,6 +13,7 @@
 #include "benchmarks/run_folder.h"
 #include "benchmarks/verb_bench.h"
 #include "core/scene/measured_plan.h"
+#include "core/scene/scene_problem.h"
 
 namespace dartboard {
 namespace {

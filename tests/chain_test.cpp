@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/scene/scene_problem.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/write_vtu.h"
 #include "core/time/integrators.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/plain/error.h"
+#include "core/scene/scene_problem.h"
 #include "core/time/integrators.h"
 #include "tests/moving_box.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/plain/error.h"
+#include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
 
