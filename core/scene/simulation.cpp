@@ -9,6 +9,7 @@
 #include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
+#include "core/time/nan_proof.h"
 
 namespace dartboard {
 namespace {
@@ -195,10 +196,10 @@ void Simulation::compare(const Sums& before) {
   const Sums after = sums();
   const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
   ++jumps_.events;
-  jumps_.mass = std::max(jumps_.mass, relative(after.mass - before.mass, before.mass));
+  jumps_.mass = max_or_nan(jumps_.mass, relative(after.mass - before.mass, before.mass));
   jumps_.momentum =
-      std::max(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
-  jumps_.energy = std::max(jumps_.energy, relative(after.energy - before.energy, before.energy));
+      max_or_nan(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
+  jumps_.energy = max_or_nan(jumps_.energy, relative(after.energy - before.energy, before.energy));
 }
 
 std::optional<Divergence> Simulation::diverged() const {
