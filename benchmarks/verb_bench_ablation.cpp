@@ -14,6 +14,7 @@
 #include "benchmarks/verb_bench.h"
 #include "core/scene/measured_plan.h"
 #include "core/scene/simulation.h"
+#include "core/scene/scene_problem.h"
 
 namespace dartboard {
 namespace {

@@ -13,6 +13,7 @@
 #include "benchmarks/table.h"
 #include "benchmarks/unit_costs.h"
 #include "core/scene/measured_plan.h"
+#include "core/scene/scene_problem.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/simulation.h"
 #include "core/scene/system_arrays.h"

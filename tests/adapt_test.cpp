@@ -65,7 +65,7 @@ TYPED_TEST_SUITE(Adapt, Solids);
 
 TYPED_TEST(Adapt, SharesAVertexMassAndAnEdgeStiffnessBetweenTheParts) {
   Problem problem;
-  problem.mesh = two_tetrahedra();
+  problem.mesh = unequal_tetrahedra();
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   const auto masses = body.vertices.mass;
   Dart shared = no_dart;
@@ -155,7 +155,7 @@ TYPED_TEST(Adapt, TakesAwayExactlyTheRemovedMass) {
 
 TYPED_TEST(Adapt, LeavesABodyThatHasNoStateByMeshPoint) {
   Problem problem;
-  problem.mesh = two_tetrahedra();
+  problem.mesh = unequal_tetrahedra();
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   adapt(body, remove_volume(body.map, Dart{0}));
   EXPECT_THROW(body.state(), InputError);

@@ -31,7 +31,7 @@ Problem weightless(Mesh mesh) {
 // A regular tetrahedron that breathes: x_i = (1 + q) R_i. The pulls of its edges add up to -4 R_i / L times the
 // tension, so m q'' = -4 k q - (4 c + viscosity m) q' without any approximation: a nonlinear body with a linear motion.
 struct Breathing {
-  Problem problem = weightless(one_tetrahedron());
+  Problem problem = weightless(regular_tetrahedron());
   Swing start{0.125, 0.5};
   double omega2, drag;
 
@@ -58,7 +58,7 @@ struct Breathing {
 };
 
 TEST(AdjacencyGraph, HasTheCellsOfItsMesh) {
-  const AdjacencyGraph body(weightless(two_tetrahedra()));
+  const AdjacencyGraph body(weightless(unequal_tetrahedra()));
   EXPECT_EQ(body.nodes(), 5u);
   EXPECT_EQ(body.springs(), 9u);
   EXPECT_EQ(body.cells(), 2u);
@@ -179,7 +179,7 @@ TEST(AdjacencyGraph, ContinuesBitForBitFromARestoredState) {
 }
 
 TEST(AdjacencyGraph, HasNoForceInASpringOfNoLength) {
-  Problem problem = weightless(one_tetrahedron());
+  Problem problem = weightless(regular_tetrahedron());
   AdjacencyGraph body(problem);
   PointState state = body.state();
   state.x.assign(4, {1.0, 1.0, 1.0});
@@ -188,7 +188,7 @@ TEST(AdjacencyGraph, HasNoForceInASpringOfNoLength) {
 }
 
 TEST(AdjacencyGraph, RefusesWhatIsNoProblem) {
-  Problem problem = weightless(one_tetrahedron());
+  Problem problem = weightless(regular_tetrahedron());
   problem.fixed = {4};
   EXPECT_THROW(AdjacencyGraph{problem}, InputError);
   problem.fixed.clear();

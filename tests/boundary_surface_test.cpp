@@ -71,7 +71,8 @@ TYPED_TEST_SUITE(BoundaryOf, Solids);
 // A regular tetrahedron of edge 2 sqrt(2) around the origin: each face has the area 2 sqrt(3) and looks away from it.
 TYPED_TEST(BoundaryOf, OneTetrahedronLooksOutwards) {
   for (const bool left_handed : {false, true}) {
-    const auto body = body_of<TypeParam>(left_handed ? with_left_handed_cells(one_tetrahedron()) : one_tetrahedron());
+    const auto body =
+        body_of<TypeParam>(left_handed ? with_left_handed_cells(regular_tetrahedron()) : regular_tetrahedron());
     EXPECT_EQ(body.cell_inside_out[0], left_handed ? 1 : 0);
     const BoundarySurface surface = boundary_of(body);
     ASSERT_EQ(surface.facets().size(), 4u);
@@ -103,7 +104,7 @@ TYPED_TEST(BoundaryOf, ABoxIsClosedAndOfItsAreaAndVolume) {
 }
 
 TEST(BoundaryOfHexahedra, IsClosedAndOfItsAreaAndVolume) {
-  const auto body = body_of<Map3>(hexahedron_grid(4, 2, 1, 0.5));
+  const auto body = body_of<Map3>(hexahedron_box(4, 2, 1, 0.5));
   const BoundarySurface surface = boundary_of(body);
   EXPECT_EQ(surface.facets().size(), 2u * (4u * 2u + 2u * 1u + 4u * 1u));
   for (const BoundaryFacet& facet : surface.facets()) EXPECT_EQ(surface.corners(body, facet).size(), 4u);
@@ -152,7 +153,7 @@ TYPED_TEST(BoundaryOf, ABodyFollowsEveryOperationUntilNothingIsLeft) {
 }
 
 TEST(BoundaryOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
-  auto body = body_of<Map3>(hexahedron_grid(3, 2, 2, 1.0));
+  auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 1.0));
   BoundarySurface surface = boundary_of(body);
   operate_at_random(body, 1, 30, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
     surface.apply(now, changed);
@@ -162,7 +163,7 @@ TEST(BoundaryOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
 }
 
 TYPED_TEST(BoundaryOf, TwoTetrahedraGrowsByTheTwoSidesOfTheirFace) {
-  auto body = body_of<TypeParam>(two_tetrahedra());
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
   BoundarySurface surface = boundary_of(body);
   EXPECT_EQ(surface.facets().size(), 6u);
   Dart shared = no_dart;
@@ -212,7 +213,7 @@ TEST(BoundaryOfASurface, FollowsEveryOperationUntilNothingIsLeft) {
 }
 
 TEST(BoundaryOfAClosedSurface, IsEmpty) {
-  const auto body = body_of<Map2>(torus_surface());
+  const auto body = body_of<Map2>(torus_lattice());
   EXPECT_TRUE(boundary_of(body).facets().empty());
 }
 

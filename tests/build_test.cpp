@@ -119,7 +119,7 @@ TEST(BuildMap, OfNoCellsIsEmpty) {
 }
 
 TEST(BuildMap, SewsHexahedra) {
-  const auto map = build_map<Map3>(hexahedron_grid(2, 2, 2, 1.0)).map;
+  const auto map = build_map<Map3>(hexahedron_box(2, 2, 2, 1.0)).map;
   EXPECT_EQ(counts(map), (Counts{27, 54, 36, 8}));
   EXPECT_EQ(check(map), "");
 }
@@ -206,9 +206,9 @@ TEST(BuildMap, RefusesAPointThatDoesNotExist) {
 TEST(BuildMap, RefusesCellsThatTheMapDoesNotHold) {
   EXPECT_EQ(message_of<InputError>([] { build_map<TetMap>(mixed_cells()); }),
             "cell 0 is a hexahedron: this map holds tetrahedra only");
-  EXPECT_EQ(message_of<InputError>([] { build_map<Map2>(one_tetrahedron()); }),
+  EXPECT_EQ(message_of<InputError>([] { build_map<Map2>(regular_tetrahedron()); }),
             "cell 0 is a tetrahedron: this map holds polygons only");
-  EXPECT_EQ(message_of<InputError>([] { build_map<Map3>(torus_surface()); }),
+  EXPECT_EQ(message_of<InputError>([] { build_map<Map3>(torus_lattice()); }),
             "cell 0 is a quadrilateral: this map holds volumes only");
 }
 
@@ -223,7 +223,7 @@ TEST(BuildMap, SewsSurfacesOfTrianglesAndQuadrilaterals) {
 }
 
 TEST(BuildMap, SewsAMoebiusStrip) {
-  const auto map = build_map<Map2>(moebius_strip()).map;
+  const auto map = build_map<Map2>(moebius_lattice()).map;
   EXPECT_EQ(counts(map), (Counts{10, 15, 5, 0}));
   EXPECT_EQ(check(map), "");
 }

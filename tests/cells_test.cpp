@@ -24,13 +24,13 @@ using Maps = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(Cells, Maps);
 
 TYPED_TEST(Cells, OfOneTetrahedron) {
-  const auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  const auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   EXPECT_EQ(map.dart_count(), 24u);
   EXPECT_EQ(counts(map), (Counts{4, 6, 4, 1}));
 }
 
 TYPED_TEST(Cells, OfTwoTetrahedraSharingAFace) {
-  const auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  const auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   EXPECT_EQ(map.dart_count(), 48u);
   EXPECT_EQ(counts(map), (Counts{5, 9, 7, 2}));
 }
@@ -49,7 +49,7 @@ TYPED_TEST(Cells, OfTheKuhnCubeAfterUnsewingEveryFace) {
 }
 
 TYPED_TEST(Cells, AroundAVertexOfTwoTetrahedra) {
-  const auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  const auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   std::multiset<std::array<std::size_t, 3>> found;  // edges, faces, volumes around each vertex
   for_each_cell<0>(map, [&](Vertex v) {
     found.insert(
@@ -60,7 +60,7 @@ TYPED_TEST(Cells, AroundAVertexOfTwoTetrahedra) {
 }
 
 TYPED_TEST(Cells, OfATetrahedronAndBack) {
-  const auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  const auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   for_each_cell<3>(map, [&](Volume v) {
     EXPECT_EQ((incident_cells<0>(map, v).size()), 4u);
     EXPECT_EQ((incident_cells<1>(map, v).size()), 6u);
@@ -112,7 +112,7 @@ TEST(SurfaceCells, OfAGridOfQuadrilaterals) {
 }
 
 TEST(CellWalks, TellWhetherTwoDartsShareACell) {
-  const Map3 map = build_map<Map3>(two_tetrahedra()).map;
+  const Map3 map = build_map<Map3>(unequal_tetrahedra()).map;
   const Dart d{0};
   EXPECT_TRUE(same_cell<0>(map, d, map.alpha<1>(d)));
   EXPECT_FALSE(same_cell<0>(map, d, map.alpha<0>(d)));

@@ -27,9 +27,9 @@ void expect_counts(const Mesh& mesh, const CellCounts& expected) {
                          << n.components;
 }
 
-TEST(CgalBody, OfOneTetrahedronHasTwentyFourDarts) { expect_counts(one_tetrahedron(), {24, 4, 6, 4, 1, 1}); }
+TEST(CgalBody, OfOneTetrahedronHasTwentyFourDarts) { expect_counts(regular_tetrahedron(), {24, 4, 6, 4, 1, 1}); }
 
-TEST(CgalBody, OfTwoTetrahedraSharesOneFace) { expect_counts(two_tetrahedra(), {48, 5, 9, 7, 2, 1}); }
+TEST(CgalBody, OfTwoTetrahedraSharesOneFace) { expect_counts(unequal_tetrahedra(), {48, 5, 9, 7, 2, 1}); }
 
 TEST(CgalBody, OfACubeOfSixTetrahedraHasTheCellsOfAKuhnCube) {
   expect_counts(kuhn_grid(1, 1, 1, 1.0), {144, 8, 19, 18, 6, 1});
@@ -56,16 +56,16 @@ TEST(CgalBody, OfPolygonsIsASurface) {
 }
 
 TEST(CgalBody, OfTwoPiecesHasTwoComponents) {
-  Mesh mesh = one_tetrahedron();
-  const Mesh other = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
+  const Mesh other = regular_tetrahedron();
   for (const auto& p : other.points) mesh.points.emplace_back(p + Eigen::Vector3d(10, 0, 0));
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4, 5, 6, 7});
   expect_counts(mesh, {48, 8, 12, 8, 2, 2});
 }
 
 TEST(CgalBody, IsBuiltFromTheMeshAndNotFromItsShape) {
-  Mesh mesh = one_tetrahedron();  // and a second one in the very same place, sharing no point
-  const Mesh twin = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();  // and a second one in the very same place, sharing no point
+  const Mesh twin = regular_tetrahedron();
   mesh.points.insert(mesh.points.end(), twin.points.begin(), twin.points.end());
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4, 5, 6, 7});
   expect_counts(mesh, {48, 8, 12, 8, 2, 2});
@@ -103,7 +103,7 @@ TEST(CgalBody, MovesAsTheAdjacencyGraphDoesInBothWalks) {
 }
 
 TEST(CgalBody, StartsFromTheProblem) {
-  Problem problem = of(two_tetrahedra());
+  Problem problem = of(unequal_tetrahedra());
   problem.fixed = {1};
   problem.initial_velocity.assign(5, {1, 2, 3});
   const PointState cgal = CgalBody(problem).state(), graph = AdjacencyGraph(problem).state();
@@ -112,21 +112,21 @@ TEST(CgalBody, StartsFromTheProblem) {
 }
 
 TEST(CgalBody, RefusesThreeTetrahedraAtOneFace) {
-  Mesh mesh = two_tetrahedra();
+  Mesh mesh = unequal_tetrahedra();
   mesh.points.emplace_back(1, 1, 1);
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 5});
   EXPECT_THROW(CgalBody{of(mesh)}, InputError);
 }
 
 TEST(CgalBody, RefusesTwoTetrahedraThatTouchInOnePoint) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   mesh.points.insert(mesh.points.end(), {{2, 1, 1}, {1, 2, 1}, {1, 1, 2}});
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 4, 5, 6});
   EXPECT_THROW(CgalBody{of(mesh)}, InputError);
 }
 
 TEST(CgalBody, RefusesAStateOfAnotherBody) {
-  CgalBody body(of(one_tetrahedron()));
+  CgalBody body(of(regular_tetrahedron()));
   EXPECT_THROW(body.set_state({}), InputError);
 }
 

@@ -42,7 +42,7 @@ std::size_t count_labels(const MapTwin& twin, Involutions set) {
 // ---- a mesh written out
 
 TEST(AlphasOfAMesh, AreThoseOfOurMap) {
-  for (const Mesh& mesh : {kuhn_grid(2, 1, 1, 1.0), mixed_cells(), hexahedron_grid(2, 2, 1, 1.0), pinched_body()}) {
+  for (const Mesh& mesh : {kuhn_grid(2, 1, 1, 1.0), mixed_cells(), hexahedron_box(2, 2, 1, 1.0), pinched_ring()}) {
     const AlphaList list = alphas_of(mesh);
     const AlphaList ours = make_core_twin<Map3>(mesh)->alphas();
     EXPECT_EQ(list.darts, ours.darts);
@@ -57,7 +57,7 @@ TEST(AlphasOfAMesh, OfNoCellsAreNoDartsOfASolid) {
 }
 
 TEST(AlphasOfAMesh, AreRefusedWhereThreeCellsShareAFacet) {
-  Mesh mesh = two_tetrahedra();
+  Mesh mesh = unequal_tetrahedra();
   mesh.points.emplace_back(1, 1, 3);
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 5});
   EXPECT_THROW(alphas_of(mesh), InputError);
@@ -97,20 +97,20 @@ TEST(CgalGmapTwin, WalksEverySetOfInvolutions) {
 }
 
 TEST(CgalGmapTwin, KnowsComponentsApart) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   for (int k = 0; k < 4; ++k) mesh.points.push_back(mesh.points[static_cast<std::size_t>(k)]);
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4, 5, 6, 7});
   for (const auto& twin : both_oracles(alphas_of(mesh))) EXPECT_EQ(count_labels(*twin, all_involutions(3)), 2u);
 }
 
 TEST(CgalGmapTwin, SaysWhetherASurfaceIsOrientable) {
-  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(moebius_strip()))->is_orientable(), false);
-  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(klein_bottle()))->is_orientable(), false);
-  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(torus_surface()))->is_orientable(), true);
+  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(moebius_lattice()))->is_orientable(), false);
+  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(klein_lattice()))->is_orientable(), false);
+  EXPECT_EQ(make_cgal_gmap_twin(alphas_of(torus_lattice()))->is_orientable(), true);
 }
 
 TEST(CgalGmapTwin, SewsFlippedFacesAndTwoFacesOfOneTetrahedron) {
-  const auto twin = make_cgal_gmap_twin(alphas_of(one_tetrahedron()));
+  const auto twin = make_cgal_gmap_twin(alphas_of(regular_tetrahedron()));
   EXPECT_TRUE(twin->can_sew(3, Dart{0}, Dart{6}));
   EXPECT_TRUE(twin->can_sew(3, Dart{0}, Dart{7}));  // the other way round
   twin->sew(3, Dart{0}, Dart{7});
@@ -122,10 +122,10 @@ TEST(CgalGmapTwin, SewsFlippedFacesAndTwoFacesOfOneTetrahedron) {
 
 // Where its verdicts are not ours: see the header.
 TEST(CgalGmapTwin, RefusesFoldsByChoiceButCanBeFolded) {
-  const auto twin = make_cgal_gmap_twin(alphas_of(one_tetrahedron()));
+  const auto twin = make_cgal_gmap_twin(alphas_of(regular_tetrahedron()));
   EXPECT_TRUE(twin->refuses_folds());
   EXPECT_FALSE(twin->can_sew(3, Dart{0}, Dart{5}));
-  EXPECT_TRUE(make_core_twin<Map3>(one_tetrahedron())->can_sew(3, Dart{0}, Dart{5}));
+  EXPECT_TRUE(make_core_twin<Map3>(regular_tetrahedron())->can_sew(3, Dart{0}, Dart{5}));
   twin->sew(3, Dart{0}, Dart{5});
   for (std::uint32_t r = 0; r < 6; ++r) EXPECT_EQ(twin->alpha(3, Dart{r}), Dart{5 - r});
   EXPECT_EQ(twin->violation(), "");
@@ -149,7 +149,7 @@ TEST(CgalGmapTwin, BringsEveryDartOfAFoldedEdgeOnce) {
 
 TEST(CgalCmapTwin, GivesBackTheAlphasItWasMadeOf) {
   for (const Mesh& mesh :
-       {kuhn_grid(2, 1, 1, 1.0), mixed_cells(), pinched_body(), torus_surface(), quadrilateral_grid(2, 2)}) {
+       {kuhn_grid(2, 1, 1, 1.0), mixed_cells(), pinched_ring(), torus_lattice(), quadrilateral_grid(2, 2)}) {
     const AlphaList list = alphas_of(mesh);
     const AlphaList back = make_cgal_cmap_twin(list, nullptr)->alphas();
     EXPECT_EQ(back.darts, list.darts);
@@ -159,7 +159,7 @@ TEST(CgalCmapTwin, GivesBackTheAlphasItWasMadeOf) {
 
 TEST(CgalCmapTwin, SaysWhyAMapHasNone) {
   std::string why_not;
-  EXPECT_EQ(make_cgal_cmap_twin(alphas_of(moebius_strip()), &why_not), nullptr);
+  EXPECT_EQ(make_cgal_cmap_twin(alphas_of(moebius_lattice()), &why_not), nullptr);
   EXPECT_EQ(why_not.substr(0, 14), "not orientable");
   EXPECT_EQ(make_cgal_cmap_twin(darts_without_links(3, 1), &why_not), nullptr);
   EXPECT_EQ(why_not, "d0 is 0-free");
@@ -168,12 +168,12 @@ TEST(CgalCmapTwin, SaysWhyAMapHasNone) {
   folded.alphas[1][2] = {0};
   EXPECT_EQ(make_cgal_cmap_twin(folded, &why_not), nullptr);
   EXPECT_EQ(why_not, "alpha2(d0) = alpha0(d0), a fold");
-  EXPECT_NE(make_cgal_cmap_twin(alphas_of(torus_surface()), &why_not), nullptr);
+  EXPECT_NE(make_cgal_cmap_twin(alphas_of(torus_lattice()), &why_not), nullptr);
   EXPECT_EQ(why_not, "");
 }
 
 TEST(CgalCmapTwin, WalksSetsWithAlpha0AndVertices) {
-  const auto twin = make_cgal_cmap_twin(alphas_of(one_tetrahedron()), nullptr);
+  const auto twin = make_cgal_cmap_twin(alphas_of(regular_tetrahedron()), nullptr);
   int walked = 0;
   for (unsigned bits = 0; bits < 16; ++bits) walked += twin->can_walk(Involutions::from_bits(bits)) ? 1 : 0;
   EXPECT_EQ(walked, 9);
@@ -182,7 +182,7 @@ TEST(CgalCmapTwin, WalksSetsWithAlpha0AndVertices) {
 }
 
 TEST(CgalCmapTwin, CarriesOnlySewsThatKeepTheMapOriented) {
-  const auto twin = make_cgal_cmap_twin(alphas_of(one_tetrahedron()), nullptr);
+  const auto twin = make_cgal_cmap_twin(alphas_of(regular_tetrahedron()), nullptr);
   EXPECT_TRUE(twin->can_carry_sew(3, Dart{0}, Dart{7}));
   EXPECT_FALSE(twin->can_carry_sew(3, Dart{0}, Dart{6}));  // of the same colour
   EXPECT_FALSE(twin->can_carry_sew(3, Dart{0}, Dart{5}));  // a fold
@@ -218,7 +218,7 @@ TEST(CgalTwins, AreIsomorphicToTheirOwnAlphasAndToNoOthers) {
 
 // A component alone does not decide: the change is in the second one.
 TEST(CgalTwins, AreComparedInEveryComponent) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   for (int k = 0; k < 4; ++k) mesh.points.push_back(mesh.points[static_cast<std::size_t>(k)]);
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4, 5, 6, 7});
   for (const auto& twin : both_oracles(alphas_of(mesh))) {
@@ -232,8 +232,8 @@ TEST(CgalTwins, AreComparedInEveryComponent) {
 
 TEST(CompareTopology, AgreesOnSolidsSurfacesAndNothing) {
   for (const Mesh& mesh :
-       {Mesh{}, one_tetrahedron(), two_tetrahedra(), kuhn_grid(2, 2, 1, 1.0), mixed_cells(), pinched_body(),
-        hexahedron_grid(2, 1, 1, 1.0), moebius_strip(), klein_bottle(), torus_surface()}) {
+       {Mesh{}, regular_tetrahedron(), unequal_tetrahedra(), kuhn_grid(2, 2, 1, 1.0), mixed_cells(), pinched_ring(),
+        hexahedron_box(2, 1, 1, 1.0), moebius_lattice(), klein_lattice(), torus_lattice()}) {
     const TopologyComparison comparison = compare_topology(mesh);
     for (const AgreementRow& row : comparison.rows) EXPECT_TRUE(row.agrees) << row.what << ": " << row.answers[0];
     EXPECT_TRUE(comparison.agrees());
@@ -259,7 +259,7 @@ TEST(CompareTopology, AsksEveryQuestionOfEveryCarrier) {
 }
 
 TEST(CompareTopology, SaysWhyThereIsNoCombinatorialMap) {
-  const TopologyComparison comparison = compare_topology(klein_bottle());
+  const TopologyComparison comparison = compare_topology(klein_lattice());
   EXPECT_EQ(comparison.carriers, (std::vector<std::string>{"Map2", "CGAL g-map"}));
   EXPECT_EQ(comparison.no_cmap.substr(0, 14), "not orientable");
 }

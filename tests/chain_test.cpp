@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/meshes/base64.h"
+#include "core/scene/scene_problem.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/write_vtu.h"
 #include "core/time/integrators.h"

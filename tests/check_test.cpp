@@ -32,9 +32,9 @@ TEST(Check, FindsNothingInLooseDarts) { EXPECT_EQ(check(loose_darts<Map3>(3)), "
 
 TEST(Check, FindsNothingInBuiltMaps) {
   EXPECT_EQ(check(build_map<Map3>(mixed_cells()).map), "");
-  EXPECT_EQ(check(build_map<Map3>(pinched_body()).map), "");
+  EXPECT_EQ(check(build_map<Map3>(pinched_ring()).map), "");
   EXPECT_EQ(check(build_map<TetMap>(kuhn_grid(2, 2, 1, 1.0)).map), "");
-  EXPECT_EQ(check(build_map<Map2>(klein_bottle()).map), "");
+  EXPECT_EQ(check(build_map<Map2>(klein_lattice()).map), "");
 }
 
 TEST(Check, NamesAlpha0Alpha2OfASurface) {
@@ -78,7 +78,7 @@ TEST(Check, NamesAFaceSewnByOneDartOnly) {
 }
 
 TEST(Check, NamesAFaceUnlinkedAtOneDart) {
-  auto map = build_map<Map3>(two_tetrahedra()).map;
+  auto map = build_map<Map3>(unequal_tetrahedra()).map;
   Dart sewn{0};
   while (map.is_free<3>(sewn)) ++sewn.index;
   map.unlink<3>(sewn);
@@ -122,7 +122,7 @@ TEST(CheckDart, LooksAtOneDartOnly) {
 
 // In tetrahedral storage one word holds a whole face; it is written here, and not its partner.
 TEST(CheckOfTetrahedra, NamesAFaceThatDoesNotLeadBack) {
-  auto map = build_map<TetMap>(two_tetrahedra()).map;
+  auto map = build_map<TetMap>(unequal_tetrahedra()).map;
   Dart inner = no_dart;
   map.for_each_dart([&](Dart d) {
     if (!map.is_free<3>(d)) inner = d;

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/time/backward_error.h"
 #include "core/time/cholesky.h"
-#include "tests/spring_bodies_for_tests.h"
+#include "tests/step_matrices_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -15,20 +14,6 @@ namespace {
 using Eigen::Vector3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double far_too_slow = 1e9;  // seconds a flop: what is never chosen
-
-struct Body {
-  SpringArrays arrays;
-  std::vector<SpringTangent> tangents;
-  StepMatrix matrix;
-  BlockMatrix blocks;
-
-  explicit Body(SpringArrays body) : arrays(std::move(body)) {
-    const SpringSystem system = arrays.system();
-    evaluate_tangents(system, arrays.x, Compression::projected, tangents);
-    matrix.evaluate(system, tangents, 0.02);
-    matrix.assemble(node_pattern_of(system), blocks);
-  }
-};
 
 SpringArrays stretched_grid() {
   SpringArrays body = spring_grid(3, 3, 3);
@@ -38,17 +23,6 @@ SpringArrays stretched_grid() {
 }
 
 constexpr std::uint32_t place = 21;  // an interior vertex
-
-// Every other spring of a vertex, and half of its mass, go to a new vertex at the same place.
-SpringArrays dissociated(SpringArrays body) {
-  const std::uint32_t added = body.add_vertex(body.mass[place] / 2, body.x[place]);
-  body.mass[place] /= 2;
-  bool leaves = false;
-  for (SpringEnds& ends : body.ends)
-    for (std::uint32_t& end : ends)
-      if (end == place && (leaves = !leaves)) end = added;
-  return body;
-}
 
 CholeskyOptions never_again(FactorKind kind) {
   CholeskyOptions options{.kind = kind, .spare_nodes = 1};
@@ -61,18 +35,11 @@ CholeskyOptions by_rows(FactorKind kind = FactorKind::simplicial) {
   return options;
 }
 
-double solved_error(Cholesky& cholesky, const BlockMatrix& blocks) {
-  const auto b = random_vectors(blocks.node_count(), 11);
-  auto x = b;
-  EXPECT_EQ(cholesky.solve(b, x), SolveStatus::ok);
-  return backward_error(blocks, b, x);
-}
-
 // 50 epsilon, as for updates in cholesky_test.cpp: it tells this matrix from any other.
 TEST(CholeskyRows, OfADissociatedVertexAndItsTwinAreAllThatChanges) {
   for (const FactorKind kind : {FactorKind::simplicial, FactorKind::supernodal}) {
-    Body before(stretched_grid());
-    const Body after(dissociated(before.arrays));
+    BodyMatrix before(stretched_grid());
+    const BodyMatrix after(with_vertex_dissociated(before.arrays));
     Cholesky cholesky(by_rows(kind));
     ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
     const auto terms = before.matrix.follow(after.arrays.system(), after.tangents, cholesky.spare_diagonal());
@@ -86,8 +53,8 @@ TEST(CholeskyRows, OfADissociatedVertexAndItsTwinAreAllThatChanges) {
 }
 
 TEST(CholeskyRows, LeadBackWhenTheVertexIsJoinedAgain) {
-  Body before(stretched_grid());
-  const Body after(dissociated(before.arrays));
+  BodyMatrix before(stretched_grid());
+  const BodyMatrix after(with_vertex_dissociated(before.arrays));
   Cholesky cholesky(by_rows());
   ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
   const double spare = cholesky.spare_diagonal();
@@ -104,11 +71,11 @@ TEST(CholeskyRows, LeadBackWhenTheVertexIsJoinedAgain) {
 
 // Terms after rows: the columns that rows were taken out of must still hold the paths that updates run along.
 TEST(CholeskyRows, LeaveAFactorThatTermsCanUpdate) {
-  Body before(stretched_grid());
-  const Body after(dissociated(before.arrays));
+  BodyMatrix before(stretched_grid());
+  const BodyMatrix after(with_vertex_dissociated(before.arrays));
   SpringArrays arrays = after.arrays;
   for (std::size_t e = 0; e < arrays.springs.size(); e += 5) arrays.springs[e].stiffness *= 3.0;
-  const Body harder(arrays);
+  const BodyMatrix harder(arrays);
   Cholesky cholesky(by_rows());
   ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
   StepMatrix matrix = before.matrix;
@@ -121,8 +88,92 @@ TEST(CholeskyRows, LeaveAFactorThatTermsCanUpdate) {
   EXPECT_LT(solved_error(cholesky, harder.blocks), 50 * epsilon);
 }
 
+// Back to a spare row, which terms then lead from as they would from one that was never used.
+TEST(CholeskyRows, GiveBackARowThatTermsCanUse) {
+  BodyMatrix before(stretched_grid());
+  const BodyMatrix after(with_vertex_dissociated(before.arrays));
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  const double spare = cholesky.spare_diagonal();
+  StepMatrix matrix = before.matrix;
+  ASSERT_EQ(cholesky.follow(after.blocks, matrix.follow(after.arrays.system(), after.tangents, spare)),
+            SolveStatus::ok);
+  ASSERT_EQ(cholesky.follow(before.blocks, matrix.follow(before.arrays.system(), before.tangents, spare)),
+            SolveStatus::ok);
+  ASSERT_EQ(cholesky.update(matrix.follow(after.arrays.system(), after.tangents, spare)), SolveStatus::ok);
+  EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
+}
+
+// Rows that change beside each other: the second to be put back meets the first.
+TEST(CholeskyRows, KeepWhatCouplesTwoOfThem) {
+  BodyMatrix before(stretched_grid());
+  SpringArrays arrays = before.arrays;
+  const auto [a, b] = arrays.ends[40];
+  arrays.mass[a] *= 1.5;
+  arrays.mass[b] *= 1.5;
+  const BodyMatrix after(arrays);
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  ASSERT_EQ(cholesky.follow(after.blocks, before.matrix.follow(arrays.system(), after.tangents, 1.0)), SolveStatus::ok);
+  EXPECT_EQ(cholesky.counters().rows_replaced, 6u);
+  EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
+}
+
+// Stiffness goes round a cycle of four vertices, off two sides and onto the two others: no diagonal tells.
+TEST(CholeskyRows, AreLeftToTermsWhereNoDiagonalChanges) {
+  const BodyMatrix body(stretched_grid());
+  const double weight = 0.1 * body.blocks.diagonal[0](0, 0);
+  const Vector3d x(1, 0, 0);
+  const std::vector<RankOneTerm> terms{{0, 1, x, weight}, {1, 2, x, -weight}, {2, 3, x, weight}, {3, 0, x, -weight}};
+  SpringArrays square = body.arrays;
+  for (std::uint32_t k = 0; k < 4; ++k) square.add_spring(k, (k + 1) % 4, 0.0, 1.0);  // a place for every entry
+  BodyMatrix after(square);
+  Cholesky cholesky(by_rows());
+  ASSERT_EQ(cholesky.factorise(after.blocks), SolveStatus::ok);
+  const std::size_t first = square.ends.size() - 4;
+  const NodePattern pattern = node_pattern_of(square.system());
+  for (std::size_t k = 0; k < 4; ++k) after.blocks.below[pattern.place[first + k]](0, 0) -= terms[k].weight;
+  ASSERT_EQ(cholesky.follow(after.blocks, terms), SolveStatus::ok);
+  EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
+}
+
+TEST(CholeskyRows, CountTowardsTheRenewalOfTheFactor) {
+  BodyMatrix before(stretched_grid());
+  const BodyMatrix after(with_vertex_dissociated(before.arrays));
+  CholeskyOptions options = by_rows();
+  options.renew_after = 30;  // two changes of six rows, each row counting as two
+  Cholesky cholesky(options);
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  const double spare = cholesky.spare_diagonal();
+  StepMatrix matrix = before.matrix;
+  for (const BodyMatrix* to : {&after, static_cast<const BodyMatrix*>(&before), &after}) {
+    ASSERT_EQ(cholesky.follow(to->blocks, matrix.follow(to->arrays.system(), to->tangents, spare)), SolveStatus::ok);
+    EXPECT_LT(solved_error(cholesky, to->blocks), 50 * epsilon);
+  }
+  EXPECT_EQ(cholesky.counters().update_chosen, 2u);
+  EXPECT_EQ(cholesky.counters().refactor_chosen, 1u);
+}
+
+// What rows and terms leave has another form than what was analysed: the next factorisation starts from the analysis.
+TEST(CholeskyRows, LeaveTheFormOfTheAnalysisToTheNextFactor) {
+  for (const bool rows : {true, false}) {
+    BodyMatrix before(stretched_grid());
+    const BodyMatrix after(with_vertex_dissociated(before.arrays));
+    Cholesky cholesky(by_rows(FactorKind::supernodal));
+    ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+    StepMatrix matrix = before.matrix;
+    const auto terms = matrix.follow(after.arrays.system(), after.tangents, cholesky.spare_diagonal());
+    ASSERT_EQ(rows ? cholesky.follow(after.blocks, terms) : cholesky.update(terms), SolveStatus::ok);
+    EXPECT_FALSE(cholesky.is_supernodal());
+    ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+    EXPECT_TRUE(cholesky.is_supernodal());
+    EXPECT_EQ(cholesky.counters().analyses, 1u);
+    EXPECT_LT(solved_error(cholesky, before.blocks), 50 * epsilon);
+  }
+}
+
 TEST(CholeskyRows, ThatMakeTheMatrixIndefiniteAreReported) {
-  const Body body(stretched_grid());
+  const BodyMatrix body(stretched_grid());
   Cholesky cholesky(by_rows());
   ASSERT_EQ(cholesky.factorise(body.blocks), SolveStatus::ok);
   // the diagonal stays positive: only elimination shows that this is no minimum
@@ -136,10 +187,10 @@ TEST(CholeskyRows, ThatMakeTheMatrixIndefiniteAreReported) {
 }
 
 TEST(CholeskyRows, AreLeftToTermsWhereOtherRowsChange) {
-  Body before(stretched_grid());
+  BodyMatrix before(stretched_grid());
   SpringArrays arrays = before.arrays;
   arrays.springs[40].stiffness *= 2.0;  // both its ends change: twelve updates of rank one for rows, three for terms
-  const Body after(arrays);
+  const BodyMatrix after(arrays);
   Cholesky cholesky(never_again(FactorKind::simplicial));
   ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
   ASSERT_EQ(cholesky.follow(after.blocks, before.matrix.follow(arrays.system(), after.tangents, 1.0)), SolveStatus::ok);
@@ -151,9 +202,9 @@ TEST(CholeskyRows, AreLeftToTermsWhereOtherRowsChange) {
 TEST(CholeskyRule, FactorsAgainWhereAnUpdateWouldCancelDigits) {
   SpringArrays arrays = stretched_grid();
   arrays.springs[40].stiffness *= 1e12;
-  Body before(arrays);
+  BodyMatrix before(arrays);
   arrays.springs[40].stiffness = 0.0;
-  const Body after(arrays);
+  const BodyMatrix after(arrays);
   for (const double cancellation : {1e3, 1e300}) {
     CholeskyOptions options = never_again(FactorKind::simplicial);
     options.cancellation = cancellation;
@@ -187,6 +238,8 @@ TEST(BackwardError, IsTheResidualOverWhatItCouldBe) {
   EXPECT_DOUBLE_EQ(normwise_backward_error(matrix, b, x), 0.125 / (3.0 * 1.0 + 2.125));
   EXPECT_DOUBLE_EQ(backward_error(matrix, b, x), 0.125 / (2.0 + 2.125));
   b[1].y() = NAN;
+  EXPECT_TRUE(std::isnan(normwise_backward_error(matrix, b, x)));
+  b[0].x() -= 0.125;  // no residual beside it
   EXPECT_TRUE(std::isnan(normwise_backward_error(matrix, b, x)));
 }
 

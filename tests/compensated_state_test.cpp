@@ -50,6 +50,18 @@ TEST(CompensatedState, MovesInStepsThatAreAllLostPlainly) {
   }
 }
 
+TEST(CompensatedState, KeepsWhatAnIncrementCoversUp) {
+  // 2^-60 beside an increment of 1: here it is the sum that does not fit into the result
+  std::vector<Eigen::Vector3d> x{{0x1p-60, 0, 0}}, v{{1, 0, 0}};
+  CompensatedState state;
+  WorkCounters work;
+  state.begin({x, v});
+  state.drift(1.0);
+  ASSERT_TRUE(state.commit({x, v}, work).ok());
+  EXPECT_EQ(x[0].x(), 1.0);
+  EXPECT_EQ(state.lost().x[0].x(), 0x1p-60);
+}
+
 TEST(CompensatedState, KeepsWhatDampingTakesInTinySteps) {
   SpringArrays body = oscillator(8.0), plain = body;
   run(*make_integrator("verlet"), plain, 1e-17, 10000);

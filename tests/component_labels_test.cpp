@@ -76,7 +76,7 @@ using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(ComponentsOf, Solids);
 
 TYPED_TEST(ComponentsOf, TwoTetrahedraAreTwoWhenTheirFaceIsDissociated) {
-  auto body = body_of<TypeParam>(two_tetrahedra());
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
   ComponentLabels labels = components_of(body);
   EXPECT_EQ(labels.count(), 1u);
   Dart shared = no_dart;
@@ -92,7 +92,7 @@ TYPED_TEST(ComponentsOf, TwoTetrahedraAreTwoWhenTheirFaceIsDissociated) {
 }
 
 TYPED_TEST(ComponentsOf, SeparateBodiesAreNumberedByTheirLowestCell) {
-  Mesh mesh = two_tetrahedra();
+  Mesh mesh = unequal_tetrahedra();
   mesh.points.insert(mesh.points.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}});
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{5, 6, 7, 8});
   const auto labels = components_of(body_of<TypeParam>(mesh));
@@ -104,7 +104,7 @@ TYPED_TEST(ComponentsOf, SeparateBodiesAreNumberedByTheirLowestCell) {
 
 // The last component takes the label of the one that goes away.
 TYPED_TEST(ComponentsOf, ABodyThatGoesAwayLeavesItsLabelToTheLast) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   for (std::uint32_t k = 1; k < 3; ++k) {
     for (std::uint32_t p = 0; p < 4; ++p) mesh.points.push_back(mesh.points[p] + Eigen::Vector3d(5.0 * k, 0, 0));
     mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3});
@@ -183,7 +183,7 @@ TYPED_TEST(ComponentsOf, ABodyFollowEveryOperationUntilNothingIsLeft) {
 
 TYPED_TEST(ComponentsOf, APinchedBodyFollowEveryOperation) {
   for (std::uint64_t seed = 1; seed < 20; ++seed)
-    expect_followed_until_nothing_is_left<TypeParam>(pinched_body(), seed, 4);
+    expect_followed_until_nothing_is_left<TypeParam>(pinched_ring(), seed, 4);
 }
 
 // Series of many operations before anything follows: seeds may be dead, and parts may have parts.
@@ -202,7 +202,7 @@ TYPED_TEST(ComponentsOf, ABodyFollowLongSeries) {
 }
 
 TEST(ComponentsOfHexahedra, FollowEveryOperationUntilNothingIsLeft) {
-  expect_followed_until_nothing_is_left<Map3>(hexahedron_grid(3, 2, 2, 1.0), 1, 20);
+  expect_followed_until_nothing_is_left<Map3>(hexahedron_box(3, 2, 2, 1.0), 1, 20);
 }
 
 TEST(ComponentsOfASurface, FollowEveryOperationUntilNothingIsLeft) {
@@ -255,7 +255,7 @@ TEST(ComponentsOfASheet, LetTheLargestPartKeepItsLabelWhenItIsFoundFirst) {
 
 // As if a refinement had made cells: a body of one tetrahedron becomes one of two.
 TYPED_TEST(ComponentsOf, ABodyTakeInCellsThatAppear) {
-  ComponentLabels labels = components_of(body_of<TypeParam>(one_tetrahedron()));
+  ComponentLabels labels = components_of(body_of<TypeParam>(regular_tetrahedron()));
   const auto larger = body_of<TypeParam>(kuhn_grid(2, 1, 1, 1.0));
   ChangedEmbeddings changed;
   changed.cell_count = 12;

@@ -26,7 +26,7 @@ TEST(ToGeneral, KeepsEveryAlphaUnderTheSameNumbers) {
 }
 
 TEST(CombinatorialMap, HasHalfTheDarts) {
-  const auto map = build_map<TetMap>(one_tetrahedron()).map;
+  const auto map = build_map<TetMap>(regular_tetrahedron()).map;
   EXPECT_EQ(to_combinatorial_map(map).beta.size(), 12u);
 }
 
@@ -78,7 +78,7 @@ TEST(Isomorphism, SeesOneUnsewnFaceThatNoCountOfCellsButFacesShows) {
 }
 
 TEST(Isomorphism, DoesNotDependOnTheOrderOfCells) {
-  Mesh mesh = two_tetrahedra(), reversed;
+  Mesh mesh = unequal_tetrahedra(), reversed;
   reversed.points = mesh.points;
   reversed.add_cell(CellKind::tetrahedron, mesh.cell(1));
   reversed.add_cell(CellKind::tetrahedron, mesh.cell(0));
@@ -86,7 +86,7 @@ TEST(Isomorphism, DoesNotDependOnTheOrderOfCells) {
 }
 
 TEST(Isomorphism, TellsOneComponentFromTwo) {
-  const auto joined = build_map<Map3>(two_tetrahedra()).map;
+  const auto joined = build_map<Map3>(unequal_tetrahedra()).map;
   Map3 apart;
   add_cell(apart, CellKind::tetrahedron);
   add_cell(apart, CellKind::tetrahedron);

@@ -50,7 +50,7 @@ TYPED_TEST(DissociateAll, IsTheSeriesOfTheSingleOnes) {
 }
 
 TYPED_TEST(DissociateAll, PassesOverFacesThatAreFreeAlready) {
-  auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   Dart shared = no_dart;
   map.for_each_dart([&](Dart d) {
     if (!map.template is_free<3>(d)) shared = d;
@@ -60,7 +60,7 @@ TYPED_TEST(DissociateAll, PassesOverFacesThatAreFreeAlready) {
 }
 
 TYPED_TEST(DissociateAll, OfADeadDartIsRefusedBeforeAnythingIsDone) {
-  auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   const auto before = map.hash();
   std::vector<Dart> darts;
   map.for_each_dart([&](Dart d) { darts.push_back(d); });
@@ -70,7 +70,7 @@ TYPED_TEST(DissociateAll, OfADeadDartIsRefusedBeforeAnythingIsDone) {
 }
 
 TEST(DissociateAllOfASurface, SeparatesFacesAtTheirEdges) {
-  auto map = build_map<Map2>(klein_bottle()).map;
+  auto map = build_map<Map2>(klein_lattice()).map;
   const TopologyChange change = dissociate_all(map, all_facets<1>(map));
   EXPECT_EQ(change.edges.size(), 24u);  // 12 quadrilaterals, closed
   EXPECT_EQ(count_cells<0>(map), 12u * 4u);

@@ -40,7 +40,7 @@ bool same_cells(std::vector<DissociatedCell> a, std::vector<DissociatedCell> b) 
 }
 
 TYPED_TEST(DissociateFace, BetweenTwoTetrahedraSplitsTheFaceAndItsThreeEdgesAndVertices) {
-  auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   const Dart d = some_inner_dart(map);
   const TopologyChange change = dissociate_face(map, d);
   EXPECT_EQ(change.vertices.size(), 3u);
@@ -53,7 +53,7 @@ TYPED_TEST(DissociateFace, BetweenTwoTetrahedraSplitsTheFaceAndItsThreeEdgesAndV
 }
 
 TYPED_TEST(DissociateFace, KeepsTheSideOfTheGivenDart) {
-  auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   const Dart d = map.template alpha<3>(some_inner_dart(map));
   const TopologyChange change = dissociate_face(map, d);
   EXPECT_EQ(change.faces[0].kept, d);
@@ -65,14 +65,14 @@ TYPED_TEST(DissociateFace, KeepsTheSideOfTheGivenDart) {
 }
 
 TYPED_TEST(DissociateFace, OnTheBoundaryChangesNothing) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   const auto before = map.hash();
   EXPECT_TRUE(dissociate_face(map, Dart{0}).empty());
   EXPECT_EQ(map.hash(), before);
 }
 
 TYPED_TEST(DissociateFace, OfADeadDartIsRefused) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   EXPECT_THROW(dissociate_face(map, Dart{99}), TopologyError);
 }
 
@@ -134,7 +134,7 @@ TEST(DissociateEdge, AtTheBorderOfASheetSplitsOneVertexAndTheOther) {
 
 // The fold lays two edges of the triangle on each other, and the third on itself.
 TYPED_TEST(DissociateFace, FoldedOntoItselfSplitsNoFaceAndReportsItsEdgeOnce) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   sew<3>(map, Dart{0}, Dart{1});
   ASSERT_EQ(count_cells<1>(map), 5u);
   const TopologyChange change = dissociate_face(map, Dart{0});
@@ -145,7 +145,7 @@ TYPED_TEST(DissociateFace, FoldedOntoItselfSplitsNoFaceAndReportsItsEdgeOnce) {
 
 // Two faces of a tetrahedron sewn so that their common edge meets itself the other way round: it stays one edge.
 TYPED_TEST(DissociateFace, KeepsAnEdgeThatHoldsTogetherWithATwist) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   sew<3>(map, Dart{0}, map.template alpha<2, 0>(Dart{0}));
   const auto before = count_cells<1>(map);
   const TopologyChange change = dissociate_face(map, Dart{0});

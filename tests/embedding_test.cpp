@@ -35,7 +35,7 @@ class Embeddings : public testing::Test {
     });
   }
 
-  Map map_ = build_map<Map>(two_tetrahedra()).map;
+  Map map_ = build_map<Map>(unequal_tetrahedra()).map;
 };
 
 using Choices = testing::Types<Choice<Map3, Held::by_one_dart>, Choice<Map3, Held::by_every_dart>,
@@ -94,7 +94,7 @@ TYPED_TEST(Embeddings, OfTwoCellsOfAnUnsewnFaceAreTheirOwn) {
 
 // "When an orbit is dissociated, its embedding is available for only one of both resulting orbits" (section 3.2).
 TEST(EmbeddingOfADissociatedCell, StaysWithTheHalfThatHasItsDart) {
-  Map3 map = build_map<Map3>(two_tetrahedra()).map;
+  Map3 map = build_map<Map3>(unequal_tetrahedra()).map;
   Dart d{0};
   while (map.is_free<3>(d)) ++d.index;
   const Dart other = map.alpha<3>(d);

@@ -8,19 +8,10 @@
 #include <vector>
 
 #include "core/plain/error.h"
+#include "tests/topology_message_for_tests.h"
 
 namespace dartboard {
 namespace {
-
-// The message of the TopologyError that `action` throws; "no throw" if it does not.
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const TopologyError& error) {
-    return error.what();
-  }
-  return "no throw";
-}
 
 TEST(GeneralizedMap, ANewMapHasNoDarts) {
   const Map3 map;

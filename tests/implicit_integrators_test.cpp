@@ -199,6 +199,31 @@ TEST(BackwardEuler, KeptFactorSavesFactorisationsAtTheSameError) {
   EXPECT_GE(fresh.work().factorisations, 10 * kept.work().factorisations);
 }
 
+TEST(BackwardEuler, FactorThatServesBadlyIsRenewed) {
+  std::uint64_t factorisations[2];
+  for (const int patience : {1, 1000}) {
+    ImplicitOptions options = tight();
+    options.patience = patience;
+    BackwardEuler integrator(options);
+    SpringArrays body = stiff_grid();
+    run(integrator, body, 0.05, 50);
+    factorisations[patience > 1] = integrator.work().factorisations;
+  }
+  EXPECT_GT(factorisations[0], factorisations[1]);
+}
+
+TEST(ImplicitIntegrators, FactorOfAStepDoesNotServeAnotherStep) {
+  LocalGlobal constant(40);
+  BackwardEuler kept;
+  for (ImplicitIntegrator* integrator : std::initializer_list<ImplicitIntegrator*>{&constant, &kept}) {
+    SpringArrays body = swinging_cube(0.02);
+    run(*integrator, body, 0.004, 4);
+    EXPECT_EQ(integrator->work().factorisations, 1u) << integrator->scheme().name;
+    run(*integrator, body, 0.012, 4);
+    EXPECT_EQ(integrator->work().factorisations, 2u) << integrator->scheme().name;
+  }
+}
+
 // Trap: stages whose tau differ in the last bit would factor twice in every step.
 TEST(Sdirk2, BothStagesShareOneFactor) {
   Sdirk2 integrator(tight());
@@ -218,17 +243,6 @@ TEST(ImplicitIntegrators, SymmetricOnesComeBackWhenTheStepIsReversed) {
     run(*integrator, body, -0.1, 20);
     EXPECT_LT(distance(body, start), 1e-11) << integrator->scheme().name;
   }
-}
-
-// Springs of one vertex move to another in its place, as in a dissociation.
-void dissociate(SpringArrays& body, std::uint32_t old) {
-  const std::uint32_t added = body.add_vertex(body.mass[old] / 2, body.x[old], body.v[old]);
-  body.mass[old] /= 2;
-  body.inverse_mass[old] *= 2;
-  bool leaves = false;
-  for (SpringEnds& ends : body.ends)
-    for (std::uint32_t& end : ends)
-      if (end == old && (leaves = !leaves)) end = added;
 }
 
 TEST(ImplicitIntegrators, FollowATopologicalChangeWithUpdatedFactorAsWithAFreshOne) {

@@ -88,6 +88,16 @@ TEST(ImplicitStage, FixedVertexKeepsItsVelocityAndDrivesTheOthers) {
   EXPECT_EQ(solved.w[1], Vector3d(0, 0, 0));
 }
 
+TEST(ImplicitStage, FixedVertexKeepsItsVelocityWhateverTheFirstGuess) {
+  const SpringArrays body = moving_grid();
+  ImplicitStage stage(ImplicitOptions{});
+  stage.begin_step();
+  std::vector<Vector3d> w(body.v.size(), Vector3d(1, 2, 3));
+  WorkCounters work;
+  EXPECT_TRUE(stage.solve(body.system(), body.x, body.v, 0.01, StageForce::at_end, w, work).ok());
+  EXPECT_EQ(w[0], Vector3d(0, 0, 0));
+}
+
 // Both with the same line search; projecting where nothing asks for it slows Newton's method down to linear
 // convergence.
 TEST(ImplicitStage, ProjectionOnDemandTakesFewerIterationsThanAlways) {

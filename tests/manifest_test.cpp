@@ -1,39 +1,31 @@
 #include "benchmarks/manifest.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/processes.h"
 #include "core/plain/error.h"
+#include "tests/folder_for_tests.h"
 
 namespace dartboard {
 namespace {
 
 namespace fs = std::filesystem;
 
-class ManifestTest : public testing::Test {
+class ManifestTest : public FolderTest {
  protected:
-  void SetUp() override {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = fs::path(testing::TempDir()) / ("dartboard-" + std::to_string(getpid()) + "-" + test);
-    fs::create_directories(root_);
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
   fs::path file_with(const std::string& name, const std::string& text) const {
-    std::ofstream(root_ / name) << text;
-    return root_ / name;
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
   }
   void git(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {"-C", root_.string(), "-c", "user.name=T", "-c", "user.email=t@example.org"});
+    arguments.insert(arguments.begin(),
+                     {"-C", folder_.string(), "-c", "user.name=T", "-c", "user.email=t@example.org"});
     run_program(
         "git", arguments, [](std::string_view) {}, Stderr::discarded);
   }
-
-  fs::path root_;
 };
 
 /// The first string anywhere in `json` that is, or contains as a word, an absolute path; empty if there is none.
@@ -61,8 +53,8 @@ TEST_F(ManifestTest, HashesFilesLongerThanOneBlock) {
 }
 
 TEST_F(ManifestTest, RefusesToHashWhatCannotBeRead) {
-  EXPECT_THROW(file_hash(root_ / "missing"), IoError);
-  EXPECT_THROW(file_hash(root_), IoError);
+  EXPECT_THROW(file_hash(folder_ / "missing"), IoError);
+  EXPECT_THROW(file_hash(folder_), IoError);
 }
 
 TEST_F(ManifestTest, KnowsItsRun) {
@@ -81,7 +73,7 @@ TEST_F(ManifestTest, KnowsItsRun) {
 
 TEST_F(ManifestTest, NamesNoAbsolutePath) {
   auto manifest = begin_manifest(
-      {.command_line = {"/opt/bin/dartboard", root_.string()}, .input_files = {file_with("body.mesh", "a")}});
+      {.command_line = {"/opt/bin/dartboard", folder_.string()}, .input_files = {file_with("body.mesh", "a")}});
   finish_manifest(manifest);
   EXPECT_EQ(absolute_path_in(manifest), "");
 }
@@ -105,7 +97,7 @@ TEST_F(ManifestTest, PublishesCommandsWithoutPathsOfTheMachine) {
 }
 
 TEST_F(ManifestTest, ReportsNoCommitOutsideARepository) {
-  EXPECT_TRUE(git_state(root_ / "missing").at("commit").is_null());
+  EXPECT_TRUE(git_state(folder_ / "missing").at("commit").is_null());
 }
 
 TEST_F(ManifestTest, ReportsCommitAndChangesButNotResults) {
@@ -113,17 +105,17 @@ TEST_F(ManifestTest, ReportsCommitAndChangesButNotResults) {
   file_with("source.cpp", "int x;");
   git({"add", "."});
   git({"commit", "--quiet", "-m", "first"});
-  fs::create_directories(root_ / "results" / "run");
+  fs::create_directories(folder_ / "results" / "run");
   file_with("results/run/manifest.json", "{}");
-  const auto clean = git_state(root_);
+  const auto clean = git_state(folder_);
   EXPECT_EQ(clean.at("commit").get<std::string>().size(), 40u);
   EXPECT_EQ(clean.at("dirty"), false);
 
   file_with("source.cpp", "int y;");
-  EXPECT_EQ(git_state(root_).at("dirty"), true);
+  EXPECT_EQ(git_state(folder_).at("dirty"), true);
 
   // sources unpacked within someone else's repository have no commit of their own
-  EXPECT_TRUE(git_state(root_ / "results").at("commit").is_null());
+  EXPECT_TRUE(git_state(folder_ / "results").at("commit").is_null());
 }
 
 }  // namespace

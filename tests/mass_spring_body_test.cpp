@@ -55,7 +55,7 @@ TYPED_TEST(Body, VertexMassesSumToTheMassOfTheCells) {
 // Volumes 1/6 and 1/3 and density 12: masses 2 and 4, a quarter of each to its nodes. eq. (1), exact in binary if the
 // product 12 * fl(1/6) is: 1/6 is rounded by at most u/6, so the product is 2 after rounding.
 TYPED_TEST(Body, AVertexHasAQuarterOfEachTetrahedronAroundIt) {
-  Problem problem = problem_of(two_tetrahedra());
+  Problem problem = problem_of(unequal_tetrahedra());
   problem.material.density = 12.0;
   const auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem);
   ASSERT_EQ(body.vertices.size(), 5u);
@@ -100,7 +100,7 @@ TYPED_TEST(Body, EmbedsOneNumberForEachCellFoundFromAllItsDarts) {
 }
 
 TYPED_TEST(Body, KeepsAStateThatItWasGiven) {
-  auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem_of(two_tetrahedra()));
+  auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem_of(unequal_tetrahedra()));
   PointState state;
   for (int p = 0; p < 5; ++p) {
     state.x.emplace_back(p, 0.1 * p, -p);
@@ -112,7 +112,7 @@ TYPED_TEST(Body, KeepsAStateThatItWasGiven) {
 }
 
 TYPED_TEST(Body, HoldsFixedVerticesAtRestWhateverTheStateSays) {
-  Problem problem = problem_of(two_tetrahedra());
+  Problem problem = problem_of(unequal_tetrahedra());
   problem.fixed = {1, 4};
   problem.initial_velocity.assign(5, {1, 2, 3});
   auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem);
@@ -128,7 +128,7 @@ TYPED_TEST(Body, HoldsFixedVerticesAtRestWhateverTheStateSays) {
 
 // A body mirrored in two axes, or turned by half a turn, flips signs in pairs.
 TYPED_TEST(Body, HashesStatesApartThatDifferInSignsOnly) {
-  auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem_of(two_tetrahedra()));
+  auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem_of(unequal_tetrahedra()));
   PointState state = body.state();
   state.v.assign(5, {1, 2, 3});
   body.set_state(state);
@@ -158,7 +158,7 @@ TEST(BodyOfASurface, HasAreasForMassesAndFacesForCells) {
 
 // A left-handed tetrahedron has its volume too.
 TEST(BodyOfALeftHandedCell, HasAPositiveMass) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   std::swap(mesh.nodes[0], mesh.nodes[1]);
   EXPECT_DOUBLE_EQ((build_body<TetMap, Held::by_one_dart>(problem_of(mesh)).cell_mass[0]), 1000.0 * 8 / 3);
 }
@@ -166,7 +166,7 @@ TEST(BodyOfALeftHandedCell, HasAPositiveMass) {
 // The middle layer of 2 x 2 x 3 cubes without two diagonal ones: the edge in the middle has two fans of cells around it
 // and both its ends are one vertex each. It is two edges of the map, two springs in parallel: k = k1 + k2.
 TEST(BodyPinchedAlongAnEdge, HasTwoSpringsBetweenTheSameVertices) {
-  const Mesh grid = hexahedron_grid(2, 2, 3, 1.0);
+  const Mesh grid = hexahedron_box(2, 2, 3, 1.0);
   Mesh mesh;
   mesh.points = grid.points;
   for (std::size_t c = 0; c < 12; ++c)
@@ -191,7 +191,7 @@ struct BadInput {
 void PrintTo(const BadInput& bad, std::ostream* os) { *os << bad.name; }
 class BadProblem : public testing::TestWithParam<BadInput> {};
 TEST_P(BadProblem, IsRefusedByName) {
-  Problem problem = problem_of(two_tetrahedra());
+  Problem problem = problem_of(unequal_tetrahedra());
   GetParam().spoil(problem);
   try {
     build_body<TetMap, Held::by_one_dart>(problem);
@@ -230,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& bad) { return bad.param.name; });
 
 TEST(BodyState, OfAnotherSizeIsRefused) {
-  auto body = build_body<TetMap, Held::by_one_dart>(problem_of(two_tetrahedra()));
+  auto body = build_body<TetMap, Held::by_one_dart>(problem_of(unequal_tetrahedra()));
   EXPECT_THROW(body.set_state({std::vector<Eigen::Vector3d>(4), std::vector<Eigen::Vector3d>(5)}), InputError);
 }
 

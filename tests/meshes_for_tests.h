@@ -1,16 +1,17 @@
 #pragma once
-// The small meshes of the tests, written where they can be seen.
+// The small meshes of the tests, written where they can be seen, beside the generators of core/meshes.
 
 #include <array>
 #include <cstdint>
 #include <random>
 
+#include "core/meshes/mesh_generators.h"
 #include "core/plain/mesh.h"
 
 namespace dartboard::reference {
 
 /// A regular tetrahedron with edges of 2 sqrt(2) around the origin, right-handed, volume 8/3.
-inline Mesh one_tetrahedron() {
+inline Mesh regular_tetrahedron() {
   Mesh mesh;
   mesh.points = {{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}};
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 3});
@@ -18,7 +19,7 @@ inline Mesh one_tetrahedron() {
 }
 
 /// Two tetrahedra of volumes 1/6 and 1/3 (m^3) on either side of the triangle 0 1 2; points 3 and 4 are the tips.
-inline Mesh two_tetrahedra() {
+inline Mesh unequal_tetrahedra() {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -2}};
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 3});
@@ -66,24 +67,8 @@ inline Mesh kuhn_grid(int nx, int ny, int nz, double spacing, double jitter = 0,
 namespace dartboard {
 
 using reference::kuhn_grid;
-using reference::one_tetrahedron;
-using reference::two_tetrahedra;
-
-/// nx x ny x nz cubes of edge `spacing` [m].
-inline Mesh hexahedron_grid(int nx, int ny, int nz, double spacing) {
-  Mesh mesh;
-  for (int z = 0; z <= nz; ++z)
-    for (int y = 0; y <= ny; ++y)
-      for (int x = 0; x <= nx; ++x) mesh.points.emplace_back(spacing * x, spacing * y, spacing * z);
-  const auto at = [&](int x, int y, int z) { return static_cast<std::uint32_t>((z * (ny + 1) + y) * (nx + 1) + x); };
-  for (int z = 0; z < nz; ++z)
-    for (int y = 0; y < ny; ++y)
-      for (int x = 0; x < nx; ++x)
-        mesh.add_cell(CellKind::hexahedron,
-                      std::array{at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z), at(x, y, z + 1),
-                                 at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)});
-  return mesh;
-}
+using reference::regular_tetrahedron;
+using reference::unequal_tetrahedra;
 
 /// One of each: a unit cube, a pyramid on its top, a prism at its side, a tetrahedron at an end of the prism.
 inline Mesh mixed_cells() {
@@ -117,13 +102,13 @@ inline Mesh sheet(int nx, int ny, bool closed_in_x, bool closed_in_y, bool flip)
   return mesh;
 }
 inline Mesh quadrilateral_grid(int nx, int ny) { return sheet(nx, ny, false, false, false); }
-inline Mesh moebius_strip() { return sheet(5, 1, true, false, true); }
-inline Mesh torus_surface() { return sheet(4, 3, true, true, false); }
-inline Mesh klein_bottle() { return sheet(4, 3, true, true, true); }
+inline Mesh moebius_lattice() { return sheet(5, 1, true, false, true); }
+inline Mesh torus_lattice() { return sheet(4, 3, true, true, false); }
+inline Mesh klein_lattice() { return sheet(4, 3, true, true, true); }
 
 /// Fig. 3b: eight tetrahedra in a ring around point 0, joined by faces, that leave out a cone above and one below it.
 /// The neighbourhood of point 0 is a cone over an annulus, a "pinched ball".
-inline Mesh pinched_body() {
+inline Mesh pinched_ring() {
   Mesh mesh;
   mesh.points = {{0, 0, 0},  {1, 0, 1},  {0, 1, 1},   {-1, 0, 1}, {0, -1, 1},
                  {1, 0, -1}, {0, 1, -1}, {-1, 0, -1}, {0, -1, -1}};

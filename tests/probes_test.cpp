@@ -65,6 +65,21 @@ TEST(SceneRun, EndsAfterTheStepInWhichItIsInterruptedAndHandsThatStateOut) {
   EXPECT_EQ(rows.times(), (std::vector<double>{0, 0.003}));
 }
 
+TEST(Probes, TakeTheLowestOfTwoPointsThatAreAsNear) {
+  // half-way between neighbours along x: points are numbered x + 3 y + 9 z, the vertices of the body in another order
+  Json scene = probed("[]");
+  std::vector<Eigen::Vector3d> lowest;
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 2; ++x) {
+        lowest.emplace_back(0.125 * x, 0.125 * y, 0.125 * z);
+        scene["output"]["probes"].push_back(
+            {{"name", std::to_string(lowest.size())}, {"near", {0.125 * x + 0.0625, 0.125 * y, 0.125 * z}}});
+      }
+  const ProbeRow row = Simulation(parse(scene)).probes();
+  for (std::size_t k = 0; k < lowest.size(); ++k) EXPECT_EQ(row.probes[k]->position, lowest[k]) << k;
+}
+
 TEST(Probes, AreRecordedWithTheDiagnosticsOrAtTimesOfTheirOwn) {
   Json scene = probed(R"([{"name": "a", "vertex": 0}])");
   scene["output"]["diagnostics_every"] = 0.004;

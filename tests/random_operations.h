@@ -38,7 +38,7 @@ inline Mesh with_left_handed_cells(Mesh mesh) {
 /// A sheet, a strip of one side, a bottle and a torus, their points on a twisted cubic: no two chords of it are
 /// parallel, so no face has area zero, however its points are joined.
 inline std::vector<Mesh> surfaces() {
-  std::vector<Mesh> meshes{quadrilateral_grid(4, 3), moebius_strip(), klein_bottle(), torus_surface()};
+  std::vector<Mesh> meshes{quadrilateral_grid(4, 3), moebius_lattice(), klein_lattice(), torus_lattice()};
   for (Mesh& mesh : meshes)
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
       const double t = 0.125 * static_cast<double>(k);

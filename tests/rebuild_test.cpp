@@ -34,7 +34,7 @@ Mesh one_cell(CellKind kind) {
 }
 
 TEST(Rebuild, GivesEveryPointOfATetrahedronAQuarterOfItsMass) {
-  const Rebuilt body = rebuild(one_tetrahedron(), {.density = 3.0});
+  const Rebuilt body = rebuild(regular_tetrahedron(), {.density = 3.0});
   // the volume is the exact integer 16, divided by 6: one rounding there, one for the density, none for the quarter
   for (double m : body.mass) EXPECT_NEAR(m, 3.0 * 8.0 / 3.0 / 4.0, 4 * u * 2.0);
   EXPECT_EQ(body.springs.size(), 6u);
@@ -42,7 +42,7 @@ TEST(Rebuild, GivesEveryPointOfATetrahedronAQuarterOfItsMass) {
 }
 
 TEST(Rebuild, AddsTheStiffnessOfTheCellsAroundASharedEdge) {
-  const Rebuilt body = rebuild(two_tetrahedra(), {.stiffness = 50.0, .damping = 0.25});
+  const Rebuilt body = rebuild(unequal_tetrahedra(), {.stiffness = 50.0, .damping = 0.25});
   ASSERT_EQ(body.springs.size(), 9u);
   for (const Spring& s : body.springs) {
     const double around = s.b < 3 ? 2.0 : 1.0;  // edges of the triangle 0 1 2 have two cells
@@ -54,7 +54,7 @@ TEST(Rebuild, AddsTheStiffnessOfTheCellsAroundASharedEdge) {
 }
 
 TEST(Rebuild, AddsTheSharesOfTheCellsAroundAPoint) {
-  const Rebuilt body = rebuild(two_tetrahedra(), {.density = 24.0});
+  const Rebuilt body = rebuild(unequal_tetrahedra(), {.density = 24.0});
   // masses 4 and 8 of the cells; one rounding per volume, density, and sum
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(body.mass[i], 3.0, 4 * u * 3.0);
   EXPECT_NEAR(body.mass[3], 1.0, 4 * u);
@@ -90,20 +90,20 @@ TEST(Rebuild, CountsEachEdgeOfEveryKindOnce) {
 }
 
 TEST(Rebuild, DoesNotDependOnTheHandOfATetrahedron) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   const Rebuilt right = rebuild(mesh, {});
   std::swap(mesh.nodes[0], mesh.nodes[1]);
   EXPECT_EQ(rebuild(mesh, {}).mass, right.mass);
 }
 
 TEST(Rebuild, LeavesAPointOfNoCellWithoutMass) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   mesh.points.emplace_back(5, 5, 5);
   EXPECT_EQ(rebuild(mesh, {}).mass[4], 0.0);
 }
 
 TEST(Rebuild, RefusesCellsThatNameNoPointOrOneTwice) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   mesh.nodes[2] = 4;
   EXPECT_THROW(rebuild(mesh, {}), InputError);
   mesh.nodes[2] = 0;

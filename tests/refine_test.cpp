@@ -78,7 +78,7 @@ TYPED_TEST_SUITE(Refine, Solids);
 
 TYPED_TEST(Refine, MakesFourTetrahedraOfOne) {
   Problem problem;
-  problem.mesh = one_tetrahedron();
+  problem.mesh = regular_tetrahedron();
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   refine(body, Volume{body.cell_dart[0]}, 1.0);
   EXPECT_EQ(body.vertices.size(), 5u);
@@ -91,7 +91,7 @@ TYPED_TEST(Refine, MakesFourTetrahedraOfOne) {
 
 TYPED_TEST(Refine, GivesTheNewSpringsTheirLengthAtRest) {
   Problem problem;
-  problem.mesh = one_tetrahedron();  // edges of sqrt(8), corners sqrt(3) from the centre
+  problem.mesh = regular_tetrahedron();  // edges of sqrt(8), corners sqrt(3) from the centre
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   for (auto& x : body.vertices.position) x *= 7.0;  // the rest shape is not the present one
   refine(body, Volume{body.cell_dart[0]}, 1.0);
@@ -102,7 +102,7 @@ TYPED_TEST(Refine, GivesTheNewSpringsTheirLengthAtRest) {
 
 TYPED_TEST(Refine, SplitsAnEdgeIntoSpringsInSeries) {
   Problem problem;
-  problem.mesh = two_tetrahedra();
+  problem.mesh = unequal_tetrahedra();
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   Dart shared = no_dart;  // of an edge around which both tetrahedra lie
   for (const Dart d : body.edge_dart)
@@ -194,7 +194,7 @@ TYPED_TEST(Refine, StaysAtRestWithBracing) {
 
 TYPED_TEST(Refine, FixesAVertexBetweenFixedOnes) {
   Problem problem;
-  problem.mesh = one_tetrahedron();
+  problem.mesh = regular_tetrahedron();
   problem.fixed = {0, 1};
   auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   const auto between = [&body](std::uint8_t fixed_ends) {

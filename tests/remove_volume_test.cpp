@@ -18,7 +18,7 @@ using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(RemoveVolume, Solids);
 
 TYPED_TEST(RemoveVolume, OfTheOnlyOneLeavesNothing) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   const TopologyChange change = remove_volume(map, Dart{5});
   EXPECT_EQ(map.dart_count(), 0u);
   EXPECT_EQ(change.removed_vertices.size(), 4u);
@@ -29,7 +29,7 @@ TYPED_TEST(RemoveVolume, OfTheOnlyOneLeavesNothing) {
 }
 
 TYPED_TEST(RemoveVolume, LeavesTheNeighbourWholeAndItsFaceOnTheBoundary) {
-  auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   const TopologyChange change = remove_volume(map, Dart{24});
   EXPECT_EQ(change.vertices.size(), 3u);
   EXPECT_EQ(change.edges.size(), 3u);
@@ -61,13 +61,13 @@ TYPED_TEST(RemoveVolume, OneByOneEmptiesTheBody) {
 }
 
 TYPED_TEST(RemoveVolume, OfADeadDartIsRefused) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   remove_volume(map, Dart{0});
   EXPECT_THROW(remove_volume(map, Dart{0}), TopologyError);
 }
 
 TEST(RemoveVolumeOfHexahedra, InTheMiddleLeavesACavity) {
-  auto map = build_map<Map3>(hexahedron_grid(3, 3, 3, 1.0)).map;
+  auto map = build_map<Map3>(hexahedron_box(3, 3, 3, 1.0)).map;
   remove_volume(map, Dart{13 * 48});
   const MapSummary s = summarize(map);
   EXPECT_EQ(s.cells[3], 26u);

@@ -92,7 +92,7 @@ TEST(RungeKutta4, FollowsItsOwnPolynomialOnALinearOscillator) {
 // size V and its increment g h by at most 8 operations, the position once at size X and its increment at most h V by 8
 // operations, and passes the error of the velocity on times h.
 TEST(RungeKutta4, FallsFreelyToWithinRounding) {
-  Problem problem = without_losses(two_tetrahedra());
+  Problem problem = without_losses(unequal_tetrahedra());
   problem.material.stiffness = 0;
   problem.surroundings.gravity = {0, 0.5, -9.81};
   problem.initial_velocity.assign(5, {1, -2, 3});
@@ -167,7 +167,7 @@ TEST(RungeKutta4, LeavesNoForceBehind) {
 }
 
 TEST(RungeKutta4, RestsWhereNothingActs) {
-  auto body = build_body<TetMap, every>(without_losses(two_tetrahedra()));
+  auto body = build_body<TetMap, every>(without_losses(unequal_tetrahedra()));
   const auto before = body.state();
   run(body, 0.01, 20);
   EXPECT_EQ(body.state().x, before.x);
@@ -175,7 +175,7 @@ TEST(RungeKutta4, RestsWhereNothingActs) {
 
 TEST(RungeKutta4, MayTakeBodiesOfAnySizeInTurn) {
   auto large = build_body<TetMap, every>(a_moving_body());
-  auto small = build_body<TetMap, every>(without_losses(two_tetrahedra()));
+  auto small = build_body<TetMap, every>(without_losses(unequal_tetrahedra()));
   RungeKutta4 integrator;
   integrator.step(DartCoverage{}, large, 0.01);
   integrator.step(DartCoverage{}, small, 0.01);

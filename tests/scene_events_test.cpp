@@ -86,6 +86,29 @@ TEST(SceneEvents, PassesOverFacesThatHaveLostACell) {
   EXPECT_EQ(simulation.operations(), 24u);  // the removals
 }
 
+TEST(SceneEvents, PassesOverFacesWhoseCellsPlaceAnotherCellHasNow) {
+  // both cubes beside two faces go, and their places are taken by the parts of the 36 other cells
+  const char* events = R"([{"at": 0, "remove": {"box": {"min": [0, 0, 0], "max": [0.25, 0.125, 0.125]}}},
+      {"at": 0, "refine": {"cells": {"sphere": {"centre": [0, 0, 0], "radius": 1}}, "at": "centre"}},
+      {"at": 0, "dissociate": {"points": [[1, 4, 13], [1, 10, 13]]}}])";
+  const Simulation simulation(parse(with_events(moving_box(), events)));
+  EXPECT_EQ(cells(simulation), 4u * 36u);
+  EXPECT_EQ(simulation.operations(), 12u + 36u);
+}
+
+TEST(SceneEvents, TearsTheLowestOfTwoVerticesThatAreAsNear) {
+  Json scene =
+      with_events(moving_box(), R"([{"at": 0, "tear": {"near": [0.3125, 0.25, 0.25], "direction": [1, 0, 0]}}])");
+  scene["body"]["generate"]["box"]["cells"] = {4, 4, 4};
+  const Simulation before(parse(with_events(scene, "[]"))), after(parse(scene));
+  // points are numbered x + 5 y + 25 z, and 62 and 63 are two and three spacings along x
+  const auto& old = before.body().vertices().point;
+  const auto lowest = *std::find_if(old.begin(), old.end(), [](std::uint32_t p) { return p == 62 || p == 63; });
+  const auto& now = after.body().vertices().point;
+  ASSERT_EQ(now.size(), old.size() + 1);
+  EXPECT_EQ(std::count(now.begin(), now.end(), lowest), 2);
+}
+
 TEST(SceneEvents, TearsAFanAroundAVertexInsideTheBody) {
   // around the middle of 4 x 4 x 4 cubes: the six triangles of the plane across x there, a closed fan; the six edges
   // between them and the vertex come apart, what lies around the fan does not

@@ -12,6 +12,7 @@
 #include "core/scene/scene_check.h"
 #include "core/scene/scene_keys.h"
 #include "core/scene/scene_pages.h"
+#include "core/scene/scene_problem.h"
 #include "core/scene/strict_json.h"
 
 namespace dartboard {

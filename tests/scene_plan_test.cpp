@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/scene/measured_plan.h"
+#include "core/scene/scene_problem.h"
 #include "core/scene/scene_run.h"
 #include "core/time/integrators.h"
 #include "tests/moving_box.h"

@@ -160,7 +160,7 @@ TYPED_TEST(Seam, OnAPlaneFollowsTheBody) {
 }
 
 TYPED_TEST(Seam, OnAPlaneThatIsNoneIsRefused) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(faces_on_plane(body, {0, 0, 0}, {0, 0, 0}), InputError);
   EXPECT_THROW(faces_on_plane(body, {0, nan, 0}, {0, 0, 1}), InputError);
@@ -168,7 +168,7 @@ TYPED_TEST(Seam, OnAPlaneThatIsNoneIsRefused) {
 }
 
 TYPED_TEST(Seam, OfPointsIsTheFaceBetweenThem) {
-  auto body = body_of<TypeParam>(two_tetrahedra());
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
   const auto seam = faces_of_points(body, Triples{{2, 0, 1}, {0, 1, 2}});
   ASSERT_EQ(seam.size(), 1u);
   expect_interior_lowest_and_ascending(body.map, seam);
@@ -187,7 +187,7 @@ std::string refusal(const Body<Map>& body, const Triples& triples) {
 }
 
 TYPED_TEST(Seam, OfPointsOfNoInteriorFaceIsRefusedByName) {
-  auto body = body_of<TypeParam>(two_tetrahedra());
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
   EXPECT_NE(refusal(body, {{0, 1, 2}, {3, 1, 0}}).find("0, 1, 3,"), std::string::npos);  // on the surface
   EXPECT_NE(refusal(body, {{0, 3, 4}}).find("0, 3, 4,"), std::string::npos);             // no face
   EXPECT_NE(refusal(body, {{0, 99, 1}}).find("0, 1, 99,"), std::string::npos);           // no point
@@ -225,7 +225,7 @@ TYPED_TEST(Seam, AsASetContainsBothSidesOfItsFacesAndNoOther) {
 // ---- other cells
 
 TEST(SeamOfHexahedra, OnAPlaneIsALayerOfFaces) {
-  auto body = body_of<Map3>(hexahedron_grid(3, 2, 3, 1.0));
+  auto body = body_of<Map3>(hexahedron_box(3, 2, 3, 1.0));
   EXPECT_EQ(faces_on_plane(body, {0, 0, 1.25}, {0, 0, 1}).size(), 6u);
   // through the middles of the second layer: they count as in front, so it is the face towards the back that parts
   const auto behind = faces_on_plane(body, {0, 0, 1.5}, {0, 0, 1});
@@ -236,7 +236,7 @@ TEST(SeamOfHexahedra, OnAPlaneIsALayerOfFaces) {
 }
 
 TEST(SeamOfHexahedra, OfAnyThreeCornersOfAQuadrilateralIsTheQuadrilateral) {
-  const auto body = body_of<Map3>(hexahedron_grid(1, 1, 2, 1.0));  // points 4 5 6 7 in between
+  const auto body = body_of<Map3>(hexahedron_box(1, 1, 2, 1.0));  // points 4 5 6 7 in between
   const auto seam = faces_of_points(body, Triples{{4, 5, 6}});
   EXPECT_EQ(seam.size(), 1u);
   EXPECT_EQ(faces_of_points(body, Triples{{7, 4, 6}}), seam);
@@ -265,7 +265,7 @@ TEST(SeamOfASurface, OnAPlaneCutsASheetInTwoAndConservesWhatItCarries) {
 }
 
 TEST(SeamOfASurface, AcrossAMoebiusStripLeavesItInOnePieceWithTwoSides) {
-  Mesh mesh = moebius_strip();
+  Mesh mesh = moebius_lattice();
   const Vector3d middle[] = {{3, 0, 0}, {1, 3, 0}, {-3, 2, 0}, {-2, -3, 0}, {2, -2, 0}};
   const double outwards[] = {0, 0.6, 0.95, 0.95, 0.6}, upwards[] = {1, 0.8, 0.3, -0.3, -0.8};  // half a turn
   for (std::size_t k = 0; k < 10; ++k)

@@ -55,7 +55,7 @@ using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(SparsePatternOf, Solids);
 
 TYPED_TEST(SparsePatternOf, OneTetrahedronIsAFullTriangle) {
-  const auto body = body_of<TypeParam>(one_tetrahedron());
+  const auto body = body_of<TypeParam>(regular_tetrahedron());
   SparsePattern pattern;
   pattern.rebuild(body);
   EXPECT_EQ(pattern.columns(), 4u);
@@ -65,7 +65,7 @@ TYPED_TEST(SparsePatternOf, OneTetrahedronIsAFullTriangle) {
 }
 
 TYPED_TEST(SparsePatternOf, TwoTetrahedraHasNoPlaceForTheTips) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());
   SparsePattern pattern;
   pattern.rebuild(body);
   std::vector<std::uint32_t> number(5);

@@ -1,43 +1,13 @@
 #pragma once
 // Spring systems for tests: the columns of a body, or built by hand, with a motion.
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <vector>
-
 #include "core/mechanics/mass_spring_body.h"
-#include "core/time/spring_system.h"
 #include "core/views/cell_arrays.h"
+#include "validation/spring_columns.h"
 
 namespace dartboard {
 
-/// Owns what a SpringSystem and a Motion show.
-struct SpringArrays {
-  std::vector<SpringEnds> ends;
-  std::vector<Spring> springs;
-  std::vector<double> mass, inverse_mass, viscosity;
-  std::vector<std::uint8_t> fixed;
-  Eigen::Vector3d gravity{0, 0, 0};
-  std::vector<Eigen::Vector3d> x, v;
-
-  SpringSystem system() const { return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity}; }
-  Motion motion() { return {x, v}; }
-
-  std::uint32_t add_vertex(double m, const Eigen::Vector3d& position, const Eigen::Vector3d& velocity = {0, 0, 0},
-                           bool held = false) {
-    mass.push_back(m);
-    inverse_mass.push_back(1.0 / m);
-    viscosity.push_back(0.0);
-    fixed.push_back(held);
-    x.push_back(position);
-    v.push_back(velocity);
-    return static_cast<std::uint32_t>(mass.size() - 1);
-  }
-  void add_spring(std::uint32_t i, std::uint32_t j, double stiffness, double rest_length, double damping = 0.0) {
-    ends.push_back({i, j});
-    springs.push_back({rest_length, stiffness, damping});
-  }
-};
+using SpringArrays = SpringColumns;
 
 template <class Body>
 SpringArrays arrays_of(const Body& body) {

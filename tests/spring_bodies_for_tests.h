@@ -2,10 +2,7 @@
 // Spring systems for the tests of implicit methods.
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <map>
 #include <random>
 #include <vector>
 
@@ -27,19 +24,17 @@ inline SpringArrays two_masses(double m1, double m2, double stiffness, double am
 /// `stiffness` and `damping`; a mass of 0.02 kg per point.
 inline SpringArrays spring_grid(int nx, int ny, int nz, double stiffness = 50.0, double damping = 0.0,
                                 double jitter = 0.05) {
-  const Mesh mesh = reference::kuhn_grid(nx, ny, nz, 0.1, jitter, 7);
-  SpringArrays body;
-  for (const Eigen::Vector3d& p : mesh.points) body.add_vertex(0.02, p);
-  std::map<SpringEnds, int> cells_around;
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const auto nodes = mesh.cell(c);
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j)
-        ++cells_around[{std::min(nodes[i], nodes[j]), std::max(nodes[i], nodes[j])}];
-  }
-  for (const auto& [ends, count] : cells_around)
-    body.add_spring(ends[0], ends[1], stiffness * count, (body.x[ends[1]] - body.x[ends[0]]).norm(), damping * count);
-  return body;
+  return columns_of_mesh(reference::kuhn_grid(nx, ny, nz, 0.1, jitter, 7), 0.02, stiffness, damping);
+}
+
+/// Every other spring of a vertex, and half of its mass, go to a new vertex at the same place, as in a dissociation.
+inline void dissociate(SpringArrays& body, std::uint32_t vertex) {
+  const std::uint32_t added = body.add_vertex(body.mass[vertex] / 2, body.x[vertex], body.v[vertex]);
+  body.set_mass(vertex, body.mass[vertex] / 2);
+  bool leaves = false;
+  for (SpringEnds& ends : body.ends)
+    for (std::uint32_t& end : ends)
+      if (end == vertex && (leaves = !leaves)) end = added;
 }
 
 /// Move every free vertex by at most `size` [m], and give it a velocity of at most `speed` [m/s], in each coordinate.

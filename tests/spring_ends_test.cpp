@@ -26,7 +26,7 @@ using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(SpringEndsOf, Solids);
 
 TYPED_TEST(SpringEndsOf, TwoTetrahedraAreAllPairsButTheTips) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());
   SpringEndsView view;
   view.rebuild(body);
   std::set<std::set<std::uint32_t>> pairs;

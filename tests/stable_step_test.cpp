@@ -117,6 +117,58 @@ TEST(StableStep, RisesWhenACutMakesAVertexLighter) {
   EXPECT_NEAR(after, std::sqrt(50.0 * 11.0), 1e-9);
 }
 
+TEST(StableStep, IsThatOfTheVerticesThatAreFree) {
+  SpringArrays body = spring_grid(3, 2, 2);
+  for (const std::size_t light : {5u, 11u}) {  // by far the highest frequencies, if they could move
+    body.fixed[light] = 1;
+    body.mass[light] *= 1e-4;
+    body.inverse_mass[light] *= 1e4;
+  }
+  StableStepEstimate estimate;
+  const double frequency = true_frequency(body);
+  EXPECT_GE(estimate.refresh(body.system(), body.x).upper, frequency * (1 - 1e-9));
+  EXPECT_LE(estimate.latest().upper, frequency / 0.9);
+}
+
+TEST(StableStep, IsABoundWhereFrequenciesLieTooCloseToBeFound) {
+  // n masses in a row between two walls: omega_max = 2 sqrt(k / m) cos(pi / (2 (n + 1))), and others just below it
+  constexpr int n = 2000;
+  SpringArrays body;
+  for (int i = 0; i < n + 2; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0}, {0, 0, 0}, i == 0 || i == n + 1);
+  for (std::uint32_t i = 0; i <= n; ++i) body.add_spring(i, i + 1, 1.0, 1.0);
+  StableStepEstimate estimate;
+  // cos t >= 1 - t^2 / 2, and 22/7 is more than pi
+  EXPECT_GE(estimate.refresh(body.system(), body.x).upper, 2.0 * (1.0 - std::pow(22.0 / 7 / (2 * (n + 1)), 2) / 2));
+}
+
+// With a viscosity of 2.8 / h, what is slow decays along the real axis, of which the method holds less than 2.79; the
+// highest frequency has half of that decay.
+TEST(StableStep, IsThatOfTheSlowestWhereTheyDecayFastest) {
+  StableStep step;
+  step.lower = step.upper = step.any_state = 2.44;
+  step.viscous_rate = {2.8, 2.8};
+  ASSERT_LT(spectral_radius(scheme("rk4"), 2.44, 2.8 / (2 * 2.44)), 1.0);
+  EXPECT_FALSE(step.is_stable(scheme("rk4"), 1.0));
+}
+
+// Just above its limit this method amplifies, and soon after it is stable again.
+TEST(StableStep, IsNotBeyondANarrowGapOfStability) {
+  StableStep step;
+  step.lower = step.upper = step.any_state = 3.18;
+  const Scheme& method = scheme("blanes-moan-4");
+  ASSERT_LE(spectral_radius(method, 3.18, 0.0), 1 + 1e-9);
+  ASSERT_GT(spectral_radius(method, 3.145, 0.0), 1 + 1e-6);
+  EXPECT_FALSE(step.is_stable(method, 1.0));
+}
+
+TEST(StableStep, IsFoundAnewWhereSpringsAreNew) {
+  SpringArrays body = spring_grid(3, 2, 2);
+  StableStepEstimate estimate;
+  estimate.refresh(body.system(), body.x);
+  body.add_spring(0, 1, 1e4, 0.1);
+  EXPECT_GE(estimate.follow(body.system(), body.x).upper, true_frequency(body) * (1 - 1e-9));
+}
+
 TEST(StableStep, FollowsAFrequencyThatRisesWithTheState) {
   // a rest shape that is pulled to twice its length gets stiff across the springs too
   SpringArrays body = spring_grid(3, 2, 2);
@@ -252,6 +304,13 @@ TEST(StableStep, AllowsNoStepWhereANumberIsNotFinite) {
     EXPECT_EQ(estimate.refresh(body.system(), body.x).safe_step(scheme("rk4"), 0.0), 0.0) << what;
     EXPECT_EQ(quick_stable_step(body.system()).is_stable(scheme("rk4"), 1e-30), what == 0) << what;
   }
+}
+
+TEST(StableStep, IsNotQuicklyFoundWhereViscosityIsNoNumber) {
+  SpringArrays body = spring_grid(2, 2, 2);
+  EXPECT_TRUE(quick_stable_step(body.system()).is_stable(scheme("rk4"), 1e-6));
+  body.viscosity[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(quick_stable_step(body.system()).is_stable(scheme("rk4"), 1e-6));
 }
 
 TEST(StableStep, HoldsOverFortyDecades) {

@@ -277,7 +277,7 @@ TYPED_TEST(Stress, TimesVolumeSumsToTheVirialOfAllSprings) {
 // Around a vertex inside, six springs of 4 cells each: (1 / a^3) 2 (1/2) 4 k a (s - 1) a s. On the surface springs and
 // volume shrink alike, so that the stress is the same there.
 TEST(StressOfHexahedra, IsUniformUnderAUniformStretchToTheSurface) {
-  auto body = body_of<Map3>(hexahedron_grid(3, 2, 2, 0.5));
+  auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 0.5));
   move(body, Vector3d(1, 1, 1.5).asDiagonal());
   const double expected = 4 * 4.0 * 1.5 * 0.5 / 0.5;
   for (const Matrix3d& stress : stresses(body))
@@ -333,7 +333,7 @@ TEST(PrincipalStress, OfWhatIsNotFiniteIsRefused) {
 }
 
 TEST(PrincipalStressOfABody, IsNegativeUnderPressureFromAllSides) {
-  auto body = body_of<Map3>(hexahedron_grid(2, 2, 2, 0.5));
+  auto body = body_of<Map3>(hexahedron_box(2, 2, 2, 0.5));
   move(body, 0.5 * Matrix3d::Identity());
   for (const Matrix3d& stress : stresses(body)) EXPECT_LT(principal_stress(stress).value, 0.0);
 }

@@ -44,7 +44,7 @@ TEST(Summary, OfABallOfTetrahedraIsTheSameOnBothStorages) {
 }
 
 TEST(Summary, OfATorusSurface) {
-  const MapSummary s = summary_of<Map2>(torus_surface());
+  const MapSummary s = summary_of<Map2>(torus_lattice());
   EXPECT_EQ(s.dimension, 2);
   EXPECT_EQ(s.cells, (Counts{12, 24, 12}));
   EXPECT_EQ(s.euler, 0);
@@ -54,7 +54,7 @@ TEST(Summary, OfATorusSurface) {
 }
 
 TEST(Summary, OfAKleinBottle) {
-  const MapSummary s = summary_of<Map2>(klein_bottle());
+  const MapSummary s = summary_of<Map2>(klein_lattice());
   EXPECT_EQ(s.cells, (Counts{12, 24, 12}));
   EXPECT_EQ(s.euler, 0);
   EXPECT_EQ(s.boundary_facets, 0u);
@@ -62,7 +62,7 @@ TEST(Summary, OfAKleinBottle) {
 }
 
 TEST(Summary, OfAMoebiusStrip) {
-  const MapSummary s = summary_of<Map2>(moebius_strip());
+  const MapSummary s = summary_of<Map2>(moebius_lattice());
   EXPECT_EQ(s.cells, (Counts{10, 15, 5}));
   EXPECT_EQ(s.euler, 0);
   EXPECT_EQ(s.boundary_facets, 10u);
@@ -73,14 +73,14 @@ TEST(Summary, OfAMoebiusStrip) {
 
 TEST(Summary, OfAnAnnulusDiffersFromTheMoebiusStripInOrientabilityOnly) {
   const MapSummary annulus = summary_of<Map2>(sheet(5, 1, true, false, false));
-  const MapSummary strip = summary_of<Map2>(moebius_strip());
+  const MapSummary strip = summary_of<Map2>(moebius_lattice());
   EXPECT_EQ(annulus.cells, strip.cells);
   EXPECT_EQ(annulus.boundary_facets, strip.boundary_facets);
   EXPECT_TRUE(annulus.orientable);
 }
 
 TEST(Summary, OfTwoComponents) {
-  Mesh mesh = one_tetrahedron();
+  Mesh mesh = regular_tetrahedron();
   mesh.points.insert(mesh.points.end(), {{9, 0, 0}, {10, 0, 0}, {9, 1, 0}, {9, 0, 1}});
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{4, 5, 6, 7});
   const MapSummary s = summary_of<TetMap>(mesh);
@@ -93,7 +93,7 @@ TEST(Summary, OfTwoComponents) {
 // Fig. 3b: one component, one central vertex, though that vertex has no neighbourhood like a ball. A cone over an
 // annulus of 8 triangles: V = 1 + 8, E = 8 spokes + 16, F = 8 + 16 cones over the edges, T = 8.
 TEST(Summary, OfThePinchedBodyOfFigure3b) {
-  for (const MapSummary& s : {summary_of<Map3>(pinched_body()), summary_of<TetMap>(pinched_body())}) {
+  for (const MapSummary& s : {summary_of<Map3>(pinched_ring()), summary_of<TetMap>(pinched_ring())}) {
     EXPECT_EQ(s.cells, (Counts{9, 24, 24, 8}));
     EXPECT_EQ(s.components, 1u);
     EXPECT_EQ(s.euler, 1);
@@ -104,7 +104,7 @@ TEST(Summary, OfThePinchedBodyOfFigure3b) {
 }
 
 TEST(Summary, OfAClosedSolidHasNoBoundary) {
-  Mesh mesh = one_tetrahedron();  // twice the same tetrahedron: all faces are shared, a 3-sphere
+  Mesh mesh = regular_tetrahedron();  // twice the same tetrahedron: all faces are shared, a 3-sphere
   mesh.add_cell(CellKind::tetrahedron, mesh.cell(0));
   const MapSummary s = summary_of<TetMap>(mesh);
   EXPECT_EQ(s.cells, (Counts{4, 6, 4, 2}));

@@ -25,7 +25,7 @@ bool is_inner_vertex(const Map& map, Dart d) {
 }
 
 TEST(FanOfHexahedra, IsTheFourFacesOfAPlaneThroughTheVertex) {
-  const auto map = build_map<Map3>(hexahedron_grid(2, 2, 2, 1.0)).map;
+  const auto map = build_map<Map3>(hexahedron_box(2, 2, 2, 1.0)).map;
   int inner = 0;
   map.for_each_dart([&](Dart d) {
     if (!is_inner_vertex(map, d)) return;
@@ -36,7 +36,7 @@ TEST(FanOfHexahedra, IsTheFourFacesOfAPlaneThroughTheVertex) {
 }
 
 TEST(FanOfHexahedra, TornApartHalvesTheVertex) {
-  auto map = build_map<Map3>(hexahedron_grid(2, 2, 2, 1.0)).map;
+  auto map = build_map<Map3>(hexahedron_box(2, 2, 2, 1.0)).map;
   Dart inner = no_dart;
   map.for_each_dart([&](Dart d) {
     if (is_inner_vertex(map, d)) inner = d;
@@ -64,7 +64,7 @@ TYPED_TEST(Fan, StaysWithTheVertexAndListsEachFaceOnce) {
 }
 
 TYPED_TEST(Fan, OpenAtTheSurfaceIsFoundFromEitherEnd) {
-  const auto map = build_map<TypeParam>(two_tetrahedra()).map;
+  const auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
   map.for_each_dart([&](Dart d) {
     if (map.template is_free<3>(d)) return;
     EXPECT_EQ(fan(map, d), (std::vector<Dart>{d}));  // the shared face alone: both its edges lie on the surface
@@ -72,14 +72,14 @@ TYPED_TEST(Fan, OpenAtTheSurfaceIsFoundFromEitherEnd) {
 }
 
 TYPED_TEST(Fan, OfADeadDartIsNotTorn) {
-  auto map = build_map<TypeParam>(one_tetrahedron()).map;
+  auto map = build_map<TypeParam>(regular_tetrahedron()).map;
   EXPECT_THROW(tear_fan(map, Dart{24}), TopologyError);
 }
 
 // Of 2 x 2 cubes side by side, each inner face meets the opposite one along the edge in the middle, and the surface
 // along the others.
 TEST(FanOfHexahedra, OpenAtTheSurfaceIsTheSameFromTheDartOfEitherEdge) {
-  const auto map = build_map<Map3>(hexahedron_grid(2, 2, 1, 1.0)).map;
+  const auto map = build_map<Map3>(hexahedron_box(2, 2, 1, 1.0)).map;
   int of_two = 0;
   map.for_each_dart([&](Dart d) {
     if (map.is_free<3>(d)) return;

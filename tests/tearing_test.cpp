@@ -155,7 +155,7 @@ TYPED_TEST(Tearing, StartsOnlyWithAFaceThatTheFilterAccepts) {
 }
 
 TYPED_TEST(Tearing, StartsOnlyWithAFaceThatIsAlignedWellEnough) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());  // the face between them lies in the plane z = 0
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());  // the face between them lies in the plane z = 0
   const auto start = [&](const Vector3d& direction, double least) {
     return starting_face(body, 0, direction, {}, least);
   };
@@ -166,7 +166,7 @@ TYPED_TEST(Tearing, StartsOnlyWithAFaceThatIsAlignedWellEnough) {
 }
 
 TYPED_TEST(Tearing, DoesNotStartWithADegenerateFace) {
-  auto body = body_of<TypeParam>(two_tetrahedra());
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
   ASSERT_NE(starting_face(body, 0, {0, 0, 1}), no_dart);
   for (std::uint32_t k = 0; k < 5; ++k)
     if (body.vertices.point[k] == 2) body.vertices.position[k] = {0.5, 0, 0};  // the triangle 0 1 2 is a segment now
@@ -174,7 +174,7 @@ TYPED_TEST(Tearing, DoesNotStartWithADegenerateFace) {
 }
 
 TYPED_TEST(Tearing, StartsInADirectionOnly) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());
   EXPECT_THROW(starting_face(body, 0, {0, 0, 0}), InputError);
   EXPECT_THROW(starting_face(body, 0, {0, 0, std::numeric_limits<double>::infinity()}), InputError);
 }
@@ -183,7 +183,7 @@ TYPED_TEST(Tearing, StartsInADirectionOnly) {
 
 // Uniform stress of 4 k s (s - 1) / a (stress_test.cpp): 24 Pa with k = 4, s = 3/2, a = 1/2.
 TEST(TearingOfHexahedra, PartsAStretchedBarIntoLayersAcrossTheStretch) {
-  Torn<Map3> bar(body_of<Map3>(hexahedron_grid(2, 2, 3, 0.5)));
+  Torn<Map3> bar(body_of<Map3>(hexahedron_box(2, 2, 3, 0.5)));
   move(bar.body, along_z);
   EXPECT_EQ(bar.tear({.threshold = 24.5}).stressed, 0u);
   EXPECT_EQ(bar.followed, 0u);
@@ -232,7 +232,7 @@ TYPED_TEST(Tearing, TearsTheSameFacesHoweverTheBodyLies) {
 }
 
 TEST(TearingOfHexahedra, TearsTheSameFacesHoweverTheBodyLies) {
-  const Mesh mesh = hexahedron_grid(2, 2, 3, 0.5);
+  const Mesh mesh = hexahedron_box(2, 2, 3, 0.5);
   const auto upright = torn_faces<Map3>(mesh, Matrix3d::Identity(), 2);
   EXPECT_FALSE(upright.empty());
   for (const Matrix3d& turn : some_rotations()) EXPECT_EQ(torn_faces<Map3>(mesh, turn, 2), upright);
@@ -303,7 +303,7 @@ TYPED_TEST(Tearing, ReportsTheLargestStressUnderPressureToo) {
 }
 
 TYPED_TEST(Tearing, PassesOverTheVerticesOfASingleCell) {
-  Torn<TypeParam> one(body_of<TypeParam>(one_tetrahedron()));
+  Torn<TypeParam> one(body_of<TypeParam>(regular_tetrahedron()));
   move(one.body, 3.0 * Matrix3d::Identity());
   const TornVertices torn = one.tear({.threshold = 1e-3, .least_alignment = 0.0});
   EXPECT_EQ(torn.stressed, 4u);
@@ -405,7 +405,7 @@ TYPED_TEST(Tearing, AlongASeamTakesThePieceOfItAroundTheVertex) {
 // ---- what is refused
 
 TYPED_TEST(Tearing, RefusesARuleThatIsNone) {
-  Torn<TypeParam> bar(body_of<TypeParam>(two_tetrahedra()));
+  Torn<TypeParam> bar(body_of<TypeParam>(unequal_tetrahedra()));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double threshold : {0.0, -1.0, nan}) EXPECT_THROW(bar.tear({.threshold = threshold}), InputError);
   for (const double least : {1.5, nan})

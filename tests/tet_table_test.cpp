@@ -16,19 +16,10 @@
 #include "core/topology/check.h"
 #include "core/topology/sew.h"
 #include "tests/meshes_for_tests.h"
+#include "tests/topology_message_for_tests.h"
 
 namespace dartboard {
 namespace {
-
-// The message of the TopologyError that `action` throws; "no throw" if it does not.
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const TopologyError& error) {
-    return error.what();
-  }
-  return "no throw";
-}
 
 template <class A, class B>
 void expect_equal_alphas(const A& a, const B& b) {

@@ -42,8 +42,8 @@ TEST(Fuzz, TetrahedraAgreeWithBothOraclesWhileTheyStayOriented) {
 TEST(Fuzz, CellsOfAllKindsAgreeWithBothOracles) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     expect_agreement(mixed_cells(), plan(ScriptStorage::general, ScriptOracles::both, seed, 2000));
-    expect_agreement(hexahedron_grid(2, 2, 1, 1.0), plan(ScriptStorage::general, ScriptOracles::both, seed, 2000));
-    expect_agreement(pinched_body(), plan(ScriptStorage::tetrahedral, ScriptOracles::both, seed, 2000));
+    expect_agreement(hexahedron_box(2, 2, 1, 1.0), plan(ScriptStorage::general, ScriptOracles::both, seed, 2000));
+    expect_agreement(pinched_ring(), plan(ScriptStorage::tetrahedral, ScriptOracles::both, seed, 2000));
   }
 }
 
@@ -57,7 +57,7 @@ TEST(Fuzz, AnythingGoesWithTheGeneralizedMap) {
 }
 
 TEST(Fuzz, SurfacesAgreeOrientableOrNot) {
-  for (const Mesh& mesh : {quadrilateral_grid(3, 3), torus_surface(), moebius_strip(), klein_bottle()})
+  for (const Mesh& mesh : {quadrilateral_grid(3, 3), torus_lattice(), moebius_lattice(), klein_lattice()})
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       expect_agreement(mesh, plan(ScriptStorage::general, ScriptOracles::both, seed, 2000));
       expect_agreement(mesh, plan(ScriptStorage::general, ScriptOracles::gmap, seed, 2000));
@@ -75,7 +75,7 @@ TEST(Fuzz, BothStoragesOfOursAgreeWithoutCgal) {
 }
 
 TEST(Fuzz, SaysThatAMoebiusStripHasNoCombinatorialMap) {
-  const FuzzResult result = fuzz_topology(moebius_strip(), plan(ScriptStorage::general, ScriptOracles::both, 1, 10));
+  const FuzzResult result = fuzz_topology(moebius_lattice(), plan(ScriptStorage::general, ScriptOracles::both, 1, 10));
   EXPECT_EQ(result.no_cmap.substr(0, 14), "not orientable");
 }
 
@@ -90,7 +90,7 @@ TEST(Fuzz, TheSameSeedDoesTheSame) {
 }
 
 TEST(Fuzz, ASurfaceCannotBeStoredAsTetrahedra) {
-  EXPECT_THROW(fuzz_topology(torus_surface(), plan(ScriptStorage::tetrahedral, ScriptOracles::none, 1, 1)), InputError);
+  EXPECT_THROW(fuzz_topology(torus_lattice(), plan(ScriptStorage::tetrahedral, ScriptOracles::none, 1, 1)), InputError);
 }
 
 // ---- one operation at a time
@@ -104,7 +104,7 @@ class LockstepOfTwoTetrahedra : public testing::Test {
     EXPECT_FALSE(found) << to_string(*found);
     return lockstep_.outcome();
   }
-  Lockstep lockstep_{two_tetrahedra(), ScriptStorage::tetrahedral, ScriptOracles::both};
+  Lockstep lockstep_{unequal_tetrahedra(), ScriptStorage::tetrahedral, ScriptOracles::both};
 };
 
 TEST_F(LockstepOfTwoTetrahedra, SkipsWhatIsIllegalForAll) {
@@ -136,7 +136,7 @@ TEST_F(LockstepOfTwoTetrahedra, KeepsNamesWhenSlotsAreUsedAgain) {
 TEST(Folds, ComeApartAsCgalCountsIt) {
   const auto script = parse_topology_script(
       "dartboard-topology-script 1\nmesh one\nstorage tetrahedral\noracles gmap\nsew 3 d0 d5\ndissociate d0\n", "fold");
-  const auto result = replay_topology(one_tetrahedron(), script);
+  const auto result = replay_topology(regular_tetrahedron(), script);
   EXPECT_FALSE(result.disagreement) << to_string(*result.disagreement);
   EXPECT_EQ(result.applied, 2u);
 }

@@ -1,6 +1,7 @@
 // From unit costs to the times of a plan: how often each thing happens.
 
 #include "benchmarks/unit_costs.h"
+#include "core/scene/scene_problem.h"
 
 #include <gtest/gtest.h>
 

@@ -43,7 +43,7 @@ using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(VertexAdjacencyOf, Solids);
 
 TYPED_TEST(VertexAdjacencyOf, TwoTetrahedraHasThreeEdgesAtTheTipsAndFourElsewhere) {
-  const auto body = body_of<TypeParam>(two_tetrahedra());
+  const auto body = body_of<TypeParam>(unequal_tetrahedra());
   VertexAdjacency view;
   view.rebuild(body);
   ASSERT_EQ(view.vertex_count(), 5u);
@@ -84,7 +84,7 @@ TYPED_TEST(VertexAdjacencyOf, FollowsEveryOperationUntilNothingIsLeft) {
 }
 
 TEST(VertexAdjacencyOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
-  const auto view = followed_until_nothing_is_left<VertexAdjacency>(body_of<Map3>(hexahedron_grid(3, 2, 2, 1.0)), 1, 30,
+  const auto view = followed_until_nothing_is_left<VertexAdjacency>(body_of<Map3>(hexahedron_box(3, 2, 2, 1.0)), 1, 30,
                                                                     expect_rebuilt);
   EXPECT_EQ(view.vertex_count(), 0u);
 }

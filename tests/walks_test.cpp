@@ -53,7 +53,7 @@ TEST(Walks, LeadASolidToTheSameBitsOnBothStoragesAndHoldings) {
 }
 
 TEST(Walks, LeadASurfaceToTheSameBits) {
-  const Problem problem = problem_of(torus_surface());
+  const Problem problem = problem_of(torus_lattice());
   const auto expected = hash_after_20_steps<Map2, one, DartCoverage>(problem);
   expect_hash_on_all_walks<Map2, one>(problem, expected);
   expect_hash_on_all_walks<Map2, every>(problem, expected);
@@ -120,7 +120,7 @@ TYPED_TEST(EachWalk, TellsTheNumbersOfEmbeddingsAndNotOfPlaces) {
 
 TYPED_TEST(EachWalk, CanBeRebuiltForAnotherBody) {
   const auto large = build_body<TetMap, one>(problem_of(kuhn_grid(2, 2, 1, 1.0)));
-  const auto small = build_body<TetMap, one>(problem_of(one_tetrahedron()));
+  const auto small = build_body<TetMap, one>(problem_of(regular_tetrahedron()));
   TypeParam walk;
   if constexpr (requires { walk.rebuild(large); }) {
     walk.rebuild(large);
@@ -152,7 +152,7 @@ TYPED_TEST(EachWalk, HasNothingToVisitInAnEmptyBody) {
 }
 
 TEST(CellArraysOf, ASolidHoldItsFacesAndVolumes) {
-  const auto body = build_body<TetMap, every>(problem_of(two_tetrahedra()));
+  const auto body = build_body<TetMap, every>(problem_of(unequal_tetrahedra()));
   CellArrays arrays;
   arrays.rebuild(body);
   EXPECT_EQ(arrays.vertices.size(), 5u);
@@ -163,7 +163,7 @@ TEST(CellArraysOf, ASolidHoldItsFacesAndVolumes) {
 }
 
 TEST(CellArraysOf, ASurfaceHoldItsFacesAndNoVolume) {
-  const auto body = build_body<Map2, every>(problem_of(torus_surface()));
+  const auto body = build_body<Map2, every>(problem_of(torus_lattice()));
   CellArrays arrays;
   arrays.rebuild(body);
   ASSERT_EQ(arrays.faces.size(), 12u);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
@@ -14,40 +13,10 @@ namespace {
 
 constexpr double stiffness = 100.0;  // [N/m]
 
-void add_vertex(SpringColumns& body, const Eigen::Vector3d& x, bool fixed = false) {
-  body.mass.push_back(1.0);
-  body.inverse_mass.push_back(1.0);
-  body.viscosity.push_back(0.0);
-  body.fixed.push_back(fixed);
-  body.x.push_back(x);
-  body.v.push_back({0, 0, 0});
-}
-
 SpringColumns chain(int free) {
   SpringColumns body;
-  for (int i = 0; i < free + 2; ++i) add_vertex(body, {1.0 * i, 0, 0}, i == 0 || i == free + 1);
-  for (std::uint32_t i = 0; i + 1 < body.x.size(); ++i) {
-    body.ends.push_back({i, i + 1});
-    body.springs.push_back({1.0, stiffness, 0.0});
-  }
-  return body;
-}
-
-// A spring per edge of a cell, those of neighbours added up.
-SpringColumns of_mesh(const Mesh& mesh) {
-  SpringColumns body;
-  for (const Eigen::Vector3d& p : mesh.points) add_vertex(body, p);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> cells;
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const auto nodes = mesh.cell(c);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (std::size_t j = i + 1; j < nodes.size(); ++j)
-        ++cells[{std::min(nodes[i], nodes[j]), std::max(nodes[i], nodes[j])}];
-  }
-  for (const auto& [ends, count] : cells) {
-    body.ends.push_back({ends.first, ends.second});
-    body.springs.push_back({(body.x[ends.second] - body.x[ends.first]).norm(), stiffness * count, 0.0});
-  }
+  for (int i = 0; i < free + 2; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0}, {0, 0, 0}, i == 0 || i == free + 1);
+  for (std::uint32_t i = 0; i + 1 < body.x.size(); ++i) body.add_spring(i, i + 1, stiffness, 1.0);
   return body;
 }
 
@@ -64,8 +33,8 @@ SpringColumns extreme_body(std::string_view name) {
     return body;
   }
   if (name == "chain") return chain(12);
-  if (name == "box") return of_mesh(kuhn_box(2, 2, 2, 1.0, 0.2, 5));
-  if (name == "sheet") return of_mesh(triangle_sheet(4, 4, 1.0));
+  if (name == "box") return columns_of_mesh(kuhn_box(2, 2, 2, 1.0, 0.2, 5), 1.0, stiffness);
+  if (name == "sheet") return columns_of_mesh(triangle_sheet(4, 4, 1.0), 1.0, stiffness);
   throw InputError(fmt::format("there is no extreme body '{}'", name));
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/mechanics/spring_forces.h"
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/operations/tear_fan.h"
@@ -12,6 +11,7 @@
 #include "core/plain/random.h"
 #include "core/time/runge_kutta_4.h"
 #include "validation/refinement_checks.h"
+#include "validation/refinement_effects.h"
 
 namespace dartboard {
 namespace {
@@ -25,44 +25,6 @@ constexpr std::array compared{
 
 constexpr std::size_t small = 24;     // cells; everything is compared after each series
 constexpr std::uint32_t deepest = 8;  // refinements that a cell may go through: each takes up to 8 from the square of h
-
-using Vectors = std::vector<Eigen::Vector3d>;
-
-/// Forces of the springs by vertex, and how far rounding may put two such sums apart.
-struct Forces {
-  Vectors force;
-  std::vector<double> terms;  // the absolute values that went into it
-  std::vector<double> moved;  // [N] if the vertices of the refined cell are off by `off` and `off_v`
-  std::vector<std::size_t> springs;
-};
-
-// Of a spring: k (l - L) has an error of some u k (l + L), the damping one of some u c |dv|. An end displaced by d
-// changes l by d, and the direction by 2 d / l at most.
-template <class Map>
-Forces forces_of(const LiveBody<Map>& body, const CellArrays& arrays, std::uint32_t put_in, double off, double off_v) {
-  const VertexColumns& v = body.vertices;
-  Forces f{Vectors(v.size(), Eigen::Vector3d(0, 0, 0)), std::vector<double>(v.size(), 0.0),
-           std::vector<double>(v.size(), 0.0), std::vector<std::size_t>(v.size(), 0)};
-  arrays.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
-    const Spring& s = body.springs[e];
-    const Eigen::Vector3d dx = v.position[b] - v.position[a], dv = v.velocity[b] - v.velocity[a];
-    const Eigen::Vector3d force = spring_force(s, dx, dv);
-    const double length = dx.norm();
-    const double terms = s.stiffness * (length + s.rest_length) + s.damping * dv.norm();
-    double moved = 0.0;
-    if ((a == put_in || b == put_in) && length > 0.0)
-      moved =
-          s.stiffness * off + s.damping * (off_v + dv.norm() * 2.0 * off / length) + force.norm() * 2.0 * off / length;
-    f.force[a] += force;
-    f.force[b] -= force;
-    for (const std::uint32_t end : {a, b}) {
-      f.terms[end] += terms;
-      f.moved[end] += moved;
-      ++f.springs[end];
-    }
-  });
-  return f;
-}
 
 template <class Map>
 class Run {
@@ -180,7 +142,7 @@ class Run {
     const Spring whole = body.springs[body.edge(body.map, cell.dart)];  // read for an edge only
     double mass = 0.0;
     for (const auto& parent : parents) mass += at_.cells.cells()[parent.first].mass;
-    const Forces forces_before = forces_of(body, at_.views.cells, no_embedding, 0.0, 0.0);
+    const SpringForceSums forces_before = spring_force_sums(body, at_.views.cells);
 
     const Subdivision subdivision = subdivide(body.map, cell);
     const ChangedEmbeddings changed = adapt(body, subdivision, bracing);
@@ -195,7 +157,7 @@ class Run {
     if (!ledger_.broken()) checks_.changed_cells(changed);
     if (ledger_.broken()) return;
     others_stay(old);
-    const Means means = put_in_the_middle(old, corners);
+    const RefinementMeans means = put_in_the_middle(old, corners);
 
     // what S gave away, less what the vertex put in got; the new springs
     const auto vertex = static_cast<std::uint32_t>(old.size());
@@ -232,69 +194,21 @@ class Run {
                       "vertex", k);
   }
 
-  struct Means {
-    Eigen::Vector3d x{0, 0, 0}, v{0, 0, 0};
-    Eigen::Vector3d absolute_x{0, 0, 0}, absolute_v{0, 0, 0};
-    double off = 0.0, off_v = 0.0;  // what rounding does to a mean, as a length
-  };
-
-  // Three additions and a division in either mean.
-  Means put_in_the_middle(const VertexColumns& old, const std::vector<std::uint32_t>& corners) {
-    Means m;
-    bool fixed = true;
-    for (const std::uint32_t k : corners) {
-      m.x += old.position[k];
-      m.v += old.velocity[k];
-      m.absolute_x += old.position[k].cwiseAbs();
-      m.absolute_v += old.velocity[k].cwiseAbs();
-      fixed = fixed && old.fixed[k];
-    }
-    const auto s = static_cast<double>(corners.size());
-    for (auto* vector : {&m.x, &m.v, &m.absolute_x, &m.absolute_v}) *vector /= s;
-    m.off = 2.0 * gamma(5) * m.absolute_x.norm();
-    m.off_v = 2.0 * gamma(5) * m.absolute_v.norm();
+  RefinementMeans put_in_the_middle(const VertexColumns& old, const std::vector<std::uint32_t>& corners) {
+    const RefinementMeans m(old, corners);
     const VertexColumns& v = at_.body.vertices;
     ledger_.within(Check::put_in_the_middle, (v.position.back() - m.x).norm(), m.off, m.absolute_x.norm(),
                    v.position.back().norm(), m.x.norm());
     ledger_.within(Check::put_in_the_middle, (v.velocity.back() - m.v).norm(), m.off_v, m.absolute_v.norm(),
                    v.velocity.back().norm(), m.v.norm());
-    ledger_.equal(Check::duplicated, v.fixed.back() != 0, fixed, "fixed, vertex", old.size());
+    ledger_.equal(Check::duplicated, v.fixed.back() != 0, m.all_fixed, "fixed, vertex", old.size());
     ledger_.equal(Check::duplicated, v.point.back(), no_point, "point, vertex", old.size());
     return m;
   }
 
-  // The loss of refinement_conservation.h. Magnitudes are those of the terms before they cancel.
-  static ConservedSums given_away(const VertexColumns& old, const std::vector<std::uint32_t>& corners, const Means& m,
-                                  double mass) {
-    ConservedSums lost;
-    const double part = mass / (4.0 * static_cast<double>(corners.size()));
-    for (const std::uint32_t k : corners) {
-      const Eigen::Vector3d x = old.position[k] - m.x, v = old.velocity[k] - m.v;
-      const Eigen::Vector3d size_x = old.position[k].cwiseAbs() + m.absolute_x,
-                            size_v = old.velocity[k].cwiseAbs() + m.absolute_v;
-      const auto add = [&lost](Conserved c, double term, double size) {
-        TwofoldSum& sum = lost[c];
-        const double magnitude = sum.magnitude + size;
-        sum.add(term);
-        sum.magnitude = magnitude;
-      };
-      const auto spin = [&](Conserved c, int j, int l) {
-        add(c, part * (x[j] * v[l] - x[l] * v[j]), part * (size_x[j] * size_v[l] + size_x[l] * size_v[j]));
-      };
-      spin(Conserved::spin_x, 1, 2);
-      spin(Conserved::spin_y, 2, 0);
-      spin(Conserved::spin_z, 0, 1);
-      add(Conserved::kinetic, 0.5 * (part * v.squaredNorm()), 0.5 * (part * size_v.squaredNorm()));
-      for (int j = 0; j < 3; ++j)
-        add(static_cast<Conserved>(static_cast<int>(Conserved::momentum_x) + j), 0.0, part * size_v[j]);
-      add(Conserved::mass, 0.0, 2.0 * part);
-    }
-    return lost;
-  }
-
   // At most as many cells around an edge as springs at its ends, so that every term has fewer roundings than this.
-  void forces_are_kept(const Forces& before, std::uint32_t vertex, const Means& means) {
-    const Forces after = forces_of(at_.body, at_.views.cells, vertex, means.off, means.off_v);
+  void forces_are_kept(const SpringForceSums& before, std::uint32_t vertex, const RefinementMeans& means) {
+    const SpringForceSums after = spring_force_sums(at_.body, at_.views.cells, vertex, &means);
     for (std::uint32_t k = 0; k < after.force.size(); ++k) {
       const bool is_new = k == vertex;
       const Eigen::Vector3d expected = is_new ? Eigen::Vector3d(0, 0, 0) : before.force[k];

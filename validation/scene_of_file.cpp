@@ -12,6 +12,7 @@
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
 #include "core/plain/error.h"
+#include "core/scene/scene_problem.h"
 #include "core/time/dormand_prince_54.h"
 #include "reference/spring_network.h"
 

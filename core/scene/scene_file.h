@@ -12,8 +12,6 @@
 #include <vector>
 
 #include "core/plain/material.h"
-#include "core/plain/mesh.h"
-#include "core/plain/problem.h"
 #include "core/scene/selection.h"
 
 namespace dartboard {
@@ -171,18 +169,6 @@ SceneFile parse_scene(std::string_view text, const std::string& name, const std:
 ///
 /// throws  IoError if the file cannot be read, InputError if it is wrong
 SceneFile read_scene(const std::filesystem::path& path);
-
-/// The mesh of the body; of a chain its points alone.
-///
-/// throws  IoError if its file cannot be read, InputError for a generator that cannot make it
-Mesh make_mesh(const SceneFile& scene);
-
-/// The mechanics of the scene: mesh, material, gravity, what is fixed, how it moves first. Driven vertices are fixed
-/// here: how they move is told by DrivenVertices alone.
-///
-/// throws  as make_mesh; InputError for an id that is no point of the mesh, a selection of none, a speed above that of
-///         light
-Problem make_problem(const SceneFile& scene);
 
 /// Let every random selection draw other cells: `seed` is added to its own. False where that changes none.
 bool reseed(SceneFile& scene, std::uint64_t seed);

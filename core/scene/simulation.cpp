@@ -11,6 +11,7 @@
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/beyond_numbers.h"
+#include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
 #include "core/time/nan_proof.h"
