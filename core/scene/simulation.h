@@ -43,8 +43,7 @@ struct StepWarning {
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
 std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
 
-/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass, in eight
-/// parts so that none waits for the one before. cost    a hundredth of a force evaluation
+/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
 /// How much dissociations changed what they must not change: the largest over all events that only dissociate.
@@ -76,7 +75,8 @@ class Simulation {
   /// One step, then the events due at its end, then the velocities of driven vertices.
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
-  /// faster than light, or when there is more energy than anything in the scene can supply (DivergenceDetector); the
+  /// faster than light, or when there is more energy than anything in the scene can supply (DivergenceDetector, in the
+  /// steps that it looks at: at least every sixteenth, the first and the last); the
   /// body is then as it was in the last good state, at most 80 steps ago. `unstable_step` says what is done about a
   /// step that is too long.
   std::optional<Divergence> advance();
