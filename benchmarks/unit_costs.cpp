@@ -116,7 +116,7 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
   if (detector.start(whole, arrays.motion(), scene.step).ok())
     costs.detector = median_ns(3, 512, [&] { detector.after_step(whole, arrays.motion()); });
   volatile bool slower = false;
-  costs.speed_check = cost_of([&] { slower = all_slower(arrays.v, 3e8); });
+  costs.speed_check = cost_of([&] { slower = all_slower(arrays.v, 3e8); }) / DivergenceDetector::check_steps;
 
   const double steps = std::max(1.0, std::ceil(scene.duration / scene.step));
   const Horizon horizon{.steps = steps, .gain = 2.0};

@@ -218,6 +218,16 @@ TEST(SceneRun, StopsWithADiagnosisWhenTheMotionDiverges) {
   EXPECT_EQ(result.last.time, result.divergence->kept_time);
 }
 
+TEST(Simulation, StopsWhereAVertexIsFasterThanLight) {
+  Json scene = moving_box();
+  scene["initial_velocity"] = {4e8, 0, 0};
+  Simulation simulation(parse(scene));
+  const auto found = simulation.advance();  // the first step is looked at, then ever fewer, up to every sixteenth
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->quantity, "speed");
+  EXPECT_GT(found->value, 299792458.0);
+}
+
 // ---- steps that are too long
 
 // h omega is about 20: see above

@@ -196,7 +196,8 @@ class Planner {
         told("/unstable_step", Shape::scene, "unstable_step", choices[static_cast<std::size_t>(scene_.unstable_step)]);
     add(Part::detector, "the last good state, to go back to", "always: no run goes on without sense",
         plan_.counts.vertices * 2 * vector);
-    add(Part::speed_check, "no vertex is faster than light", "always: no run goes on without sense");
+    add(Part::speed_check, "no vertex is faster than light, in every sixteenth step",
+        "always: no run goes on without sense");
     add(Part::step_check, "the longest stable step, at the start and after operations", unstable);
   }
 

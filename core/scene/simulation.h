@@ -45,8 +45,7 @@ struct StepWarning {
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
 std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
 
-/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass, in eight
-/// parts so that none waits for the one before. cost    a hundredth of a force evaluation
+/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
 /// How much dissociations changed what they must not change: the largest over all events that only dissociate.
@@ -79,11 +78,12 @@ class Simulation {
   /// One step, then the events due at its end, then the velocities of driven vertices.
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
-  /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector), or when a
-  /// stress that an event asks for is not finite. The body then goes back to the state kept last, which is that of the
-  /// start, after the last event, or a later one whose energy could be explained: `kept_step` says which. Where
-  /// another event of the same step has changed the body already, and where the start is no state, there is none to go
-  /// back to. `unstable_step` says what is done about a step that is too long.
+  /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
+  /// looked for in every sixteenth step at least, in the first and the last), or when a stress that an event asks for
+  /// is not finite. The body then goes back to the state kept last, which is that of the start, after the last event,
+  /// or a later one whose energy could be explained: `kept_step` says which. Where another event of the same step has
+  /// changed the body already, and where the start is no state, there is none to go back to. `unstable_step` says what
+  /// is done about a step that is too long.
   std::optional<Divergence> advance();
   /// What is wrong with the state at the start, which `advance` says too: for a scene of no steps.
   std::optional<Divergence> start_failure();
@@ -95,8 +95,8 @@ class Simulation {
   const std::optional<StepWarning>& step_warning() const { return warning_; }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
-  /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that rounding
-  /// loses, motions that a stable step does not resolve (check_before_run).
+  /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that
+  /// rounding loses, motions that a stable step does not resolve (check_before_run).
   std::span<const StepResult> warnings() const { return warnings_; }
 
   const SimulatedBody& body() const { return *body_; }

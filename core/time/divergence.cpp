@@ -6,6 +6,7 @@
 
 #include "core/mechanics/spring_forces.h"
 #include "core/time/energy.h"
+#include "core/time/nan_proof.h"
 #include "core/time/trial_state.h"
 
 namespace dartboard {
@@ -45,9 +46,7 @@ DivergenceDetector::Sums DivergenceDetector::sums(const SpringSystem& system, Mo
   return {twice / 2, gravity, std::isfinite(twice) && std::isfinite(gravity)};
 }
 
-double DivergenceDetector::available(const Sums& now) const {
-  return energy_ + small_ + std::abs(now.gravity - gravity_) + most_work_;
-}
+double DivergenceDetector::available(const Sums& now) const { return supply() + std::abs(now.gravity - gravity_); }
 
 void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) {
   driven_.clear();
@@ -106,6 +105,8 @@ StepResult DivergenceDetector::begin(const SpringSystem& system, Motion motion, 
   energy_ = std::min(now.kinetic + elastic, ceiling);
   small_ = floor;
   gravity_ = now.gravity;
+  heaviest_ = 0.0;
+  for (const double m : system.mass) heaviest_ = max_or_nan(heaviest_, m);
   since_start_ = 0;
   next_check_ = 1;
   since_all_ = all_steps;  // the first suspicion is followed at once
@@ -135,12 +136,16 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
   if (++since_start_ < next_check_) return {};
   next_check_ += std::min(since_start_, check_steps);
   ++checks_;
+  const double elastic = energy_of_some_springs(system, motion);
+  // Comparisons that a NaN fails. Most checks end at the first, but for gravity, whose work has to be summed.
+  if (since_kept_ < keep_steps && system.gravity.isZero(0.0) &&
+      heaviest_ / 2 * sum_of_squares(motion.v) + elastic <= suspicion * supply())
+    return {};
   const Sums now = sums(system, motion);
   const double energy = available(now);
-  // comparisons that a NaN fails
   if (!now.finite || !(now.kinetic <= gain * energy)) return diagnose(system, motion);
   // a few springs may hold much of it, or little: what they suggest is looked at
-  const double seen = now.kinetic + energy_of_some_springs(system, motion);
+  const double seen = now.kinetic + elastic;
   if (!(seen <= gain * energy) || (seen > suspicion * energy && since_all_ >= all_steps))
     if (const StepResult result = check_all(system, motion); !result.ok()) return result;
   if (since_kept_ >= keep_steps && now.kinetic <= 2.0 * energy) keep(motion);

@@ -17,11 +17,11 @@ namespace dartboard {
 /// rest dissipates. So kinetic energy stays below T_0 + V_0 plus the work of gravity and of driven vertices, and so
 /// does the energy of any springs. The work of driven vertices is summed after every step, by the trapezoidal rule,
 /// over the springs that end at them. An unstable motion raises it in proportion to its amplitude and its own energy
-/// with the square of that: it cannot hide behind it. Compared are the kinetic energy, two sums over the vertices at a
-/// hundredth of the cost of a force evaluation, and the energy of some springs, others each time: what is overdamped
-/// grows without moving fast. A stable method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 -
-/// theta^2 / 4). More than `gain` times the energy available, that is a tenfold amplitude, is no oscillation of a
-/// stable one below 0.99 of its limit.
+/// with the square of that: it cannot hide behind it. Compared are the kinetic energy, and the energy of some springs,
+/// others each time: what is overdamped grows without moving fast. What a bound from above already shows is not summed
+/// exactly: the largest mass times the sum of the squared speeds, beside what there is without the work of gravity. A
+/// stable method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 - theta^2 / 4). More than `gain`
+/// times the energy available, that is a tenfold amplitude, is no oscillation of a stable one below 0.99 of its limit.
 ///
 /// An energy that stays above the bound is found within 16 steps where what moves, or the springs looked at, show it,
 /// and within 64 where they only suggest it (`suspicion`): then all springs are summed. How soon an unstable step
@@ -76,6 +76,7 @@ class DivergenceDetector {
   };
   Sums sums(const SpringSystem& system, Motion motion) const;
   double available(const Sums& now) const;
+  double supply() const { return energy_ + small_ + most_work_; }  // what is available but for the work of gravity
   void find_driven(const SpringSystem& system, Motion motion);
   double power(const SpringSystem& system, Motion motion) const;
   double energy_of_some_springs(const SpringSystem& system, Motion motion);
@@ -84,9 +85,10 @@ class DivergenceDetector {
   void keep(Motion motion);
 
   double step_ = 0.0;
-  double energy_ = 0.0;   // kinetic and elastic, that the run began with
-  double gravity_ = 0.0;  // at the beginning
-  double small_ = 0.0;    // what rounding, the first step of gravity, and driven vertices may supply
+  double energy_ = 0.0;    // kinetic and elastic, that the run began with
+  double gravity_ = 0.0;   // at the beginning
+  double small_ = 0.0;     // what rounding, the first step of gravity, and driven vertices may supply
+  double heaviest_ = 0.0;  // [kg] the largest mass
   std::vector<std::uint32_t> driven_, driven_springs_;  // vertices, and the springs at them that may change in length
   double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;   // [W] now, [J] of driven vertices since the run began, its peak
   std::size_t first_spring_ = 0;

@@ -33,6 +33,18 @@ struct CompensatedVector {
 
 }  // namespace
 
+double sum_of_squares(std::span<const Vector3d> v) {
+  using Eight = Eigen::Array<double, 8, 1>;
+  const double* data = v.empty() ? nullptr : v.data()->data();
+  const std::size_t size = 3 * v.size();
+  Eight squares = Eight::Zero();
+  std::size_t i = 0;
+  for (; i + 8 <= size; i += 8) squares += Eigen::Map<const Eight>(data + i).square();
+  double sum = squares.sum();
+  for (; i < size; ++i) sum += data[i] * data[i];
+  return sum;
+}
+
 double kinetic_energy(const SpringSystem& system, std::span<const Vector3d> v) {
   CompensatedSum twice;
   for (std::size_t i = 0; i < v.size(); ++i) twice.add(system.mass[i] * v[i].squaredNorm());

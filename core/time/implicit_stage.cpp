@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "core/mechanics/spring_forces.h"
 #include "core/time/nan_proof.h"
@@ -16,18 +17,20 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Force on the first end between the length vectors d0 and d1 of a spring: Gonzalez's discrete gradient, which for a
 // spring is k (lm - L) along (d0 + d1) / (l0 + l1), lm the mean length; without cancellation. Damping acts along it.
-template <bool damped>
-Vector3d discrete_force(const Spring& spring, const Vector3d& d0, const Vector3d& d1, const Vector3d& dw) {
+template <bool damped, class SomeSpring>
+Vector3d discrete_force(const SomeSpring& spring, const Vector3d& d0, const Vector3d& d1,
+                        [[maybe_unused]] const Vector3d& dw) {
   const double sum = std::sqrt(d0.squaredNorm()) + std::sqrt(d1.squaredNorm());
   if (sum == 0.0) return Vector3d::Zero();
   const Vector3d along = (d0 + d1) / sum;
   double tension = spring.stiffness * (0.5 * sum - spring.rest_length);
-  if constexpr (damped) tension += spring.damping * dw.dot(along);
+  if constexpr (damped && std::is_same_v<SomeSpring, Spring>) tension += spring.damping * dw.dot(along);
   return tension * along;
 }
 
 // Without a damper, what spring_force gives for one of zero.
-Vector3d undamped_force(const Spring& spring, const Vector3d& dx) {
+template <class SomeSpring>
+Vector3d undamped_force(const SomeSpring& spring, const Vector3d& dx) {
   const double length = std::sqrt(dx.squaredNorm());
   if (length == 0.0) return Vector3d::Zero();
   return (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
@@ -47,21 +50,22 @@ template <bool damped>
 void ImplicitStage::subtract_forces(const Problem& p, std::span<const Vector3d> w) {
   const SpringSystem& s = p.system;
   const bool discrete = p.force == StageForce::discrete_gradient;
-  const SpringSpan springs = s.springs;
-  for (std::size_t e = 0; e < springs.size(); ++e) {
-    const auto [a, b] = s.ends[e];
-    const Spring spring = springs[e];
-    const Vector3d dw = w[b] - w[a], d0 = p.xh[b] - p.xh[a];
-    const auto at_end = [&] {
-      if constexpr (damped)
-        return spring_force(spring, d0 + p.tau * dw, dw);
-      else
-        return undamped_force(spring, d0 + p.tau * dw);
-    };
-    const Vector3d f = discrete ? discrete_force<damped>(spring, d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
-    residual_[a] -= f;
-    residual_[b] += f;
-  }
+  s.springs.visit([&](const auto springs) {
+    for (std::size_t e = 0; e < springs.size(); ++e) {
+      const auto [a, b] = s.ends[e];
+      const auto& spring = springs[e];
+      const Vector3d dw = w[b] - w[a], d0 = p.xh[b] - p.xh[a];
+      const auto at_end = [&] {
+        if constexpr (damped)
+          return spring_force(spring, d0 + p.tau * dw, dw);
+        else
+          return undamped_force(spring, d0 + p.tau * dw);
+      };
+      const Vector3d f = discrete ? discrete_force<damped>(spring, d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
+      residual_[a] -= f;
+      residual_[b] += f;
+    }
+  });
 }
 
 void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, WorkCounters& work) {
@@ -156,21 +160,24 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
     add(unit * p.tau * s.viscosity[i] * (w[i] + 0.5 * step).dot(step));
     add(-p.tau * (unit * s.mass[i]) * s.gravity.dot(step));
   }
-  for (std::size_t e = 0; e < s.springs.size(); ++e) {
-    const auto [a, b] = s.ends[e];
-    const Spring& spring = s.springs[e];
-    const Vector3d dw = w[b] - w[a], step = alpha * (direction_[b] - direction_[a]);
-    const Vector3d d0 = p.xh[b] - p.xh[a] + p.tau * dw, move = p.tau * step;
-    const double l0 = std::sqrt(d0.squaredNorm()), l1 = std::sqrt((d0 + move).squaredNorm());
-    if (l0 + l1 > 0.0) {
-      const double stretch = (2.0 * d0 + move).dot(move) / (l0 + l1);  // l1 - l0
-      add(unit * spring.stiffness * (0.5 * (l0 + l1) - spring.rest_length) * stretch);
+  s.springs.visit([&](const auto springs) {
+    for (std::size_t e = 0; e < springs.size(); ++e) {
+      const auto [a, b] = s.ends[e];
+      const auto& spring = springs[e];
+      const Vector3d dw = w[b] - w[a], step = alpha * (direction_[b] - direction_[a]);
+      const Vector3d d0 = p.xh[b] - p.xh[a] + p.tau * dw, move = p.tau * step;
+      const double l0 = std::sqrt(d0.squaredNorm()), l1 = std::sqrt((d0 + move).squaredNorm());
+      if (l0 + l1 > 0.0) {
+        const double stretch = (2.0 * d0 + move).dot(move) / (l0 + l1);  // l1 - l0
+        add(unit * spring.stiffness * (0.5 * (l0 + l1) - spring.rest_length) * stretch);
+      }
+      if constexpr (std::is_same_v<decltype(springs), const std::span<const Spring>>)
+        if (l0 > 0.0 && spring.damping != 0.0) {
+          const double rate = dw.dot(d0) / l0, more = step.dot(d0) / l0;
+          add(unit * p.tau * spring.damping * (rate + 0.5 * more) * more);
+        }
     }
-    if (l0 > 0.0 && spring.damping != 0.0) {
-      const double rate = dw.dot(d0) / l0, more = step.dot(d0) / l0;
-      add(unit * p.tau * spring.damping * (rate + 0.5 * more) * more);
-    }
-  }
+  });
   return {sum, 4.0 * epsilon * sizes};
 }
 
