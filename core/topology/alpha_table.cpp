@@ -12,8 +12,8 @@ constexpr std::uint32_t dead = 0xFFFFFFFF;
 template <int N>
 Dart AlphaTable<N>::add_dart() {
   const bool reuse = !free_.empty();
-  if (!reuse) require_room(capacity(), 1, most_darts(N), "darts");
   const std::uint32_t slot = reuse ? free_.back() : static_cast<std::uint32_t>(capacity());
+  require_room(slot, 1, most_darts(N), "darts");
   const std::uint32_t generation = ++births_;
   if (journal_) journal_->record({reuse ? Change::Kind::reuse : Change::Kind::append, slot, 0, generation});
   appear(slot, generation);

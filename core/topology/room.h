@@ -7,9 +7,10 @@ namespace dartboard {
 
 [[noreturn]] void throw_no_room(std::uint64_t used, std::uint64_t more, std::uint64_t most, const char* what);
 
+/// pre     used <= most
 /// throws  TopologyError if `more` of `what` beside those `used` are more than `most`
 inline void require_room(std::uint64_t used, std::uint64_t more, std::uint64_t most, const char* what) {
-  if (used > most || more > most - used) throw_no_room(used, more, most, what);
+  if (more > most - used) throw_no_room(used, more, most, what);
 }
 
 }  // namespace dartboard

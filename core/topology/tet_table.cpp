@@ -20,8 +20,8 @@ constexpr std::uint32_t turn(std::uint32_t r, std::uint32_t q) {
 
 Dart TetTable::add_tetrahedron() {
   const bool reuse = !free_.empty();
-  if (!reuse) require_room(generation_.size(), 1, most_tetrahedra, "tetrahedra");
   const std::uint32_t t = reuse ? free_.back() : static_cast<std::uint32_t>(generation_.size());
+  require_room(t, 1, most_tetrahedra, "tetrahedra");
   const std::uint32_t generation = ++births_;
   if (journal_) journal_->record({reuse ? Change::Kind::reuse : Change::Kind::append, t, 0, generation});
   appear(t, generation);
