@@ -137,6 +137,11 @@ std::vector<AblationPair> staircase() {
           {"all of them", "simulation", "loop"}};
 }
 
+Verdict verdict_on_time(const Figure& figure) {
+  if (figure.interval.high < 1.0) return Verdict::not_tested;
+  return figure.median <= 1.005 ? Verdict::holds : Verdict::falls_short;
+}
+
 namespace {
 
 /// The bare scene's arrays, copied out of a simulation: the same numbers in the same order.

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "core/time/integrators.h"
 
 namespace dartboard {
 namespace {
@@ -19,6 +22,37 @@ Claim claim(std::string id, std::string text, std::string target, std::string me
           .measured = std::move(measured),
           .bound_or_interval = std::move(rests_on),
           .verdict = holds ? Verdict::holds : Verdict::falls_short};
+}
+
+/// The worst of the axis of offsets, of methods that solve equations and of those that do not: those stop where
+/// rounding leaves them of an equation, in each step.
+void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
+  constexpr double target = 30.0;
+  for (const bool implicit : {false, true}) {
+    double worst = 0.0;
+    std::size_t count = 0;
+    std::string who;
+    for (const Json& cell : results.cells) {
+      const auto name = cell.at("integrator").get<std::string>();
+      // explicit Euler, stable nowhere, makes rounding grow as it does everything
+      if (!cell.contains("offset_error") || name == "explicit-euler") continue;
+      if (make_integrator(name)->scheme().implicit != implicit) continue;
+      ++count;
+      const Json& found = cell.at("offset_error");
+      const double error = found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();
+      if (error < worst) continue;
+      worst = error;
+      who = fmt::format("{}, {} at D = {}", name, cell.at("scene").get<std::string>(),
+                        cell.at("value").get<std::string>());
+    }
+    if (count == 0) continue;
+    claims.push_back(claim(
+        implicit ? "offset-implicit" : "offset-explicit",
+        fmt::format("{} methods at D edge lengths from the origin against the same run there",
+                    implicit ? "implicit" : "explicit"),
+        fmt::format("<= {:g} eps D", target), fmt::format("{:.3g} eps D", worst), worst <= target,
+        fmt::format("{} runs of 100 steps{}; worst: {}", count, implicit ? "" : ", explicit Euler left out", who)));
+  }
 }
 
 void add_limit_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
@@ -68,9 +102,13 @@ Json to_json(const ExtremeCell& cell) {
       json[cell.diagnosis.witness == Witness::vertex ? "vertex" : "edge"] = cell.diagnosis.number;
     json["quantity"] = cell.diagnosis.quantity;
     json["found"] = fmt::format("{:.6g}", cell.diagnosis.value);
+    if (!names_a_quantity(cell.diagnosis)) json["nameless"] = true;
   }
   if (!cell.warnings.empty()) json["warnings"] = cell.warnings;
   if (!cell.note.empty()) json["note"] = cell.note;
+  if (cell.refused) json["refused"] = true;
+  if (cell.offset_error)
+    json["offset_error"] = std::isfinite(*cell.offset_error) ? Json(*cell.offset_error) : Json("not finite");
   return json;
 }
 
@@ -79,6 +117,13 @@ std::vector<Json> forbidden_cells(const ExtremesResults& results) {
   for (const Json& cell : results.cells)
     if (cell.at("outcome") == "SILENT" || cell.at("outcome") == "CRASH") forbidden.push_back(cell);
   return forbidden;
+}
+
+std::vector<Json> nameless_cells(const ExtremesResults& results) {
+  std::vector<Json> nameless;
+  for (const Json& cell : results.cells)
+    if (cell.at("outcome") == "DIAGNOSED" && cell.contains("nameless")) nameless.push_back(cell);
+  return nameless;
 }
 
 Json to_json(const ExtremesResults& results) {
@@ -129,6 +174,19 @@ std::vector<Claim> claims_of(const ExtremesResults& results) {
     const std::size_t forbidden = forbidden_cells(results).size();
     claims.push_back(claim("no-silent-run", "no run of the matrix is wrong without a word, or ends the process", "0",
                            fmt::format("{}", forbidden), forbidden == 0, fmt::format("{} runs", results.cells.size())));
+    const std::vector<Json> nameless = nameless_cells(results);
+    std::string first;
+    if (!nameless.empty())
+      first = fmt::format("; {} {} {} with {}: {} {}", nameless[0].at("axis").get<std::string>(),
+                          nameless[0].at("scene").get<std::string>(), nameless[0].at("value").get<std::string>(),
+                          nameless[0].at("integrator").get<std::string>(),
+                          nameless[0].at("quantity").get<std::string>(), nameless[0].at("found").get<std::string>());
+    const auto diagnosed =
+        std::ranges::count_if(results.cells, [](const Json& c) { return c.at("outcome") == "DIAGNOSED"; });
+    claims.push_back(claim("diagnoses-name-a-quantity", "no diagnosis names a quantity that is no number", "0",
+                           fmt::format("{}", nameless.size()), nameless.empty(),
+                           fmt::format("{} diagnoses{}", diagnosed, first)));
+    add_offset_claims(results, claims);
   }
   add_limit_claims(results, claims);
   if (!results.maps.empty()) {

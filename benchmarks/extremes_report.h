@@ -34,6 +34,9 @@ nlohmann::ordered_json to_json(const ExtremesResults& results);
 /// SILENT and CRASH.
 std::vector<nlohmann::ordered_json> forbidden_cells(const ExtremesResults& results);
 
+/// Diagnosed cells whose diagnosis names no quantity (`names_a_quantity`).
+std::vector<nlohmann::ordered_json> nameless_cells(const ExtremesResults& results);
+
 /// Targets of our own, of the studies that were made.
 std::vector<Claim> claims_of(const ExtremesResults& results);
 

@@ -18,7 +18,8 @@ constexpr std::array outcomes{ExtremeOutcome::ok, ExtremeOutcome::degraded, Extr
 
 std::string percent(double share) { return fmt::format("{:+.3f} %", 100 * share); }
 
-/// How many cells ended how, by axis and by integrator.
+/// How many cells ended how, by axis and by integrator; and how many of the diagnosed ones were refused: they never
+/// ran.
 Table count_outcomes(const std::vector<Json>& cells, const std::string& by) {
   std::vector<std::string> order;
   std::map<std::string, std::map<std::string, std::size_t>> counts;
@@ -26,14 +27,20 @@ Table count_outcomes(const std::vector<Json>& cells, const std::string& by) {
     const auto key = cell.at(by).get<std::string>();
     if (!counts.contains(key)) order.push_back(key);
     ++counts[key][cell.at("outcome").get<std::string>()];
+    if (cell.at("outcome") == "DIAGNOSED" && cell.contains("refused")) ++counts[key]["refused"];
   }
   std::vector<Column> columns{{by, Align::left}};
-  for (const ExtremeOutcome outcome : outcomes) columns.push_back({std::string(to_string(outcome)), Align::right});
+  for (const ExtremeOutcome outcome : outcomes) {
+    columns.push_back({std::string(to_string(outcome)), Align::right});
+    if (outcome == ExtremeOutcome::diagnosed) columns.push_back({"of it refused", Align::right});
+  }
   Table table(columns);
   for (const std::string& key : order) {
     std::vector<std::string> row{key};
-    for (const ExtremeOutcome outcome : outcomes)
+    for (const ExtremeOutcome outcome : outcomes) {
       row.push_back(fmt::format("{}", counts[key][std::string(to_string(outcome))]));
+      if (outcome == ExtremeOutcome::diagnosed) row.push_back(fmt::format("{}", counts[key]["refused"]));
+    }
     table.add_row(std::move(row));
   }
   return table;

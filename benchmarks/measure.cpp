@@ -63,6 +63,9 @@ std::vector<StepSample> measure(const MeasurePlan& plan, const std::function<voi
         sink(samples.back());
         progress.advance(samples.back().sample.task);
       });
+  std::vector<Sample> plain;
+  for (const StepSample& s : samples) plain.push_back(s.sample);
+  check_repeats(plain);
   return samples;
 }
 

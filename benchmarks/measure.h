@@ -39,6 +39,8 @@ MeasurePlan plan_measurement(const std::string& scene, const Problem& problem, c
                              bool quick, std::uint64_t seed);
 
 /// Carry out the plan in `plan.processes` processes of this executable, one after the other.
+///
+/// throws  SolverError for a contender that does not leave the same state in all rounds and processes
 std::vector<StepSample> measure(const MeasurePlan& plan, const std::function<void(const StepSample&)>& sink);
 
 /// The samples scaled to nanoseconds per step.

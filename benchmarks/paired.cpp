@@ -243,4 +243,14 @@ std::vector<std::uint64_t> hashes_of(std::span<const Sample> samples, std::strin
   return {hashes.begin(), hashes.end()};
 }
 
+void check_repeats(std::span<const Sample> samples) {
+  std::set<std::string_view> tasks;
+  for (const Sample& sample : samples) {
+    if (!tasks.insert(sample.task).second) continue;
+    if (const auto hashes = hashes_of(samples, sample.task); hashes.size() > 1)
+      throw SolverError(fmt::format("'{}' left {} different states where it was timed: {:016x}, {:016x}", sample.task,
+                                    hashes.size(), hashes[0], hashes[1]));
+  }
+}
+
 }  // namespace dartboard

@@ -98,4 +98,9 @@ Times times_of(std::span<const Sample> samples, std::string_view task);
 /// The different state hashes that a task left, ascending; more than one means that it does not repeat itself.
 std::vector<std::uint64_t> hashes_of(std::span<const Sample> samples, std::string_view task);
 
+/// Of tasks that start from the same state in every round: each has left one and the same state, in all processes.
+///
+/// throws  SolverError that names the first task that has not: what was timed is not what was compared before
+void check_repeats(std::span<const Sample> samples);
+
 }  // namespace dartboard

@@ -108,7 +108,7 @@ void claim_updates(const SolverResults& results, std::vector<Claim>& claims) {
     claim.paper_value = small || large ? fmt::format(">= {:g}", gate) : "between the others";
     claim.measured = fmt::format("{:.2f} with AMD, {:.2f} with METIS, {:.2f} the best of each", f.amd.median,
                                  f.metis.median, f.best);
-    claim.bound_or_interval = fmt::format("AMD {}", to_string(f.amd.interval));
+    claim.bound_or_interval = fmt::format("AMD {}, over the rounds of one process", to_string(f.amd.interval));
     claim.verdict = verdict(f.amd.median >= gate);
     claims.push_back(claim);
   }

@@ -116,7 +116,9 @@ NamedTable updates_table(const SolverResults& results) {
           ". What moves from a vertex to its twin leaves the diagonal blocks of all other vertices as they are, so "
           "only "
           "the rows of the two change, stretched or not: replacing those costs the same in both states. `follows` "
-          "chooses by predicted cost. Intervals are over the rounds of one process."};
+          "chooses by predicted cost. Intervals are over the rounds of one process: they say how steady it was, not "
+          "what "
+          "another process would find."};
 }
 
 NamedTable crossover_table(const SolverResults& results) {
@@ -158,8 +160,10 @@ NamedTable steps_table(const SolverResults& results) {
     for (const std::string& task : t.tasks)
       table.add_row(
           {t.body, task, fmt::format("{:.3f}", t.milliseconds(task)), to_string(t.ratio(task, "conjugate gradients"))});
-  return {"steps", "One linearly implicit step", std::move(table),
-          "Conjugate gradients to a residual of 1e-6; a kept factor preconditions them to 1e-12."};
+  return {
+      "steps", "One linearly implicit step", std::move(table),
+      "Conjugate gradients to a residual of 1e-6; a kept factor preconditions them to 1e-12. Intervals are over the "
+      "rounds of one process: they say how steady it was, not what another process would find."};
 }
 
 }  // namespace

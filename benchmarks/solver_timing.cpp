@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "core/plain/error.h"
 #include "core/time/accelerations.h"
+#include "core/time/backward_error.h"
 #include "core/time/baraff_witkin.h"
+#include "core/topology/hash.h"
+#include "validation/contender_body.h"
 #include "validation/scene_stage.h"
 #include "validation/solver_bodies.h"
 
@@ -21,6 +26,15 @@ void require(SolveStatus status) {
     throw SolverError(fmt::format("a factorisation that is timed ended: {}", to_string(status)));
 }
 
+/// No timing without agreement: all contenders solve the same system.
+void require_agreement(const std::string& task, const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
+                       std::span<const Eigen::Vector3d> x, double bound) {
+  const double error = normwise_backward_error(matrix, b, x);
+  if (!(error <= bound))
+    throw SolverError(fmt::format(
+        "'{}' is not timed: the backward error of its solution is {:.1e}, the bound is {:.1e}", task, error, bound));
+}
+
 // One contender: a factor of the whole body, and what it does when a vertex is dissociated.
 struct FactorTask {
   std::string name;
@@ -28,10 +42,56 @@ struct FactorTask {
   bool again = false;
   std::optional<Cholesky> cholesky;
   StepMatrix followed;
-  std::size_t pair = 0;  // which dissociation comes next
+  std::size_t pair = 0;     // which dissociation comes next
+  std::size_t updates = 0;  // that the factor has been through
+
+  /// Of the system that the factor was made for last; the hash of the solution.
+  std::uint64_t solve(const std::vector<SolverMatrix>& torn, std::span<const Eigen::Vector3d> b) {
+    std::vector<Eigen::Vector3d> x(b.size());
+    require(cholesky->solve(b, x));
+    require_agreement(name, torn[(pair - 1) % torn.size()].blocks, b, x, factor_bound(3 * b.size(), updates));
+    Hash hash;
+    hash.add(x);
+    return hash.value();
+  }
+};
+
+/// What a linearly implicit step from the start of a scene has to solve: (M + h C + h^2 K) v = M v0 + h f.
+class StepEquations {
+ public:
+  StepEquations(const TradeoffScene& scene, double h) {
+    SceneStage stage(scene);
+    const SpringSystem system = stage.system();
+    const PointState start = stage.state();
+    std::vector<SpringTangent> tangents;
+    evaluate_tangents(system, start.x, Compression::exact, tangents);
+    StepMatrix step;
+    step.evaluate(system, tangents, h);
+    step.assemble(node_pattern_of(system), matrix_);
+    right_.resize(start.x.size());
+    accelerations(system, terms_of(system), start.x, start.v, right_);
+    for (std::size_t i = 0; i < right_.size(); ++i) right_[i] = system.mass[i] * (start.v[i] + h * right_[i]);
+  }
+
+  /// `tolerance` is that of |b - A v| / |b| by Euclidean lengths: in the largest norm the root of n times as much.
+  void check(const std::string& task, const std::vector<Eigen::Vector3d>& v, double tolerance) const {
+    const std::size_t unknowns = 3 * right_.size();
+    require_agreement(task, matrix_, right_, v,
+                      factor_bound(unknowns, 0) + tolerance * std::sqrt(static_cast<double>(unknowns)));
+  }
+
+ private:
+  BlockMatrix matrix_;
+  std::vector<Eigen::Vector3d> right_;
 };
 
 }  // namespace
+
+double factor_bound(std::size_t unknowns, std::size_t updates) {
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+  const auto n = static_cast<double>(unknowns);
+  return (3.0 * n + 1.0) * u * n * (1.0 + static_cast<double>(updates));
+}
 
 Figure SolverTimes::ratio(const std::string& task, const std::string& baseline) const {
   std::map<int, double> above, below;
@@ -58,6 +118,9 @@ SolverTimes time_updates(int side, double stretch, int rounds, std::uint64_t see
   result.stretched = stretch != 0.0;
   result.h_omega = h_omega;
   result.body = fmt::format("{} vertices, {}", result.vertices, result.stretched ? "stretched" : "at rest");
+
+  // every torn body has one vertex more
+  const std::vector<Eigen::Vector3d> b = drawn_vectors(result.vertices + 1, seed);
 
   std::vector<std::shared_ptr<FactorTask>> factors;
   for (const Ordering ordering : {Ordering::amd, Ordering::metis}) {
@@ -93,9 +156,14 @@ SolverTimes time_updates(int side, double stretch, int rounds, std::uint64_t see
                        const auto terms =
                            f->followed.follow(pairs.torn[k].system(), torn[k].tangents, f->cholesky->spare_diagonal());
                        require(f->cholesky->follow(torn[k].blocks, terms));
-                       result.terms = terms.size();
+                       result.terms = f->updates = terms.size();
                      },
-                     [] { return std::uint64_t{0}; }});
+                     [f, &torn, &b] { return f->solve(torn, b); }});
+  }
+  for (const TimedTask& task : tasks) {
+    task.restore();
+    task.run();
+    task.hash();
   }
   run_rounds(tasks, {.rounds = rounds, .warmup = 1, .seed = seed},
              [&](const Sample& sample) { result.samples.push_back(sample); });
@@ -111,6 +179,7 @@ SolverTimes time_implicit_step(double h_omega, int rounds, std::uint64_t seed) {
   result.vertices = scene.motion.network.point_count();
   result.h_omega = h_omega;
   result.body = fmt::format("liver564, h omega_max = {:g}", h_omega);
+  const StepEquations equations(scene, h);
   std::vector<TimedTask> tasks;
   for (const auto& [name, solver] :
        {std::pair("conjugate gradients", LinearSolver::conjugate_gradients),
@@ -131,10 +200,18 @@ SolverTimes time_implicit_step(double h_omega, int rounds, std::uint64_t seed) {
                        const StepResult step = integrator->step(stage->system(), stage->motion(), h);
                        if (!step.ok()) throw SolverError(to_string(step));
                      },
-                     [] { return std::uint64_t{0}; }});
+                     [stage] { return state_hash(stage->state()); }});
+    // the second step from the start is the first that a kept factor serves
+    for (int step = 0; step < 2; ++step) {
+      tasks.back().restore();
+      tasks.back().run();
+      equations.check(tasks.back().name, stage->state().v,
+                      solver == LinearSolver::fresh_factor ? 0.0 : options.conjugate_gradients.tolerance);
+    }
   }
   run_rounds(tasks, {.rounds = rounds, .warmup = 3, .seed = seed},
              [&](const Sample& sample) { result.samples.push_back(sample); });
+  check_repeats(result.samples);
   return result;
 }
 

@@ -74,6 +74,7 @@ void extremes(const Options& options, Outcome& outcome) {
     return;
   }
   for (const Json& cell : forbidden_cells(results)) fmt::print("{}\n", cell.dump());
+  for (const Json& cell : nameless_cells(results)) fmt::print("{}\n", cell.dump());
   fmt::print("{}", to_text(std::span<const Claim>(claims)));
   if (folder) fmt::print("Written to {}.\n", folder->path().string());
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Certified trajectories: the motion of a spring network as two independent codes find it, and how far they agree.
+// Certified trajectories: the motion of a spring network as two codes find it, independent ones where there are, and
+// how far they agree.
 
 #include <cstdint>
 #include <string>
@@ -24,7 +25,7 @@ struct CertifyOptions {
   int refinements = 6;            // how often both may be refined, by 0.7, until they agree
   double relative = 1e-13;        // tolerance of the codes of SUNDIALS
   bool extrapolation = false;     // run Bulirsch-Stoer too, which is more accurate than codes in double
-  bool all_codes = true;          // false: stop at the first independent code that agrees
+  bool all_codes = true;          // false: stop at the first code that suffices
   bool gain = true;               // run the twin
 };
 
@@ -35,6 +36,7 @@ struct CertifiedMotion {
   double edge = 1.0;                  // mean rest length at the start [m]
   // The two finest runs of Odeint agree, and so does a code of SUNDIALS (where there is none: the extrapolation).
   bool accepted = false;
+  bool independent = false;      // one of the others that agree is of another library than the reference
   double self_difference = 0.0;  // of the two finest runs of Odeint [mean edge lengths]
   double agreement = 0.0;        // the smallest distance of any other code; infinite when all failed
   // Errors below this are not measured: 100 times what is known of the reference's own error, the larger of the

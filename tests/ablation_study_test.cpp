@@ -40,6 +40,16 @@ TEST(PlainLoop, MovesWithTheBitsOfTheIntegrator) {
   EXPECT_EQ(v, body->vertices().velocity);
 }
 
+TEST(Ablation, DoesNotJudgeBesideABaselineThatIsTheSlowerOne) {
+  const auto verdict = [](double median, double low, double high) {
+    return verdict_on_time({median, {low, high, 0.98, true}});
+  };
+  EXPECT_EQ(verdict(1.003, 0.999, 1.006), Verdict::holds);
+  EXPECT_EQ(verdict(0.998, 0.99, 1.001), Verdict::holds);
+  EXPECT_EQ(verdict(1.006, 1.003, 1.01), Verdict::falls_short);
+  EXPECT_EQ(verdict(0.924, 0.916, 0.942), Verdict::not_tested);
+}
+
 TEST(Ablation, CountsTheBytesOfWhatABareSceneDoesNotAskFor) {
   MemoryReport report{{Part::vertices, 100}, {Part::springs, 480}, {Part::integrator, 30}};
   EXPECT_EQ(bytes_not_asked_for(report), 0u);

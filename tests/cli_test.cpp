@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -229,6 +230,25 @@ TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
   for (const char* name : {"amplification.md", "amplification.png", "amplification.svg", "manifest.json"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
   fs::remove_all(out);
+}
+
+TEST(Extremes, JudgesTheErrorsAtAnOffsetOfBothKindsOfMethods) {
+  const Answer answer = run("extremes --axis offset --quick --json", "2>/dev/null");
+  const auto json = nlohmann::json::parse(answer.out);
+  double worst = 0.0;
+  for (const auto& cell : json.at("matrix"))
+    if (cell.contains("offset_error") && cell.at("integrator") != "explicit-euler")
+      worst = std::max(worst, cell.at("offset_error").get<double>());
+  int judged = 0;
+  bool all_hold = true;
+  for (const auto& claim : json.at("claims")) {
+    if (!claim.at("id").get<std::string>().starts_with("offset-")) continue;
+    ++judged;
+    all_hold = all_hold && claim.at("verdict") == "holds";
+  }
+  EXPECT_EQ(judged, 2);
+  EXPECT_GT(worst, 0.0);
+  EXPECT_EQ(all_hold, worst <= 30.0);
 }
 
 TEST(Extremes, RefusesAnAxisThatThereIsNotAndNamesThoseThereAre) {

@@ -12,6 +12,7 @@
 #include "core/plain/error.h"
 #include "core/time/frozen_damping.h"
 #include "validation/delaunay_ball.h"
+#include "validation/extreme_run.h"
 #include "validation/stability_limits.h"
 
 namespace dartboard {
@@ -73,6 +74,53 @@ TEST(Extremes, HasTheSameOutcomeForMassesAndSpringsOfAnySize) {
     ++scaled;
   }
   EXPECT_EQ(scaled, 2 * outcomes.size());
+}
+
+/// Half way through its 40 steps everything is put to rest; nothing is compared with a finer run.
+ExtremeCell run_to_death(std::string_view integrator, double damping = 0.0) {
+  ExtremeSetup setup = with_theta(moving_body("box"), 0.2, 40);
+  setup.compare = false;
+  setup.halfway = [](SpringColumns& body) {
+    const SpringColumns rest = extreme_body("box");
+    body.x = rest.x;
+    for (auto& v : body.v) v.setZero();
+  };
+  for (Spring& s : setup.body.springs) s.damping = damping * s.stiffness;
+  return run_extreme({"test", "box", std::string(integrator), "dead", {}}, std::move(setup));
+}
+
+TEST(Extremes, CallsAMotionThatDiesSilent) {
+  for (const char* integrator : {"verlet", "blanes-moan-4", "implicit-midpoint", "energy-momentum"}) {
+    const ExtremeCell cell = run_to_death(integrator);
+    EXPECT_EQ(cell.outcome, ExtremeOutcome::silent) << integrator;
+    EXPECT_NE(cell.note.find("fallen"), std::string::npos) << cell.note;
+  }
+}
+
+TEST(Extremes, LetsMotionDieWhereItIsDampedOrTheMethodDamps) {
+  EXPECT_NE(run_to_death("backward-euler").outcome, ExtremeOutcome::silent);
+  EXPECT_NE(run_to_death("verlet", 1e-3).outcome, ExtremeOutcome::silent);
+}
+
+TEST(Extremes, TellsRunsThatWereRefusedFromThoseThatWereStopped) {
+  for (const ExtremeCell& cell : run_some("input", 3)) EXPECT_EQ(cell.refused, cell.step == 0) << cell.integrator;
+  for (const ExtremeCell& cell : run_some("injected", 3)) EXPECT_FALSE(cell.refused) << cell.integrator;
+}
+
+TEST(Extremes, AsksADiagnosisForAQuantity) {
+  const double no_number = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(names_a_quantity({StepCode::newton_stalled, Witness::none, 0, "residual", 1e-3}));
+  EXPECT_TRUE(names_a_quantity({StepCode::overflow_risk, Witness::none, 0, "force", infinity}));
+  EXPECT_TRUE(names_a_quantity({StepCode::nonfinite, Witness::vertex, 3, "velocity", no_number}));
+  EXPECT_FALSE(names_a_quantity({StepCode::newton_stalled, Witness::none, 0, "residual", no_number}));
+}
+
+TEST(Extremes, CarriesTheErrorAtAnOffset) {
+  for (const ExtremeCell& cell : run_some("offset", 7))
+    if (cell.outcome != ExtremeOutcome::diagnosed) {
+      ASSERT_TRUE(cell.offset_error.has_value()) << cell.integrator;
+      EXPECT_GE(*cell.offset_error, 0.0);
+    }
 }
 
 TEST(Extremes, LetsTwoEventsHappenAtOneTime) {

@@ -195,6 +195,7 @@ TEST(OdeOracle, IsCertifiedByCodesThatAgree) {
   options.extrapolation = true;
   const CertifiedMotion certified = certify(motion, options);
   EXPECT_TRUE(certified.accepted);
+  EXPECT_EQ(certified.independent, have_sundials());
   EXPECT_LE(certified.self_difference, 2e-13);
   EXPECT_LE(certified.agreement, 2e-13);
   EXPECT_LE(certified.floor, 2e-11);
@@ -217,6 +218,7 @@ TEST(OdeOracle, IsNotAcceptedWhenCodesAreFartherApartThanAsked) {
   options.gain = false;
   const CertifiedMotion certified = certify(moving_grid(), options);
   EXPECT_FALSE(certified.accepted);
+  EXPECT_FALSE(certified.independent);
   EXPECT_TRUE(certified.gain.empty());
   EXPECT_EQ(certified.states.size(), 2u);
 }

@@ -178,6 +178,14 @@ TEST(Hashes, OfATaskThatRepeatsItselfAreOne) {
   EXPECT_EQ(hashes_of(samples, "base"), (std::vector<std::uint64_t>{8, 9}));
 }
 
+TEST(Hashes, AreCheckedOfEveryTaskOverAllRoundsAndProcesses) {
+  const std::vector steady{sample_of("walk", 0, 0, 1, 7), sample_of("walk", 1, 0, 1, 7), sample_of("base", 0, 0, 1, 9)};
+  EXPECT_NO_THROW(check_repeats(steady));
+  auto unsteady = steady;
+  unsteady.push_back(sample_of("base", 1, 0, 1, 8));
+  EXPECT_THROW(check_repeats(unsteady), SolverError);
+}
+
 TEST(Sample, SurvivesTheWayThroughJson) {
   const Sample sample{"walk", 3, 14, 2, 123456789012, 123456789013, 0xFEDCBA9876543210};
   const Sample back = nlohmann::json::parse(nlohmann::json(sample).dump()).get<Sample>();

@@ -10,6 +10,7 @@
 
 #include "core/time/divergence.h"
 #include "core/time/integrators.h"
+#include "core/time/nan_proof.h"
 #include "core/time/preflight.h"
 #include "core/time/stable_step.h"
 
@@ -42,8 +43,16 @@ std::optional<double> distance_from_finer(const ExtremeSetup& setup, const Sprin
   for (std::uint64_t k = 0; k < 8 * setup.steps; ++k)
     if (!integrator->step(fine.system(), fine.motion(), setup.h / 8).ok()) return {};
   double distance = 0.0;
-  for (std::size_t i = 0; i < fine.x.size(); ++i) distance = std::max(distance, (fine.x[i] - end.x[i]).norm());
+  for (std::size_t i = 0; i < fine.x.size(); ++i) distance = max_or_nan(distance, (fine.x[i] - end.x[i]).norm());
   return distance;
+}
+
+/// Has a motion that nothing damps come to rest? Of methods that keep the energy, or a quantity near it; within their
+/// limit of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
+bool has_died(const SpringColumns& start, const Scheme& scheme, const StableStep& limits, long double before,
+              long double after, double rounding) {
+  const bool damped = limits.damping_time.upper > 0.0 || limits.viscous_rate.upper > 0.0;
+  return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0) && 200.0L * (after + rounding) < before;
 }
 
 /// The outcome of a run that ended without a diagnosis.
@@ -67,9 +76,16 @@ void judge(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& st
     return;
   }
   const double theta = setup.h * limits.upper, zeta = limits.damping_ratio().upper;
-  if (!setup.compare || theta * (1 + 2 * zeta) > 0.5 || !cell.warnings.empty()) return;
-  const auto distance = distance_from_finer(setup, start, end);
-  if (!distance) return;
+  std::optional<double> distance;
+  if (setup.compare && theta * (1 + 2 * zeta) <= 0.5 && cell.warnings.empty())
+    distance = distance_from_finer(setup, start, end);
+  if (!distance) {
+    if (warned || !has_died(start, scheme, limits, before, after, rounding)) return;
+    cell.outcome = ExtremeOutcome::silent;
+    cell.note =
+        fmt::format("energy has fallen from {:.3g} to {:.3g}", static_cast<double>(before), static_cast<double>(after));
+    return;
+  }
   const auto steps = static_cast<double>(setup.steps);
   double amplitude = 0.0;
   for (std::size_t i = 0; i < start.x.size(); ++i)
@@ -99,10 +115,11 @@ void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColu
     if (!integrator->step(twin.system(), twin.motion(), setup.h).ok()) return;
   double distance = 0.0, shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < twin.x.size(); ++i)
-    distance = std::max(distance, (end.x[i] - Vector3d(setup.offset, 0, 0) - twin.x[i]).norm());
+    distance = max_or_nan(distance, (end.x[i] - Vector3d(setup.offset, 0, 0) - twin.x[i]).norm());
   for (const Spring& s : twin.springs) shortest = std::min(shortest, s.rest_length);
   const double rounding = epsilon * setup.offset;
-  cell.note = fmt::format("{:.3g} eps D from the run at the origin", distance / rounding);
+  cell.offset_error = distance / rounding;
+  cell.note = fmt::format("{:.3g} eps D from the run at the origin", *cell.offset_error);
   const bool warned =
       std::ranges::find(cell.warnings, to_string(StepCode::coordinate_precision)) != cell.warnings.end();
   // explicit Euler makes rounding grow as it does everything
@@ -130,11 +147,13 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
   };
   if (!preflight.refused.ok()) {
     diagnosed(preflight.refused);
+    cell.refused = true;
     return cell;
   }
   if (!preflight.warnings.empty()) cell.diagnosis = preflight.warnings.front();
   DivergenceDetector detector;
   StepResult result = detector.start(body.system(), body.motion(), setup.h);
+  cell.refused = !result.ok();
   const auto deadline = std::chrono::steady_clock::now() + budget;
   for (; cell.step < setup.steps && result.ok(); ++cell.step) {
     if (setup.halfway && cell.step == setup.steps / 2) {
@@ -175,6 +194,8 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
   }
   return cell;
 }
+
+bool conserves_energy(const Scheme& scheme) { return scheme.symplectic || scheme.name == "energy-momentum"; }
 
 long double energy_of(const SpringColumns& body) {
   long double sum = 0;

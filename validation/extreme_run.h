@@ -26,6 +26,9 @@ struct ExtremeSetup {
 /// Check, run, watch and judge it.
 ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup);
 
+/// Does the method keep the energy of what nothing damps, or a quantity near it?
+bool conserves_energy(const Scheme& scheme);
+
 /// Kinetic, elastic and gravity energy [J], in extended precision and without the detector: what outcomes rest on.
 long double energy_of(const SpringColumns& body);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/plain/error.h"
 #include "validation/extreme_matrix.h"
@@ -39,6 +40,10 @@ std::string_view to_string(ExtremeOutcome outcome) {
     case ExtremeOutcome::crash: return "CRASH";
   }
   return "?";
+}
+
+bool names_a_quantity(const StepResult& diagnosis) {
+  return !std::isnan(diagnosis.value) || diagnosis.code == StepCode::nonfinite;
 }
 
 std::span<const ExtremeAxis> extreme_axes() { return axes; }

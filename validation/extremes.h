@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,11 +27,16 @@ std::string_view to_string(ExtremeOutcome outcome);
 struct ExtremeCell {
   std::string axis, scene, integrator, value;
   ExtremeOutcome outcome = ExtremeOutcome::ok;
-  StepResult diagnosis;               // of a run that was refused or stopped; else the first warning
-  std::uint64_t step = 0;             // that the run ended with
-  std::vector<std::string> warnings;  // codes, before the run
-  std::string note;                   // why the outcome is what it is
+  StepResult diagnosis;                  // of a run that was refused or stopped; else the first warning
+  std::uint64_t step = 0;                // that the run ended with
+  std::vector<std::string> warnings;     // codes, before the run
+  std::string note;                      // why the outcome is what it is
+  bool refused = false;                  // diagnosed before the first step
+  std::optional<double> offset_error{};  // in roundings of the offset, from the same run at the origin
 };
+
+/// Does the diagnosis name a quantity? Only of what is diagnosed as not finite may the value be no number.
+bool names_a_quantity(const StepResult& diagnosis);
 
 /// An axis of the matrix.
 struct ExtremeAxis {
