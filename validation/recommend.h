@@ -34,7 +34,7 @@ struct Recommendation {
 ///
 /// 1. features of the scene, and of this machine;
 /// 2. before the second explicit method, implicit ones that the law (4.) gives less than what the first one takes: on
-///    stiff scenes explicit methods would use up the time for pilots;
+///    stiff scenes explicit methods would use up the time for pilots, of which they leave a part in any case;
 ///    explicit methods, those first that are cheapest as a rule: three pilots with h, h/2 and h/4, from the largest
 ///    stable step on (`pilot_prefix`); those are left out of which even the largest stable step costs more than what
 ///    was found before;
