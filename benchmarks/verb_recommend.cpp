@@ -138,8 +138,8 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
     return text +
            (std::isfinite(r.best_error)
                 ? fmt::format("\nAn error of {:.3g} edges cannot be met in double precision; about {:.1e} is the "
-                              "best, with {}.\n",
-                              r.error, r.best_error, r.best_error_by)
+                              "best{}, with {}.\n",
+                              r.error, r.best_error, r.untried().empty() ? "" : " of what was tried", r.best_error_by)
                 : "\nNothing can be recommended.\n");
   text += fmt::format(
       "\nTake {} with {}{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes {:.0f}).\n",

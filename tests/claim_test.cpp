@@ -49,7 +49,8 @@ TEST(Claim, TableGainsAColumnWhenThereIsAReason) {
 TEST(Claim, TableHeadsTargetsOfOurOwnAsTargetsAndThePapersAsThePapers) {
   const auto heads = [](const std::vector<Claim>& claims) {
     std::vector<std::string> names;
-    for (const Column& column : table_of(claims).columns()) names.push_back(column.title);
+    const Table table = table_of(claims);
+    for (const Column& column : table.columns()) names.push_back(column.title);
     return names;
   };
   const Claim papers = claim_with(Verdict::holds);

@@ -102,9 +102,10 @@ double Candidate::error_at(double step) const {
 }
 
 double Candidate::best_step() const {
-  // of a h^s + r h^-p the least is where s a h^s = p r h^-p; of an adaptive one h ~ tolerance^steps_slope
+  // of a h^s + r h^-p the least is where s a h^s = p r h^-p; of an adaptive one h ~ tolerance^steps_slope; where
+  // rounding does not grow, ten times below it is as good as none
   const double p = adaptive ? rounding.power * steps_slope : rounding.power;
-  const double falls = slope * error_at_pilot, grows = p * rounding_at(*this, pilot_h);
+  const double falls = slope * error_at_pilot, grows = std::max(p, 0.1) * rounding_at(*this, pilot_h);
   if (!(falls > 0.0)) return pilot_h;
   return pilot_h * std::min(1.0, std::pow(grows / falls, 1.0 / (slope + p)));
 }
@@ -174,7 +175,8 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
     const double h = std::min({for_error, for_stability, per_interval});
     const double steps = static_cast<double>(checkpoints) * std::ceil(per_interval / h);
     if (!(steps <= options.most_steps)) {
-      c.pruned = fmt::format("it would take {:.1e} steps; {:.0e} are sensible", steps, options.most_steps);
+      c.pruned =
+          fmt::format("it would take {:.1e} steps, and at most {:.0e} are considered", steps, options.most_steps);
       return;
     }
     c.steps = static_cast<std::uint64_t>(steps);

@@ -21,6 +21,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_implicit_step = 10.0;
 // The law knows the motion at the start only: it has to be wrong by this before a method is lost to it.
 constexpr double doubt = 4.0;
+// Of the least time for pilots, what explicit methods leave to implicit ones.
+constexpr double for_implicit = 0.25;
 
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -78,7 +80,8 @@ class Search {
     rank(r_.candidates);
     confirm();
     if (r_.pick() == nullptr && options_.only.empty() && std::ranges::any_of(r_.candidates, kept_by_rounding)) {
-      for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, "", true)) try_explicit(scheme);
+      for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, "", true))
+        try_explicit(scheme, true);
       rank(r_.candidates);
       confirm();
     }
@@ -114,7 +117,7 @@ class Search {
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
-    else if (!(pilots_->left_s() > 0.0)) {
+    else if (!(pilots_->left_s() > (c.implicit ? 0.0 : for_implicit * options_.pilot_floor_s))) {
       c.untried = true;
       c.pruned = "the time for pilots is up";
     } else
@@ -122,14 +125,15 @@ class Search {
     if (c.usable()) solve(c);
   }
 
-  void try_explicit(const Scheme& scheme) {
+  /// A last resort has no cheaper method to be compared with: those so far do not meet the error.
+  void try_explicit(const Scheme& scheme, bool last_resort = false) {
     Candidate c = begin(scheme);
     const double step_s = scheme.stages * r_.features.force_s;
     const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     const double least_s = scene_.duration / c.limit_h * step_s;
-    if (needed * step_s > doubt * pilots_->cheapest_s())
+    if (!last_resort && needed * step_s > doubt * pilots_->cheapest_s())
       c.pruned = law(needed, step_s);
-    else if (least_s > 1.2 * pilots_->cheapest_s())
+    else if (!last_resort && least_s > 1.2 * pilots_->cheapest_s())
       c.pruned = fmt::format("its largest stable step takes {:.1e} s in all, against {:.1e} s", least_s,
                              pilots_->cheapest_s());
     else
@@ -138,12 +142,14 @@ class Search {
     r_.candidates.push_back(std::move(c));
   }
 
-  /// Does the law give an implicit method less than what the best method so far takes?
+  /// Does the law, wrong as it may be, give an implicit method less than what the best method so far takes? Of a motion
+  /// that starts at rest it knows nothing.
   bool is_promising(const Scheme& scheme) const {
+    if (!(r_.features.motion_size > 0.0)) return false;
     const double step_s = std::max(r_.features.implicit_step_s, least_implicit_step * r_.features.force_s);
     const double needed = std::max(steps_for_error(r_.features, scheme.order, scene_.duration, sought()),
                                    static_cast<double>(scene_.motion.checkpoints.size()));
-    return needed * scheme.stages * step_s < pilots_->cheapest_s();
+    return doubt * needed * scheme.stages * step_s < pilots_->cheapest_s();
   }
 
   void try_implicit(const Scheme& scheme) {
