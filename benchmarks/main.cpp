@@ -35,6 +35,7 @@ int written_out(int exit_code) {
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
+  if (exit_code == exit_io) return exit_io;  // said already
   const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
   fmt::print(stderr, "dartboard: standard output cannot be written{}\n", reason);
   return exit_io;

@@ -41,7 +41,8 @@ std::vector<Entry> entries_of(std::string_view kind) {
   if (kind == "contenders")
     for (const Contender& c : contenders()) entries.push_back({c.id, c.what});
   if (kind == "integrators")
-    for (const IntegratorEntry& i : integrators()) entries.push_back({i.name, i.make()->scheme().what});
+    for (const IntegratorEntry& i : integrators())
+      entries.push_back({std::string(i.name), std::string(i.make()->scheme().what)});
   if (kind == "claims")
     for (const PaperClaim& c : paper_claims())
       entries.push_back({c.id, fmt::format("(section {}) {}", c.section, c.text)});

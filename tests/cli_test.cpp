@@ -65,7 +65,7 @@ TEST(CommandLine, WhoseOutputIsLostExitsWithThree) {
   const TemporaryFile scene("still.json", R"({"name": "x", "body": {"generate": {"chain": {"links": 1, "spacing": 1}}},
                                               "step": 0.001, "duration": 0.001})");
   for (const std::string verb :
-       {"list", "mesh info " + liver, "simulate " + scene.path.string(), std::string("--help")}) {
+       {std::string("list"), "mesh info " + liver, "simulate " + scene.path.string(), std::string("--help")}) {
     const Answer answer = run(verb, "2>&1 >/dev/full");
     EXPECT_EQ(answer.status, 3) << verb;
     EXPECT_NE(answer.out.find("dartboard: standard output cannot be written"), std::string::npos) << answer.out;

@@ -41,7 +41,11 @@ TEST(PointNumbers, AreThoseOfTheFileInEveryKey) {
   EXPECT_EQ(std::get<std::uint32_t>(std::get<Tear>(scene.events.at(0).action).vertex), 1u);
   EXPECT_EQ(std::get<0>(std::get<Dissociate>(scene.events.at(1).action).faces).at(0),
             (std::vector<std::uint32_t>{0, 1, 3}));
-  EXPECT_EQ(Simulation(scene).probes().probes.at(0)->position, Eigen::Vector3d(0, 1, 0));
+}
+
+TEST(PointNumbers, LeadToThePlaceThatTheFileGivesThePoint) {
+  const Folder folder(R"("output": {"probes": [{"name": "p", "vertex": 4}]})");
+  EXPECT_EQ(Simulation(folder.scene()).probes().probes.at(0)->position, Eigen::Vector3d(0, 1, 0));
 }
 
 TEST(PointNumbers, OfPointsThatBelongToNoCellAreRefused) {

@@ -46,4 +46,9 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
                      worst.value > 1.0 ? "smaller" : "larger");
 }
 
+std::string size_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
+  const Magnitude size = size_of(scene.body, mesh);
+  return size.decades() < 100 ? "" : fmt::format("{}: is {:.6g}", size.path, size.value);
+}
+
 }  // namespace dartboard

@@ -11,4 +11,7 @@ namespace dartboard {
 /// "/material/stiffness: is 1e+308, and energies or forces at the start are not finite; expected a smaller value".
 std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
 
+/// "/body/generate/box/spacing: is 1e+300" where lengths are so far from 1 that their cubes are no numbers; else empty.
+std::string size_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
+
 }  // namespace dartboard

@@ -54,7 +54,8 @@ std::string key_without_body(const SceneFile& scene, const Problem& problem) {
     } catch (const InputError&) {
     }
   }
-  return "/body";
+  const std::string size = size_beyond_numbers(scene, problem.mesh);
+  return size.empty() ? "/body" : size;
 }
 
 }  // namespace
