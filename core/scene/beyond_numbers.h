@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/plain/mesh.h"
 #include "core/scene/scene_file.h"
 
 namespace dartboard {
