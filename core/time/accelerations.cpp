@@ -12,36 +12,44 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Pairing springs for SIMD gains nothing here: the sums at shared ends are what the loop waits for.
+// Columns are reached by pointers of this frame: stores of Eigen's packets may alias anything, so what is reached
+// through a reference is loaded again after each. Pairing springs for SIMD gains nothing here: the sums at shared ends
+// are what the loop waits for.
 template <bool damped, class SomeSpring>
 void add_spring_forces(const SpringSystem& system, std::span<const SomeSpring> springs, std::span<const Vector3d> x,
                        std::span<const Vector3d> v, std::span<Vector3d> force) {
-  for (std::size_t s = 0; s < springs.size(); ++s) {
-    const auto [i, j] = system.ends[s];
-    const SomeSpring& spring = springs[s];
-    const Vector3d dx = x[j] - x[i];
+  const SpringEnds* const ends = system.ends.data();
+  const SomeSpring* const row = springs.data();
+  const Vector3d *const at = x.data(), *const velocity = v.data();
+  Vector3d* const sum = force.data();
+  for (std::size_t s = 0, count = springs.size(); s < count; ++s) {
+    const auto [i, j] = ends[s];
+    const SomeSpring& spring = row[s];
+    const Vector3d dx = at[j] - at[i];
     Vector3d f;
     if constexpr (damped) {
-      f = spring_force(spring, dx, v[j] - v[i]);
+      f = spring_force(spring, dx, velocity[j] - velocity[i]);
     } else {
       const double length = std::sqrt(dx.squaredNorm());
       if (length == 0.0) continue;
       f = (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
     }
-    force[i] += f;
-    force[j] -= f;
+    sum[i] += f;
+    sum[j] -= f;
   }
 }
 
 template <bool viscous>
 void divide_by_mass(const SpringSystem& system, std::span<const Vector3d> v, std::span<Vector3d> a) {
   const Vector3d gravity = system.gravity;
-  [[maybe_unused]] const double* const viscosity = system.viscosity.data();
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  const double *const inverse_mass = system.inverse_mass.data(), *const viscosity = system.viscosity.data();
+  const Vector3d* const velocity = v.data();
+  Vector3d* const sum = a.data();
+  for (std::size_t i = 0, count = a.size(); i < count; ++i) {
     if constexpr (viscous)
-      a[i] = (a[i] - viscosity[i] * v[i]) * system.inverse_mass[i] + gravity;
+      sum[i] = (sum[i] - viscosity[i] * velocity[i]) * inverse_mass[i] + gravity;
     else
-      a[i] = a[i] * system.inverse_mass[i] + gravity;
+      sum[i] = sum[i] * inverse_mass[i] + gravity;
   }
 }
 

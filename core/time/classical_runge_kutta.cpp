@@ -28,26 +28,31 @@ StepResult ClassicalRungeKutta::step(const SpringSystem& system, Motion motion, 
   stage_.resize(n);
   for (auto* column : {&a_, &sum_x_, &sum_v_}) column->resize(n);
 
+  // by pointers, as in accelerations.cpp
+  using Eigen::Vector3d;
+  const Vector3d *const x = motion.x.data(), *const v = motion.v.data(), *const a = a_.data();
+  Vector3d *const sum_x = sum_x_.data(), *const sum_v = sum_v_.data(), *const stage_x = stage_.x.data(),
+                  *const stage_v = stage_.v.data();
   accelerations(system, terms, motion.x, motion.v, a_);
   for (std::size_t i = 0; i < n; ++i) {
-    sum_x_[i] = motion.v[i];
-    sum_v_[i] = a_[i];
-    stage_.x[i] = motion.x[i] + (h / 2) * motion.v[i];
-    stage_.v[i] = motion.v[i] + (h / 2) * a_[i];
+    sum_x[i] = v[i];
+    sum_v[i] = a[i];
+    stage_x[i] = x[i] + (h / 2) * v[i];
+    stage_v[i] = v[i] + (h / 2) * a[i];
   }
   for (const double reach : {h / 2, h}) {  // of the stage that follows
     accelerations(system, terms, stage_.x, stage_.v, a_);
     for (std::size_t i = 0; i < n; ++i) {
-      sum_x_[i] += 2.0 * stage_.v[i];
-      sum_v_[i] += 2.0 * a_[i];
-      stage_.x[i] = motion.x[i] + reach * stage_.v[i];
-      stage_.v[i] = motion.v[i] + reach * a_[i];
+      sum_x[i] += 2.0 * stage_v[i];
+      sum_v[i] += 2.0 * a[i];
+      stage_x[i] = x[i] + reach * stage_v[i];
+      stage_v[i] = v[i] + reach * a[i];
     }
   }
   accelerations(system, terms, stage_.x, stage_.v, a_);
   for (std::size_t i = 0; i < n; ++i) {
-    stage_.x[i] = motion.x[i] + (h / 6) * (sum_x_[i] + stage_.v[i]);
-    stage_.v[i] = motion.v[i] + (h / 6) * (sum_v_[i] + a_[i]);
+    stage_x[i] = x[i] + (h / 6) * (sum_x[i] + stage_v[i]);
+    stage_v[i] = v[i] + (h / 6) * (sum_v[i] + a[i]);
   }
   work_.force_evaluations += 4;
   return stage_.commit(motion, work_);
