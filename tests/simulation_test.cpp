@@ -211,7 +211,7 @@ TEST(SceneRun, StopsWithADiagnosisWhenTheMotionDiverges) {
   // the last state handed out is the last good one
   EXPECT_EQ(counter.frames.size(), result.divergence->step);
   EXPECT_TRUE(std::isfinite(result.last.kinetic));
-  EXPECT_EQ(result.last.time, result.divergence->kept_time);
+  EXPECT_EQ(result.last.time, static_cast<double>(result.divergence->step - result.divergence->taken_back) * 0.01);
 }
 
 // ---- steps that are too long
@@ -320,10 +320,9 @@ TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {
   EXPECT_FALSE(divergence->predicted);
   EXPECT_NE(divergence->quantity.find("UNSTABLE_DT"), std::string::npos) << divergence->quantity;
   for (const Eigen::Vector3d& v : simulation.body().vertices().velocity) EXPECT_LT(v.norm(), 10.0);
-  EXPECT_LT(divergence->kept_step, divergence->step);
-  EXPECT_EQ(divergence->kept_time, static_cast<double>(divergence->kept_step) * 0.01);
+  EXPECT_GT(divergence->taken_back, 0u);
   Simulation again(parse(too_stiff("warn")));
-  while (again.steps_done() < divergence->kept_step) ASSERT_FALSE(again.advance());
+  while (again.steps_done() < divergence->step - divergence->taken_back) ASSERT_FALSE(again.advance());
   EXPECT_EQ(simulation.body().state_hash(), again.body().state_hash());
 }
 

@@ -141,7 +141,7 @@ std::optional<Divergence> Simulation::advance() {
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
   if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
   if (auto found = diverged()) {
-    go_back(*found);
+    found->taken_back = go_back();
     return found;
   }
   const std::size_t operations = operations_;
@@ -195,22 +195,18 @@ std::optional<Divergence> Simulation::refused() const {
     d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
   d.value = limits_.safe_step(integrator_->scheme(),
                               {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
-  d.kept_step = done_;
-  d.kept_time = time();
   d.predicted = true;
   return d;
 }
 
 Divergence Simulation::failure(const StepResult& result) {
   Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  go_back(d);
+  d.taken_back = go_back();
   return d;
 }
 
-void Simulation::go_back(Divergence& d) {
-  d.kept_step = watched_ - detector_.restore(body_->motion());
-  d.kept_time = static_cast<double>(d.kept_step) * step_;
-}
+// To the state kept last; a step that the integrator could not take is one that the detector has not seen.
+std::uint64_t Simulation::go_back() { return done_ - watched_ + detector_.restore(body_->motion()); }
 
 void Simulation::happen() {
   std::size_t operations = 0;
@@ -275,13 +271,7 @@ std::optional<Divergence> Simulation::diverged() const {
 }
 
 Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
-  return {.step = done_,
-          .time = time(),
-          .quantity = std::move(quantity),
-          .vertex = vertex,
-          .value = value,
-          .kept_step = done_,
-          .kept_time = time()};
+  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
 }
 
 Diagnostics Simulation::diagnostics() const {

@@ -28,9 +28,8 @@ struct Divergence {
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
-  std::uint64_t kept_step = 0;  // the state that the body is in after it
-  double kept_time = 0.0;       // [s]
-  bool predicted = false;       // the step is too long, and was not taken; `value` is the longest that is stable
+  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
+  std::uint64_t taken_back = 0;  // steps that the body has gone back by
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
@@ -124,7 +123,7 @@ class Simulation {
   std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
   Divergence failure(const StepResult& result);
-  void go_back(Divergence& divergence);
+  std::uint64_t go_back();
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
