@@ -84,6 +84,10 @@ struct Report {
     return !result.divergence &&
            std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
   }
+  /// The step that the last state is of: after a divergence the one that the body has gone back to.
+  std::uint64_t kept_step() const {
+    return simulation.steps_done() - (result.divergence ? result.divergence->taken_back : 0);
+  }
   /// What became of the mass beyond what removals took, relative to the mass at the start.
   double mass_drift() const {
     const double start = result.first.mass + removed_at_start, end = simulation.body().mass();
@@ -105,7 +109,7 @@ Table summary_of(const Report& r) {
     table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
   };
   row("time [s]", first.time, last.time);
-  counts("steps", 0, r.result.divergence ? r.result.divergence->kept_step : r.simulation.steps_done());
+  counts("steps", 0, r.kept_step());
   counts("operations", first.operations, last.operations);
   counts("vertices", first.counts.vertices, last.counts.vertices);
   counts("edges", first.counts.edges, last.counts.edges);
@@ -150,7 +154,7 @@ void print(const Report& r) {
     fmt::print("warning: the event at {} never did anything\n", path);
   if (r.result.divergence)
     fmt::print("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
-               to_string(*r.result.divergence), r.result.divergence->kept_step, r.result.divergence->kept_time);
+               to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -203,8 +207,9 @@ nlohmann::ordered_json to_json(const Report& r) {
                           {"time", d->time},
                           {"quantity", d->quantity},
                           {"vertex", d->vertex},
-                          {"kept_step", d->kept_step},
-                          {"kept_time", d->kept_time},
+                          {"taken_back", d->taken_back},
+                          {"kept_step", r.kept_step()},
+                          {"kept_time", r.result.last.time},
                           {"value", fmt::format("{:.17g}", d->value)}};
   if (const auto& warning = r.simulation.step_warning())
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);

@@ -64,11 +64,11 @@ TEST(CommandLine, WithAnOptionThatMustBePositiveSaysSo) {
 TEST(CommandLine, WhoseOutputIsLostExitsWithThree) {
   const TemporaryFile scene("still.json", R"({"name": "x", "body": {"generate": {"chain": {"links": 1, "spacing": 1}}},
                                               "step": 0.001, "duration": 0.001})");
-  for (const std::string verb :
+  for (const std::string& verb :
        {std::string("list"), "mesh info " + liver, "simulate " + scene.path.string(), std::string("--help")}) {
     const Answer answer = run(verb, "2>&1 >/dev/full");
     EXPECT_EQ(answer.status, 3) << verb;
-    EXPECT_NE(answer.out.find("dartboard: standard output cannot be written"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("No space left on device"), std::string::npos) << answer.out;
   }
 }
 
@@ -284,9 +284,8 @@ TEST(CommandLine, TakesScenesOfTheGalleryByName) {
 }
 
 TEST(CommandLine, NamesTheScenesThatAreNearAnUnknownOne) {
-  for (const std::string verb :
-       {"scene --check", "simulate", "explain", "explain-dt", "recommend --error 1e-3", "tradeoff"}) {
-    const Answer answer = run(verb + " liver_cutt");
+  for (const std::string verb : {"scene --check", "simulate", "explain", "explain-dt", "recommend", "tradeoff"}) {
+    const Answer answer = run(verb + " liver_cutt" + (verb == "recommend" ? " --error 1e-3" : ""));
     EXPECT_EQ(answer.status, 2) << verb;
     EXPECT_NE(answer.out.find("'liver_cutt' is neither a scene file nor the name of a scene; there are 'liver_cut'\n"),
               std::string::npos)

@@ -39,7 +39,8 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     result.divergence = simulation.advance();
     if (result.divergence) {
       result.last = simulation.diagnostics();
-      result.last.time = result.divergence->kept_time;
+      const std::uint64_t kept = simulation.steps_done() - result.divergence->taken_back;
+      result.last.time = static_cast<double>(kept) * simulation.step();
       break;
     }
     const std::uint64_t n = simulation.steps_done();

@@ -142,7 +142,7 @@ std::optional<Divergence> Simulation::advance() {
   // what is too fast for physics is as finite as ever: it is looked for where energy is
   if (detector_.checks() != checks)
     if (auto found = diverged()) {
-      go_back(*found);
+      found->taken_back = go_back();
       return found;
     }
   if (done_ == step_count_) look_at_coordinates();
@@ -157,7 +157,7 @@ std::optional<Divergence> Simulation::advance() {
     const auto* stress = dynamic_cast<const StressError*>(&error);
     Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
     // what events of this step have changed is not what the state kept was of
-    if (operations_ == operations) go_back(d);
+    if (operations_ == operations) d.taken_back = go_back();
     return d;
   }
   // no other step will look at what events leave at the end
@@ -222,22 +222,18 @@ std::optional<Divergence> Simulation::refused() const {
     d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
   d.value = limits_.safe_step(integrator_->scheme(),
                               {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
-  d.kept_step = done_;
-  d.kept_time = time();
   d.predicted = true;
   return d;
 }
 
 Divergence Simulation::failure(const StepResult& result) {
   Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
-  go_back(d);
+  d.taken_back = go_back();
   return d;
 }
 
-void Simulation::go_back(Divergence& d) {
-  d.kept_step = watched_ - detector_.restore(body_->motion());
-  d.kept_time = static_cast<double>(d.kept_step) * step_;
-}
+// To the state kept last; a step that the integrator could not take is one that the detector has not seen.
+std::uint64_t Simulation::go_back() { return done_ - watched_ + detector_.restore(body_->motion()); }
 
 // An event may throw: what those before it have done counts, and the integrator has to know.
 void Simulation::happen() {
@@ -301,13 +297,7 @@ std::optional<Divergence> Simulation::diverged() const {
 }
 
 Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
-  return {.step = done_,
-          .time = time(),
-          .quantity = std::move(quantity),
-          .vertex = vertex,
-          .value = value,
-          .kept_step = done_,
-          .kept_time = time()};
+  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
 }
 
 Diagnostics Simulation::diagnostics() const {

@@ -29,9 +29,8 @@ struct Divergence {
   std::string quantity;    // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;
   double value = 0.0;
-  std::uint64_t kept_step = 0;  // the state that the body is in after it
-  double kept_time = 0.0;       // [s]
-  bool predicted = false;       // the step is too long, and was not taken; `value` is the longest that is stable
+  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
+  std::uint64_t taken_back = 0;  // steps that the body has gone back by
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
@@ -81,9 +80,9 @@ class Simulation {
   /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
   /// looked for in every sixteenth step at least, in the first and the last), or when a stress that an event asks for
   /// is not finite. The body then goes back to the state kept last, which is that of the start, after the last event,
-  /// or a later one whose energy could be explained: `kept_step` says which. Where another event of the same step has
-  /// changed the body already, and where the start is no state, there is none to go back to. `unstable_step` says what
-  /// is done about a step that is too long.
+  /// or a later one whose energy could be explained: `taken_back` says how far back that is. Where another event of the
+  /// same step has changed the body already, and where the start is no state, there is none to go back to.
+  /// `unstable_step` says what is done about a step that is too long.
   std::optional<Divergence> advance();
   /// What is wrong with the state at the start, which `advance` says too: for a scene of no steps.
   std::optional<Divergence> start_failure();
@@ -136,7 +135,7 @@ class Simulation {
   std::optional<Divergence> refused() const;
   std::optional<Divergence> diverged() const;
   Divergence failure(const StepResult& result);
-  void go_back(Divergence& divergence);
+  std::uint64_t go_back();
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
