@@ -13,8 +13,8 @@
 #include "benchmarks/run_folder.h"
 #include "benchmarks/verb_bench.h"
 #include "core/scene/measured_plan.h"
-#include "core/scene/simulation.h"
 #include "core/scene/scene_problem.h"
+#include "core/scene/simulation.h"
 
 namespace dartboard {
 namespace {

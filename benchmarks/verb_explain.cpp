@@ -115,8 +115,7 @@ void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Me
   for (std::size_t k = 0; k < plan.items.size(); ++k) {
     const PlanItem& item = plan.items[k];
     row(std::string(name(item.part)), item.bytes, measured ? measured->found.bytes[k] : 0,
-        time_text(item.ns, item.ns_below),
-        item.what, item.why);
+        time_text(item.ns, item.ns_below), item.what, item.why);
   }
   if (measured)
     for (const MemoryItem& item : measured->found.unplanned)

@@ -10,8 +10,8 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
-#include "benchmarks/scene_names.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
 #include "core/scene/simulation.h"
@@ -166,7 +166,9 @@ void print(const Explanation& e) {
   fmt::print("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper);
   fmt::print("longest stable step in the state at the start: {}, in any state at least {}; the scene's is {}\n",
              step_text(e.safe), step_text(e.quick),
-             e.scene.step <= e.quick ? "stable in any" : e.scene.step <= e.safe ? "stable at the start" : "TOO LONG");
+             e.scene.step <= e.quick  ? "stable in any"
+             : e.scene.step <= e.safe ? "stable at the start"
+                                      : "TOO LONG");
   if (e.springs.empty()) return;
   Table springs({{"spring", Align::right},
                  {"between", Align::left},

@@ -10,8 +10,8 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
-#include "benchmarks/study_names.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/study_names.h"
 #include "benchmarks/table.h"
 #include "benchmarks/verb_recommend.h"
 #include "core/plain/error.h"
