@@ -82,7 +82,7 @@ std::string panels_script(const Panels& panels, const std::string& name) {
         "set multiplot layout {},{} rowsfirst margins 0.055,{},0.075,0.9 spacing 0.055,0.13 title {} noenhanced font "
         "\",17\"\n",
         terminal, quoted(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
-        quoted_title(panels.title, panels.width, 17.0, 2));
+        quoted_title(panels.title, panels.width, 17.0, 1));
     DataBlocks data(name);
     for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, data);
     script += "unset multiplot\nunset output\n";
