@@ -443,7 +443,8 @@ TYPED_TEST(Tearing, RefusesAStressThatIsNoNumberInItsLastEntry) {
       const std::uint32_t a = edge.ends[turned ? 1 : 0], b = edge.ends[turned ? 0 : 1];
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j)
-          if (a == single[i] && b == shared[j]) pair.body.springs[edge.embedding] = {i == j ? 0.0 : 2e60, 1e200, 0.0};
+          if (a == single[i] && b == shared[j])
+            pair.body.springs.set(edge.embedding, {i == j ? 0.0 : 2e60, 1e200, 0.0});
     }
   EXPECT_THROW(pair.tear({.threshold = 1e300}), StressError);
   EXPECT_EQ(pair.followed, 0u);

@@ -6,7 +6,7 @@
 namespace dartboard {
 namespace {
 
-constexpr double walk = 1.5, of_newton = 21.0, compensated = 4.0;
+constexpr double walk = 1.5, compensated = 4.0;
 
 /// The size of coordinates: root mean square over mass at the start, and how far the centre of mass goes from there.
 double coordinate_size(const TradeoffScene& scene) {
@@ -34,7 +34,7 @@ double RoundingFloor::at(double h) const { return factor * std::pow(h, -power); 
 RoundingFloor rounding_floor(const TradeoffScene& scene, const Scheme& scheme) {
   const double unit = 0x1p-53 * coordinate_size(scene) / scene.edge;
   if (scheme.compensated) return {.factor = compensated * unit, .power = 0.0};
-  const double in_a_step = scheme.implicit ? of_newton : std::sqrt(scheme.symplectic ? scheme.stages : 1.0);
+  const double in_a_step = std::sqrt(scheme.symplectic && !scheme.implicit ? scheme.stages : 1.0);
   return {.factor = walk * unit * in_a_step * std::sqrt(scene.duration), .power = 0.5};
 }
 
