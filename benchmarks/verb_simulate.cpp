@@ -25,6 +25,7 @@
 #include "core/scene/scene_output.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/scene_verdict.h"
+#include "core/time/preflight.h"
 
 namespace dartboard {
 namespace {
@@ -149,7 +150,7 @@ void print(const Report& r) {
   if (const auto& warning = r.simulation.step_warning())
     fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
   if (const auto& warning = r.simulation.coordinate_warning()) fmt::print("warning: {}\n", to_string(*warning));
-  for (const StepResult& warning : r.simulation.warnings()) fmt::print("warning: {}\n", to_string(warning));
+  for (const StepResult& warning : r.simulation.warnings()) fmt::print("warning: {}\n", explained(warning));
   for (const std::string& path : r.simulation.idle_events())
     fmt::print("warning: the event at {} never did anything\n", path);
   if (r.result.divergence)
@@ -215,7 +216,7 @@ nlohmann::ordered_json to_json(const Report& r) {
     json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
   if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
   json["warnings"] = nlohmann::ordered_json::array();
-  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(to_string(w));
+  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(explained(w));
   json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)

@@ -1,4 +1,5 @@
 #include "core/scene/simulation.h"
+#include "core/time/preflight.h"
 
 #include <gtest/gtest.h>
 
@@ -267,6 +268,25 @@ TEST(Simulation, WarnsOfCoordinatesThatAreRoundedToMoreThanAMillionthOfASpring) 
   EXPECT_EQ(warning->axis, 1);
   EXPECT_EQ(warning->coordinate, simulation.body().vertices().position[warning->vertex].y());
   EXPECT_NE(to_string(*warning).find("move the body to the origin"), std::string::npos) << to_string(*warning);
+}
+
+TEST(Simulation, WarnsOfStepsThatRoundingLoses) {
+  Json scene = moving_box();
+  EXPECT_TRUE(Simulation(parse(scene)).warnings().empty());
+  scene["step"] = 1e-18;
+  scene["duration"] = 1e-17;
+  const Simulation simulation(parse(scene));
+  ASSERT_EQ(simulation.warnings().size(), 1u);
+  EXPECT_EQ(simulation.warnings()[0].code, StepCode::step_underflow);
+  EXPECT_NE(explained(simulation.warnings()[0]).find("longer steps"), std::string::npos);
+}
+
+TEST(Simulation, WarnsOfMotionsThatTheStepDoesNotResolve) {
+  Json scene = too_stiff("refuse");
+  scene["integrator"] = "backward-euler";
+  const Simulation simulation(parse(scene));
+  ASSERT_EQ(simulation.warnings().size(), 1u);
+  EXPECT_EQ(simulation.warnings()[0].code, StepCode::bad_scaling);
 }
 
 TEST(Simulation, WarnsOfCoordinatesThatARunArrivesAt) {

@@ -1,7 +1,10 @@
 #include "core/time/preflight.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "core/time/coordinate_precision.h"
@@ -12,6 +15,7 @@ namespace {
 
 // Energies are sums of products of three numbers: beyond this a square is too close to the largest double.
 constexpr double largest_size = 1e120;
+constexpr std::string_view step_times_frequency = "step times highest frequency";
 
 StepResult at_vertex(StepCode code, std::size_t i, std::string_view quantity, double value) {
   return {code, Witness::vertex, static_cast<std::uint32_t>(i), quantity, value};
@@ -91,7 +95,8 @@ void warn_of_lost_steps(const SpringSystem& system, Motion motion, double h, std
     // a hundred roundings of a step: a percent of it is lost
     if ((h * motion.v[i]).norm() < 100 * std::numeric_limits<double>::epsilon() * motion.x[i].norm()) ++lost;
   }
-  if (moving > 0 && lost == moving) warnings.push_back({StepCode::step_underflow, Witness::none, 0, "step", h});
+  // a vertex at the origin loses nothing, whatever the others do
+  if (2 * lost > moving) warnings.push_back({StepCode::step_underflow, Witness::none, 0, "step", h});
 }
 
 }  // namespace
@@ -108,13 +113,30 @@ Preflight check_before_run(const SpringSystem& system, Motion motion, const Sche
   if (!limits.is_stable(scheme, h, horizon))
     result.warnings.push_back({StepCode::unstable_step, Witness::none, 0, "step", h});
   else if (h * limits.upper > 1.0)
-    result.warnings.push_back(
-        {StepCode::bad_scaling, Witness::none, 0, "step times highest frequency", h * limits.upper});
+    result.warnings.push_back({StepCode::bad_scaling, Witness::none, 0, step_times_frequency, h * limits.upper});
   warn_of_springs(system, motion, result.warnings);
   warn_of_denormals(system, motion, result.warnings);
   // a compensated state keeps what such steps add up to
   if (!scheme.compensated) warn_of_lost_steps(system, motion, h, result.warnings);
   return result;
+}
+
+std::string explained(const StepResult& warning) {
+  const bool of_step = warning.quantity == step_times_frequency;
+  const char* means = "";
+  switch (warning.code) {
+    case StepCode::bad_scaling:
+      means = of_step ? "; motions that fast are not resolved" : "; such a number has lost digits: choose other units";
+      break;
+    case StepCode::zero_length: means = "; a spring without length has no direction, and pulls nowhere"; break;
+    case StepCode::step_underflow:
+      means = "; rounding loses what positions change by: take longer steps, or a compensated integrator";
+      break;
+    default: break;
+  }
+  StepResult shown = warning;
+  shown.value = std::strtod(fmt::format("{:.3g}", warning.value).c_str(), nullptr);
+  return to_string(shown) + means;
 }
 
 }  // namespace dartboard
