@@ -143,7 +143,7 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
       "Gate and time the paper's walks on a body of its size and answer its claims; then put all integrators to the "
       "extremes and answer ours.");
   verb->add_flag("--quick", options->quick,
-                 "fewer processes and rounds, a third of the extremes; a minute instead of some ten");
+                 "fewer processes and rounds, a third of the extremes; a minute instead of three");
   verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
       ->check(CLI::IsMember({"paper", "extremes"}));
   verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
