@@ -40,10 +40,18 @@ def output(command, **options):
     return subprocess.run(command, capture_output=True, text=True, **options)
 
 
+def folder_of(options, compiler, row):
+    return options.work / f"{pathlib.Path(compiler).name}-{row[0]}"
+
+
+def program_of(options, compiler, row):
+    return folder_of(options, compiler, row) / "tests" / "determinism" / "state_hashes"
+
+
 def build(options, compiler, row):
     """Build state_hashes; returns the program."""
     name, flags, protected, sanitized = row
-    folder = options.work / f"{pathlib.Path(compiler).name}-{name}"
+    folder = folder_of(options, compiler, row)
     cmake = ["cmake", "-S", str(options.source), "-B", str(folder), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
              f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_CXX_FLAGS={flags}", "-DDARTBOARD_PRECOMPILE=ON",
              f"-DDARTBOARD_EQUAL_BITS={'ON' if protected else 'OFF'}",
@@ -52,7 +60,7 @@ def build(options, compiler, row):
         result = output(command)
         if result.returncode != 0:
             sys.exit(f"{' '.join(command)} failed:\n{result.stdout[-4000:]}{result.stderr[-4000:]}")
-    return folder / "tests" / "determinism" / "state_hashes"
+    return program_of(options, compiler, row)
 
 
 def hashes(program, *arguments, **environment):
@@ -85,6 +93,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder to write to, new or empty")
     parser.add_argument("--compilers", nargs="+", default=["g++", "clang++", "clang++-14"], help="those there are")
     parser.add_argument("--rows", nargs="+", help="names of the rows [all]")
+    parser.add_argument("--built", action="store_true", help="only rows that are built: an interrupted table so far")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     if options.out.exists() and any(options.out.iterdir()):
@@ -98,6 +107,8 @@ def main():
         for row in ROWS + ROWS_OF["clang" if "clang" in version else "g++"]:
             name, flags, protected, sanitized = row
             if options.rows and name not in options.rows:
+                continue
+            if options.built and not program_of(options, compiler, row).exists():
                 continue
             program = build(options, compiler, row)
             first, pinned = hashes(program)
