@@ -192,7 +192,7 @@ struct Loop {
       good = good && integrator->step(system, arrays.motion(), h).ok();
       const std::uint64_t checks = detector.checks();
       if (detects) good = good && detector.after_step(system, arrays.motion()).ok();
-      if (checks_speed && detector.checks() != checks) good = good && all_slower(arrays.v, 299792458.0);
+      if (checks_speed && detector.checks() != checks) good = good && all_slower(arrays.v, speed_of_light);
     }
   }
 };

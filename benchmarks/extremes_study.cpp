@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "benchmarks/extremes_figures.h"
 #include "benchmarks/processes.h"
@@ -31,8 +32,8 @@ constexpr std::array studies{
 };
 
 /// All runs of an axis in child processes: after one that ended the process, the next goes on behind it.
-void run_axis(std::string_view axis, bool quick, Progress& progress, std::vector<Json>& all) {
-  const std::vector<ExtremeCase> cases = extreme_cases(axis, quick);
+void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool quick, Progress& progress,
+              std::vector<Json>& all) {
   std::size_t ended = 0;
   const auto end = [&](Json cell) {
     all.push_back(std::move(cell));
@@ -125,14 +126,17 @@ ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made
       for (const std::string_view name : methods) results.tiny.push_back(measure_tiny_steps(name, h, 1'000'000));
     made(results, "rounding");
   }
+  std::vector<std::pair<std::string_view, std::vector<ExtremeCase>>> matrix;
   std::size_t runs = 0;
-  for (const ExtremeAxis& axis : extreme_axes())
-    if (wants(axis.name)) runs += extreme_cases(axis.name, quick).size();
+  for (const ExtremeAxis& axis : extreme_axes()) {
+    if (!wants(axis.name)) continue;
+    matrix.emplace_back(axis.name, extreme_cases(axis.name, quick));
+    runs += matrix.back().second.size();
+  }
   if (runs == 0) return results;
   {
     Progress progress("extremes: runs of the matrix", runs, plan.silent);
-    for (const ExtremeAxis& axis : extreme_axes())
-      if (wants(axis.name)) run_axis(axis.name, quick, progress, results.cells);
+    for (const auto& [axis, cases] : matrix) run_axis(axis, cases, quick, progress, results.cells);
   }
   made(results, "matrix");
   return results;

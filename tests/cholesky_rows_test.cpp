@@ -52,19 +52,21 @@ TEST(CholeskyRows, OfADissociatedVertexAndItsTwinAreAllThatChanges) {
   }
 }
 
+/// A factor of `before` follows to `after` and back.
+void lead_there_and_back(Cholesky& cholesky, StepMatrix& matrix, const BodyMatrix& before, const BodyMatrix& after) {
+  for (const BodyMatrix* body : {&after, &before})
+    ASSERT_EQ(
+        cholesky.follow(body->blocks, matrix.follow(body->arrays.system(), body->tangents, cholesky.spare_diagonal())),
+        SolveStatus::ok);
+}
+
 TEST(CholeskyRows, LeadBackWhenTheVertexIsJoinedAgain) {
   BodyMatrix before(stretched_grid());
   const BodyMatrix after(with_vertex_dissociated(before.arrays));
   Cholesky cholesky(by_rows());
   ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
-  const double spare = cholesky.spare_diagonal();
   StepMatrix matrix = before.matrix;
-  for (int k = 0; k < 10; ++k) {
-    ASSERT_EQ(cholesky.follow(after.blocks, matrix.follow(after.arrays.system(), after.tangents, spare)),
-              SolveStatus::ok);
-    ASSERT_EQ(cholesky.follow(before.blocks, matrix.follow(before.arrays.system(), before.tangents, spare)),
-              SolveStatus::ok);
-  }
+  for (int k = 0; k < 10; ++k) ASSERT_NO_FATAL_FAILURE(lead_there_and_back(cholesky, matrix, before, after));
   EXPECT_EQ(cholesky.counters().rows_replaced, 120u);
   EXPECT_LT(solved_error(cholesky, before.blocks), 50 * epsilon);
 }
@@ -96,10 +98,7 @@ TEST(CholeskyRows, GiveBackARowThatTermsCanUse) {
   ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
   const double spare = cholesky.spare_diagonal();
   StepMatrix matrix = before.matrix;
-  ASSERT_EQ(cholesky.follow(after.blocks, matrix.follow(after.arrays.system(), after.tangents, spare)),
-            SolveStatus::ok);
-  ASSERT_EQ(cholesky.follow(before.blocks, matrix.follow(before.arrays.system(), before.tangents, spare)),
-            SolveStatus::ok);
+  ASSERT_NO_FATAL_FAILURE(lead_there_and_back(cholesky, matrix, before, after));
   ASSERT_EQ(cholesky.update(matrix.follow(after.arrays.system(), after.tangents, spare)), SolveStatus::ok);
   EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
 }

@@ -9,15 +9,11 @@
 #include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "tests/ticking_clock_for_tests.h"
 #include "validation/recommendation_audit.h"
 
 namespace dartboard {
 namespace {
-
-/// A clock on which every look takes a microsecond: the same choices on every machine.
-CpuClock ticking() {
-  return [t = std::int64_t{0}]() mutable { return t += 1000; };
-}
 
 /// Eight seconds, a checkpoint at each.
 reference::NetworkMotion eight_seconds() {

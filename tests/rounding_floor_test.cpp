@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/time/integrators.h"
+#include "tests/ticking_clock_for_tests.h"
 #include "validation/pilots.h"
 
 namespace dartboard {
 namespace {
-
-CpuClock ticking() {
-  return [t = std::int64_t{0}]() mutable { return t += 1000; };
-}
 
 /// Of a run whose steps are too short for anything but rounding to show.
 double error_of(const TradeoffScene& scene, const char* name, std::uint64_t steps) {

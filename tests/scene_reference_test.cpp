@@ -8,13 +8,10 @@
 #include <limits>
 
 #include "reference/error_norms.h"
+#include "tests/ticking_clock_for_tests.h"
 
 namespace dartboard {
 namespace {
-
-CpuClock ticking() {
-  return [t = std::int64_t{0}]() mutable { return t += 1000; };
-}
 
 reference::CertifiedMotion codes_that_agree() {
   reference::CertifiedMotion certified;

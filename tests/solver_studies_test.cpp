@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tests/ticking_clock_for_tests.h"
 #include "validation/break_even.h"
 #include "validation/crossover.h"
 #include "validation/factor_edits.h"
@@ -13,11 +14,6 @@
 
 namespace dartboard {
 namespace {
-
-// A clock that ticks: each look is a microsecond later, so that no test depends on time.
-CpuClock ticking() {
-  return [now = std::int64_t{0}]() mutable { return now += 1000; };
-}
 
 TEST(DissociationPairs, HaveOneVertexMoreAndTheSameMassAndStiffness) {
   const DissociationPairs pairs = dissociation_pairs(5, 0.1, 3);

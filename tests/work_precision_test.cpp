@@ -7,6 +7,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "tests/ticking_clock_for_tests.h"
 #include "validation/cvode_adams.h"
 #include "validation/order_scenes.h"
 
@@ -14,11 +15,6 @@ namespace dartboard {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A clock on which every look takes a microsecond: costs are the same on every machine.
-CpuClock ticking() {
-  return [t = std::int64_t{0}]() mutable { return t += 1000; };
-}
 
 WorkPoint point(const std::string& contender, double error, std::vector<double> costs) {
   WorkPoint p;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/scene/point_numbers.h"
 #include "core/scene/scene_check.h"
@@ -88,11 +89,11 @@ class Reader {
   }
 
   // What a map keeps is numbered in 32 bits.
-  void require_room(const Json& cells, const std::string& path, double most) const {
+  void require_room(const Json& cells, const std::string& path, std::uint64_t most) const {
     double count = 1.0;
     for (const Json& along : cells) count *= along.get<double>();
-    if (count > most)
-      fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {:.0f} in all", most));
+    if (count > static_cast<double>(most))
+      fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {} in all", most));
   }
 
   BodySource body(const Json& json) const {
@@ -105,17 +106,19 @@ class Reader {
     if (generate.contains("box")) {
       const Json& box = generate.at("box");
       source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
-      // 2^27 tetrahedra have a map, six to a cube; of other cells it has 2^30 darts: 48 to a hexahedron, and at most
-      // 224 to four pyramids and four tetrahedra
-      require_room(box.at("cells"), "/body/generate/box/cells", box.at("kind") == "mixed" ? 4793490 : 22369621);
+      // six tetrahedra to a cube; of mixed cells at most as many darts as seven pyramids have (mixed_box)
+      const std::uint64_t most = box.at("kind") == "tetrahedra"  ? most_tetrahedra / 6
+                                 : box.at("kind") == "hexahedra" ? most_darts(3) / darts_of(CellKind::hexahedron)
+                                                                 : most_darts(3) / (7 * darts_of(CellKind::pyramid));
+      require_room(box.at("cells"), "/body/generate/box/cells", most);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
-      // 2^32 / 3 darts, six to a triangle and eight to a quadrilateral
-      require_room(sheet.at("cells"), "/body/generate/sheet/cells",
-                   sheet.at("kind") == "triangles" ? 119304647 : 178956970);
+      const std::uint64_t darts =
+          sheet.at("kind") == "triangles" ? 2 * darts_of(CellKind::triangle) : darts_of(CellKind::quadrilateral);
+      require_room(sheet.at("cells"), "/body/generate/sheet/cells", most_darts(2) / darts);
     } else if (generate.contains("ball")) {
       source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
     } else {

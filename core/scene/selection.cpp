@@ -71,8 +71,9 @@ std::vector<std::uint32_t> select_points(std::span<const VertexSelection> select
   std::vector<bool> chosen(points.size(), false);
   for (std::size_t s = 0; s < selections.size(); ++s) {
     const std::string at = fmt::format("{}/{}", path, s);
-    require_some(select_points(selections[s], points, at), at);
-    choose(selections[s], points, at, chosen);
+    const auto selected = select_points(selections[s], points, at);
+    require_some(selected, at);
+    for (const std::uint32_t p : selected) chosen[p] = true;
   }
   return numbers_of(chosen);
 }

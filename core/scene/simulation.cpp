@@ -115,7 +115,6 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
   look_at_step();
-  look_at_coordinates();
   if (const auto refusal = refused())
     throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
                                  refusal->quantity, refusal->value));
@@ -199,9 +198,10 @@ void Simulation::look_at_step() {
 
 // Steps too long and coordinates too large have warnings of their own, which a run may add to.
 void Simulation::look_before_run() {
-  warnings_ = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
-                               step_ / static_cast<double>(parts_), limits_)
-                  .warnings;
+  const Preflight found = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
+                                           step_ / static_cast<double>(parts_), limits_);
+  if (found.warns_of(StepCode::coordinate_precision)) look_at_coordinates();
+  warnings_ = found.warnings;
   std::erase_if(warnings_, [](const StepResult& w) {
     return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision;
   });

@@ -28,14 +28,6 @@ Vector3d discrete_force(const SomeSpring& spring, const Vector3d& d0, const Vect
   return tension * along;
 }
 
-// Without a damper, what spring_force gives for one of zero.
-template <class SomeSpring>
-Vector3d undamped_force(const SomeSpring& spring, const Vector3d& dx) {
-  const double length = std::sqrt(dx.squaredNorm());
-  if (length == 0.0) return Vector3d::Zero();
-  return (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
-}
-
 SpringTangent discrete_tangent(const Spring& spring, const Vector3d& d0, const Vector3d& d1, Compression compression) {
   const double sum = std::sqrt(d0.squaredNorm()) + std::sqrt(d1.squaredNorm());
   Spring mean = spring;
@@ -59,7 +51,7 @@ void ImplicitStage::subtract_forces(const Problem& p, std::span<const Vector3d> 
         if constexpr (damped)
           return spring_force(spring, d0 + p.tau * dw, dw);
         else
-          return undamped_force(spring, d0 + p.tau * dw);
+          return spring_force(UndampedSpring{spring.rest_length, spring.stiffness}, d0 + p.tau * dw, dw);
       };
       const Vector3d f = discrete ? discrete_force<damped>(spring, d0, d0 + (2.0 * p.tau) * dw, dw) : at_end();
       residual_[a] -= f;
