@@ -36,15 +36,18 @@ class Mistake(Exception):
 
 
 class Fault:
-    """One block of the list: `key: value` lines. `in` is needed where `right` alone is ambiguous."""
+    """One block of the list: `key: value` lines. `in` is needed where `right` alone is ambiguous; `killer` is the test
+    that must fail with the fault on, by its full name."""
 
-    FIELDS = ("fault", "file", "in", "right", "wrong")
+    FIELDS = ("fault", "file", "in", "right", "wrong", "killer")
+    OPTIONAL = ("in", "killer")
 
     def __init__(self, number, fields, line):
         self.number, self.line = number, line
         self.name, self.file = fields["fault"], fields["file"]
         self.right, self.wrong = fields["right"], fields["wrong"]
         self.context = fields.get("in", self.right)
+        self.killer = fields.get("killer")
         self.is_statement = self.right.endswith((";", "}"))
 
     def place(self, text):
@@ -69,7 +72,7 @@ def read_faults(path):
     def finish():
         if not fields:
             return
-        missing = [key for key in Fault.FIELDS if key != "in" and key not in fields]
+        missing = [key for key in Fault.FIELDS if key not in Fault.OPTIONAL and key not in fields]
         if missing:
             raise Mistake("%s:%d: this fault has no '%s'" % (path, begin, missing[0]))
         if any(f.name == fields["fault"] for f in faults):
