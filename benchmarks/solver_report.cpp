@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/json_number.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {

@@ -15,7 +15,7 @@
 #include "benchmarks/table.h"
 #include "benchmarks/verb_validate.h"
 #include "core/plain/error.h"
-#include "reference/larger.h"
+#include "core/plain/nan_maximum.h"
 #include "validation/convergence_order.h"
 #include "validation/cut_jump.h"
 #include "validation/discrete_exact.h"
@@ -100,7 +100,7 @@ Results run(const Options& options) {
 double largest_jump(const Results& results) {
   double largest = 0.0;
   for (const CutJump& jump : results.jumps)
-    for (const double value : {jump.energy, jump.momentum, jump.angular}) largest = reference::larger(largest, value);
+    for (const double value : {jump.energy, jump.momentum, jump.angular}) largest = max_or_nan(largest, value);
   return largest;
 }
 
@@ -146,8 +146,8 @@ std::vector<Claim> claims_of(const Results& results) {
   for (const OrderStage& stage : results.stages) {
     const reference::CertifiedMotion& certified = stage.certified;
     accepted = accepted && certified.accepted;
-    closest = reference::larger(closest, reference::larger(certified.agreement, certified.self_difference));
-    for (const reference::CodeAgreement& code : certified.codes) farthest = reference::larger(farthest, code.distance);
+    closest = max_or_nan(closest, max_or_nan(certified.agreement, certified.self_difference));
+    for (const reference::CodeAgreement& code : certified.codes) farthest = max_or_nan(farthest, code.distance);
   }
   claims.push_back(
       {.id = "oracle-agreement",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 #include "core/time/preflight.h"
 
 namespace dartboard {
