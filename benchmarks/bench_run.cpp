@@ -28,14 +28,14 @@ BenchRun::BenchRun(const BenchOptions& options, const std::string& label, const 
 
 void BenchRun::say(const std::string& text) const { fmt::print(options_.json ? stderr : stdout, "{}\n", text); }
 
-void BenchRun::finish(std::span<const Claim> claims, bool agrees, const std::string& otherwise) {
+void BenchRun::finish(std::span<const Claim> claims, const std::string& first) {
   finish_manifest(manifest_);
   folder_.write_manifest(manifest_);
   if (options_.json)
     fmt::print("{}\n",
                nlohmann::json{{"claims", std::vector(claims.begin(), claims.end())}, {"manifest", manifest_}}.dump(2));
-  say(fmt::format("{}{} Written to {}.", options_.quick ? "This was a quick run. " : "",
-                  agrees ? "Every target holds." : otherwise, folder_.path().string()));
+  say(fmt::format("{}{}{}\nWritten to {}: claims.md, tables, and all samples.",
+                  options_.quick ? "This was a quick run. " : "", first, in_words(claims), folder_.path().string()));
 }
 
 }  // namespace dartboard

@@ -33,9 +33,9 @@ class BenchRun {
   const RunFolder& folder() const { return folder_; }
   /// On standard output; on standard error where that is for JSON.
   void say(const std::string& text) const;
-  /// Complete the manifest, print the JSON asked for, and say where everything is: "Every target holds." or
-  /// `otherwise`.
-  void finish(std::span<const Claim> claims, bool agrees, const std::string& otherwise);
+  /// Complete the manifest, print the JSON asked for, and say what was found and where everything is; `first` before
+  /// that.
+  void finish(std::span<const Claim> claims, const std::string& first = "");
 
  private:
   BenchOptions options_;

@@ -53,23 +53,17 @@ Answers reproduce_paper(const Options& options, const Problem& problem, const Ru
   say(fmt::format("2. Forces, and states after {} steps, against the first contender\n\n", agreement_steps) +
       to_text(agreement_table(results)));
 
-  // No timing without agreement.
-  const bool topology_agrees =
-      std::all_of(results.counts.begin(), results.counts.end(), [](const auto& c) { return c.agrees(); });
-  std::vector<std::string> agreed;
-  for (const auto& m : results.motion)
-    if (topology_agrees && m.agrees) agreed.push_back(m.id);
-  if (!agreed.empty()) {
-    const MeasurePlan plan = plan_measurement(body, problem, agreed, options.quick, options.seed);
+  const ReproduceGates gates = gates_of(results.counts, results.motion);
+  if (!gates.agreed.empty()) {
+    const MeasurePlan plan = plan_measurement(body, problem, gates.agreed, options.quick, options.seed);
     auto lines = folder.json_lines("samples.jsonl");
     say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each", plan.processes, plan.rounds));
     results.per_step = per_step(measure(plan, [&](const StepSample& s) { lines.append(s); }));
   }
-  results.rebuild_ms = measure_rebuild_ms(problem);
   const std::string note = timing_note(results, problem);
   say("\n" + to_text(timing_table(results)) + "\n" + note + "\n");
 
-  Answers answers{answer_claims(results, problem), topology_agrees && agreed.size() == results.motion.size()};
+  Answers answers{answer_claims(results, problem), gates.passed};
   say("4. The paper's claims\n\n" + to_text(answers.claims));
   folder.write_table("counts", "Topology, against CGAL", counts_table(results));
   folder.write_table("agreement", "Forces and states, against the first contender", agreement_table(results));
@@ -123,15 +117,13 @@ void reproduce(const Options& options, Outcome& outcome) {
   finish_manifest(manifest);
   folder.write_manifest(manifest);
 
-  outcome.exit_code = all.gates_passed ? exit_code(all.claims) : exit_disagrees;
+  outcome.exit_code = reproduce_exit_code(all.claims, all.gates_passed);
   if (options.json)
     fmt::print(
         "{}\n",
         nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}}.dump(2));
-  say(fmt::format(
-      "{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
-      outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
-      folder.path().string()));
+  say(fmt::format("{}\nWritten to {}: claims.md, claims.json, tables, and all samples.",
+                  closing_words(all.claims, all.gates_passed, options.quick), folder.path().string()));
 }
 
 }  // namespace
