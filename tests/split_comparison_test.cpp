@@ -8,6 +8,7 @@
 
 #include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
+#include "tests/conservation_rows_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -71,7 +72,10 @@ TYPED_TEST(SplitComparison, FailsWhenASpringOfThePartHasOtherEnds) {
   loose.views.cells.edges[loose.body.edge(loose.body.map, loose.places.corner[loose.start.mesh.first[4]])].ends = {0,
                                                                                                                    1};
   loose.split({4});
-  EXPECT_TRUE(loose.result.violation);
+  ASSERT_TRUE(loose.result.violation);
+  // its elongation and its motion are others
+  for (const char* what : {"sums of part and rest", "motion as within the body"})
+    EXPECT_FALSE(row(loose.result, what).holds) << what;
 }
 
 }  // namespace
