@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/plain/random.h"
 #include "tests/stand_in_integrators_for_tests.h"
 #include "validation/amplification_study.h"
 #include "validation/detection_study.h"
@@ -95,7 +96,9 @@ TEST(StabilityMapJudge, SeesAnIntegratorWhoseStepsAreHalfAPercentTooLong) {
 // ---- one step
 
 AmplificationPoint off_by(double share_of_tolerance) {
-  AmplificationPoint p{.integrator = "", .theta = 1.0, .theory = {0.0, 1.0}, .tolerance = 1e-12};
+  AmplificationPoint p;
+  p.theory = {0.0, 1.0};
+  p.tolerance = 1e-12;
   p.measured = p.theory * (1.0 + share_of_tolerance * p.tolerance);
   return p;
 }

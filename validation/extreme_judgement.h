@@ -33,6 +33,17 @@ struct ExtremeVerdict {
 /// must not, and beyond the bound from the finer run.
 ExtremeVerdict verdict_of(const ExtremeObservation& run);
 
+/// A run of a body that comes apart while it moves; nothing damps it.
+struct EventsObservation {
+  bool finite = true;
+  double energy_before = 0.0, energy_after = 0.0;  // [J]
+  bool explicit_euler = false;                     // which gains theta^2 a step
+  bool must_live = false;                          // a method that keeps energy, and no removal that takes it away
+};
+/// Silent where the state is not finite, where energy has grown by a fifth (of explicit Euler, by what 60 steps of 0.3
+/// gain), or where it has fallen two hundredfold and must not.
+ExtremeVerdict verdict_of(const EventsObservation& run);
+
 /// What the distance from a run in eighths of the step is measured by.
 struct FinerRunScale {
   double theta = 0.0, zeta = 0.0;  // h omega_max, damping ratio there
