@@ -67,3 +67,12 @@ def decoded(path, name):
             assert len(data) == 8 + int.from_bytes(data[:8], "little")
             return array, data[8:]
     raise KeyError(name)
+
+
+def fnv1a(data):
+    """FNV-1a over words of 8 bytes, the last one padded with zeros, folded after each (core/topology/hash.h)."""
+    value = 0xcbf29ce484222325
+    for at in range(0, len(data), 8):
+        value = ((value ^ int.from_bytes(data[at:at + 8], "little")) * 0x100000001b3) & 0xffffffffffffffff
+        value ^= value >> 32
+    return value
