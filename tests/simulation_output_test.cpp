@@ -30,7 +30,7 @@ std::vector<T> column(const std::string& vtu, const std::string& name, const std
     return {};
   }
   const auto begin = vtu.find('>', tag) + 1, end = vtu.find('<', begin);
-  const std::string bytes = decode_base64(vtu.substr(begin, end - begin));
+  const std::string bytes = decode_base64(vtu.substr(begin, end - begin)).value();
   std::uint64_t length = 0;
   std::memcpy(&length, bytes.data(), 8);
   EXPECT_EQ(bytes.size(), 8 + length) << name;

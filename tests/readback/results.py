@@ -69,10 +69,21 @@ def decoded(path, name):
     raise KeyError(name)
 
 
-def fnv1a(data):
-    """FNV-1a over words of 8 bytes, the last one padded with zeros, folded after each (core/topology/hash.h)."""
+def fnv1a(words, fold):
+    """FNV-1a of 64 bits over numbers; what `fold` does to the value after each is an addition of the program's own."""
     value = 0xcbf29ce484222325
-    for at in range(0, len(data), 8):
-        value = ((value ^ int.from_bytes(data[at:at + 8], "little")) * 0x100000001b3) & 0xffffffffffffffff
-        value ^= value >> 32
+    for word in words:
+        value = fold(((value ^ word) * 0x100000001b3) & 0xffffffffffffffff)
     return value
+
+
+def state_hash(frame):
+    """Of a frame's positions and velocities, in words of 8 bytes, folded (core/topology/hash.h)."""
+    words = np.concatenate([np.ascontiguousarray(c, dtype="<f8").view("<u8").ravel() for c in (frame.x, frame.v)])
+    return "%016x" % fnv1a((int(w) for w in words), lambda value: value ^ value >> 32)
+
+
+def file_hash(path):
+    """Of a file's bytes, as it is defined."""
+    with open(path, "rb") as file:
+        return "fnv1a64:%016x" % fnv1a(file.read(), lambda value: value)
