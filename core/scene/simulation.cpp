@@ -14,7 +14,6 @@
 #include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
-#include "core/plain/nan_maximum.h"
 #include "core/time/preflight.h"
 
 namespace dartboard {
@@ -63,12 +62,6 @@ std::string key_without_body(const SceneFile& scene, const Problem& problem) {
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed) {
   return sum_of_squares(velocity) <= speed * speed;
 }
-
-struct Simulation::Sums {
-  double mass, energy;  // kinetic and elastic
-  Eigen::Vector3d momentum;
-  double size_of_momentum;  // sum of m |v|
-};
 
 std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
   std::string text =
@@ -240,12 +233,10 @@ void Simulation::happen() {
   for (Scheduled& scheduled : events_) {
     if (scheduled.clock.next() > done_) continue;
     while (scheduled.clock.next() <= done_) scheduled.clock.advance();
-    std::optional<Sums> before;
-    if (watch_ && scheduled.dissociates) before = sums();
-    const std::size_t made = scheduled.event->apply();
+    const std::size_t made =
+        watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
     scheduled.was_due = true;
     scheduled.operations += made;
-    if (before && made > 0) compare(*before);
     operations_ += made;
     if (made > 0) integrator_->restart();
   }
@@ -262,25 +253,6 @@ bool Simulation::drive() {
   const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
   if (changed) integrator_->restart();
   return changed;
-}
-
-Simulation::Sums Simulation::sums() const {
-  const SpringSystem system = body_->system();
-  const VertexColumns& v = body_->vertices();
-  double size = 0.0;
-  for (std::size_t k = 0; k < v.size(); ++k) size += v.mass[k] * v.velocity[k].norm();
-  return {body_->mass(), kinetic_energy(system, v.velocity) + elastic_energy(system, v.position),
-          linear_momentum(system, v.velocity), size};
-}
-
-void Simulation::compare(const Sums& before) {
-  const Sums after = sums();
-  const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
-  ++jumps_.events;
-  jumps_.mass = max_or_nan(jumps_.mass, relative(after.mass - before.mass, before.mass));
-  jumps_.momentum =
-      max_or_nan(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
-  jumps_.energy = max_or_nan(jumps_.energy, relative(after.energy - before.energy, before.energy));
 }
 
 std::optional<Divergence> Simulation::diverged() const {

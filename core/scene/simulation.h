@@ -11,6 +11,7 @@
 #include "core/scene/diagnostics.h"
 #include "core/scene/driven_vertices.h"
 #include "core/scene/event_clock.h"
+#include "core/scene/event_jumps.h"
 #include "core/scene/frame.h"
 #include "core/scene/probes.h"
 #include "core/scene/scene_file.h"
@@ -46,14 +47,6 @@ std::string to_string(const StepWarning& warning, double step, std::string_view 
 
 /// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
-
-/// How much dissociations changed what they must not change: the largest over all events that only dissociate.
-struct EventJumps {
-  std::uint64_t events = 0;  // that dissociated
-  double mass = 0.0;         // relative to the mass before
-  double momentum = 0.0;     // relative to the sum of m |v|
-  double energy = 0.0;       // kinetic and elastic, relative to their sum before
-};
 
 /// What is due at a step boundary happens before the state there is looked at: at the start by the constructor, then at
 /// the end of each step.
@@ -127,11 +120,8 @@ class Simulation {
     bool was_due = false;
     std::size_t operations = 0;
   };
-  struct Sums;
-  Sums sums() const;
   void happen();
   bool drive();
-  void compare(const Sums& before);
   StableStep look_closely() const;
   void look_at_step();
   void look_at_coordinates();
