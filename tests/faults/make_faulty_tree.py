@@ -1,11 +1,28 @@
 #!/usr/bin/env python3
-"""Copy the rooms of core into a folder, with every fault of a list compiled in behind a switch.
+"""Copy rooms of the project into a folder, with every fault of a list compiled in behind a switch.
 
     make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT ROOM...
 
 The switch is the environment variable DARTBOARD_FAULT: the number of the one fault that is on, or unset. The sources
 themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
 again. A snippet that is not found exactly once is an error: whoever changes the line changes the fault with it.
+
+A list is blocks of `key: value` lines, parted by empty lines; lines that begin with # are comments.
+
+    fault:   what is wrong, as a phrase
+    file:    where, from the root of the project
+    right:   a snippet of the file that occurs once in it, or in `in`; statements end in ; or }
+    wrong:   what stands there instead with the fault on
+    in:      (optional) a longer snippet that occurs once in the file and holds `right`
+    claim:   (optional) the claim of claims.json that this fault is about
+
+and who notices, one of
+
+    killer:  the full name of the gtest that fails
+    run:     the arguments of a run of the whole program that ends with 0 while nothing is wrong; {scenes} is the folder
+             of scenes beside the list, {out} a fresh folder
+    says:    with `run`: what that run prints with the fault on, and not without it
+    status:  (optional) with `run`: the exit status with the fault on [1]
 
 Standard library only, and of it only what Debian's python3-minimal has.
 """
@@ -36,19 +53,28 @@ class Mistake(Exception):
 
 
 class Fault:
-    """One block of the list: `key: value` lines. `in` is needed where `right` alone is ambiguous; `killer` is the test
-    that must fail with the fault on, by its full name."""
+    """One block of the list."""
 
-    FIELDS = ("fault", "file", "in", "right", "wrong", "killer")
-    OPTIONAL = ("in", "killer")
+    FIELDS = ("fault", "file", "in", "right", "wrong", "claim", "killer", "run", "says", "status")
+    REQUIRED = ("fault", "file", "right", "wrong")
 
-    def __init__(self, number, fields, line):
-        self.number, self.line = number, line
+    def __init__(self, fields, line):
+        self.number, self.line = number_of(fields["fault"]), line
         self.name, self.file = fields["fault"], fields["file"]
         self.right, self.wrong = fields["right"], fields["wrong"]
         self.context = fields.get("in", self.right)
-        self.killer = fields.get("killer")
+        self.claim = fields.get("claim")
+        self.killer, self.run, self.says = fields.get("killer"), fields.get("run"), fields.get("says")
+        self.status = int(fields.get("status", "1"))
         self.is_statement = self.right.endswith((";", "}"))
+
+    def mistake(self):
+        """What its fields contradict each other in, or None."""
+        if self.killer and self.run:
+            return "names a killer and a run: choose one"
+        if bool(self.run) != bool(self.says):
+            return "has a run that says nothing, or says something in no run"
+        return None
 
     def place(self, text):
         """Where `right` begins and ends in the text of the file."""
@@ -65,19 +91,30 @@ class Fault:
         return text.index(snippet)
 
 
+def number_of(name):
+    """FNV-1a, 31 bits: a fault that comes or goes leaves the numbers of the others, and so their copies, as they are."""
+    number = 2166136261
+    for byte in name.encode():
+        number = (number ^ byte) * 16777619 & 0xFFFFFFFF
+    return number >> 1
+
+
 def read_faults(path):
-    """The faults of a list, numbered from 1 in its order."""
+    """The faults of a list, in its order."""
     faults, fields, begin = [], {}, 0
 
     def finish():
         if not fields:
             return
-        missing = [key for key in Fault.FIELDS if key not in Fault.OPTIONAL and key not in fields]
+        missing = [key for key in Fault.REQUIRED if key not in fields]
         if missing:
             raise Mistake("%s:%d: this fault has no '%s'" % (path, begin, missing[0]))
-        if any(f.name == fields["fault"] for f in faults):
-            raise Mistake("%s:%d: a second fault of the name '%s'" % (path, begin, fields["fault"]))
-        faults.append(Fault(len(faults) + 1, dict(fields), begin))
+        fault = Fault(dict(fields), begin)
+        if any(f.number == fault.number for f in faults):
+            raise Mistake("%s:%d: a second fault of the name '%s', or of its number" % (path, begin, fault.name))
+        if fault.mistake():
+            raise Mistake("%s:%d: fault '%s' %s" % (path, begin, fault.name, fault.mistake()))
+        faults.append(fault)
         fields.clear()
 
     with open(path, encoding="utf-8") as lines:
@@ -89,7 +126,7 @@ def read_faults(path):
                 continue
             match = re.match(r"(\w+): *(.*)", line)
             if not match or match[1] not in Fault.FIELDS or match[1] in fields:
-                raise Mistake("%s:%d: expected one line each of %s" % (path, number, ", ".join(Fault.FIELDS)))
+                raise Mistake("%s:%d: expected one line each of some of %s" % (path, number, ", ".join(Fault.FIELDS)))
             begin = begin if fields else number
             fields[match[1]] = match[2].rstrip()
     finish()
