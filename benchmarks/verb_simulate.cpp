@@ -12,11 +12,11 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/interrupt.h"
-#include "benchmarks/json_number.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
+#include "benchmarks/simulation_json.h"
 #include "benchmarks/table.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
@@ -91,8 +91,8 @@ struct Report {
   }
   /// What became of the mass beyond what removals took, relative to the mass at the start.
   double mass_drift() const {
-    const double start = result.first.mass + removed_at_start, end = simulation.body().mass();
-    return start == 0.0 ? 0.0 : std::abs(start - simulation.body().removed_mass() - end) / start;
+    const SimulatedBody& body = simulation.body();
+    return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
 };
@@ -170,39 +170,19 @@ void print(const Report& r) {
   if (!r.picture.empty()) fmt::print("{}\n", r.picture);
 }
 
-// JSON has no infinity: a number that is not finite is left null.
-nlohmann::ordered_json to_json(const Diagnostics& d) {
-  return {{"time", d.time},
-          {"kinetic", number(d.kinetic)},
-          {"elastic", number(d.elastic)},
-          {"gravitational", number(d.gravitational)},
-          {"mass", d.mass},
-          {"vertices", d.counts.vertices},
-          {"edges", d.counts.edges},
-          {"faces", d.counts.faces},
-          {"cells", d.counts.cells},
-          {"components", d.counts.components},
-          {"boundary", number(d.boundary)},
-          {"largest_stress", number(d.largest_stress)},
-          {"operations", d.operations}};
-}
-
 nlohmann::ordered_json to_json(const Report& r) {
-  const EventJumps& jumps = r.simulation.jumps();
-  nlohmann::ordered_json json{
-      {"scene", r.scene.name},
-      {"map", r.simulation.body().map_name()},
-      {"integrator", r.scene.integrator},
-      {"holds", r.holds()},
-      {"steps", r.simulation.steps_done()},
-      {"first", to_json(r.result.first)},
-      {"last", to_json(r.result.last)},
-      {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
-      {"wall_s", r.wall_s},
-      {"cpu_s", r.cpu_s},
-      {"mass_drift", r.mass_drift()},
-      {"jumps",
-       {{"events", jumps.events}, {"mass", jumps.mass}, {"momentum", jumps.momentum}, {"energy", jumps.energy}}}};
+  nlohmann::ordered_json json{{"scene", r.scene.name},
+                              {"map", r.simulation.body().map_name()},
+                              {"integrator", r.scene.integrator},
+                              {"holds", r.holds()},
+                              {"steps", r.simulation.steps_done()},
+                              {"first", to_json(r.result.first)},
+                              {"last", to_json(r.result.last)},
+                              {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
+                              {"wall_s", r.wall_s},
+                              {"cpu_s", r.cpu_s},
+                              {"mass_drift", r.mass_drift()},
+                              {"jumps", to_json(r.simulation.jumps())}};
   if (const auto& d = r.result.divergence)
     json["divergence"] = {{"step", d->step},
                           {"time", d->time},

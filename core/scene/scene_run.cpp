@@ -23,6 +23,10 @@ class EnergyDrift {
 
 }  // namespace
 
+double mass_unaccounted_for(double start, double removed, double end) {
+  return start == 0.0 ? 0.0 : std::abs(start - removed - end) / start;
+}
+
 RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps) {
   const OutputPlan plan = times.in_steps_of(simulation.step());
