@@ -118,8 +118,7 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
   volatile bool slower = false;
   costs.speed_check = cost_of([&] { slower = all_slower(arrays.v, 3e8); }) / DivergenceDetector::check_steps;
 
-  const double steps = std::max(1.0, std::ceil(scene.duration / scene.step));
-  const Horizon horizon{.steps = steps, .gain = 2.0};
+  const Horizon horizon = horizon_of(scene.duration);
   costs.look = median_ns(2, 1, [&] {
     StableStep limits = quick_stable_step(whole);
     if (!limits.is_stable(scheme, scene.step, horizon))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/time/nan_proof.h"
 #include "validation/extreme_bodies.h"
 #include "validation/growth_run.h"
 
@@ -65,7 +66,7 @@ void for_each_change(double from, double to, double scan, const Grows& grows, co
 
 double StabilityMap::worst() const {
   double worst = 0.0;
-  for (const Crossing& c : boundary) worst = std::max(worst, c.distance());
+  for (const Crossing& c : boundary) worst = max_or_nan(worst, c.distance());
   return worst;
 }
 

@@ -82,6 +82,7 @@ std::string to_string(const Divergence& d) {
 Simulation::Simulation(const SceneFile& scene)
     : step_(settled_step(scene)),
       step_count_(step_of_time(scene.duration, step_)),
+      horizon_(horizon_of(scene.duration)),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
@@ -109,8 +110,10 @@ Simulation::Simulation(const SceneFile& scene)
   }
   look_at_step();
   if (const auto refusal = refused())
-    throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
-                                 refusal->quantity, refusal->value));
+    throw InputError(fmt::format("{}: {}: {}; expected {}, or another 'unstable_step'", scene.file,
+                                 scene.accuracy ? "/accuracy" : "/step", refusal->quantity,
+                                 scene.accuracy ? fmt::format("'step' in its place, at most {:.6g} s", refusal->value)
+                                                : fmt::format("at most {:.6g} s", refusal->value)));
   look_before_run();
   start_ = detector_.start(body_->system(), body_->motion(), step_);
   if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
@@ -162,37 +165,35 @@ std::optional<Divergence> Simulation::start_failure() {
   return failure(detector_.with_witness(start_, body_->system(), body_->motion()));
 }
 
-// The run is as long as the scene; it must not amplify anything twofold that theory says it does not.
+// What the close look needs is let go: it is taken at the start and after events only.
+StableStep Simulation::look_closely() const {
+  return StableStepEstimate().refresh(body_->system(), body_->vertices().position);
+}
+
+StepLimit Simulation::step_limit() const { return look_closely().limit(integrator_->scheme(), horizon_); }
+
 void Simulation::look_at_step() {
-  const Horizon horizon{.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0};
   const Scheme& scheme = integrator_->scheme();
   limits_ = quick_stable_step(body_->system());
   too_long_ = false;
   parts_ = 1;
-  if (limits_.is_stable(scheme, step_, horizon)) return;
-  // what the close look needs is let go: it is taken at the start and after events only
-  limits_ = StableStepEstimate().refresh(body_->system(), body_->vertices().position);
-  const double stable = limits_.safe_step(scheme, horizon);
-  too_long_ = step_ > stable;
-  if (too_long_ && unstable_step_ == UnstableStep::substep) {
-    // the more parts, the longer the run in steps, and the less each may amplify
-    double parts = std::ceil(step_ / stable);
-    for (int tries = 0; tries < 60 && parts <= most_parts; ++tries) {
-      const double allowed = limits_.safe_step(scheme, {.steps = horizon.steps * parts, .gain = horizon.gain});
-      if (step_ / parts <= allowed) break;
-      parts = std::ceil(std::max(parts * 1.2, std::min(step_ / allowed, parts * 4.0)));
-    }
-    too_long_ = !(parts <= most_parts);
-    parts_wanted_ = parts;
-    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  limits_ = look_closely();
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  stable_ = limits_.safe_step(scheme, horizon_);
+  too_long_ = true;
+  if (unstable_step_ == UnstableStep::substep) {
+    parts_wanted_ = std::ceil(step_ / stable_);
+    too_long_ = !(parts_wanted_ <= most_parts);
+    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts_wanted_);
   }
-  if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
+  if (!warning_) warning_ = StepWarning{done_, stable_, parts_};
 }
 
 // Steps too long and coordinates too large have warnings of their own, which a run may add to.
 void Simulation::look_before_run() {
   const Preflight found = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
-                                           step_ / static_cast<double>(parts_), limits_);
+                                           step_ / static_cast<double>(parts_), limits_, horizon_);
   if (found.warns_of(StepCode::coordinate_precision)) look_at_coordinates();
   warnings_ = found.warnings;
   std::erase_if(warnings_, [](const StepResult& w) {
@@ -213,8 +214,7 @@ std::optional<Divergence> Simulation::refused() const {
   d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
   if (unstable_step_ == UnstableStep::substep)
     d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
-  d.value = limits_.safe_step(integrator_->scheme(),
-                              {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
+  d.value = stable_;
   d.predicted = true;
   return d;
 }

@@ -83,6 +83,9 @@ class Simulation {
   /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
   /// step is stable.
   const StableStep& stable_step() const { return limits_; }
+  /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps go by; see
+  /// StableStep::limit.   cost  a close look: a hundred force evaluations
+  StepLimit step_limit() const;
   /// The first step found too long, and how it is divided now.
   const std::optional<StepWarning>& step_warning() const { return warning_; }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
@@ -119,6 +122,7 @@ class Simulation {
   };
   void happen();
   bool drive();
+  StableStep look_closely() const;
   void look_at_step();
   void look_at_coordinates();
   void look_before_run();
@@ -130,6 +134,7 @@ class Simulation {
 
   double step_;
   std::uint64_t step_count_, done_ = 0;
+  Horizon horizon_;
   std::unique_ptr<SimulatedBody> body_;
   DrivenVertices driven_;
   std::unique_ptr<Integrator> integrator_;
@@ -144,6 +149,7 @@ class Simulation {
   std::vector<StepResult> warnings_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
+  double stable_ = 0.0;        // [s] the longest step that is, where this one is too long
   double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
   StepResult start_;           // what the detector finds in the state before a step
   DivergenceDetector detector_;
