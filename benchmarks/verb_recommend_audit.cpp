@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/audit_plan.h"
 #include "benchmarks/audit_report.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
@@ -14,22 +14,9 @@
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/verb_recommend.h"
-#include "core/plain/random.h"
-#include "validation/random_scenes.h"
 
 namespace dartboard {
 namespace {
-
-/// How much is audited, and how many errors of each scene.
-struct Extent {
-  std::uint64_t scenes, errors;
-  std::uint64_t long_scenes, long_errors;  // without a sweep, and without a reference by other codes
-  std::uint64_t endless_scenes;            // one error each, for the costs only: nothing could check it in time
-};
-constexpr Extent full{14, 3, 2, 2, 2}, quick{4, 2, 0, 0, 0};
-
-/// What is done beside following the recommendations.
-enum class Check { reference_and_sweep, reference, costs_only };
 
 nlohmann::json json_of(const AuditedPair& p) {
   const Audit& a = p.audit;
@@ -60,17 +47,8 @@ nlohmann::json json_of(const AuditedPair& p) {
           {"best_cost", number(a.best_cost)}};
 }
 
-/// Errors between 1e-2 and 1e-8, one in each of `count` equal parts on the logarithmic scale.
-std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
-  std::vector<double> errors;
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const double u = 0.5 * (random.next_signed() + 1.0);
-    errors.push_back(std::pow(10.0, -2.0 - 6.0 * (static_cast<double>(k) + u) / static_cast<double>(count)));
-  }
-  return errors;
-}
-
-std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vector<double>& errors, Check check) {
+std::vector<AuditedPair> audit_case(const AuditCase& drawn) {
+  const auto& [scene, errors, check] = drawn;
   const CpuClock clock = thread_cpu_ns;
   std::vector<Recommendation> all;
   double longest = 0.0;
@@ -80,12 +58,12 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
   }
   SceneReference reference;
   reference.floor = std::numeric_limits<double>::infinity();
-  if (check != Check::costs_only)
+  if (check != AuditCheck::costs_only)
     reference = reference_of(
         scene, clock,
-        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
+        {.oracle_s = check == AuditCheck::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
   WorkPrecision sweep;
-  const bool sweep_too = check == Check::reference_and_sweep;
+  const bool sweep_too = check == AuditCheck::reference_and_sweep;
   if (sweep_too) {
     // what takes longer than the dearest pick cannot be cheaper than it, but steps are powers of two
     WorkPrecisionOptions how;
@@ -99,7 +77,7 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
     AuditedPair p;
     p.scene = scene.name;
     p.what = scene.what;
-    p.reference = check == Check::costs_only ? "none" : name(reference.kind);
+    p.reference = check == AuditCheck::costs_only ? "none" : name(reference.kind);
     p.floor = reference.floor;
     p.omega_phase = scene.duration * scene.fastest_rate;
     p.vertices = scene.motion.network.point_count();
@@ -142,34 +120,18 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   folder.write_manifest(manifest);
   auto samples = folder.json_lines("samples.jsonl");
 
-  const Extent extent = options.quick ? quick : full;
-  SplitMix64 random(options.seed + 77);
+  AuditCases cases(options.seed, options.quick);
   std::vector<AuditedPair> pairs;
   const std::int64_t start = thread_cpu_ns();
   {
-    const std::uint64_t before_endless = extent.scenes + extent.long_scenes;
-    const std::uint64_t all = before_endless + extent.endless_scenes;
-    Progress progress("audit", all, options.json);
-    for (std::uint64_t k = 0; k < all; ++k) {
-      const Check check = k < extent.scenes    ? Check::reference_and_sweep
-                          : k < before_endless ? Check::reference
-                                               : Check::costs_only;
-      RandomSceneOptions drawn;
-      if (options.quick) drawn = {.most_points = 400, .most_work = 5e4};
-      if (check == Check::reference)
-        drawn = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
-      if (check == Check::costs_only)
-        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
-      const TradeoffScene scene = random_scene(options.seed, k, drawn);
-      const auto errors = check == Check::costs_only
-                              ? std::vector{std::sqrt(draw_errors(random, 1)[0] * 1e-4)}
-                              : draw_errors(random, check == Check::reference ? extent.long_errors : extent.errors);
-      const auto some = audit_scene(scene, errors, check);
-      for (const AuditedPair& p : some) {
+    Progress progress("audit", cases.size(), options.json);
+    for (std::uint64_t k = 0; k < cases.size(); ++k) {
+      const AuditCase drawn = cases.next();
+      for (const AuditedPair& p : audit_case(drawn)) {
         samples.append(json_of(p));
         pairs.push_back(p);
       }
-      progress.advance(scene.what);
+      progress.advance(drawn.scene.what);
     }
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);

@@ -13,6 +13,7 @@
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/study_names.h"
+#include "benchmarks/tradeoff_report.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 #include "validation/scene_of_file.h"
@@ -282,8 +283,14 @@ void tradeoff(const Options& options, Outcome& outcome) {
   folder.write_manifest(manifest);
   auto samples = folder.json_lines("samples.jsonl");
   nlohmann::json summaries = nlohmann::json::array();
-  for (const std::string& scene_name : names)
-    summaries.push_back(summary_of(study_scene(scene_name, options, folder, samples, say)));
+  for (const std::string& scene_name : names) {
+    const WorkPrecision study = study_scene(scene_name, options, folder, samples, say);
+    summaries.push_back(summary_of(study));
+    if (const std::string trouble = trouble_of(study); !trouble.empty()) {
+      say(trouble);
+      outcome.exit_code = exit_disagrees;
+    }
+  }
   folder.write_json("winners.json", summaries);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
