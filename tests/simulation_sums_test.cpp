@@ -115,7 +115,7 @@ TEST(Frame, HasTheVelocityAndMassOfEachPointBesideIt) {
       const Frame frame = simulation.frame();
       Eigen::Matrix3d linear;
       linear << 1, -2, 0, 2, 0.5, 0, 0, 0, -1;  // moving_box.h; products and sums of few bits: exact
-      ASSERT_EQ(frame.velocity.size(), 27u + (kind == std::string("mixed") ? frame.velocity.size() - 27 : 0));
+      ASSERT_GE(frame.velocity.size(), 27u);
       double moved = 0.0;
       for (std::size_t k = 0; k < frame.velocity.size(); ++k) {
         const Eigen::Vector3d from_centre = frame.mesh.points[k] - Eigen::Vector3d(0.125, 0.125, 0.125);

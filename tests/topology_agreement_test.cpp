@@ -21,7 +21,7 @@ MapSummary cube_by_us() {
   cube.components = 1;
   return cube;
 }
-constexpr reference::CellCounts cube_by_cgal{144, 8, 19, 18, 6, 1};
+constexpr reference::CgalCounts cube_by_cgal{144, 8, 19, 18, 6, 1};
 
 std::vector<std::string> differ(const std::vector<CountAgreement>& all) {
   std::vector<std::string> names;
@@ -37,12 +37,12 @@ TEST(CompareCounts, AgreeOnTheCube) {
 }
 
 TEST(CompareCounts, NameWhatCgalCountsOneMoreOf) {
-  const std::pair<const char*, std::size_t reference::CellCounts::*> columns[]{
-      {"darts", &reference::CellCounts::darts},     {"vertices", &reference::CellCounts::vertices},
-      {"edges", &reference::CellCounts::edges},     {"faces", &reference::CellCounts::faces},
-      {"volumes", &reference::CellCounts::volumes}, {"components", &reference::CellCounts::components}};
+  const std::pair<const char*, std::size_t reference::CgalCounts::*> columns[]{
+      {"darts", &reference::CgalCounts::darts},     {"vertices", &reference::CgalCounts::vertices},
+      {"edges", &reference::CgalCounts::edges},     {"faces", &reference::CgalCounts::faces},
+      {"volumes", &reference::CgalCounts::volumes}, {"components", &reference::CgalCounts::components}};
   for (const auto& [name, column] : columns) {
-    reference::CellCounts more = cube_by_cgal;
+    reference::CgalCounts more = cube_by_cgal;
     ++(more.*column);
     EXPECT_EQ(differ(set_side_by_side(cube_by_us(), more)), std::vector<std::string>{name});
   }

@@ -4,7 +4,7 @@
 
 namespace dartboard {
 
-std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CellCounts& cgal) {
+std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CgalCounts& cgal) {
   return {{"darts", ours.darts, cgal.darts},        {"vertices", ours.cells[0], cgal.vertices},
           {"edges", ours.cells[1], cgal.edges},     {"faces", ours.cells[2], cgal.faces},
           {"volumes", ours.cells[3], cgal.volumes}, {"components", ours.components, cgal.components}};

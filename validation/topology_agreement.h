@@ -17,7 +17,7 @@ struct CountAgreement {
 };
 
 /// What is counted, by its name, with both answers.
-std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CellCounts& cgal);
+std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CgalCounts& cgal);
 
 /// Darts, i-cells and components of the problem's mesh, counted by coverages of our map and by CGAL of its own.
 std::vector<CountAgreement> compare_counts(const Problem& problem);

@@ -52,6 +52,10 @@ class Story:
         self.driven = {p: d for d in self.scene.get("driven", []) for p in d["ids"]}
         self.surroundings = {"gravity": np.array(self.scene["gravity"], dtype=float),
                              "viscosity": self.scene["material"]["viscosity"]}
+        self.see()
+
+    def see(self):
+        """Look at the frames of the run."""
         self.networks = [Network(self.body, self.scene["material"], frame) for frame in self.run.frames]
 
     def drive(self, point, n):
