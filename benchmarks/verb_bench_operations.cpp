@@ -8,12 +8,14 @@
 #include <set>
 
 #include "benchmarks/bench_run.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/operation_study.h"
 #include "benchmarks/paired.h"
 #include "benchmarks/paper_claims.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_bench.h"
 
 namespace dartboard {
@@ -32,7 +34,7 @@ void add_measure_operations(CLI::App& app) {
   verb->add_option("--seed", options->study.seed);
   verb->add_option("BODY", options->body)->required();
   verb->callback([options] {
-    const auto print = [](const auto& sample) { fmt::print("{}\n", nlohmann::json(sample).dump()); };
+    const auto print = [](const auto& sample) { tell("{}\n", json_text(nlohmann::json(sample))); };
     study_operations(options->body, options->study, print, print);
   });
 }

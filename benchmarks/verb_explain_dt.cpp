@@ -11,9 +11,11 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "core/scene/simulation.h"
 #include "core/time/integrators.h"
 #include "core/time/stable_step.h"
@@ -159,16 +161,16 @@ Explanation explain(const SceneFile& scene) {
 std::string step_text(double step) { return std::isfinite(step) ? fmt::format("{:.6g} s", step) : "any"; }
 
 void print(const Explanation& e) {
-  fmt::print("{}\n{}, h = {:.6g} s\n\n", e.scene.name, e.scene.integrator, e.scene.step);
-  fmt::print("highest frequency: {:.6g} to {:.6g} 1/s (in any state at most {:.6g})\n", e.limits.lower, e.limits.upper,
-             e.limits.any_state);
+  tell("{}\n{}, h = {:.6g} s\n\n", one_line(e.scene.name), e.scene.integrator, e.scene.step);
+  tell("highest frequency: {:.6g} to {:.6g} 1/s (in any state at most {:.6g})\n", e.limits.lower, e.limits.upper,
+       e.limits.any_state);
   const Bounds ratio = e.limits.damping_ratio();
-  fmt::print("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper);
-  fmt::print("longest stable step in the state at the start: {}, in any state at least {}; the scene's is {}\n",
-             step_text(e.safe), step_text(e.quick),
-             e.scene.step <= e.quick  ? "stable in any"
-             : e.scene.step <= e.safe ? "stable at the start"
-                                      : "TOO LONG");
+  tell("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper);
+  tell("longest stable step in the state at the start: {}, in any state at least {}; the scene's is {}\n",
+       step_text(e.safe), step_text(e.quick),
+       e.scene.step <= e.quick  ? "stable in any"
+       : e.scene.step <= e.safe ? "stable at the start"
+                                : "TOO LONG");
   if (e.springs.empty()) return;
   Table springs({{"spring", Align::right},
                  {"between", Align::left},
@@ -194,8 +196,8 @@ void print(const Explanation& e) {
     remedies.add_row(
         {r.what, step_text(r.step),
          std::isfinite(r.step) && e.safe > 0.0 ? fmt::format("{:+.1f} %", 100 * (r.step / e.safe - 1)) : ""});
-  fmt::print("\nShares of the energy of the fastest oscillation:\n\n{}\n{}\n{}", to_text(springs), to_text(vertices),
-             to_text(remedies));
+  tell("\nShares of the energy of the fastest oscillation:\n\n{}\n{}\n{}", to_text(springs), to_text(vertices),
+       to_text(remedies));
 }
 
 // JSON has no infinity: a step without a limit is null.
@@ -233,9 +235,9 @@ void explain_dt(const Options& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::ordered_json json = to_json(explanation);
     if (settled) json["settled"] = nlohmann::json(*settled);
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
   } else {
-    if (settled) fmt::print("{}\n", to_string(*settled));
+    if (settled) tell("{}\n", to_string(*settled));
     print(explanation);
   }
 }
