@@ -27,7 +27,7 @@ std::shared_ptr<BenchOptions> add_bench_options(CLI::App& verb, const std::strin
 /// A run that has a folder, and a manifest in it from its start on.
 class BenchRun {
  public:
-  /// The folder is that of the options, or results/LABEL-TIME.
+  /// The folder is that of the options, or dartboard-results/LABEL-TIME.
   BenchRun(const BenchOptions& options, const std::string& label, const RunFacts& facts);
 
   const RunFolder& folder() const { return folder_; }

@@ -7,10 +7,12 @@
 
 #include "benchmarks/ablation_study.h"
 #include "benchmarks/bench_ablation_report.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_bench.h"
 #include "core/scene/measured_plan.h"
 #include "core/scene/scene_problem.h"
@@ -28,7 +30,7 @@ void add_measure_ablation(CLI::App& app) {
   verb->add_option("--steps", options->steps)->check(CLI::PositiveNumber);
   verb->add_option("--seed", options->seed);
   verb->callback([options] {
-    study_ablation(*options, [](const Sample& sample) { fmt::print("{}\n", nlohmann::json(sample).dump()); });
+    study_ablation(*options, [](const Sample& sample) { tell("{}\n", json_text(nlohmann::json(sample))); });
   });
 }
 
@@ -59,10 +61,8 @@ struct Options {
 };
 
 void bench_ablation(const Options& options, Outcome& outcome) {
-  const auto say = [&](const std::string& text) { fmt::print(options.json ? stderr : stdout, "{}\n", text); };
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, "ablation")
-                                             : std::filesystem::path(options.out));
+  const auto say = [&](const std::string& text) { tell(options.json ? stderr : stdout, "{}\n", text); };
+  const RunFolder folder(run_path(options.out, "ablation"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of the tasks", options.seed}};
@@ -98,12 +98,13 @@ void bench_ablation(const Options& options, Outcome& outcome) {
   folder.write_claims(claims);
   folder.write_table("features", "Features on and off", features_table(results), features_note());
   folder.write_table("staircase", "The bare scene, with less and less around its loop", staircase_table(results));
-  if (const std::string trouble = draw(ablation_plot(results), folder.path(), "ablation"); !trouble.empty())
-    say(trouble);
+  const std::string trouble = draw(ablation_plot(results), folder.path(), "ablation");
+  if (!trouble.empty()) say(trouble);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
   outcome.exit_code = exit_code(claims);
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}}.dump(2));
+  picture_missing(outcome, trouble);
+  if (options.json) tell("{}\n", json_text(nlohmann::json{{"claims", claims}, {"manifest", manifest}}, 2));
   say(fmt::format("{}{}\nWritten to {}: claims.md, tables, a picture, and all samples.",
                   options.quick ? "This was a quick run. " : "", in_words(claims), folder.path().string()));
 }
@@ -115,7 +116,7 @@ void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "ablation", "Each feature of a scene on from a bare one and off from a full one: bytes, and time per step.");
   verb->add_flag("--quick", options->quick, "fewer rounds, fewer processes");
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/ablation-TIME]");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [dartboard-results/ablation-TIME]");
   verb->add_option("--seed", options->seed, "of the order of the tasks [1]");
   verb->add_flag("--json", options->json,
                  "print claims and manifest as JSON on standard output, the rest on standard error");

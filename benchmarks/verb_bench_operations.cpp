@@ -9,9 +9,11 @@
 
 #include "benchmarks/bench_operations_report.h"
 #include "benchmarks/bench_run.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_bench.h"
 
 namespace dartboard {
@@ -30,7 +32,7 @@ void add_measure_operations(CLI::App& app) {
   verb->add_option("--seed", options->study.seed);
   verb->add_option("BODY", options->body)->required();
   verb->callback([options] {
-    const auto print = [](const auto& sample) { fmt::print("{}\n", nlohmann::json(sample).dump()); };
+    const auto print = [](const auto& sample) { tell("{}\n", json_text(nlohmann::json(sample))); };
     study_operations(options->body, options->study, print, print);
   });
 }

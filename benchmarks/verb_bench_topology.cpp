@@ -8,9 +8,11 @@
 
 #include "benchmarks/bench_run.h"
 #include "benchmarks/bench_topology_report.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/topology_tasks.h"
 #include "benchmarks/verb_bench.h"
 #include "reference/cgal_body.h"
@@ -68,7 +70,7 @@ void add_measure_topology(CLI::App& app) {
                            [found] { return *found; }});
         }
         run_rounds(tasks, options->paired, [&](const Sample& sample) {
-          fmt::print("{}\n", nlohmann::json(GroupSample{body, group.figure, units[sample.task], sample}).dump());
+          tell("{}\n", json_text(nlohmann::json(GroupSample{body, group.figure, units[sample.task], sample})));
         });
         for (auto& entry : group.entries) entry.task.restore();
       }

@@ -10,9 +10,11 @@
 #include "benchmarks/audit_report.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_recommend.h"
 
 namespace dartboard {
@@ -106,12 +108,10 @@ constexpr std::string_view reading =
 
 void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   const auto say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
-  const RunFolder folder(options.out.empty()
-                             ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "recommend")
-                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, "recommend"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"scenes and errors", options.seed}};
@@ -146,12 +146,10 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   folder.write_claims(claims);
   folder.write_table("audit", "Recommendations and what happened", table, reading);
   folder.write_table("scenes", "The scenes", scenes);
-  if (const std::string trouble =
-          draw(audit_plot(pairs,
-                          fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
-               folder.path(), "audit");
-      !trouble.empty())
-    say(trouble);
+  const std::string trouble = draw(
+      audit_plot(pairs, fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
+      folder.path(), "audit");
+  if (!trouble.empty()) say(trouble);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
 
@@ -160,9 +158,10 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::json report{{"claims", claims}, {"pairs", nlohmann::json::array()}, {"manifest", manifest}};
     for (const AuditedPair& p : pairs) report["pairs"].push_back(json_of(p));
-    fmt::print("{}\n", report.dump(2));
+    tell("{}\n", json_text(report, 2));
   }
   outcome.exit_code = exit_code(claims);
+  picture_missing(outcome, trouble);
 }
 
 }  // namespace dartboard

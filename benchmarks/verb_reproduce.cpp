@@ -13,11 +13,13 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/extremes_study.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/reproduce_report.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "reference/cgal_body.h"
 
 namespace dartboard {
@@ -77,10 +79,10 @@ Answers reproduce_extremes(const Options& options, const RunFolder& folder, cons
   const ExtremesResults results =
       measure_extremes({.quick = options.quick, .silent = options.json}, [](const auto&, std::string_view) {});
   const RunFolder part(folder.path() / "extremes");
-  for (const std::string& trouble : write_extremes(results, part)) fmt::print(stderr, "{}\n", trouble);
+  for (const std::string& trouble : write_extremes(results, part)) tell(stderr, "{}\n", trouble);
   for (const NamedTable& t : tables_of(results))
     if (t.study == "matrix") say(t.heading + "\n\n" + to_text(t.table));
-  for (const auto& cell : forbidden_cells(results)) say(cell.dump());
+  for (const auto& cell : forbidden_cells(results)) say(json_text(cell));
   Answers answers{claims_of(results)};
   say(to_text(std::span<const Claim>(answers.claims)));
   return answers;
@@ -88,15 +90,13 @@ Answers reproduce_extremes(const Options& options, const RunFolder& folder, cons
 
 void reproduce(const Options& options, Outcome& outcome) {
   const Say say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(stdout);
   };
   const Scene& liver = scene(body);
   const Problem problem = liver.make();
 
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, options.quick ? "quick" : "reproduce")
-                                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, options.quick ? "quick" : "reproduce"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of tasks", options.seed}};
@@ -119,9 +119,9 @@ void reproduce(const Options& options, Outcome& outcome) {
 
   outcome.exit_code = reproduce_exit_code(all.claims, all.gates_passed);
   if (options.json)
-    fmt::print(
-        "{}\n",
-        nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}}.dump(2));
+    tell("{}\n",
+         json_text(nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}},
+                   2));
   say(fmt::format("{}\nWritten to {}: claims.md, claims.json, tables, and all samples.",
                   closing_words(all.claims, all.gates_passed, options.quick), folder.path().string()));
 }
@@ -138,7 +138,7 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
                  "fewer processes and rounds, a third of the extremes; a minute instead of three");
   verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
       ->check(CLI::IsMember({"paper", "extremes"}));
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [dartboard-results/reproduce-TIME]");
   verb->add_option("--seed", options->seed, "of the order in which contenders take turns [1]");
   verb->add_flag("--json", options->json,
                  "print claims and manifest as JSON on standard output, the rest on standard error");

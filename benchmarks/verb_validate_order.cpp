@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/order_report.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/plain/error.h"
 
@@ -93,18 +95,18 @@ void validate(const Options& options, Outcome& outcome) {
     folder->write_manifest(manifest);
   }
   if (options.json) {
-    fmt::print("{}\n", to_json(results, claims).dump(2));
+    tell("{}\n", json_text(to_json(results, claims), 2));
     return;
   }
-  fmt::print("The references: a box of 3 x 3 x 3 cubes for 16.5 / omega_max, {}\n\n{}\n", references_heading(results),
-             to_text(oracle_table(results)));
-  fmt::print(
+  tell("The references: a box of 3 x 3 x 3 cubes for 16.5 / omega_max, {}\n\n{}\n", references_heading(results),
+       to_text(oracle_table(results)));
+  tell(
       "Observed orders; ^ error above {:g}, ~ not within 0.1, _ near the floor of the reference, ! no result; over "
       "two\n"
       "halvings across the unaligned cut\n\n{}\n",
       options.quick ? quick_error : OrderOptions{}.most_error, to_text(order_table(results)));
-  fmt::print("Against the exact maps of the methods\n\n{}\n", to_text(discrete_table(results)));
-  fmt::print("{}", to_text(std::span<const Claim>(claims)));
+  tell("Against the exact maps of the methods\n\n{}\n", to_text(discrete_table(results)));
+  tell("{}", to_text(std::span<const Claim>(claims)));
 }
 
 }  // namespace
