@@ -246,8 +246,8 @@ TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
     }
   EXPECT_GT(shift.x(), right - left);
   const std::string script = text("two.gnuplot");
-  EXPECT_NE(script.find("set label 1 \"t = 0 s\" at 0,"), std::string::npos) << script;
-  const auto label = script.find("set label 2 \"t = 0.5 s\" at ");
+  EXPECT_NE(script.find("set label 1 't = 0 s' at 0,"), std::string::npos) << script;
+  const auto label = script.find("set label 2 't = 0.5 s' at ");
   ASSERT_NE(label, std::string::npos) << script;
   EXPECT_NEAR(std::stod(script.substr(label + 27)), shift.x(), 4e-5);
 }
