@@ -7,9 +7,11 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/step_explanation.h"
+#include "benchmarks/tell.h"
 
 namespace dartboard {
 namespace {
@@ -27,10 +29,10 @@ void explain_dt(const Options& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::ordered_json json = to_json(explanation, scene);
     if (settled) json["settled"] = nlohmann::json(*settled);
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
   } else {
-    if (settled) fmt::print("{}\n", to_string(*settled));
-    fmt::print("{}", to_text(explanation, scene));
+    if (settled) tell("{}\n", to_string(*settled));
+    tell("{}", to_text(explanation, scene));
   }
 }
 

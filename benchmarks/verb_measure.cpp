@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "core/plain/error.h"
 #include "validation/contenders.h"
 
@@ -47,7 +49,7 @@ void add_measure(CLI::App& app, Outcome&) {
                        [&s] { return state_hash(s.state()); }});
     }
     run_rounds(tasks, options->paired, [&](const Sample& sample) {
-      fmt::print("{}\n", nlohmann::json(StepSample{sample, steps_of[sample.task]}).dump());
+      tell("{}\n", json_text(nlohmann::json(StepSample{sample, steps_of[sample.task]})));
     });
   });
 }

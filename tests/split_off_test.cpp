@@ -18,12 +18,14 @@ namespace {
 template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 
-// Three boxes of 1, 2 and 3 cubes, set in motion.
+// Three boxes of 1, 2 and 3 cubes, set in motion under a gravity of its own; the second hangs from two of its points.
 template <class Map>
 Body<Map> three_boxes() {
   Problem problem;
   problem.mesh = several_components(3);
   problem.material = {.density = 1000.0, .stiffness = 4.0e5, .damping = 20.0, .viscosity = 0.5};
+  problem.surroundings.gravity = {1.0, 2.0, -3.0};
+  problem.fixed = {8, 9};
   for (const auto& p : problem.mesh.points)
     problem.initial_velocity.emplace_back(p.y() * p.z(), 0.5 * p.z(), -0.25 * p.x());
   return build_body<Map, Held::by_every_dart>(problem);
@@ -67,6 +69,7 @@ TYPED_TEST(SplitOffBody, MovesThePartBitForBitAsTheWholeDid) {
     const std::uint32_t there = of_point.at(part.vertices.point[k]);
     ASSERT_EQ(part.vertices.position[k], whole.vertices.position[there]);
     ASSERT_EQ(part.vertices.velocity[k], whole.vertices.velocity[there]);
+    ASSERT_EQ(part.vertices.fixed[k], whole.vertices.fixed[there]);
   }
 }
 

@@ -35,6 +35,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/plain/nan_maximum.h"
+
 namespace dartboard {
 
 /// gamma_n; n u < 1.
@@ -171,7 +173,7 @@ class Drift {
   }
   void remove(double part) { expected_.add(-part); }
   void compare(double total) {
-    if (initial_ > 0.0) largest_ = std::max(largest_, std::abs(total - expected_.value()) / initial_);
+    if (initial_ > 0.0) largest_ = max_or_nan(largest_, std::abs(total - expected_.value()) / initial_);
   }
   double largest() const { return largest_; }
 

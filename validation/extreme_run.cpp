@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
+#include "core/plain/nan_maximum.h"
 #include "core/time/divergence.h"
 #include "core/time/integrators.h"
-#include "core/time/nan_proof.h"
 #include "core/time/preflight.h"
 #include "core/time/stable_step.h"
 #include "validation/extreme_judgement.h"

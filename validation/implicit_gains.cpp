@@ -5,11 +5,11 @@
 #include "core/mechanics/adapt.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
+#include "core/plain/nan_maximum.h"
 #include "core/time/backward_euler.h"
 #include "core/time/energy.h"
 #include "core/time/energy_momentum.h"
 #include "reference/error_norms.h"
-#include "reference/larger.h"
 #include "validation/order_scenes.h"
 #include "validation/tradeoff_scenes.h"
 
@@ -56,7 +56,7 @@ EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator
       found.diagnosis = to_string(result);
       break;
     }
-    found.drift = reference::larger(found.drift, std::abs(energy() / start - 1.0));
+    found.drift = max_or_nan(found.drift, std::abs(energy() / start - 1.0));
   }
   return found;
 }

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "core/plain/nan_maximum.h"
 #include "core/time/energy.h"
-#include "core/time/nan_proof.h"
 
 namespace dartboard {
 

@@ -6,7 +6,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/accelerations.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {

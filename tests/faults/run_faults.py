@@ -9,7 +9,8 @@
 A fault with a `killer` is run with that test and no other. It is killed by a failure, by a crash, by running out of
 memory or by not ending: all are seen by whoever runs the suite. A fault with a `run` is given to the whole program,
 `dartboard_seeded` beside the suite: the arguments must end with 0 while no fault is on, and with the fault on print what
-the block `says` and end with its `status`, nothing else.
+the block `says` and end with its `status`, nothing else. A fault that `hides` another is run with that one: it is noticed
+when the other one's run does not end so.
 
 What a block may hold is told by make_faulty_tree.py.
 
@@ -47,7 +48,7 @@ class Ended:
 
 
 def execute(command, number, limit, folder=None):
-    """One process with fault `number` on (0: none), in `folder`, for at most `limit` seconds."""
+    """One process with fault `number` on (0: none; or "one,other"), in `folder`, for at most `limit` seconds."""
     environment = dict(os.environ, DARTBOARD_FAULT=str(number), GTEST_FAIL_FAST="1", GTEST_BREAK_ON_FAILURE="1",
                        GTEST_COLOR="no", RC_PARAMS="seed=1")  # random properties draw the same every time
     limits = "ulimit -c 0; ulimit -v %d; exec \"$0\" \"$@\"" % MEMORY_KIB
@@ -97,14 +98,21 @@ class Program:
             words = [re.sub(r"\{\w+\}", lambda m: places[m[0]], word) for word in shlex.split(arguments)]
             return execute([self.path, *words], number, limit, folder)
 
-    def result(self, fault, sound):
-        """Does the run of a fault notice it?"""
-        ended = self.run(fault.run, fault.number, limit_for(sound.seconds))
+    def result(self, fault, sound, others=""):
+        """Does the run of a fault notice it, with others on too?"""
+        ended = self.run(fault.run, "%d%s" % (fault.number, others), limit_for(sound.seconds))
         if ended.status != fault.status:
             return Result(None, "'%s' %s" % (fault.run, how_it_ended(ended)), ended.seconds)
         if fault.says not in ended.output:
             return Result(None, "'%s' does not say '%s'" % (fault.run, fault.says), ended.seconds)
         return Result(fault.run, "says '%s'" % fault.says, ended.seconds)
+
+    def result_of_hiding(self, fault, hidden, sound):
+        """Is it noticed that with `fault` on the run of another one no longer says no?"""
+        result = self.result(hidden, sound, ",%d" % fault.number)
+        if result.killer is not None:
+            return Result(None, "it does not hide '%s': %s" % (hidden.name, result.how), result.seconds)
+        return Result("fault '%s'" % hidden.name, "survives: %s" % result.how, result.seconds)
 
 
 def limit_for(seconds):
@@ -152,8 +160,9 @@ def table_of_rooms(faults):
 def main(suite, fault_list, *words):
     naming = "--name" in words
     words = [word for word in words if word != "--name"]
-    faults = [f for f in read_faults(fault_list) if not words or any(word in f.name for word in words)]
-    nameless = [f for f in faults if not f.killer and not f.run]
+    every = read_faults(fault_list)
+    faults = [f for f in every if not words or any(word in f.name for word in words)]
+    nameless = [f for f in faults if not f.killer and not f.run and not f.hides]
     if naming:
         faults = nameless
     elif nameless:
@@ -165,11 +174,15 @@ def main(suite, fault_list, *words):
         sys.exit("without any fault %s %s: faults tell nothing until it passes" % (sound.killer, sound.how))
     program = Program(os.path.join(os.path.dirname(suite), "dartboard_seeded"),
                       os.path.join(os.path.dirname(os.path.abspath(fault_list)), "scenes"))
-    runs = sound_runs(program, faults)
+    by_name = {f.name: f for f in every}
+    runs = sound_runs(program, faults + [by_name[f.hides] for f in faults if f.hides])
 
     def outcome_of(fault):
         if fault.run:
             return program.result(fault, runs[fault.run])
+        if fault.hides:
+            hidden = by_name[fault.hides]
+            return program.result_of_hiding(fault, hidden, runs[hidden.run])
         return run_tests(suite, fault.number, limit_for(sound.seconds), fault.killer or "*")
 
     results = in_parallel(outcome_of, faults)
