@@ -52,6 +52,20 @@ TEST(Accelerations, HaveTheBitsOfTheWalk) {
       }
 }
 
+TEST(Terms, AreThoseOfTheLastSpringAndVertexToo) {
+  SpringArrays arrays;
+  for (int i = 0; i < 3; ++i) arrays.add_vertex(1.0, {1.0 * i, 0, 0});
+  arrays.add_spring(0, 1, 1.0, 1.0);
+  arrays.add_spring(1, 2, 1.0, 1.0);
+  EXPECT_EQ(terms_of(arrays.system()), Terms{});
+  arrays.springs[1].damping = 1.0;
+  EXPECT_EQ(terms_of(arrays.system()), (Terms{.damping = true}));
+  arrays.viscosity[2] = 1.0;
+  EXPECT_EQ(terms_of(arrays.system()), (Terms{.damping = true, .viscosity = true}));
+  arrays.fixed[2] = 1;
+  EXPECT_EQ(terms_of(arrays.system()), (Terms{true, true, true}));
+}
+
 TEST(Accelerations, AreTheSameBitsWhenAnAbsentTermIsAskedFor) {
   SpringArrays arrays = arrays_of(a_body(0.0, 0.0, {}));
   disturb(arrays);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/topology/sew.h"
 #include "tests/meshes_for_tests.h"
 #include "tests/random_operations.h"
 
@@ -162,6 +163,25 @@ TEST(BoundaryOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
   EXPECT_TRUE(surface.facets().empty());
 }
 
+// The same numbers of faces, of which one has come to the boundary; and all of them turned round.
+TYPED_TEST(BoundaryOf, ABodyIsNotThatOfAnotherOne) {
+  auto body = body_of<TypeParam>(unequal_tetrahedra());
+  const BoundarySurface surface = boundary_of(body);
+  EXPECT_EQ(surface, boundary_of(body));
+  auto turned = body;
+  for (auto& inside_out : turned.cell_inside_out) inside_out = 1 - inside_out;
+  EXPECT_FALSE(surface == boundary_of(turned));
+  Dart shared = no_dart;
+  body.map.for_each_dart([&](Dart d) {
+    if (!body.map.template is_free<3>(d)) shared = d;
+  });
+  unsew<3>(body.map, shared);  // and no new number for the other side
+  const BoundarySurface more = boundary_of(body);
+  EXPECT_EQ(more.facets().size(), surface.facets().size() + 1);
+  EXPECT_FALSE(surface == more);
+  EXPECT_FALSE(more == surface);
+}
+
 TYPED_TEST(BoundaryOf, TwoTetrahedraGrowsByTheTwoSidesOfTheirFace) {
   auto body = body_of<TypeParam>(unequal_tetrahedra());
   BoundarySurface surface = boundary_of(body);
@@ -181,16 +201,18 @@ TEST(BoundaryOfASheet, RunsAroundItTheWayOfItsFaces) {
   const auto body = body_of<Map2>(quadrilateral_grid(4, 3));
   const BoundarySurface surface = boundary_of(body);
   ASSERT_EQ(surface.facets().size(), 14u);
-  Eigen::Vector3d around(0, 0, 0), twice_area(0, 0, 0);
+  Eigen::Vector3d around(0, 0, 0), twice_area(0, 0, 0), along(0, 0, 0);
   for (const BoundaryFacet& facet : surface.facets()) {
     const auto corner = surface.corners(body, facet);
     ASSERT_EQ(corner.size(), 2u);
     around += surface.edge_vector(body, facet);
+    along += body.vertices.position[corner[0]].cross(surface.edge_vector(body, facet));
     twice_area += body.vertices.position[corner[0]].cross(body.vertices.position[corner[1]]);
   }
   // coordinates are multiples of 1/8: exact
   EXPECT_EQ(around, Eigen::Vector3d(0, 0, 0));
   EXPECT_EQ(twice_area[2], 2.0 * 4.0 * 3.0);  // counter-clockwise seen from above, as its faces are
+  EXPECT_EQ(along, twice_area);
 }
 
 TEST(BoundaryOfASheet, IsMeasuredInMetres) {

@@ -132,6 +132,18 @@ TEST(CheckOfTetrahedra, NamesAFaceThatDoesNotLeadBack) {
   EXPECT_NE(check(map).find("alpha3 is not an involution"), std::string::npos) << check(map);
 }
 
+// Where the opposite face is right and the turn between them is not, as told from one side.
+TEST(CheckOfTetrahedra, NamesAFaceThatLeadsBackTurned) {
+  for (std::uint32_t more = 1; more < 6; ++more) {
+    auto map = build_map<TetMap>(unequal_tetrahedra()).map;
+    std::uint32_t face = 0;
+    while (map.is_free<3>({6 * face})) ++face;
+    const std::uint32_t opposite = map.storage().opposite(face);
+    map.redo({Change::Kind::link, face, opposite, opposite - opposite % 8 + (opposite % 8 + more) % 6});
+    EXPECT_NE(check(map).find("is not an involution"), std::string::npos) << more << ": " << check(map);
+  }
+}
+
 TEST(CheckOfTetrahedra, NamesAFaceSewnToATetrahedronBeyondTheSlots) {
   TetMap map;
   map.add_tetrahedron();

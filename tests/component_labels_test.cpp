@@ -210,6 +210,28 @@ TEST(ComponentsOfASurface, FollowEveryOperationUntilNothingIsLeft) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) expect_followed_until_nothing_is_left<Map2>(mesh, seed, 15);
 }
 
+/// Two strips of two squares, whose cells are numbered in this order.
+Mesh two_strips(const std::array<std::uint32_t, 4>& order) {
+  Mesh mesh;
+  for (const double y : {0.0, 1.0, 5.0, 6.0})
+    for (const double x : {0.0, 1.0, 2.0}) mesh.points.emplace_back(x, y, 0);
+  for (const std::uint32_t square : order) {
+    const std::uint32_t first = 6 * (square / 2) + square % 2;
+    mesh.add_cell(CellKind::quadrilateral, std::array{first, first + 1, first + 4, first + 3});
+  }
+  return mesh;
+}
+
+// As many cells and components, of the same sizes.
+TEST(ComponentsOfStrips, AreNotThoseOfOthersWithOtherNeighbours) {
+  const ComponentLabels in_a_row = components_of(body_of<Map2>(two_strips({0, 1, 2, 3})));
+  const ComponentLabels in_turn = components_of(body_of<Map2>(two_strips({0, 2, 1, 3})));
+  ASSERT_EQ(in_a_row.count(), 2u);
+  EXPECT_EQ(in_a_row, components_of(body_of<Map2>(two_strips({2, 3, 0, 1}))));
+  EXPECT_FALSE(in_a_row == in_turn);
+  EXPECT_FALSE(in_turn == in_a_row);
+}
+
 // A strip of five squares: cut at both ends in one series, the middle keeps its label.
 TEST(ComponentsOfAStrip, LetTheLargestPartKeepItsLabel) {
   auto body = body_of<Map2>(quadrilateral_grid(5, 1));

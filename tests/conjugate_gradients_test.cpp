@@ -59,6 +59,30 @@ TEST(ConjugateGradients, MeetsTheToleranceFromSpringsAndFromEntries) {
   }
 }
 
+TEST(ConjugateGradients, TellsTheResidualOfItsSolution) {
+  const Body body;
+  const auto b = body.right();
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0));
+  const auto result = ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-5});
+  const double residual = relative_residual(body, b, x);
+  EXPECT_NEAR(result.residual, residual, 1e-6 * residual);
+  EXPECT_GT(result.iterations, 1);
+}
+
+TEST(ConjugateGradients, StartsFromWhatItIsGiven) {
+  const Body body;
+  const auto b = body.right();
+  std::vector<Vector3d> x(b.size(), Vector3d(0, 0, 0));
+  const auto first = ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-8});
+  EXPECT_EQ(ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-7}).iterations, 0);
+  x[0] *= 1 + 1e-6;
+  const auto again = ConjugateGradients().solve(body.matrix, b, x, {.tolerance = 1e-8});
+  EXPECT_EQ(again.status, SolveStatus::ok);
+  EXPECT_LT(relative_residual(body, b, x), 1.1e-8);
+  EXPECT_GT(again.iterations, 0);
+  EXPECT_LT(again.iterations, first.iterations);
+}
+
 TEST(ConjugateGradients, IndefiniteMatrixIsReported) {
   const Body folded(0.3, Compression::exact, 1.0), crushed(0.05, Compression::exact, 1.0);
   for (const Body* body : {&folded, &crushed}) {

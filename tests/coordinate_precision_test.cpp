@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/spring_arrays_for_tests.h"
@@ -42,6 +43,36 @@ TEST(CoordinatePrecision, NamesTheVertexOfTheShortestSpringThere) {
   const std::string text = to_string(*found);
   EXPECT_NE(text.find("y = -1e+10 m of vertex 1"), std::string::npos) << text;
   EXPECT_NE(text.find("move the body to the origin"), std::string::npos) << text;
+}
+
+// From 2 m to 3 m on an axis: a unit in the last place of 3 over a length of 1.
+TEST(CoordinatePrecision, IsThatOfTheEndFartherFromTheOrigin) {
+  for (const bool far_end_first : {false, true}) {
+    SpringArrays pair;
+    pair.add_vertex(1.0, {far_end_first ? -3.0 : 2.0, 0, 0});
+    pair.add_vertex(1.0, {far_end_first ? -2.0 : 3.0, 0, 0});
+    pair.add_spring(0, 1, 1.0, 1.0);
+    const auto found = find_coarse_coordinate(pair.system(), pair.x, 0.0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->relative, 3 * epsilon);
+    EXPECT_EQ(found->vertex, far_end_first ? 0u : 1u);
+    EXPECT_EQ(found->axis, 0);
+    EXPECT_EQ(found->coordinate, far_end_first ? -3.0 : 3.0);
+  }
+}
+
+// A spring that is crushed is measured by its rest length, one that is stretched by what it is now.
+TEST(CoordinatePrecision, IsToldInUnitsOfTheLongerOfBothLengths) {
+  for (const double rest : {0.25, 4.0}) {
+    SpringArrays pair;
+    pair.add_vertex(1.0, {0, 7, 0});
+    pair.add_vertex(1.0, {0, 8, 0});
+    pair.add_spring(0, 1, 1.0, rest);
+    const auto found = find_coarse_coordinate(pair.system(), pair.x, 0.0);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->length, std::max(rest, 1.0));
+    EXPECT_EQ(found->relative, epsilon * 8 / std::max(rest, 1.0));
+  }
 }
 
 TEST(CoordinatePrecision, IsNotThatOfASpringWithoutLength) {

@@ -279,6 +279,72 @@ TEST(Divergence, IsNotFoundWhereOneSpringHoldsAllEnergyCloseToTheLimit) {
   EXPECT_TRUE(run(body, *integrator, h, 2000, detector).result.ok());
 }
 
+/// Two masses that nothing joins: 1 kg and 100 kg, at 1 m/s and at rest.
+SpringArrays two_strangers() {
+  SpringArrays body;
+  body.add_vertex(1.0, {0, 0, 0}, {1, 0, 0});
+  body.add_vertex(100.0, {5, 0, 0});
+  return body;
+}
+
+// In amplitude ten times, and the check after the first step looks.
+TEST(Divergence, IsAHundredTimesTheEnergyThatThereWas) {
+  for (const auto& [speed, fine] : {std::pair{9.99, true}, {10.01, false}}) {
+    SpringArrays body = two_strangers();
+    DivergenceDetector detector;
+    ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+    body.v[0] = {0, speed, 0};
+    EXPECT_EQ(detector.after_step(body.system(), body.motion()).ok(), fine) << speed;
+    EXPECT_EQ(detector.check_all(body.system(), body.motion()).ok(), fine) << speed;
+  }
+}
+
+TEST(Divergence, NamesTheVertexWithMostOfTheEnergyAndItsSpeed) {
+  SpringArrays body = two_strangers();
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  body.v[0] = {0, 12, 0};
+  body.v[1] = {0, 0, 3};  // a quarter of the speed, 6.25 times the energy
+  EXPECT_EQ(to_string(detector.after_step(body.system(), body.motion())), "UNSTABLE_DT at vertex 1: speed = 3");
+}
+
+TEST(Divergence, TellsHowManyStepsItGoesBack) {
+  SpringArrays body = two_strangers();
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  for (int k = 0; k < 7; ++k) {
+    body.x[0].x() += 1e-3;
+    ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok());
+  }
+  EXPECT_EQ(detector.restore(body.motion()), 7u);
+  EXPECT_EQ(body.x[0], Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(Divergence, CountsItsChecks) {
+  SpringArrays body = two_strangers();
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  for (int k = 0; k < 8; ++k) ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok());
+  EXPECT_EQ(detector.checks(), 4u);  // after steps 1, 2, 4, 8
+  ASSERT_TRUE(detector.check_all(body.system(), body.motion()).ok());
+  EXPECT_EQ(detector.checks(), 5u);
+}
+
+TEST(Divergence, IsFollowedToWhatIsNotANumber) {
+  SpringArrays body = two_strangers();
+  body.add_spring(0, 1, 1.0, 5.0);
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  const StepResult nowhere{StepCode::nonfinite, Witness::none, 0, "solution", NAN};
+  EXPECT_EQ(to_string(detector.with_witness(nowhere, body.system(), body.motion())), to_string(nowhere));
+  body.springs[0].damping = INFINITY;
+  EXPECT_EQ(to_string(detector.with_witness(nowhere, body.system(), body.motion())),
+            "NONFINITE at edge 0: spring = inf");
+  body.viscosity[1] = INFINITY;
+  EXPECT_EQ(to_string(detector.with_witness(nowhere, body.system(), body.motion())),
+            "NONFINITE at vertex 1: viscosity = inf");
+}
+
 TEST(Divergence, LooksAtOneStepInSixteen) {
   SpringArrays body = moving_grid();
   DivergenceDetector detector;

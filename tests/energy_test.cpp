@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "tests/spring_arrays_for_tests.h"
 
 namespace dartboard {
@@ -26,6 +29,24 @@ TEST(Energy, IsThatOfMotionSpringsAndHeight) {
   EXPECT_EQ(total_energy(arrays.system(), arrays.x, arrays.v), 60.0);
 }
 
+TEST(Energy, IsInSpringsThatAreCompressedToo) {
+  SpringArrays arrays = stretched_pair();
+  arrays.springs[0].rest_length = 7.0;
+  EXPECT_EQ(elastic_energy(arrays.system(), arrays.x), 12.0);
+}
+
+// Blocks of eight coordinates and every remainder.
+TEST(SumOfSquares, IsThatOfAllCoordinates) {
+  for (int n = 0; n <= 11; ++n) {
+    std::vector<Vector3d> v;
+    for (int i = 0; i < n; ++i) v.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    const double last = 3 * n - 1;
+    EXPECT_EQ(sum_of_squares(v), n == 0 ? 0.0 : last * (last + 1) * (2 * last + 1) / 6) << n;
+    if (n > 0) v.back().z() = NAN;
+    EXPECT_EQ(std::isnan(sum_of_squares(v)), n > 0) << n;
+  }
+}
+
 TEST(Momentum, IsLinearAndAngularAboutACentre) {
   const SpringArrays arrays = stretched_pair();
   EXPECT_EQ(linear_momentum(arrays.system(), arrays.v), Vector3d(2, -8, 0));
@@ -35,9 +56,11 @@ TEST(Momentum, IsLinearAndAngularAboutACentre) {
 }
 
 TEST(Momentum, LosesNothingBesideALargeTerm) {
-  SpringArrays arrays;
-  for (const double speed : {0x1p60, 1.0, -0x1p60}) arrays.add_vertex(1.0, {0, 0, 0}, {speed, 0, 0});
-  EXPECT_EQ(linear_momentum(arrays.system(), arrays.v), Vector3d(1, 0, 0));
+  for (const std::array<double, 3>& speeds : {std::array{0x1p60, 1.0, -0x1p60}, {1.0, 0x1p60, -0x1p60}}) {
+    SpringArrays arrays;
+    for (const double speed : speeds) arrays.add_vertex(1.0, {0, 0, 0}, {speed, 0, 0});
+    EXPECT_EQ(linear_momentum(arrays.system(), arrays.v), Vector3d(1, 0, 0));
+  }
 }
 
 }  // namespace

@@ -266,6 +266,15 @@ TEST(ImplicitIntegrators, FollowATopologicalChangeWithUpdatedFactorAsWithAFreshO
   EXPECT_GT(a.work().rank_one_updates, 0u);
 }
 
+TEST(ImplicitIntegrators, LocalGlobalTakesTheIterationsThatItIsGiven) {
+  for (const int iterations : {1, 7}) {
+    LocalGlobal integrator(iterations);
+    SpringArrays body = stiff_grid();
+    run(integrator, body, 0.05, 4);
+    EXPECT_EQ(integrator.work().newton_iterations, 4u * static_cast<unsigned>(iterations));
+  }
+}
+
 TEST(ImplicitIntegrators, LocalGlobalFactorsOnceAndFollowsAChange) {
   LocalGlobal integrator(60);
   BackwardEuler exact(tight());

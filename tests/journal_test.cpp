@@ -69,6 +69,20 @@ TYPED_TEST(Journals, RestoreTheHashOfEveryMomentInAnyOrder) {
   }
 }
 
+TYPED_TEST(Journals, BeginAgainWhenTheyAreCleared) {
+  this->map_.attach(&this->journal_);
+  add_cell(this->map_, CellKind::tetrahedron);
+  ASSERT_GT(this->journal_.position(), 0u);
+  this->journal_.clear();
+  EXPECT_EQ(this->journal_.position(), 0u);
+  EXPECT_EQ(this->journal_.end(), 0u);
+  const auto hash = this->map_.hash();
+  add_cell(this->map_, CellKind::tetrahedron);
+  EXPECT_EQ(this->journal_.position(), this->journal_.end());
+  this->journal_.undo(this->map_, 0);
+  EXPECT_EQ(this->map_.hash(), hash);
+}
+
 TYPED_TEST(Journals, ForgetWhatCouldBeRedoneWhenSomethingNewHappens) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     std::mt19937 bits(100 + seed);

@@ -107,6 +107,15 @@ TEST(Scheme, OfRungeKuttaHasALimitThatDependsOnTheDamping) {
   for (const auto& [zeta, limit] : known) EXPECT_NEAR(stable_limit(scheme("rk4"), zeta, 1e9, 2.0), limit, 6e-4) << zeta;
 }
 
+// Where 1 - z, and 1 - z + z^2/2 - z^3/6 + z^4/24, leave the unit circle. A growth by 2 within 10^5 steps is one of
+// 7e-6 a step.
+TEST(Scheme, IsStableUnderDampingAloneUpToItsLimitOnTheRealAxis) {
+  EXPECT_NEAR(damping_limit(scheme("explicit-euler"), 1e5, 2.0), 2.0, 1e-4);
+  EXPECT_NEAR(damping_limit(scheme("rk4"), 1e5, 2.0), 2.7852936, 1e-4);
+  for (const char* name : {"symplectic-euler", "verlet", "backward-euler", "sdirk2"})
+    EXPECT_EQ(damping_limit(scheme(name), 1e5, 2.0), Scheme::unlimited) << name;
+}
+
 TEST(Scheme, RefusesALimitWithoutGrowth) {
   EXPECT_THROW(stable_limit(scheme("rk4"), 0.0, 10, 1.0), InputError);
   EXPECT_THROW(stable_limit(scheme("rk4"), 0.0, 0, 2.0), InputError);

@@ -28,6 +28,20 @@ TEST(SlackRowsOf, TwoColumnsKeepThemSideBySide) {
   EXPECT_EQ(row_of<1>(rows, 0), (std::vector{'a', 'g'}));
 }
 
+TEST(SlackRowsOf, NothingBeginAgainWithoutRooms) {
+  Rows rows;
+  for (int row = 0; row < 3; ++row) rows.add_row();
+  for (int k = 0; k < 9; ++k) rows.insert(1, 0, k, 'a');  // leaves rooms of 4 and 8
+  rows.clear();
+  EXPECT_EQ(rows.count(), 0u);
+  for (std::size_t row = 0; row < 3; ++row) {
+    rows.add_row(5);
+    ASSERT_LE(static_cast<std::size_t>(rows.start(row)) + 8, rows.column<0>().size());
+    rows.insert(row, 0, static_cast<int>(row), 'b');
+  }
+  for (std::size_t row = 0; row < 3; ++row) EXPECT_EQ(row_of<0>(rows, row), std::vector{static_cast<int>(row)});
+}
+
 TEST(SlackRowsOf, RandomEditsAreThoseOfVectors) {
   Rows rows;
   std::vector<std::vector<int>> expected;

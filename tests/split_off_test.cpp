@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "core/mechanics/refine.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/plain/error.h"
@@ -18,12 +19,14 @@ namespace {
 template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 
-// Three boxes of 1, 2 and 3 cubes, set in motion.
+// Three boxes of 1, 2 and 3 cubes, set in motion under a gravity of its own; the second hangs from two of its points.
 template <class Map>
 Body<Map> three_boxes() {
   Problem problem;
   problem.mesh = several_components(3);
   problem.material = {.density = 1000.0, .stiffness = 4.0e5, .damping = 20.0, .viscosity = 0.5};
+  problem.surroundings.gravity = {1.0, 2.0, -3.0};
+  problem.fixed = {8, 9};
   for (const auto& p : problem.mesh.points)
     problem.initial_velocity.emplace_back(p.y() * p.z(), 0.5 * p.z(), -0.25 * p.x());
   return build_body<Map, Held::by_every_dart>(problem);
@@ -67,7 +70,26 @@ TYPED_TEST(SplitOffBody, MovesThePartBitForBitAsTheWholeDid) {
     const std::uint32_t there = of_point.at(part.vertices.point[k]);
     ASSERT_EQ(part.vertices.position[k], whole.vertices.position[there]);
     ASSERT_EQ(part.vertices.velocity[k], whole.vertices.velocity[there]);
+    ASSERT_EQ(part.vertices.fixed[k], whole.vertices.fixed[there]);
   }
+}
+
+// A refined body contributes stiffness by shares, which the part must have to come apart later.
+TYPED_TEST(SplitOffBody, TakesAlongTheSharesOfWhatWasRefined) {
+  auto body = three_boxes<TypeParam>();
+  refine(body, Volume{body.cell_dart[8]}, 0.5);
+  auto part = split_off(body, body.cell_dart[6]).part;
+  CellArrays arrays;
+  arrays.rebuild(part);
+  EXPECT_EQ(part.cell_dart.size(), 12u + 3u);
+  expect_consistent(part, arrays);
+}
+
+TYPED_TEST(SplitOffBody, RemembersWhichOfItsCellsWereListedInsideOut) {
+  auto body = three_boxes<TypeParam>();
+  for (std::size_t c = 0; c < body.cell_inside_out.size(); ++c) body.cell_inside_out[c] = c % 3 == 0;
+  std::vector<std::uint8_t> expected(body.cell_inside_out.begin() + 6, body.cell_inside_out.begin() + 18);
+  EXPECT_EQ(split_off(body, body.cell_dart[6]).part.cell_inside_out, expected);
 }
 
 TYPED_TEST(SplitOffBody, SharesMassMomentumAndSpringsOut) {

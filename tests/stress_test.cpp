@@ -332,6 +332,16 @@ TEST(PrincipalStress, OfWhatIsNotFiniteIsRefused) {
   }
 }
 
+TEST(PrincipalStressOfABody, IsTheLargestOfItsVertices) {
+  EXPECT_EQ(largest_principal_stress({}), 0.0);
+  std::vector<Matrix3d> stresses{Vector3d(-3, -7, -2).asDiagonal(), Vector3d(-5, -1, -9).asDiagonal()};
+  EXPECT_EQ(largest_principal_stress(stresses), -1.0);
+  stresses.push_back(Vector3d(1, 4, -20).asDiagonal());
+  EXPECT_EQ(largest_principal_stress(stresses), 4.0);
+  stresses[0](1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(largest_principal_stress(stresses), std::numeric_limits<double>::infinity());
+}
+
 TEST(PrincipalStressOfABody, IsNegativeUnderPressureFromAllSides) {
   auto body = body_of<Map3>(hexahedron_box(2, 2, 2, 0.5));
   move(body, 0.5 * Matrix3d::Identity());

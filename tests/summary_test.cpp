@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/topology/build.h"
+#include "core/topology/cells.h"
+#include "core/topology/orientation.h"
 #include "core/topology/sew.h"
 #include "tests/meshes_for_tests.h"
 
@@ -141,6 +143,25 @@ TEST(Orientation, GivesSignsThatEveryAlphaChanges) {
     EXPECT_EQ(std::abs((*sign)[d.index]), 1);
     for (int i = 0; i <= 3; ++i) EXPECT_TRUE(map.is_free(i, d) || (*sign)[map.alpha(i, d).index] == -(*sign)[d.index]);
   });
+}
+
+// Within a cell every alpha but the last changes the sign.
+template <class Map>
+void expect_orientations_by_signs(const Map& map) {
+  const auto sign = orientation(map);
+  ASSERT_TRUE(sign.has_value());
+  for_each_cell<Map::dimension>(map, [&](auto cell) {
+    for_each_dart_of(map, cell, [&](Dart d) {
+      ASSERT_EQ(same_orientation(map, cell.dart, d), (*sign)[d.index] == (*sign)[cell.dart.index]) << to_string(d);
+      ASSERT_EQ(same_orientation(map, d, cell.dart), (*sign)[d.index] == (*sign)[cell.dart.index]) << to_string(d);
+    });
+  });
+}
+
+TEST(Orientation, IsTheSameWithinACellWhereSignsAre) {
+  expect_orientations_by_signs(build_map<TetMap>(kuhn_grid(1, 1, 1, 1.0)).map);
+  expect_orientations_by_signs(build_map<Map3>(mixed_cells()).map);
+  expect_orientations_by_signs(build_map<Map2>(quadrilateral_grid(2, 2)).map);
 }
 
 TEST(Components, AreNumberedByTheirLowestDart) {

@@ -103,6 +103,18 @@ TEST(StepMatrix, FixedVerticesAreIdentityRows) {
       EXPECT_FALSE(a.body.fixed[j] || a.body.fixed[a.blocks.pattern.row[k]]);
 }
 
+TEST(StepMatrix, SpringsBetweenFixedVerticesCoupleNothing) {
+  Assembled a;
+  const auto [p, q] = a.body.ends[0];
+  a.body.fixed[p] = a.body.fixed[q] = 1;
+  a.matrix.evaluate(a.body.system(), a.tangents, 0.01);
+  const auto x = random_vectors(a.body.x.size(), 3);
+  auto y = x;
+  a.matrix.multiply(x, y);
+  EXPECT_EQ(y[p], x[p]);
+  EXPECT_EQ(y[q], x[q]);
+}
+
 // A w = M w + tau C w + tau^2 K w, summed from the blocks of tangent.h.
 TEST(StepMatrix, IsTheSumOfItsParts) {
   const Assembled a;

@@ -16,88 +16,16 @@
 #include "core/topology/check.h"
 #include "core/topology/summary.h"
 #include "core/views/cell_arrays.h"
-#include "tests/meshes_for_tests.h"
 #include "tests/rotation_for_tests.h"
+#include "tests/torn_body_for_tests.h"
 
 namespace dartboard {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using namespace torn_body;
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;  // unit roundoff
-
-template <class Map>
-using Body = MassSpringBody<Map, Held::by_every_dart>;
-
-template <class Map>
-Body<Map> body_of(const Mesh& mesh, std::vector<std::uint32_t> fixed = {}) {
-  Problem problem;
-  problem.mesh = mesh;
-  problem.material = {.density = 8.0, .stiffness = 4.0, .damping = 0.25, .viscosity = 0.5};
-  problem.fixed = std::move(fixed);
-  return build_body<Map, Held::by_every_dart>(problem);
-}
-
-template <class Map>
-void move(Body<Map>& body, const Matrix3d& matrix) {
-  for (Vector3d& x : body.vertices.position) x = matrix * x;
-}
-
-using Triple = std::array<std::uint32_t, 3>;
-
-// The face's three lowest mesh points, which tell it.
-template <class Map>
-Triple points_of(const Body<Map>& body, Dart face) {
-  std::set<std::uint32_t> points;
-  for_each_dart_of(body.map, Face{face}, [&](Dart d) { points.insert(body.vertices.point[body.vertex(body.map, d)]); });
-  auto next = points.begin();
-  Triple triple{};
-  for (auto& p : triple) p = *next++;
-  return triple;
-}
-
-// The unit normal of a face whose first three corners are not on a line.
-template <class Map>
-Vector3d normal_of(const Body<Map>& body, Dart d) {
-  const Dart next = body.map.template alpha<0, 1>(d), last = body.map.template alpha<0, 1>(next);
-  const auto x = [&](Dart e) { return body.vertices.position[body.vertex(body.map, e)]; };
-  const Vector3d a = x(next) - x(d), b = x(last) - x(d);
-  return Vector3d(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x())
-      .normalized();
-}
-
-/// A body with arrays that follow it, and what it has lost.
-template <class Map>
-struct Torn {
-  Body<Map> body;
-  CellArrays arrays{};
-  std::vector<Matrix3d> stress{};
-  std::set<Triple> faces{};         // that came apart, by mesh points
-  std::vector<Vector3d> normals{};  // of these
-  std::size_t followed = 0, vertices_apart = 0;
-
-  explicit Torn(Body<Map> start) : body(std::move(start)) { arrays.rebuild(body); }
-
-  TornVertices tear(const TearRule& rule, const FaceFilter& filter = {}) {
-    std::vector<std::array<std::uint32_t, 2>> ends;
-    for (const EdgeEntry& edge : arrays.edges) ends.push_back(edge.ends);
-    return tear_where_stressed(
-        body, ends, rule, filter,
-        [this](const TopologyChange& change) {
-          ++followed;
-          vertices_apart += change.vertices.size();
-          arrays.apply(body, adapt(body, change));
-          for (const DissociatedCell& face : change.faces) {
-            faces.insert(points_of(body, face.kept));
-            normals.push_back(normal_of(body, face.kept));
-          }
-        },
-        stress);
-  }
-};
-
-Mesh jittered_box() { return kuhn_grid(3, 2, 4, 0.5, 0.1, 9); }
-const Matrix3d along_z = Vector3d(1, 1, 1.5).asDiagonal();
 
 template <class Map>
 struct Tearing : testing::Test {};
@@ -273,6 +201,10 @@ TYPED_TEST(Tearing, TakesTheMostStressedFirstAndStopsAtTheMostPerStep) {
   // the threshold just below the largest lets the same vertex tear and no other
   const TornVertices top = other.tear({.threshold = one.largest_stress * (1 - 0x1p-30), .least_alignment = 0.0});
   EXPECT_EQ(top.stressed, 1u);
+  EXPECT_GT(one.stressed, 1u);
+  Torn<TypeParam> same(body_of<TypeParam>(jittered_box()));
+  move(same.body, along_z);
+  EXPECT_EQ(same.tear({.threshold = one.largest_stress}).stressed, 0u);  // above, and not at
   EXPECT_EQ(top.largest_stress, one.largest_stress);
   EXPECT_EQ(other.faces, bar.faces);
   EXPECT_EQ(other.tear({.threshold = 1.0, .most_per_step = 0}).tears, 0u);

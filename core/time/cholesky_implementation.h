@@ -1,5 +1,6 @@
 #pragma once
-// What is behind the facade of cholesky.h: CHOLMOD's objects and how they are kept in step. For its sources only.
+// What is behind the facade of cholesky.h: CHOLMOD's objects and how they are kept in step. For its sources and tests
+// only.
 
 #include <cholmod.h>
 
