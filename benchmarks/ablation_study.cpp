@@ -139,7 +139,9 @@ std::vector<AblationPair> staircase() {
 
 Verdict verdict_on_time(const Figure& figure) {
   if (figure.interval.high < 1.0) return Verdict::not_tested;
-  return figure.median <= 1.005 ? Verdict::holds : Verdict::falls_short;
+  Claim claim;
+  judge(claim, at_most(figure, 1.005));
+  return claim.verdict;
 }
 
 namespace {

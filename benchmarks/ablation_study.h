@@ -43,8 +43,9 @@ std::vector<AblationPair> switched_off();
 /// anywhere in it, and no look at whether the state is finite).
 std::vector<AblationPair> staircase();
 
-/// Does what the task of a pair has more take at most half a percent of a step? Not tested where the baseline, which
-/// does less, is the slower one by more than its interval: it is no lower bound then, and the ratio says nothing.
+/// Does what the task of a pair has more take at most half a percent of a step? Not tested where the interval lies on
+/// both sides of that with the median above, or where the baseline, which does less, is the slower one by more than its
+/// interval: it is no lower bound then, and the ratio says nothing.
 Verdict verdict_on_time(const Figure& task_over_baseline);
 
 struct AblationOptions {

@@ -4,13 +4,16 @@
 
 #include <filesystem>
 
+#include "benchmarks/json_text.h"
+#include "benchmarks/tell.h"
+
 namespace dartboard {
 
 std::shared_ptr<BenchOptions> add_bench_options(CLI::App& verb, const std::string& quick, const std::string& seed) {
   auto options = std::make_shared<BenchOptions>();
   verb.add_flag("--quick", options->quick, quick);
   verb.add_option("--out", options->out,
-                  fmt::format("folder to write to, new or empty [results/{}-TIME]", verb.get_name()));
+                  fmt::format("folder to write to, new or empty [dartboard-results/{}-TIME]", verb.get_name()));
   verb.add_option("--seed", options->seed, fmt::format("of {} [1]", seed));
   verb.add_flag("--json", options->json,
                 "print claims and manifest as JSON on standard output, the rest on standard error");
@@ -18,24 +21,21 @@ std::shared_ptr<BenchOptions> add_bench_options(CLI::App& verb, const std::strin
 }
 
 BenchRun::BenchRun(const BenchOptions& options, const std::string& label, const RunFacts& facts)
-    : options_(options),
-      folder_(options.out.empty() ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", label)
-                                  : std::filesystem::path(options.out)),
-      manifest_(begin_manifest(facts)) {
+    : options_(options), folder_(run_path(options.out, label)), manifest_(begin_manifest(facts)) {
   manifest_["quick"] = options.quick;
   folder_.write_manifest(manifest_);
 }
 
-void BenchRun::say(const std::string& text) const { fmt::print(options_.json ? stderr : stdout, "{}\n", text); }
+void BenchRun::say(const std::string& text) const { tell(options_.json ? stderr : stdout, "{}\n", text); }
 
-void BenchRun::finish(std::span<const Claim> claims, bool agrees, const std::string& otherwise) {
+void BenchRun::finish(std::span<const Claim> claims, const std::string& first) {
   finish_manifest(manifest_);
   folder_.write_manifest(manifest_);
   if (options_.json)
-    fmt::print("{}\n",
-               nlohmann::json{{"claims", std::vector(claims.begin(), claims.end())}, {"manifest", manifest_}}.dump(2));
-  say(fmt::format("{}{} Written to {}.", options_.quick ? "This was a quick run. " : "",
-                  agrees ? "Every target holds." : otherwise, folder_.path().string()));
+    tell("{}\n",
+         json_text(nlohmann::json{{"claims", std::vector(claims.begin(), claims.end())}, {"manifest", manifest_}}, 2));
+  say(fmt::format("{}{}{}\nWritten to {}: claims.md, tables, and all samples.",
+                  options_.quick ? "This was a quick run. " : "", first, in_words(claims), folder_.path().string()));
 }
 
 }  // namespace dartboard

@@ -27,15 +27,15 @@ std::shared_ptr<BenchOptions> add_bench_options(CLI::App& verb, const std::strin
 /// A run that has a folder, and a manifest in it from its start on.
 class BenchRun {
  public:
-  /// The folder is that of the options, or results/LABEL-TIME.
+  /// The folder is that of the options, or dartboard-results/LABEL-TIME.
   BenchRun(const BenchOptions& options, const std::string& label, const RunFacts& facts);
 
   const RunFolder& folder() const { return folder_; }
   /// On standard output; on standard error where that is for JSON.
   void say(const std::string& text) const;
-  /// Complete the manifest, print the JSON asked for, and say where everything is: "Every target holds." or
-  /// `otherwise`.
-  void finish(std::span<const Claim> claims, bool agrees, const std::string& otherwise);
+  /// Complete the manifest, print the JSON asked for, and say what was found and where everything is; `first` before
+  /// that.
+  void finish(std::span<const Claim> claims, const std::string& first = "");
 
  private:
   BenchOptions options_;

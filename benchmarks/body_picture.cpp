@@ -10,6 +10,7 @@
 #include <set>
 
 #include "benchmarks/gnuplot.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -180,9 +181,10 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
       data += moved_corners(facet.corners, shift, 0.4 / pixels, shaded(facet.colour, 0.72));
       data += moved_corners(facet.corners, shift, -0.9 / pixels, facet.colour);
     }
-    labels += fmt::format("set label {} {} at {:.6g},graph 0.02 center font \",13\"\n", k + 1,
-                          quoted(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),
-                          static_cast<double>(k) * size.x());
+    labels +=
+        fmt::format("set label {} {} at {:.6g},graph 0.02 center font \",13\"\n", k + 1,
+                    gnuplot_string(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),
+                    static_cast<double>(k) * size.x());
   }
   write_plot_file(folder / (name + ".dat"), data);
   const int width = static_cast<int>(std::lround(std::max(560.0, pixels * whole.x())));
@@ -193,9 +195,9 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
       "set style fill solid 1.0 noborder\n",
       quoted_title(title, width, 16.0, 1), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(),
       0.5 * size.y());
-  const std::string commands =
-      data.empty() ? "plot NaN"
-                   : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable", quoted(name + ".dat"));
+  const std::string commands = data.empty() ? "plot NaN"
+                                            : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable",
+                                                          plot_source(name + ".dat"));
   write_plot_file(folder / (name + ".gnuplot"), setup + for_both_pictures(commands, name, width, height));
   return run_gnuplot(gnuplot, folder, name);
 }

@@ -7,12 +7,19 @@
 
 namespace dartboard {
 
-std::int64_t thread_cpu_ns() {
+namespace {
+
+std::int64_t cpu_ns(clockid_t clock) {
   timespec t{};
-  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) != 0)
-    throw std::system_error(errno, std::generic_category(), "cannot read the processor time of this thread");
+  if (clock_gettime(clock, &t) != 0)
+    throw std::system_error(errno, std::generic_category(), "cannot read the processor time");
   return std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
+
+}  // namespace
+
+std::int64_t thread_cpu_ns() { return cpu_ns(CLOCK_THREAD_CPUTIME_ID); }
+std::int64_t process_cpu_ns() { return cpu_ns(CLOCK_PROCESS_CPUTIME_ID); }
 
 std::int64_t steady_wall_ns() {
   const auto since_start = std::chrono::steady_clock::now().time_since_epoch();

@@ -10,6 +10,9 @@ namespace dartboard {
 /// neighbour disturbs it little; neither does the work of other threads, so a threaded task needs the wall clock.
 std::int64_t thread_cpu_ns();
 
+/// Processor time that all threads of the process have used [ns].
+std::int64_t process_cpu_ns();
+
 /// Wall time on a clock that is never set back [ns].
 std::int64_t steady_wall_ns();
 

@@ -40,10 +40,6 @@ std::vector<nlohmann::ordered_json> nameless_cells(const ExtremesResults& result
 /// Targets of our own, of the studies that were made.
 std::vector<Claim> claims_of(const ExtremesResults& results);
 
-struct NamedTable {
-  std::string study, name, heading;  // "limits", "frequencies", "Highest frequencies of meshes, by Lanczos"
-  Table table;
-};
 /// Of the studies that were made.
 std::vector<NamedTable> tables_of(const ExtremesResults& results);
 

@@ -10,8 +10,10 @@
 #include <utility>
 
 #include "benchmarks/extremes_figures.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/processes.h"
 #include "benchmarks/progress.h"
+#include "benchmarks/tell.h"
 #include "core/meshes/mesh_io.h"
 #include "core/time/integrators.h"
 #include "validation/delaunay_ball.h"
@@ -75,10 +77,10 @@ std::span<const ExtremeAxis> extremes_studies() { return studies; }
 void run_extremes_child(std::string_view axis, bool quick, std::size_t from) {
   const std::vector<ExtremeCase> cases = extreme_cases(axis, quick);
   for (std::size_t k = from; k < cases.size(); ++k) {
-    fmt::print("{}\n", k);
+    tell("{}\n", k);
     std::fflush(stdout);
     ::alarm(hang_seconds);  // ends the process: a hang is a crash
-    fmt::print("{}\n", to_json(cases[k].run()).dump());
+    tell("{}\n", json_text(to_json(cases[k].run())));
     std::fflush(stdout);
   }
 }
@@ -88,7 +90,7 @@ ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made
   const bool quick = plan.quick;
   const auto wants = [&plan](std::string_view study) { return plan.axis.empty() || plan.axis == study; };
   const auto begin = [&plan, &wants](const ExtremeAxis& study) {
-    if (wants(study.name) && !plan.silent) fmt::print(stderr, "extremes: {}\n", study.what);
+    if (wants(study.name) && !plan.silent) tell(stderr, "extremes: {}\n", study.what);
     return wants(study.name);
   };
   if (begin(studies[0])) {

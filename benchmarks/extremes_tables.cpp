@@ -187,25 +187,47 @@ Table table_of(const std::vector<Detection>& all) {
 std::vector<NamedTable> tables_of(const ExtremesResults& results) {
   std::vector<NamedTable> tables;
   if (!results.cells.empty()) {
-    tables.push_back({"matrix", "extremes", "Extremes, by axis", count_outcomes(results.cells, "axis")});
-    tables.push_back({"matrix", "integrators", "Extremes, by integrator", count_outcomes(results.cells, "integrator")});
+    tables.push_back({.name = "extremes",
+                      .heading = "Extremes, by axis",
+                      .table = count_outcomes(results.cells, "axis"),
+                      .study = "matrix"});
+    tables.push_back({.name = "integrators",
+                      .heading = "Extremes, by integrator",
+                      .table = count_outcomes(results.cells, "integrator"),
+                      .study = "matrix"});
   }
   if (!results.limits.empty())
-    tables.push_back(
-        {"limits", "limits", "Longest stable step times omega_max, beside theory", table_of(results.limits)});
+    tables.push_back({.name = "limits",
+                      .heading = "Longest stable step times omega_max, beside theory",
+                      .table = table_of(results.limits),
+                      .study = "limits"});
   if (!results.meshes.empty())
-    tables.push_back({"limits", "frequencies", "Highest frequencies of meshes, by Lanczos", table_of(results.meshes)});
+    tables.push_back({.name = "frequencies",
+                      .heading = "Highest frequencies of meshes, by Lanczos",
+                      .table = table_of(results.meshes),
+                      .study = "limits"});
   if (!results.maps.empty())
-    tables.push_back({"maps", "maps", "Boundaries of stability, by runs and in theory", table_of(results.maps)});
+    tables.push_back({.name = "maps",
+                      .heading = "Boundaries of stability, by runs and in theory",
+                      .table = table_of(results.maps),
+                      .study = "maps"});
   if (!results.amplification.empty())
-    tables.push_back(
-        {"amplification", "amplification", "One step of an undamped oscillation", table_of(results.amplification)});
+    tables.push_back({.name = "amplification",
+                      .heading = "One step of an undamped oscillation",
+                      .table = table_of(results.amplification),
+                      .study = "amplification"});
   if (!results.rounding.empty())
-    tables.push_back({"rounding", "rounding", "Energy error by rounding alone", table_of(results.rounding)});
-  if (!results.tiny.empty()) tables.push_back({"rounding", "tiny", "Tiny steps", table_of(results.tiny)});
+    tables.push_back({.name = "rounding",
+                      .heading = "Energy error by rounding alone",
+                      .table = table_of(results.rounding),
+                      .study = "rounding"});
+  if (!results.tiny.empty())
+    tables.push_back({.name = "tiny", .heading = "Tiny steps", .table = table_of(results.tiny), .study = "rounding"});
   if (!results.detections.empty())
-    tables.push_back(
-        {"detection", "detection", "Unstable steps: predicted, and detected", table_of(results.detections)});
+    tables.push_back({.name = "detection",
+                      .heading = "Unstable steps: predicted, and detected",
+                      .table = table_of(results.detections),
+                      .study = "detection"});
   return tables;
 }
 

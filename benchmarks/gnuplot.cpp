@@ -11,6 +11,7 @@
 
 #include "benchmarks/processes.h"
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -29,21 +30,13 @@ std::size_t letters(const std::string& text) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
 std::string quoted_title(const std::string& text, int width, double font, int lines) {
   // DejaVu Sans: letters are 0.6 of the font wide on average, blanks included; a point is 4/3 pixels
   const auto most = static_cast<std::size_t>(std::max(20.0, 0.94 * width / (0.6 * font * 4.0 / 3.0)));
   std::vector<std::string> broken(1);
   std::istringstream words(text);
   for (std::string word; words >> word;) {
+    word = shortened(terminal_text(word), most);
     std::string& line = broken.back();
     if (line.empty())
       line = word;
@@ -59,22 +52,28 @@ std::string quoted_title(const std::string& text, int width, double font, int li
     }
   }
   std::string out;
-  for (const std::string& line : broken) {
-    const std::string part = quoted(line);
-    out += (out.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
-  }
-  return "\"" + out + "\"";
+  for (const std::string& line : broken) out += (out.empty() ? "" : " . \"\\n\" . ") + gnuplot_string(line);
+  return out;
 }
 
+std::string data_string(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : terminal_text(text)) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string plot_source(const std::string& file) { return gnuplot_string("./" + file); }
+
 std::string DataBlocks::add(const std::string& what, const std::string& lines) {
-  std::string comment = what;
-  std::ranges::replace(comment, '\n', ' ');
-  text_ += fmt::format("{}# {}\n{}", count_ == 0 ? "" : "\n\n", comment, lines);
-  return fmt::format("{} index {}", quoted(file()), count_++);
+  text_ += fmt::format("{}# {}\n{}", count_ == 0 ? "" : "\n\n", terminal_text(what), lines);
+  return fmt::format("{} index {}", plot_source(file()), count_++);
 }
 
 std::string plot_element(const PlotSeries& s, const std::string& data) {
-  const std::string title = s.title.empty() ? "notitle" : "title " + quoted(s.title);
+  const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_string(shortened(s.title, 80));
   std::string look = s.staircase                     ? "steps"
                      : s.width > 0.0 && s.symbol > 0 ? "linespoints"
                      : s.width > 0.0                 ? "lines"
@@ -103,8 +102,10 @@ void write_plot_file(const std::filesystem::path& file, const std::string& text)
 std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name) {
   std::string said;
   try {
-    run_program(gnuplot, {"-e", fmt::format("cd {}", quoted(folder.string())), name + ".gnuplot"},
-                [&](std::string_view line) { said += fmt::format(" {}", line); });
+    // in that folder, as a path with a slash: no command, no option and no pipe can be made of a name
+    run_program(
+        gnuplot, {"./" + name + ".gnuplot"}, [&](std::string_view line) { said += fmt::format(" {}", line); },
+        Stderr::shown, folder);
   } catch (const ProcessError& error) {
     return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
   }
@@ -116,7 +117,7 @@ std::string for_both_pictures(const std::string& commands, const std::string& na
   for (const auto& [terminal, end] :
        {std::pair(png_terminal(width, height), "png"), {svg_terminal(width, height), "svg"}})
     script += fmt::format("set terminal {}\nset output {}\n{}\nunset output\n", terminal,
-                          quoted(fmt::format("{}.{}", name, end)), commands);
+                          plot_source(fmt::format("{}.{}", name, end)), commands);
   return script;
 }
 

@@ -8,11 +8,15 @@
 
 namespace dartboard {
 
-/// Text within gnuplot's double quotes.
-std::string quoted(const std::string& text);
+/// Text in a file of data, where gnuplot runs nothing but knows double quotes alone.
+std::string data_string(const std::string& text);
 
-/// The same of a title for a picture of that width [pixels] and font [points]: broken between words into at most
-/// `lines` lines, shortened with "..." where these do not hold it.
+/// A file in the folder that the script runs in, as a script names it; never a pipe, as a name that begins with "<" or
+/// "|" would be.
+std::string plot_source(const std::string& file);
+
+/// The title of a picture of that width [pixels] and font [points], as an expression of gnuplot: broken between words
+/// into at most `lines` lines, shortened with "..." where these do not hold it.
 std::string quoted_title(const std::string& text, int width, double font, int lines = 3);
 
 /// ... using 1:2 with ...: a series drawn from its data ("figure.dat" index 3), with its labels if it has some.
@@ -37,7 +41,7 @@ class DataBlocks {
 /// throws  IoError if it cannot be written
 void write_plot_file(const std::filesystem::path& file, const std::string& text);
 
-/// Run a script that lies in `folder`.
+/// Run the script "`name`.gnuplot" that lies in `folder`.
 ///
 /// returns what went wrong, in a sentence; empty when all is well
 std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name);

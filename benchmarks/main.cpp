@@ -6,17 +6,22 @@
 #include <CLI/Formatter.hpp>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <system_error>
 
 #include "benchmarks/cli.h"
 #include "benchmarks/option_checks.h"
+#include "benchmarks/tell.h"
 #include "core/plain/error.h"
+#include "core/time/stop_request.h"
 
 using namespace dartboard;
 
 namespace {
+
+constexpr std::size_t longest_message = 2000;  // letters
 
 // CLI11 would answer "a subcommand is required" to a misspelt one.
 void require_known_verb(const CLI::App& app, int argc, char** argv) {
@@ -32,12 +37,16 @@ void require_known_verb(const CLI::App& app, int argc, char** argv) {
 /// What was printed may still wait in a buffer, for a disk that is full or a reader that is gone.
 /// returns  `exit_code`, or that of a failure when standard output did not take everything
 int written_out(int exit_code) {
+  if (exit_code > 128) {  // ended by a signal, perhaps because the terminal is gone
+    std::fflush(stdout);
+    return exit_code;
+  }
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
   if (exit_code == exit_io) return exit_io;  // said already
   const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
-  fmt::print(stderr, "dartboard: standard output cannot be written{}\n", reason);
+  tell(stderr, "dartboard: standard output cannot be written{}\n", reason);
   return exit_io;
 }
 
@@ -48,7 +57,7 @@ int run(int argc, char** argv) {
   CLI::App app("Scores a topology-based mechanical simulator on truth, speed and stability.", "dartboard");
   app.require_subcommand(1);
   app.set_version_flag("--version", DARTBOARD_VERSION);
-  app.footer("Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed.");
+  app.footer("Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed, or a picture could not be drawn.");
   add_reproduce(app, outcome);
   add_validate(app, outcome);
   add_bench(app, outcome);
@@ -72,17 +81,22 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "dartboard: {}\nRun with --help for more information.\n", error.what());
+    tell(stderr, "dartboard: {}\nRun with --help for more information.\n", one_line(error.what(), longest_message));
     return exit_usage;
   } catch (const InputError& error) {
-    fmt::print(stderr, "dartboard: {}\n", error.what());
+    tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
     return exit_usage;
   } catch (const std::exception& error) {  // IoError, and what the system throws when a disk or a process fails
-    fmt::print(stderr, "dartboard: {}\n", error.what());
+    tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
     return exit_io;
   }
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return written_out(run(argc, argv)); }
+int main(int argc, char** argv) {
+  const int exit_code = written_out(run(argc, argv));
+  // a factorisation that was given up still works on what the end of the process would take from it
+  if (work_left_behind()) std::_Exit(exit_code);
+  return exit_code;
+}

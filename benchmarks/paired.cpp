@@ -236,6 +236,13 @@ Times times_of(std::span<const Sample> samples, std::string_view task) {
   return {cpu.median, wall.median, cpu.min, wall.min, cpu.variation, wall.variation};
 }
 
+Figure cpu_figure(std::span<const Sample> samples, std::string_view task) {
+  RoundValues by_process;
+  for (const auto& [process, rounds] : samples_of(samples, task))
+    for (const auto& [round, sample] : rounds) by_process[process].push_back(cpu_of(*sample));
+  return figure_of(medians(by_process));
+}
+
 std::vector<std::uint64_t> hashes_of(std::span<const Sample> samples, std::string_view task) {
   std::set<std::uint64_t> hashes;
   for (const Sample& sample : samples)

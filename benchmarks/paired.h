@@ -95,6 +95,11 @@ struct Times {
 /// throws  InputError if there is no sample of the task
 Times times_of(std::span<const Sample> samples, std::string_view task);
 
+/// Processor time of a task [ns]: the median over processes of the median over rounds, and the interval over processes.
+///
+/// throws  InputError if there is no sample of the task
+Figure cpu_figure(std::span<const Sample> samples, std::string_view task);
+
 /// The different state hashes that a task left, ascending; more than one means that it does not repeat itself.
 std::vector<std::uint64_t> hashes_of(std::span<const Sample> samples, std::string_view task);
 

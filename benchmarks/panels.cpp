@@ -6,6 +6,7 @@
 
 #include "benchmarks/gnuplot.h"
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -22,19 +23,19 @@ std::string field_data(const Panels& panels, const Field& field) {
 std::string axis(char which, bool logarithmic, double low, double high, const std::string& label) {
   return fmt::format(
       "{0} logscale {1}\nset format {1} \"{2}\"\nset {1}range [{3:.17g}:{4:.17g}]\nset {1}label {5} noenhanced\n",
-      logarithmic ? "set" : "unset", which, logarithmic ? "10^{%T}" : "%g", low, high, quoted(label));
+      logarithmic ? "set" : "unset", which, logarithmic ? "10^{%T}" : "%g", low, high, gnuplot_string(label));
 }
 
 std::string panel_script(const Panels& panels, std::size_t k, DataBlocks& data) {
   const Panel& panel = panels.panels[k];
-  std::string script = fmt::format("set title {} noenhanced font \",13\" offset 0,-0.5\n", quoted(panel.title)) +
-                       axis('x', panel.x_log, panel.x_low, panel.x_high, panel.x_axis) +
-                       axis('y', panel.y_log, panel.y_low, panel.y_high, panel.y_axis) +
-                       "set xtics autofreq\nset ytics autofreq\n";
+  std::string script =
+      fmt::format("set title {} noenhanced font \",13\" offset 0,-0.5\n", gnuplot_string(panel.title)) +
+      axis('x', panel.x_log, panel.x_low, panel.x_high, panel.x_axis) +
+      axis('y', panel.y_log, panel.y_low, panel.y_high, panel.y_axis) + "set xtics autofreq\nset ytics autofreq\n";
   if (!panel.y_ticks.empty()) {
     std::string ticks;
     for (const Tick& t : panel.y_ticks)
-      ticks += fmt::format("{}{} {:.17g}", ticks.empty() ? "" : ", ", quoted(t.label), t.at);
+      ticks += fmt::format("{}{} {:.17g}", ticks.empty() ? "" : ", ", gnuplot_string(t.label), t.at);
     script += fmt::format("set ytics ({})\n", ticks);
   }
   script += panel.key.empty() ? "unset key\n"
@@ -73,7 +74,7 @@ std::string panels_script(const Panels& panels, const std::string& name) {
       "set xlabel font \",12\"\nset ylabel font \",12\"\n"
       "set palette defined (0 \"#2166ac\", 0.25 \"#92c5de\", 0.5 \"#f7f7f7\", 0.75 \"#f4a582\", 1 \"#b2182b\")\n"
       "set cbrange [{:.17g}:{:.17g}]\nset cblabel {} noenhanced font \",12\"\n",
-      panels.field_low, panels.field_high, quoted(panels.field_label));
+      panels.field_low, panels.field_high, gnuplot_string(panels.field_label));
   script += fields ? "set colorbox user origin 0.945,0.2 size 0.012,0.6\n" : "unset colorbox\n";
   for (const auto& [terminal, end] : {std::pair(png_terminal(panels.width, panels.height), "png"),
                                       {svg_terminal(panels.width, panels.height), "svg"}}) {
@@ -81,7 +82,7 @@ std::string panels_script(const Panels& panels, const std::string& name) {
         "set terminal {}\nset output {}\n"
         "set multiplot layout {},{} rowsfirst margins 0.055,{},0.075,0.9 spacing 0.055,0.13 title {} noenhanced font "
         "\",17\"\n",
-        terminal, quoted(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
+        terminal, plot_source(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
         quoted_title(panels.title, panels.width, 17.0, 1));
     DataBlocks data(name);
     for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, data);

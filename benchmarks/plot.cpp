@@ -7,6 +7,7 @@
 
 #include "benchmarks/gnuplot.h"
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -40,7 +41,7 @@ Drawing drawing_of(const Plot& plot, const std::string& name) {
 
 std::string plot_data(const PlotSeries& series) {
   std::string text;
-  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, quoted(p.label));
+  for (const auto& p : series.points) text += fmt::format("{:.17g} {:.17g} {}\n", p.x, p.y, data_string(p.label));
   return text;
 }
 
@@ -59,11 +60,11 @@ std::string plot_script(const Plot& plot, const std::string& name) {
       "set datafile separator whitespace\n",
       plot.x_low, plot.x_high, plot.y_low, plot.y_high,
       quoted_title(plot.title + (plot.subtitle.empty() ? "" : " - " + plot.subtitle), plot_width(plot), title_font),
-      title_font, quoted(plot.x_axis), quoted(plot.y_axis));
+      title_font, gnuplot_string(plot.x_axis), gnuplot_string(plot.y_axis));
   if (!plot.rows.empty()) {
     std::string names;
     for (std::size_t k = 0; k < plot.rows.size(); ++k)
-      names += fmt::format("{}{} {}", k == 0 ? "" : ", ", quoted(plot.rows[k]), k + 1);
+      names += fmt::format("{}{} {}", k == 0 ? "" : ", ", gnuplot_string(plot.rows[k]), k + 1);
     script += fmt::format(
         "unset logscale y\nunset mytics\nset ytics ({}) noenhanced\nset format x \"%g\"\nunset mxtics\n"
         "set xtics (0.1, 0.2, 0.5, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2, 3, 5, 10, 20, 50, 100)\n",
@@ -87,7 +88,7 @@ std::string plot_script(const Plot& plot, const std::string& name) {
         plot.shaded_below);
     script += fmt::format(
         "set label 1 {} at graph 0.01, graph 0.02 noenhanced textcolor rgb \"#707070\" font \",11\" front\n",
-        quoted(plot.shaded_label));
+        gnuplot_string(plot.shaded_label));
   }
   return script + for_both_pictures(drawing_of(plot, name).lines, name, plot.width, plot.height);
 }

@@ -41,25 +41,26 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// Where the three standard streams of a child lead.
-class Redirections {
+/// Where the three standard streams of a child lead, and the folder that it runs in.
+class Surroundings {
  public:
-  Redirections(int standard_output, Stderr errors) {
+  Surroundings(int standard_output, Stderr errors, const std::filesystem::path& folder) {
     check(posix_spawn_file_actions_init(&actions_));
     check(posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0));
     check(posix_spawn_file_actions_adddup2(&actions_, standard_output, STDOUT_FILENO));
     if (errors == Stderr::discarded)
       check(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0));
+    if (!folder.empty()) check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
   }
-  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
-  Redirections(const Redirections&) = delete;
-  Redirections& operator=(const Redirections&) = delete;
+  ~Surroundings() { posix_spawn_file_actions_destroy(&actions_); }
+  Surroundings(const Surroundings&) = delete;
+  Surroundings& operator=(const Surroundings&) = delete;
 
   const posix_spawn_file_actions_t* get() const { return &actions_; }
 
  private:
   static void check(int error) {
-    if (error != 0) throw std::system_error(error, std::generic_category(), "cannot redirect the streams of a child");
+    if (error != 0) throw std::system_error(error, std::generic_category(), "cannot prepare a child");
   }
   posix_spawn_file_actions_t actions_;
 };
@@ -95,13 +96,13 @@ std::string command_line(const std::string& program, const std::vector<std::stri
 }
 
 pid_t spawn(const std::string& path, const std::string& name, const std::vector<std::string>& arguments,
-            const Redirections& redirections) {
+            const Surroundings& surroundings) {
   // the child's arguments are not modified: the missing const is C's
   std::vector<char*> argv{const_cast<char*>(name.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_t pid = -1;
-  const int error = posix_spawnp(&pid, path.c_str(), redirections.get(), nullptr, argv.data(), environ);
+  const int error = posix_spawnp(&pid, path.c_str(), surroundings.get(), nullptr, argv.data(), environ);
   if (error != 0)
     throw ProcessError(fmt::format("cannot start `{}`: {}", command_line(name, arguments), std::strerror(error)));
   return pid;
@@ -126,9 +127,9 @@ void read_lines(int descriptor, const LineSink& on_line) {
 
 /// Like run_program, but what the child finds as its own name may differ from its path.
 void run(const std::string& path, const std::string& name, const std::vector<std::string>& arguments,
-         const LineSink& on_line, Stderr errors) {
+         const LineSink& on_line, Stderr errors, const std::filesystem::path& folder = {}) {
   Pipe pipe;
-  Child child(spawn(path, name, arguments, Redirections(pipe.write_end(), errors)));
+  Child child(spawn(path, name, arguments, Surroundings(pipe.write_end(), errors, folder)));
   // the end of the output shows only once no writer is left, ourselves included
   pipe.close_write_end();
   read_lines(pipe.read_end(), on_line);
@@ -144,8 +145,8 @@ void run(const std::string& path, const std::string& name, const std::vector<std
 }  // namespace
 
 void run_program(const std::string& program, const std::vector<std::string>& arguments, const LineSink& on_line,
-                 Stderr errors) {
-  run(program, program, arguments, on_line, errors);
+                 Stderr errors, const std::filesystem::path& folder) {
+  run(program, program, arguments, on_line, errors, folder);
 }
 
 void run_self(const std::vector<std::string>& arguments, const LineSink& on_line) {

@@ -1,6 +1,7 @@
 #pragma once
 // Child processes, run one after the other, their standard output read line by line.
 
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -21,11 +22,11 @@ using LineSink = std::function<void(std::string_view line)>;
 enum class Stderr { shown, discarded };
 
 /// Run a program, searched in PATH unless it holds a slash, and wait for its end. No shell comes in between, so nothing
-/// in an argument needs quoting. Standard input is empty.
+/// in an argument needs quoting. Standard input is empty. It runs in `folder`, or where we are.
 ///
 /// throws  ProcessError; whatever `on_line` throws, after the child has been killed
 void run_program(const std::string& program, const std::vector<std::string>& arguments, const LineSink& on_line,
-                 Stderr errors = Stderr::shown);
+                 Stderr errors = Stderr::shown, const std::filesystem::path& folder = {});
 
 /// Run the executable that is now running, again. It is reached through /proc/self/exe: still the same one when a build
 /// has replaced the file meanwhile, so a study never mixes two builds.

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "benchmarks/clock.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -45,7 +46,8 @@ void Progress::advance(std::string_view detail) {
 }
 
 void Progress::print(std::string_view detail) {
-  std::string line = fmt::format("{}: {}/{}{}{}", label_, done_, total_, detail.empty() ? "" : "  ", detail);
+  std::string line =
+      terminal_text(fmt::format("{}: {}/{}{}{}", label_, done_, total_, detail.empty() ? "" : "  ", detail));
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;

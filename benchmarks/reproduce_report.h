@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "benchmarks/claim.h"
+#include "benchmarks/operation_study.h"
 #include "benchmarks/paired.h"
 #include "benchmarks/table.h"
+#include "core/mechanics/mass_spring_body.h"
 #include "core/plain/problem.h"
 #include "validation/motion_agreement.h"
 #include "validation/topology_agreement.h"
@@ -19,7 +21,6 @@ struct ReproduceResults {
   std::vector<CountAgreement> counts;
   std::vector<MotionAgreement> motion;
   std::vector<Sample> per_step;  // scaled to one step
-  double rebuild_ms = 0.0;       // building the cell arrays from scratch
 
   bool timed(const std::string& id) const;
   Ratio ratio(const std::string& id, const std::string& baseline) const { return paired_ratio(per_step, id, baseline); }
@@ -33,10 +34,34 @@ Table timing_table(const ReproduceResults& results);
 /// Why our ratios are not the paper's, in numbers.
 std::string timing_note(const ReproduceResults& results, const Problem& problem);
 
-/// Time to build the cell arrays of the problem's body from scratch [ms], median of a few.
-double measure_rebuild_ms(const Problem& problem);
+/// What the gates let through: no timing without agreement.
+struct ReproduceGates {
+  std::vector<std::string> agreed;  // the contenders that may be timed; none where the topology differs from CGAL's
+  bool passed = false;              // all of them, and there is at least one
+};
+ReproduceGates gates_of(const std::vector<CountAgreement>& counts, const std::vector<MotionAgreement>& motion);
 
-/// The claims about the body that need no clock, then those about time.
+/// What the paper says of maps and of its body, tried out on the body of the problem.
+std::vector<Claim> answer_topology(const std::vector<CountAgreement>& counts, const Problem& problem);
+
+/// The part of them that a built body can be wrong in: its map, its masses and its springs.
+std::vector<Claim> answer_body(const MassSpringBody<Map3, Held::by_every_dart>& body, const Problem& problem);
+
+/// What it says of times, where all contenders were timed.
+std::vector<Claim> answer_time(const ReproduceResults& results);
+
+/// The paper's Fig. 9: series of `removals` removals, the arrays rebuilt once after each. Negligible is read as a
+/// tenth.   pre  there is a series
+Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals);
+/// Seven series of twenty removals, timed.
+Claim measure_rebuild_claim(const Problem& problem);
+
+/// All of them, in the order of the paper.
 std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem);
+
+/// What the run comes to: 1 if a gate has failed, or as exit_code(claims).
+int reproduce_exit_code(const std::vector<Claim>& claims, bool gates_passed);
+/// The last lines: what was found, and what to try next.
+std::string closing_words(const std::vector<Claim>& claims, bool gates_passed, bool quick);
 
 }  // namespace dartboard

@@ -8,7 +8,9 @@
 #include <system_error>
 
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -25,7 +27,7 @@ void check_finite(const nlohmann::json& value, const std::string& pointer) {
 
 std::string dump(const nlohmann::json& value, int indent) {
   check_finite(value, "");
-  return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(value, indent);
 }
 
 }  // namespace
@@ -39,19 +41,7 @@ void JsonLines::append(const nlohmann::json& value) {
   if (!stream_) throw IoError(fmt::format("{}: a line could not be written; is the disk full?", file_.string()));
 }
 
-RunFolder::RunFolder(fs::path path) : path_(std::move(path)) {
-  std::error_code error;
-  if (fs::exists(path_, error)) {
-    if (!fs::is_directory(path_, error)) throw IoError(fmt::format("{}: is a file, expected a folder", path_.string()));
-    const bool empty = fs::is_empty(path_, error);
-    if (error) throw IoError(fmt::format("{}: cannot be read: {}", path_.string(), error.message()));
-    if (!empty)
-      throw IoError(fmt::format("{}: is not empty, expected a new or empty folder for the results", path_.string()));
-    return;
-  }
-  fs::create_directories(path_, error);
-  if (error) throw IoError(fmt::format("{}: cannot be created: {}", path_.string(), error.message()));
-}
+RunFolder::RunFolder(fs::path path) : claim_(std::make_shared<const FolderClaim>(path)), path_(std::move(path)) {}
 
 fs::path RunFolder::file(std::string_view name) const {
   if (name.empty() || name == "." || name == ".." || name.find('/') != name.npos)
@@ -88,7 +78,7 @@ void RunFolder::write_claims(std::span<const Claim> claims) const {
 
 void RunFolder::write_table(std::string_view name, std::string_view heading, const Table& table,
                             std::string_view note) const {
-  std::string text = fmt::format("# {}\n\n{}", heading, to_markdown(table));
+  std::string text = fmt::format("# {}\n\n{}", markdown_text(heading), to_markdown(table));
   if (!note.empty()) text += fmt::format("\n{}\n", note);
   write(fmt::format("{}.md", name), text);
 }
@@ -100,9 +90,17 @@ fs::path new_run_path(const fs::path& results, std::string_view label) {
   // without the separators: colons are awkward in file names
   time.erase(std::remove_if(time.begin(), time.end(), [](char c) { return c == '-' || c == ':'; }), time.end());
   const std::string first = fmt::format("{}-{}", label, time);
+  std::error_code error;
+  fs::create_directories(results, error);
   fs::path path = results / first;
-  for (int n = 2; fs::exists(path); ++n) path = results / fmt::format("{}-{}", first, n);
+  // made by nobody else: that is what true says
+  for (int n = 2; !error && !fs::create_directory(path, error); ++n) path = results / fmt::format("{}-{}", first, n);
+  if (error) throw IoError(fmt::format("{}: cannot be created: {}", path.string(), error.message()));
   return path;
+}
+
+fs::path run_path(const std::string& out, std::string_view label) {
+  return out.empty() ? new_run_path(default_results, label) : fs::path(out);
 }
 
 }  // namespace dartboard

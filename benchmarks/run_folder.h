@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "benchmarks/claim.h"
 #include "benchmarks/table.h"
+#include "core/plain/folder_claim.h"
 
 namespace dartboard {
 
@@ -33,7 +35,7 @@ class JsonLines {
 class RunFolder {
  public:
   /// Creates the folder, and those above it.
-  /// throws  IoError if it exists and is not empty, or cannot be created
+  /// throws  IoError if it exists and is not empty, is claimed by another run, or cannot be created
   explicit RunFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
@@ -54,10 +56,21 @@ class RunFolder {
 
  private:
   std::filesystem::path file(std::string_view name) const;
+  std::shared_ptr<const FolderClaim> claim_;
   std::filesystem::path path_;
 };
 
-/// A path for a new run below `results`: "LABEL-20260131T120000Z", with "-2", "-3" ... where that is taken.
+/// A new folder for a run below `results`: "LABEL-20260131T120000Z", with "-2", "-3" ... where that is taken.
+///
+/// throws  IoError if it cannot be created
 std::filesystem::path new_run_path(const std::filesystem::path& results, std::string_view label);
+
+/// Where runs without --out leave their folders: in the working folder.
+inline constexpr const char* default_results = "dartboard-results";
+
+/// `out`, or a new folder for a run of that label in `default_results`.
+///
+/// throws  IoError if it cannot be created
+std::filesystem::path run_path(const std::string& out, std::string_view label);
 
 }  // namespace dartboard

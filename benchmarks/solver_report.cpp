@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/json_number.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {
@@ -60,7 +60,7 @@ void claim_accuracy(const SolverResults& results, std::vector<Claim>& claims) {
        .paper_value = fmt::format("<= {:.0e}, or a diagnosis", componentwise_gate),
        .measured = fmt::format("{:.1e}, {:.1e} before", pcg.after, pcg.before),
        .bound_or_interval = fmt::format("{} systems solved, {} said not converged", pcg.solved, pcg.diagnosed),
-       .verdict = verdict(pcg.after <= componentwise_gate)});
+       .verdict = pcg.solved == 0 ? Verdict::not_tested : verdict(pcg.after <= componentwise_gate)});
 }
 
 void claim_indefinite(const SolverResults& results, std::vector<Claim>& claims) {
@@ -82,13 +82,14 @@ void claim_indefinite(const SolverResults& results, std::vector<Claim>& claims) 
 
 void claim_edits(const SolverResults& results, std::vector<Claim>& claims) {
   double largest = 0.0;
-  std::size_t edits = 0;
+  std::size_t edits = 0, runs = 0;
   for (const EditRun& run : results.edits) {
     if (run.policy != default_policy) continue;
+    ++runs;
     largest = run.failure.empty() ? max_or_nan(largest, run.largest) : std::nan("");
     edits = run.edits;
   }
-  if (edits == 0) return;
+  if (runs == 0) return;
   claims.push_back(
       {.id = "edits-backward-error",
        .text = fmt::format("normwise backward error during {} edits, as the factor follows by default", edits),

@@ -38,11 +38,6 @@ PathSummary summary_of(std::span<const SolveCell> cells, SolvePath path);
 
 std::vector<Claim> claims_of(const SolverResults& results);
 
-struct NamedTable {
-  std::string name, heading;
-  Table table;
-  std::string note;
-};
 std::vector<NamedTable> tables_of(const SolverResults& results);
 
 /// Each sample as one JSON object.

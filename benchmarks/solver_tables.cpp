@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benchmarks/solver_report.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 

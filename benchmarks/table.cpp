@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -17,18 +18,23 @@ std::size_t width(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-std::string replaced(std::string_view text, char what, std::string_view by) {
-  std::string result;
-  for (char c : text)
-    if (c == what)
-      result += by;
-    else
-      result += c;
-  return result;
+constexpr std::size_t longest_cell = 400;  // letters
+
+std::string markdown_cell(const std::string& cell) {
+  std::string lines;
+  for (std::size_t start = 0; start <= cell.size();) {
+    const std::size_t end = std::min(cell.find('\n', start), cell.size());
+    lines += (start == 0 ? "" : "<br>") + markdown_text(shortened(cell.substr(start, end - start), longest_cell));
+    start = end + 1;
+  }
+  return lines;
 }
 
-std::string markdown_cell(const std::string& cell) { return replaced(replaced(cell, '|', "\\|"), '\n', "<br>"); }
-std::string text_cell(const std::string& cell) { return replaced(cell, '\n', " "); }
+std::string text_cell(const std::string& cell) {
+  std::string line = cell;
+  std::ranges::replace(line, '\n', ' ');
+  return terminal_text(shortened(line, longest_cell));
+}
 
 std::string padded(const std::string& cell, std::size_t to, Align align) {
   const std::string blank(to - std::min(to, width(cell)), ' ');

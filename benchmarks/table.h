@@ -30,6 +30,14 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// A table of a report; the braces allow members to be left out.
+struct NamedTable {
+  std::string name{}, heading{};  // "frequencies", "Highest frequencies of meshes, by Lanczos"
+  Table table;
+  std::string note{};   // below it
+  std::string study{};  // that it is of, where a report has several: "limits"
+};
+
 /// GitHub's Markdown, its source aligned too; a bar within a cell is escaped, a line break becomes <br>.
 std::string to_markdown(const Table& table);
 

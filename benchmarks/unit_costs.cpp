@@ -91,25 +91,19 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
     // term after term, from none to all
     std::vector<std::function<void()>> calls{[&, system] { accelerations(system, {}, arrays.x, arrays.v, a); },
                                              stepper(scene.integrator, system, arrays, scene.step)};
-    std::vector<double*> of;
-    const auto add = [&](bool present, double& cost) {
+    std::vector<double UnitCosts::*> terms;
+    const auto add = [&](bool present, double UnitCosts::*cost) {
       if (!present) return;
-      of.push_back(&cost);
+      terms.push_back(cost);
       calls.push_back(stepper(scene.integrator, system, arrays, scene.step));
     };
     system.fixed = whole.fixed;
-    add(!whole.fixed.empty(), costs.fixed);
+    add(!whole.fixed.empty(), &UnitCosts::fixed);
     system.viscosity = whole.viscosity;
-    add(!whole.viscosity.empty(), costs.viscosity);
+    add(!whole.viscosity.empty(), &UnitCosts::viscosity);
     system.springs = whole.springs;
-    add(terms_of(whole).damping, costs.damping);
-    std::vector<double> ns = costs_of(std::move(calls));
-    costs.evaluations = scheme.stages;
-    ns[0] *= costs.evaluations;
-    costs.noise = make_ascending(ns);
-    costs.force = ns[0] / costs.evaluations;
-    costs.stages = ns[1] - ns[0];
-    for (std::size_t k = 0; k < of.size(); ++k) *of[k] = ns[k + 2] - ns[k + 1];
+    add(terms_of(whole).damping, &UnitCosts::damping);
+    costs = step_costs(scheme.stages, costs_of(std::move(calls)), terms);
   }
 
   DivergenceDetector detector;
@@ -118,8 +112,7 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
   volatile bool slower = false;
   costs.speed_check = cost_of([&] { slower = all_slower(arrays.v, 3e8); }) / DivergenceDetector::check_steps;
 
-  const double steps = std::max(1.0, std::ceil(scene.duration / scene.step));
-  const Horizon horizon{.steps = steps, .gain = 2.0};
+  const Horizon horizon = horizon_of(scene.duration);
   costs.look = median_ns(2, 1, [&] {
     StableStep limits = quick_stable_step(whole);
     if (!limits.is_stable(scheme, scene.step, horizon))
@@ -262,6 +255,17 @@ double make_ascending(std::span<double> ns) {
     ns[k - 1] = std::min(ns[k - 1], ns[k]);
   }
   return most;
+}
+
+UnitCosts step_costs(double evaluations, std::vector<double> ns, std::span<double UnitCosts::*const> terms) {
+  UnitCosts costs;
+  costs.evaluations = evaluations;
+  ns[0] *= evaluations;
+  costs.noise = make_ascending(ns);
+  costs.force = ns[0] / evaluations;
+  costs.stages = ns[1] - ns[0];
+  for (std::size_t k = 0; k < terms.size(); ++k) costs.*terms[k] = ns[k + 2] - ns[k + 1];
+  return costs;
 }
 
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {

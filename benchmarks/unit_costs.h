@@ -2,6 +2,7 @@
 // What the pieces of a step cost on this machine: measured in a fraction of a second, before a scene is built.
 
 #include <span>
+#include <vector>
 
 #include "core/scene/scene_plan.h"
 
@@ -36,6 +37,10 @@ struct UnitCosts {
 ///
 /// returns the most that was taken off
 double make_ascending(std::span<double> ns);
+
+/// The costs of a step from the times [ns] of one force evaluation, of a bare step with so many evaluations, and of
+/// steps with one of the `terms` more each.
+UnitCosts step_costs(double evaluations, std::vector<double> ns, std::span<double UnitCosts::*const> terms);
 
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan);
 

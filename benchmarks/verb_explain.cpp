@@ -7,10 +7,12 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/statistics.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/unit_costs.h"
 #include "core/scene/measured_plan.h"
 #include "core/scene/scene_problem.h"
@@ -100,7 +102,7 @@ std::string time_text(double ns, double below = 0.0) {
 }
 
 void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Measured>& measured) {
-  fmt::print("{}\n{}; {}; {} steps of {:.6g} s\n\n", scene.name, plan.map, counted(plan), plan.steps, scene.step);
+  tell("{}\n{}; {}; {} steps of {:.6g} s\n\n", one_line(scene.name), plan.map, counted(plan), plan.steps, scene.step);
   std::vector<Column> columns{{"part", Align::left}, {"bytes", Align::right}};
   if (measured) columns.push_back({"measured", Align::right});
   columns.insert(columns.end(), {{"ns per step", Align::right}, {"what", Align::left}, {"why", Align::left}});
@@ -123,15 +125,15 @@ void print(const SceneFile& scene, const ScenePlan& plan, const std::optional<Me
   row("in all", plan.bytes(), measured ? measured->total : 0, time_text(plan.ns()), "", "");
   Table without({{"left out", Align::left}, {"because", Align::left}});
   for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
-  fmt::print("{}\n{}\n", to_text(table), to_text(without));
-  fmt::print(
+  tell("{}\n{}\n", to_text(table), to_text(without));
+  tell(
       "Bytes are those of the elements of all containers that live as long as the run, at the start; of a factor, its "
       "numbers.\nTimes are estimates from unit costs measured just now on arrays of this size, averaged over the run, "
       "output in memory included.\nNot in them: building the body, writing files, what stress tears, steps divided by "
       "/unstable_step.\n");
   if (!measured) return;
-  fmt::print("\nmeasured: {:.0f} ns per step, {:+.1f} % from the estimate; bytes {}\n", measured->ns,
-             100.0 * (measured->ns / plan.ns() - 1.0), measured->equal ? "exactly as planned" : "DIFFER");
+  tell("\nmeasured: {:.0f} ns per step, {:+.1f} % from the estimate; bytes {}\n", measured->ns,
+       100.0 * (measured->ns / plan.ns() - 1.0), measured->equal ? "exactly as planned" : "DIFFER");
 }
 
 nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, const std::optional<Measured>& measured) {
@@ -185,9 +187,9 @@ void explain(const Options& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::ordered_json json = to_json(scene, plan, measured);
     if (settled) json["settled"] = nlohmann::json(*settled);
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
   } else {
-    if (settled) fmt::print("{}\n", to_string(*settled));
+    if (settled) tell("{}\n", to_string(*settled));
     print(scene, plan, measured);
   }
 }

@@ -11,8 +11,10 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/extremes_study.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/tell.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -58,25 +60,28 @@ void extremes(const Options& options, Outcome& outcome) {
                                                    [&](const ExtremesResults& so_far, std::string_view study) {
                                                      for (const NamedTable& t : tables_of(so_far))
                                                        if (!options.json && t.study == study)
-                                                         fmt::print("{}\n\n{}\n", t.heading, to_text(t.table));
+                                                         tell("{}\n\n{}\n", t.heading, to_text(t.table));
                                                      std::fflush(stdout);
                                                    });
   const std::vector<Claim> claims = claims_of(results);
   outcome.exit_code = exit_code(claims) == 0 ? exit_agrees : exit_disagrees;
 
   if (folder) {
-    for (const std::string& trouble : write_extremes(results, *folder)) fmt::print(stderr, "{}\n", trouble);
+    for (const std::string& trouble : write_extremes(results, *folder)) {
+      tell(stderr, "{}\n", trouble);
+      picture_missing(outcome, trouble);
+    }
     finish_manifest(manifest);
     folder->write_manifest(manifest);
   }
   if (options.json) {
-    fmt::print("{}\n", to_json(results).dump(2));
+    tell("{}\n", json_text(to_json(results), 2));
     return;
   }
-  for (const Json& cell : forbidden_cells(results)) fmt::print("{}\n", cell.dump());
-  for (const Json& cell : nameless_cells(results)) fmt::print("{}\n", cell.dump());
-  fmt::print("{}", to_text(std::span<const Claim>(claims)));
-  if (folder) fmt::print("Written to {}.\n", folder->path().string());
+  for (const Json& cell : forbidden_cells(results)) tell("{}\n", json_text(cell));
+  for (const Json& cell : nameless_cells(results)) tell("{}\n", json_text(cell));
+  tell("{}", to_text(std::span<const Claim>(claims)));
+  if (folder) tell("Written to {}.\n", folder->path().string());
 }
 
 }  // namespace

@@ -10,11 +10,13 @@
 #include "benchmarks/album.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/settle_accuracy.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "core/plain/error.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/scene_verdict.h"
@@ -79,7 +81,8 @@ Shown show(const std::filesystem::path& file, const RunFolder* folder) {
   }
   album.ended(simulation);
   if (folder != nullptr)
-    shown.picture_trouble = draw_bodies(album.panels(), shown.scene.name, folder->path(), shown.scene.name);
+    shown.picture_trouble =
+        draw_bodies(album.panels(), shown.scene.name, folder->path(), file_name_of(shown.scene.name));
   return shown;
 }
 
@@ -102,9 +105,10 @@ std::string page_of(const std::vector<Shown>& all) {
   std::string page = "# Gallery\n\nEach scene at four times of its run, drawn from its own output.\n";
   for (const Shown& s : all)
     page += fmt::format(
-        "\n## {0}\n\n{1}\n\n![{0}]({0}.png)\n\n`{2}`: {3}, {4}, {5} steps, {6} operations; {7} of {8} "
+        "\n## {0}\n\n{1}\n\n![{0}]({2}.png)\n\n{3}: {4}, {5}, {6} steps, {7} operations; {8} of {9} "
         "expectations hold.\n",
-        s.scene.name, s.scene.about, s.file, s.map, s.scene.integrator, s.steps, s.operations, s.held, s.expected);
+        markdown_text(s.scene.name), markdown_line(s.scene.about), file_name_of(s.scene.name), markdown_code(s.file),
+        s.map, s.scene.integrator, s.steps, s.operations, s.held, s.expected);
   return page;
 }
 
@@ -143,6 +147,7 @@ void gallery(const Options& options, Outcome& outcome) {
     }
   }
   if (!std::ranges::all_of(all, &Shown::holds)) outcome.exit_code = exit_disagrees;
+  for (const Shown& s : all) picture_missing(outcome, s.picture_trouble);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Shown& s : all) json.push_back(to_json(s));
   if (folder) {
@@ -152,15 +157,17 @@ void gallery(const Options& options, Outcome& outcome) {
     folder->write_manifest(manifest);
   }
   if (options.json) {
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
+    for (const Shown& s : all)
+      if (!s.picture_trouble.empty()) tell(stderr, "{}\n", s.picture_trouble);
     return;
   }
-  fmt::print("{}", to_text(table_of(all)));
+  tell("{}", to_text(table_of(all)));
   for (const Shown& s : all) {
-    if (!s.divergence.empty()) fmt::print("{}: the motion {}\n", s.scene.name, s.divergence);
-    if (!s.picture_trouble.empty()) fmt::print("{}\n", s.picture_trouble);
+    if (!s.divergence.empty()) tell("{}: the motion {}\n", one_line(s.scene.name), s.divergence);
+    if (!s.picture_trouble.empty()) tell("{}\n", s.picture_trouble);
   }
-  if (folder) fmt::print("\ngallery.md and the pictures are in {}.\n", folder->path().string());
+  if (folder) tell("\ngallery.md and the pictures are in {}.\n", folder->path().string());
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/paper_claims.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "core/scene/scene_file.h"
 #include "core/time/integrators.h"
 #include "validation/contenders.h"
@@ -65,16 +67,16 @@ void add_list(CLI::App& app, Outcome&) {
     if (options->kinds.empty()) options->kinds = {"scenes", "contenders", "integrators", "claims"};
     nlohmann::ordered_json json;
     for (const std::string& kind : options->kinds) {
-      if (!options->json) fmt::print("{}\n", kind);
+      if (!options->json) tell("{}\n", kind);
       for (const auto& [id, what, verbs] : entries_of(kind)) {
         json[kind].push_back({{"id", id}, {"what", what}});
         if (!verbs.empty()) json[kind].back()["verbs"] = verbs;
         if (options->json) continue;
-        fmt::print("  {:22} {}\n", id, what);
-        if (!verbs.empty()) fmt::print("  {:22} for {}\n", "", verbs);
+        tell("  {:22} {}\n", id, what);
+        if (!verbs.empty()) tell("  {:22} for {}\n", "", verbs);
       }
     }
-    if (options->json) fmt::print("{}\n", json.dump(2));
+    if (options->json) tell("{}\n", json_text(json, 2));
   });
 }
 

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/json_text.h"
+#include "benchmarks/tell.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
@@ -54,12 +56,12 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
     }
     const auto json = to_json(options->file, loaded, summary);
     if (options->json) {
-      fmt::print("{}\n", json.dump(2));
+      tell("{}\n", json_text(json, 2));
     } else {
       for (const auto& [key, value] : json.items())
         if (key != "notices")
-          fmt::print("{:15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-      for (const std::string& notice : loaded.notices) fmt::print(stderr, "notice: {}\n", notice);
+          tell("{:15} {}\n", key, value.is_string() ? terminal_text(value.get<std::string>()) : json_text(value));
+      for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}\n", notice);
     }
     outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;
   });

@@ -11,8 +11,10 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/study_names.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_recommend.h"
 #include "core/plain/error.h"
 #include "validation/recommendation_audit.h"
@@ -126,7 +128,7 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
   std::string text = fmt::format(
       "{} with an error of at most {:.0e} edges\n{} vertices, {} springs, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
       "damping ratio there {:.2g}, T omega_max = {:.4g}; a force evaluation takes {:.3g} us here\n\n{}",
-      r.scene, r.error, f.vertices, f.springs, f.events, f.omega_low, f.omega_high, f.damping_ratio, f.phase,
+      one_line(r.scene), r.error, f.vertices, f.springs, f.events, f.omega_low, f.omega_high, f.damping_ratio, f.phase,
       1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
@@ -182,7 +184,7 @@ void recommend_verb(const Options& options, Outcome& outcome) {
   }
   if (options.scene.empty() || options.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
   const auto say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
   const TradeoffScene scene = find_scene(study_scene_or_file(options.scene),
@@ -246,7 +248,7 @@ void recommend_verb(const Options& options, Outcome& outcome) {
     }
     say("Predicted and actual\n\n" + to_text(table));
   }
-  if (options.json) fmt::print("{}\n", report.dump(2));
+  if (options.json) tell("{}\n", json_text(report, 2));
 }
 
 }  // namespace
@@ -269,7 +271,8 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
       "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
   verb->add_option("--seed", options->auditing.seed, "of the audit [1]")->needs(audit);
   verb->add_flag("--quick", options->auditing.quick, "audit a few small scenes only")->needs(audit);
-  verb->add_option("--out", options->auditing.out, "folder of the audit, new or empty [results/recommend-TIME]")
+  verb->add_option("--out", options->auditing.out,
+                   "folder of the audit, new or empty [dartboard-results/recommend-TIME]")
       ->needs(audit);
   verb->add_flag("--json", options->json, "print the report as JSON on standard output, the rest on standard error");
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });

@@ -3,33 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/audit_plan.h"
 #include "benchmarks/audit_report.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_recommend.h"
-#include "core/plain/random.h"
-#include "validation/random_scenes.h"
 
 namespace dartboard {
 namespace {
-
-/// How much is audited, and how many errors of each scene.
-struct Extent {
-  std::uint64_t scenes, errors;
-  std::uint64_t long_scenes, long_errors;  // without a sweep, and without a reference by other codes
-  std::uint64_t endless_scenes;            // one error each, for the costs only: nothing could check it in time
-};
-constexpr Extent full{14, 3, 2, 2, 2}, quick{4, 2, 0, 0, 0};
-
-/// What is done beside following the recommendations.
-enum class Check { reference_and_sweep, reference, costs_only };
 
 nlohmann::json json_of(const AuditedPair& p) {
   const Audit& a = p.audit;
@@ -60,17 +49,8 @@ nlohmann::json json_of(const AuditedPair& p) {
           {"best_cost", number(a.best_cost)}};
 }
 
-/// Errors between 1e-2 and 1e-8, one in each of `count` equal parts on the logarithmic scale.
-std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
-  std::vector<double> errors;
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const double u = 0.5 * (random.next_signed() + 1.0);
-    errors.push_back(std::pow(10.0, -2.0 - 6.0 * (static_cast<double>(k) + u) / static_cast<double>(count)));
-  }
-  return errors;
-}
-
-std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vector<double>& errors, Check check) {
+std::vector<AuditedPair> audit_case(const AuditCase& drawn) {
+  const auto& [scene, errors, check] = drawn;
   const CpuClock clock = thread_cpu_ns;
   std::vector<Recommendation> all;
   double longest = 0.0;
@@ -80,12 +60,12 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
   }
   SceneReference reference;
   reference.floor = std::numeric_limits<double>::infinity();
-  if (check != Check::costs_only)
+  if (check != AuditCheck::costs_only)
     reference = reference_of(
         scene, clock,
-        {.oracle_s = check == Check::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
+        {.oracle_s = check == AuditCheck::reference_and_sweep ? 30.0 : 2.0, .self_converged_s = 6.0, .gain = false});
   WorkPrecision sweep;
-  const bool sweep_too = check == Check::reference_and_sweep;
+  const bool sweep_too = check == AuditCheck::reference_and_sweep;
   if (sweep_too) {
     // what takes longer than the dearest pick cannot be cheaper than it, but steps are powers of two
     WorkPrecisionOptions how;
@@ -99,7 +79,7 @@ std::vector<AuditedPair> audit_scene(const TradeoffScene& scene, const std::vect
     AuditedPair p;
     p.scene = scene.name;
     p.what = scene.what;
-    p.reference = check == Check::costs_only ? "none" : name(reference.kind);
+    p.reference = check == AuditCheck::costs_only ? "none" : name(reference.kind);
     p.floor = reference.floor;
     p.omega_phase = scene.duration * scene.fastest_rate;
     p.vertices = scene.motion.network.point_count();
@@ -128,12 +108,10 @@ constexpr std::string_view reading =
 
 void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   const auto say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
-  const RunFolder folder(options.out.empty()
-                             ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "recommend")
-                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, "recommend"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"scenes and errors", options.seed}};
@@ -142,34 +120,18 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   folder.write_manifest(manifest);
   auto samples = folder.json_lines("samples.jsonl");
 
-  const Extent extent = options.quick ? quick : full;
-  SplitMix64 random(options.seed + 77);
+  AuditCases cases(options.seed, options.quick);
   std::vector<AuditedPair> pairs;
   const std::int64_t start = thread_cpu_ns();
   {
-    const std::uint64_t before_endless = extent.scenes + extent.long_scenes;
-    const std::uint64_t all = before_endless + extent.endless_scenes;
-    Progress progress("audit", all, options.json);
-    for (std::uint64_t k = 0; k < all; ++k) {
-      const Check check = k < extent.scenes    ? Check::reference_and_sweep
-                          : k < before_endless ? Check::reference
-                                               : Check::costs_only;
-      RandomSceneOptions drawn;
-      if (options.quick) drawn = {.most_points = 400, .most_work = 5e4};
-      if (check == Check::reference)
-        drawn = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
-      if (check == Check::costs_only)
-        drawn = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
-      const TradeoffScene scene = random_scene(options.seed, k, drawn);
-      const auto errors = check == Check::costs_only
-                              ? std::vector{std::sqrt(draw_errors(random, 1)[0] * 1e-4)}
-                              : draw_errors(random, check == Check::reference ? extent.long_errors : extent.errors);
-      const auto some = audit_scene(scene, errors, check);
-      for (const AuditedPair& p : some) {
+    Progress progress("audit", cases.size(), options.json);
+    for (std::uint64_t k = 0; k < cases.size(); ++k) {
+      const AuditCase drawn = cases.next();
+      for (const AuditedPair& p : audit_case(drawn)) {
         samples.append(json_of(p));
         pairs.push_back(p);
       }
-      progress.advance(scene.what);
+      progress.advance(drawn.scene.what);
     }
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
@@ -184,12 +146,10 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   folder.write_claims(claims);
   folder.write_table("audit", "Recommendations and what happened", table, reading);
   folder.write_table("scenes", "The scenes", scenes);
-  if (const std::string trouble =
-          draw(audit_plot(pairs,
-                          fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
-               folder.path(), "audit");
-      !trouble.empty())
-    say(trouble);
+  const std::string trouble = draw(
+      audit_plot(pairs, fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
+      folder.path(), "audit");
+  if (!trouble.empty()) say(trouble);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
 
@@ -198,9 +158,10 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::json report{{"claims", claims}, {"pairs", nlohmann::json::array()}, {"manifest", manifest}};
     for (const AuditedPair& p : pairs) report["pairs"].push_back(json_of(p));
-    fmt::print("{}\n", report.dump(2));
+    tell("{}\n", json_text(report, 2));
   }
   outcome.exit_code = exit_code(claims);
+  picture_missing(outcome, trouble);
 }
 
 }  // namespace dartboard

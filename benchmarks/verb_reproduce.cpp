@@ -13,11 +13,13 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/extremes_study.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/reproduce_report.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/scenes.h"
+#include "benchmarks/tell.h"
 #include "reference/cgal_body.h"
 
 namespace dartboard {
@@ -53,23 +55,17 @@ Answers reproduce_paper(const Options& options, const Problem& problem, const Ru
   say(fmt::format("2. Forces, and states after {} steps, against the first contender\n\n", agreement_steps) +
       to_text(agreement_table(results)));
 
-  // No timing without agreement.
-  const bool topology_agrees =
-      std::all_of(results.counts.begin(), results.counts.end(), [](const auto& c) { return c.agrees(); });
-  std::vector<std::string> agreed;
-  for (const auto& m : results.motion)
-    if (topology_agrees && m.agrees) agreed.push_back(m.id);
-  if (!agreed.empty()) {
-    const MeasurePlan plan = plan_measurement(body, problem, agreed, options.quick, options.seed);
+  const ReproduceGates gates = gates_of(results.counts, results.motion);
+  if (!gates.agreed.empty()) {
+    const MeasurePlan plan = plan_measurement(body, problem, gates.agreed, options.quick, options.seed);
     auto lines = folder.json_lines("samples.jsonl");
     say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each", plan.processes, plan.rounds));
     results.per_step = per_step(measure(plan, [&](const StepSample& s) { lines.append(s); }));
   }
-  results.rebuild_ms = measure_rebuild_ms(problem);
   const std::string note = timing_note(results, problem);
   say("\n" + to_text(timing_table(results)) + "\n" + note + "\n");
 
-  Answers answers{answer_claims(results, problem), topology_agrees && agreed.size() == results.motion.size()};
+  Answers answers{answer_claims(results, problem), gates.passed};
   say("4. The paper's claims\n\n" + to_text(answers.claims));
   folder.write_table("counts", "Topology, against CGAL", counts_table(results));
   folder.write_table("agreement", "Forces and states, against the first contender", agreement_table(results));
@@ -83,10 +79,10 @@ Answers reproduce_extremes(const Options& options, const RunFolder& folder, cons
   const ExtremesResults results =
       measure_extremes({.quick = options.quick, .silent = options.json}, [](const auto&, std::string_view) {});
   const RunFolder part(folder.path() / "extremes");
-  for (const std::string& trouble : write_extremes(results, part)) fmt::print(stderr, "{}\n", trouble);
+  for (const std::string& trouble : write_extremes(results, part)) tell(stderr, "{}\n", trouble);
   for (const NamedTable& t : tables_of(results))
     if (t.study == "matrix") say(t.heading + "\n\n" + to_text(t.table));
-  for (const auto& cell : forbidden_cells(results)) say(cell.dump());
+  for (const auto& cell : forbidden_cells(results)) say(json_text(cell));
   Answers answers{claims_of(results)};
   say(to_text(std::span<const Claim>(answers.claims)));
   return answers;
@@ -94,15 +90,13 @@ Answers reproduce_extremes(const Options& options, const RunFolder& folder, cons
 
 void reproduce(const Options& options, Outcome& outcome) {
   const Say say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(stdout);
   };
   const Scene& liver = scene(body);
   const Problem problem = liver.make();
 
-  const auto results_root = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results";
-  const RunFolder folder(options.out.empty() ? new_run_path(results_root, options.quick ? "quick" : "reproduce")
-                                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, options.quick ? "quick" : "reproduce"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of tasks", options.seed}};
@@ -123,15 +117,13 @@ void reproduce(const Options& options, Outcome& outcome) {
   finish_manifest(manifest);
   folder.write_manifest(manifest);
 
-  outcome.exit_code = all.gates_passed ? exit_code(all.claims) : exit_disagrees;
+  outcome.exit_code = reproduce_exit_code(all.claims, all.gates_passed);
   if (options.json)
-    fmt::print(
-        "{}\n",
-        nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}}.dump(2));
-  say(fmt::format(
-      "{}{} Written to {}.", options.quick ? "This was a quick run. " : "",
-      outcome.exit_code == exit_agrees ? "Every tested claim holds." : "Something does not hold: see above.",
-      folder.path().string()));
+    tell("{}\n",
+         json_text(nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}},
+                   2));
+  say(fmt::format("{}\nWritten to {}: claims.md, claims.json, tables, and all samples.",
+                  closing_words(all.claims, all.gates_passed, options.quick), folder.path().string()));
 }
 
 }  // namespace
@@ -146,7 +138,7 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
                  "fewer processes and rounds, a third of the extremes; a minute instead of three");
   verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
       ->check(CLI::IsMember({"paper", "extremes"}));
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/reproduce-TIME]");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [dartboard-results/reproduce-TIME]");
   verb->add_option("--seed", options->seed, "of the order in which contenders take turns [1]");
   verb->add_flag("--json", options->json,
                  "print claims and manifest as JSON on standard output, the rest on standard error");

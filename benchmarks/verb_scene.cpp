@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/scene_names.h"
+#include "benchmarks/tell.h"
 #include "core/plain/counted.h"
 #include "core/scene/scene_file.h"
 #include "core/scene/scene_pages.h"
@@ -27,9 +29,9 @@ void check_scene(const std::string& given) {
   const std::string steps = scene.accuracy
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
                                 : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
-  fmt::print("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", file, simulation.body().map_name(),
-             n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
-             counted(scene.events.size(), "event"));
+  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(file),
+       simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
+       counted(scene.events.size(), "event"));
 }
 
 }  // namespace
@@ -48,8 +50,8 @@ void add_scene(CLI::App& app, Outcome& outcome) {
   what->require_option(1);
   verb->callback([options, &outcome] {
     outcome.exit_code = exit_agrees;
-    if (options->schema) fmt::print("{}\n", scene_schema().dump(2));
-    if (options->keys) fmt::print("{}", scene_reference());
+    if (options->schema) tell("{}\n", json_text(scene_schema(), 2));
+    if (options->keys) tell("{}", scene_reference());
     if (!options->check.empty()) check_scene(options->check);
   });
 }

@@ -12,12 +12,14 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/interrupt.h"
-#include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
+#include "benchmarks/simulation_json.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/atomic_file.h"
@@ -91,8 +93,8 @@ struct Report {
   }
   /// What became of the mass beyond what removals took, relative to the mass at the start.
   double mass_drift() const {
-    const double start = result.first.mass + removed_at_start, end = simulation.body().mass();
-    return start == 0.0 ? 0.0 : std::abs(start - simulation.body().removed_mass() - end) / start;
+    const SimulatedBody& body = simulation.body();
+    return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
 };
@@ -128,81 +130,61 @@ Table summary_of(const Report& r) {
 }
 
 void print(const Report& r) {
-  fmt::print("{}\n{}, {}, h = {:.6g} s\n\n{}\n", r.scene.name, r.simulation.body().map_name(), r.scene.integrator,
-             r.scene.step, to_text(summary_of(r)));
+  tell("{}\n{}, {}, h = {:.6g} s\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(), r.scene.integrator,
+       r.scene.step, to_text(summary_of(r)));
   if (r.settled) {
-    fmt::print("{}\n", to_string(*r.settled));
-    for (const std::string& omission : r.settled->omissions) fmt::print("  {}\n", omission);
+    tell("{}\n", to_string(*r.settled));
+    for (const std::string& omission : r.settled->omissions) tell("  {}\n", omission);
   }
   const auto steps = static_cast<double>(r.simulation.steps_done());
   const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
-  fmt::print("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
+  tell("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
   if (r.simulation.body().removed_mass() > 0.0)
-    fmt::print("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
+    tell("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
   const EventJumps& jumps = r.simulation.jumps();
   if (jumps.events > 0)
-    fmt::print(
+    tell(
         "largest jump at {} that {}: mass {}, momentum {}, kinetic and elastic energy {} "
         "(relative)\n",
         counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
         drift_text(jumps.momentum), drift_text(jumps.energy));
-  fmt::print("hash of the last state {:016x}\n", r.simulation.body().state_hash());
+  tell("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   if (const auto& warning = r.simulation.step_warning())
-    fmt::print("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
-  if (const auto& warning = r.simulation.coordinate_warning()) fmt::print("warning: {}\n", to_string(*warning));
-  for (const StepResult& warning : r.simulation.warnings()) fmt::print("warning: {}\n", explained(warning));
+    tell("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
+  if (const auto& warning = r.simulation.coordinate_warning()) tell("warning: {}\n", to_string(*warning));
+  for (const StepResult& warning : r.simulation.warnings()) tell("warning: {}\n", explained(warning));
   for (const std::string& path : r.simulation.idle_events())
-    fmt::print("warning: the event at {} never did anything\n", path);
+    tell("warning: the event at {} never did anything\n", path);
   if (r.result.divergence)
-    fmt::print("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
-               to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
+    tell("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
+         to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
     for (const ExpectedRow& row : r.expected)
       table.add_row({row.what, row.expected, row.actual, row.holds ? "yes" : "NO"});
-    fmt::print("\n{}", to_text(table));
+    tell("\n{}", to_text(table));
   }
-  if (!r.unjudged.empty()) fmt::print("\n{}\n", r.unjudged);
+  if (!r.unjudged.empty()) tell("\n{}\n", r.unjudged);
   if (!r.folder.empty())
-    fmt::print("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
-               r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
-  if (!r.picture.empty()) fmt::print("{}\n", r.picture);
-}
-
-// JSON has no infinity: a number that is not finite is left null.
-nlohmann::ordered_json to_json(const Diagnostics& d) {
-  return {{"time", d.time},
-          {"kinetic", number(d.kinetic)},
-          {"elastic", number(d.elastic)},
-          {"gravitational", number(d.gravitational)},
-          {"mass", d.mass},
-          {"vertices", d.counts.vertices},
-          {"edges", d.counts.edges},
-          {"faces", d.counts.faces},
-          {"cells", d.counts.cells},
-          {"components", d.counts.components},
-          {"boundary", number(d.boundary)},
-          {"largest_stress", number(d.largest_stress)},
-          {"operations", d.operations}};
+    tell("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
+         r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
+  if (!r.picture.empty()) tell("{}\n", r.picture);
 }
 
 nlohmann::ordered_json to_json(const Report& r) {
-  const EventJumps& jumps = r.simulation.jumps();
-  nlohmann::ordered_json json{
-      {"scene", r.scene.name},
-      {"map", r.simulation.body().map_name()},
-      {"integrator", r.scene.integrator},
-      {"holds", r.holds()},
-      {"steps", r.simulation.steps_done()},
-      {"first", to_json(r.result.first)},
-      {"last", to_json(r.result.last)},
-      {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
-      {"wall_s", r.wall_s},
-      {"cpu_s", r.cpu_s},
-      {"mass_drift", r.mass_drift()},
-      {"jumps",
-       {{"events", jumps.events}, {"mass", jumps.mass}, {"momentum", jumps.momentum}, {"energy", jumps.energy}}}};
+  nlohmann::ordered_json json{{"scene", r.scene.name},
+                              {"map", r.simulation.body().map_name()},
+                              {"integrator", r.scene.integrator},
+                              {"holds", r.holds()},
+                              {"steps", r.simulation.steps_done()},
+                              {"first", to_json(r.result.first)},
+                              {"last", to_json(r.result.last)},
+                              {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
+                              {"wall_s", r.wall_s},
+                              {"cpu_s", r.cpu_s},
+                              {"mass_drift", r.mass_drift()},
+                              {"jumps", to_json(r.simulation.jumps())}};
   if (const auto& d = r.result.divergence)
     json["divergence"] = {{"step", d->step},
                           {"time", d->time},
@@ -249,7 +231,7 @@ void simulate(const Options& options, Outcome& outcome) {
   std::optional<SceneOutput> output;
   nlohmann::json manifest;
   const auto write_manifest = [&] {
-    if (output) write_whole(output->folder() / "manifest.json", manifest.dump(2) + "\n");
+    if (output) write_whole(output->folder() / "manifest.json", json_text(manifest, 2) + "\n");
   };
   if (!options.out.empty()) {
     output.emplace(options.out, scene.probes, simulation.dimension());
@@ -264,7 +246,8 @@ void simulate(const Options& options, Outcome& outcome) {
   std::optional<Album> album;
   if (options.picture) album.emplace(simulation, steps);
   RunResult result;
-  const auto wall = steady_wall_ns(), cpu = thread_cpu_ns();
+  // of the whole process: long factorisations have a thread of their own
+  const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
     Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
@@ -278,7 +261,7 @@ void simulate(const Options& options, Outcome& outcome) {
                 .expected = {},
                 .unjudged = {},
                 .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
-                .cpu_s = static_cast<double>(thread_cpu_ns() - cpu) * 1e-9,
+                .cpu_s = static_cast<double>(process_cpu_ns() - cpu) * 1e-9,
                 .folder = output ? output->folder().string() : "",
                 .frames = output ? output->frame_count() : 0,
                 .picture = "",
@@ -294,21 +277,24 @@ void simulate(const Options& options, Outcome& outcome) {
   else if (!result.divergence)
     report.expected = compare_with_expectation(scene, simulation, result);
 
-  outcome.exit_code = result.interrupted ? Interrupt::exit_code : report.holds() ? exit_agrees : exit_disagrees;
+  outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
   if (album) {
     album->ended(simulation);
     const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");
     report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
+    picture_missing(outcome, trouble);
   }
   if (output) {
-    write_whole(output->folder() / "summary.json", to_json(report).dump(2) + "\n");
+    write_whole(output->folder() / "summary.json", json_text(to_json(report), 2) + "\n");
     finish_manifest(manifest);
     write_manifest();
   }
-  if (options.json)
-    fmt::print("{}\n", to_json(report).dump(2));
-  else
+  if (options.json) {
+    tell("{}\n", json_text(to_json(report), 2));
+    if (outcome.exit_code == exit_io) tell(stderr, "{}\n", report.picture);
+  } else {
     print(report);
+  }
 }
 
 }  // namespace

@@ -10,9 +10,12 @@
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
 #include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/study_names.h"
+#include "benchmarks/tell.h"
+#include "benchmarks/tradeoff_report.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 #include "validation/scene_of_file.h"
@@ -160,9 +163,10 @@ Table points_table(const WorkPrecision& study) {
   return table;
 }
 
-std::string bullets(const std::vector<std::string>& lines) {
+/// Each line as it may stand there.
+std::string bullets(const std::vector<std::string>& lines, std::string (*escaped)(std::string_view)) {
   std::string text;
-  for (const std::string& line : lines) text += fmt::format("- {}\n", line);
+  for (const std::string& line : lines) text += fmt::format("- {}\n", escaped(line));
   return text;
 }
 
@@ -192,10 +196,11 @@ std::vector<TradeoffContender> contenders_of(const Options& options) {
 }
 
 WorkPrecision study_scene(const std::string& scene_name, const Options& options, const RunFolder& folder,
-                          JsonLines& samples, const std::function<void(const std::string&)>& say) {
+                          JsonLines& samples, Outcome& outcome, const std::function<void(const std::string&)>& say) {
   const TradeoffScene scene =
       find_scene(scene_name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
-  say(fmt::format("{}: {}; T omega_max = {:.4g}", scene.name, scene.what, scene.duration * scene.fastest_rate));
+  say(fmt::format("{}: {}; T omega_max = {:.4g}", one_line(scene.name), one_line(scene.what, 400),
+                  scene.duration * scene.fastest_rate));
   const CpuClock clock = thread_cpu_ns;
   const SceneReference reference = reference_of(
       scene, clock,
@@ -222,18 +227,22 @@ WorkPrecision study_scene(const std::string& scene_name, const Options& options,
   study.omissions.emplace_back("No multirate, exponential or multigrid method takes part.");
 
   say("\n" + to_text(winners_table(study)) + "\nRegret of a fixed choice\n\n" + to_text(regrets_table(study)) +
-      "\nOmissions\n\n" + bullets(study.omissions));
-  folder.write(scene.name + ".md",
+      "\nOmissions\n\n" + bullets(study.omissions, terminal_text));
+  // what the files are called
+  const std::string stem = file_name_of(scene.name);
+  folder.write(stem + ".md",
                fmt::format("# The trade between speed and accuracy: {}\n\n{}. T omega_max = {:.4g}; {} vertices, {} "
                            "springs.\nReference: {}; errors below {:.1e} edges say nothing.\n\n![diagram]({}.svg)\n\n"
                            "## The cheapest method for an error\n\n{}\n## Regret of a fixed choice\n\n{}\n{}\n\n## All "
                            "runs\n\n{}\n## Omissions\n\n{}",
-                           scene.name, scene.what, scene.duration * scene.fastest_rate, study.vertices, study.springs,
-                           reference.what, reference.floor, scene.name, to_markdown(winners_table(study)),
-                           to_markdown(regrets_table(study)), reading, to_markdown(points_table(study)),
-                           bullets(study.omissions)));
-  if (const std::string trouble = draw(work_precision_plot(study), folder.path(), scene.name); !trouble.empty())
+                           markdown_text(scene.name), markdown_line(scene.what), scene.duration * scene.fastest_rate,
+                           study.vertices, study.springs, reference.what, reference.floor, stem,
+                           to_markdown(winners_table(study)), to_markdown(regrets_table(study)), reading,
+                           to_markdown(points_table(study)), bullets(study.omissions, markdown_text)));
+  if (const std::string trouble = draw(work_precision_plot(study), folder.path(), stem); !trouble.empty()) {
     say(trouble);
+    picture_missing(outcome, trouble);
+  }
   return study;
 }
 
@@ -256,7 +265,7 @@ nlohmann::json summary_of(const WorkPrecision& study) {
 
 void tradeoff(const Options& options, Outcome& outcome) {
   const auto say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
   std::vector<std::string> names;
@@ -269,9 +278,7 @@ void tradeoff(const Options& options, Outcome& outcome) {
   if (names.empty()) make_tradeoff_scene(given, "");  // tells which there are
   contenders_of(options);                             // and this, which integrators
 
-  const RunFolder folder(options.out.empty()
-                             ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "tradeoff")
-                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, "tradeoff"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of the integrators", options.seed}};
@@ -282,12 +289,18 @@ void tradeoff(const Options& options, Outcome& outcome) {
   folder.write_manifest(manifest);
   auto samples = folder.json_lines("samples.jsonl");
   nlohmann::json summaries = nlohmann::json::array();
-  for (const std::string& scene_name : names)
-    summaries.push_back(summary_of(study_scene(scene_name, options, folder, samples, say)));
+  for (const std::string& scene_name : names) {
+    const WorkPrecision study = study_scene(scene_name, options, folder, samples, outcome, say);
+    summaries.push_back(summary_of(study));
+    if (const std::string trouble = trouble_of(study); !trouble.empty()) {
+      say(trouble);
+      outcome.exit_code = exit_disagrees;
+    }
+  }
   folder.write_json("winners.json", summaries);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"scenes", summaries}, {"manifest", manifest}}.dump(2));
+  if (options.json) tell("{}\n", json_text(nlohmann::json{{"scenes", summaries}, {"manifest", manifest}}, 2));
   say(fmt::format("Written to {}.", folder.path().string()));
 }
 
@@ -305,7 +318,7 @@ void add_tradeoff(CLI::App& app, Outcome& outcome) {
   verb->add_flag("--quick", options->quick, "short runs, few repetitions");
   verb->add_flag("--solvers", options->solvers, "implicit methods with every linear solver");
   verb->add_option("--most", options->most_s, "seconds that one run may take [8, quick 0.4]")->check(positive_number());
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/tradeoff-TIME]");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [dartboard-results/tradeoff-TIME]");
   verb->add_option("--seed", options->seed, "of the order of the integrators [1]");
   verb->add_flag("--json", options->json,
                  "print the winners and the manifest as JSON on standard output, the rest on standard error");

@@ -9,8 +9,10 @@
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
@@ -39,8 +41,7 @@ struct Target {
 Target file_target(const std::filesystem::path& path) {
   return {path.string(), [path] {
             LoadedMesh loaded = read_mesh(path);
-            for (const std::string& notice : loaded.notices)
-              fmt::print(stderr, "notice: {}: {}\n", path.string(), notice);
+            for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}: {}\n", path.string(), notice);
             return std::move(loaded.mesh);
           }};
 }
@@ -113,10 +114,10 @@ std::vector<Session> sessions_for(const Mesh& mesh, const Options& options) {
 }
 
 std::string write_script(const FuzzResult& result, const Target& target, std::uint64_t seed, const Options& options) {
-  const std::string file =
-      options.script_out.empty()
-          ? fmt::format("disagreement-{}-{}.txt", std::filesystem::path(target.name).stem().string(), seed)
-          : options.script_out;
+  const std::string file = options.script_out.empty()
+                               ? fmt::format("disagreement-{}-{}.txt",
+                                             file_name_of(std::filesystem::path(target.name).stem().string()), seed)
+                               : options.script_out;
   write_topology_script(file, result.script);
   return file;
 }
@@ -227,11 +228,11 @@ nlohmann::ordered_json to_json(const Verdict& v) {
 
 void print_disagreements(const Verdict& v) {
   for (const AgreementRow& row : v.at_rest.rows)
-    if (!row.agrees) fmt::print("{}: at rest, {}: {}\n", v.name, row.what, fmt::join(row.answers, " | "));
+    if (!row.agrees) tell("{}: at rest, {}: {}\n", v.name, row.what, fmt::join(row.answers, " | "));
   for (const Session& s : v.sessions)
     if (s.result.disagreement)
-      fmt::print("{}: seed {}, {}\n{}Replay it with: dartboard validate topology --replay {}\n", v.name, s.seed,
-                 to_string(*s.result.disagreement), to_string(s.result.script), v.script_file);
+      tell("{}: seed {}, {}\n{}Replay it with: dartboard validate topology --replay {}\n", v.name, s.seed,
+           to_string(*s.result.disagreement), to_string(s.result.script), shell_word(v.script_file));
 }
 
 void replay(const Options& options, Outcome& outcome) {
@@ -250,11 +251,11 @@ void replay(const Options& options, Outcome& outcome) {
                                 {"illegal", result.illegal},
                                 {"not_carried", result.not_carried}};
     if (result.disagreement) json["disagreement"] = to_json(*result.disagreement);
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
   } else {
-    fmt::print("{}: {} operations, {} of them illegal and {} not carried by every map\n{}\n", options.replay,
-               script.operations.size(), result.illegal, result.not_carried,
-               result.disagreement ? to_string(*result.disagreement) : "All agree.");
+    tell("{}: {} operations, {} of them illegal and {} not carried by every map\n{}\n", options.replay,
+         script.operations.size(), result.illegal, result.not_carried,
+         result.disagreement ? to_string(*result.disagreement) : "All agree.");
   }
 }
 
@@ -272,13 +273,13 @@ void validate(const Options& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::ordered_json json{{"agrees", agree}, {"seed", options.seed}, {"operations", options.count()}};
     for (const Verdict& v : verdicts) json["meshes"].push_back(to_json(v));
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
     return;
   }
-  if (!options.all) fmt::print("{}\n", to_text(rest_table(verdicts[0].at_rest)));
-  fmt::print("{}\n", to_text(summary_table(verdicts)));
+  if (!options.all) tell("{}\n", to_text(rest_table(verdicts[0].at_rest)));
+  tell("{}\n", to_text(summary_table(verdicts)));
   for (const Verdict& v : verdicts) print_disagreements(v);
-  fmt::print("{}\n", agree ? "All agree." : "There are disagreements: see above.");
+  tell("{}\n", agree ? "All agree." : "There are disagreements: see above.");
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
@@ -62,7 +64,7 @@ Mesh find_mesh(const std::string& name) {
   for (const NamedMesh& mesh : test_meshes())
     if (mesh.name == name) return mesh.make();
   LoadedMesh loaded = read_mesh(name);
-  for (const std::string& notice : loaded.notices) fmt::print(stderr, "notice: {}: {}\n", name, notice);
+  for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}: {}\n", name, notice);
   return std::move(loaded.mesh);
 }
 
@@ -138,22 +140,22 @@ Table table_of(const ConservationResult& result) {
 
 void print(const Session& s, const Options& options) {
   const ConservationResult& r = s.result;
-  fmt::print("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(),
-             s.seed, s.problem.h);
-  fmt::print(
+  tell("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(), s.seed,
+       s.problem.h);
+  tell(
       "{} operations ({} dissociations, {} torn fans, {} removals, {} refinements) in {} series, {} steps between; "
       "{} parts split off; the body was emptied and refilled {} times\n",
       r.operations(), r.dissociations, r.tears, r.removals, r.refinements, r.series, r.steps, r.parts_split_off,
       r.refills);
-  fmt::print("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
-             s.operations_per_s, r.bodies_from_scratch,
-             r.bodies_without_bound == 0
-                 ? ""
-                 : fmt::format(", for {} of which the bound of motion says nothing", r.bodies_without_bound));
-  fmt::print("{}\n", to_text(table_of(r)));
+  tell("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
+       s.operations_per_s, r.bodies_from_scratch,
+       r.bodies_without_bound == 0
+           ? ""
+           : fmt::format(", for {} of which the bound of motion says nothing", r.bodies_without_bound));
+  tell("{}\n", to_text(table_of(r)));
   if (r.violation)
-    fmt::print("{}, {} storage: {}\nRepeat it with: dartboard validate conservation {} --operations {} --seed {}\n\n",
-               s.name, s.storage, to_string(*r.violation), options.mesh, options.count(), options.seed);
+    tell("{}, {} storage: {}\nRepeat it with: dartboard validate conservation {} --operations {} --seed {}\n\n", s.name,
+         s.storage, to_string(*r.violation), shell_word(options.mesh), options.count(), options.seed);
 }
 
 nlohmann::ordered_json to_json(const Session& s) {
@@ -209,11 +211,11 @@ void validate(const Options& options, Outcome& outcome) {
   if (options.json) {
     nlohmann::ordered_json json{{"holds", hold}, {"seed", options.seed}, {"operations", options.count()}};
     for (const Session& session : sessions) json["sessions"].push_back(to_json(session));
-    fmt::print("{}\n", json.dump(2));
+    tell("{}\n", json_text(json, 2));
     return;
   }
   for (const Session& session : sessions) print(session, options);
-  fmt::print("{}\n", hold ? "All is conserved." : "Something is not conserved: see above.");
+  tell("{}\n", hold ? "All is conserved." : "Something is not conserved: see above.");
 }
 
 }  // namespace

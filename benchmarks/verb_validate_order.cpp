@@ -1,26 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "benchmarks/claim.h"
-#include "benchmarks/json_number.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
+#include "benchmarks/order_report.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
-#include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/plain/error.h"
-#include "reference/larger.h"
-#include "validation/convergence_order.h"
-#include "validation/cut_jump.h"
-#include "validation/discrete_exact.h"
-#include "validation/force_gradient.h"
-#include "validation/implicit_gains.h"
 
 namespace dartboard {
 namespace {
@@ -31,24 +24,7 @@ struct Options {
   bool json = false, quick = false;
 };
 
-constexpr double quick_error = 0.05;          // upper end of the window of a quick run
-constexpr double accepted_agreement = 2e-13;  // mean edge lengths
-constexpr double discrete_gate = 1e-10;
-constexpr double jump_gate = 1e-14;
-constexpr double drift_gate = 1e-11;
-constexpr std::uint64_t savings_gate = 10;
-constexpr double kept_difference = 1e-3;  // of the error of the step
-
-struct Results {
-  std::vector<OrderStage> stages;
-  std::vector<OrderStudy> studies;
-  std::vector<DiscreteExact> discrete;
-  std::vector<std::string> no_discrete;  // integrators that do not state their amplification
-  ForceGradient force;
-  std::vector<CutJump> jumps;
-  EnergyDrift drift;
-  KeptFactor factor;
-};
+constexpr double quick_error = 0.05;  // upper end of the window of a quick run
 
 std::vector<const IntegratorEntry*> wanted(const Options& options) {
   for (const std::string& name : options.integrators) (void)make_integrator(name);  // throws for one there is not
@@ -60,22 +36,23 @@ std::vector<const IntegratorEntry*> wanted(const Options& options) {
   return entries;
 }
 
-Results run(const Options& options) {
-  Results results;
+OrderResults run(const Options& options) {
+  OrderResults results;
   const auto entries = wanted(options);
   Progress progress("validate order", std::size(order_cases) * (entries.size() + 1) + entries.size() + 2, options.json);
   OrderOptions order;
   if (options.quick) order.most_error = quick_error;  // methods of order 1 get there two halvings earlier
   for (const OrderCase which : order_cases) {
-    results.stages.push_back(order_stage(which));
+    const OrderStage stage = order_stage(which);
+    results.references.push_back({which, stage.certified});
     progress.advance(fmt::format("{}: reference", name(which)));
     for (const IntegratorEntry* entry : entries) {
-      results.studies.push_back(study_order(results.stages.back(), *entry, order));
+      results.studies.push_back(study_order(stage, *entry, order));
       progress.advance(fmt::format("{}: {}", name(which), entry->name));
     }
-    if (which == OrderCase::undamped) results.force = compare_forces_with_energy(results.stages.back().scene);
+    if (which == OrderCase::undamped) results.force = compare_forces_with_energy(stage.scene);
     if (which == OrderCase::aligned_cut || which == OrderCase::unaligned_cut) {
-      const PreparedScene& scene = results.stages.back().scene;
+      const PreparedScene& scene = stage.scene;
       for (const CutJump& jump : cut_jumps(scene, *make_integrator("blanes-moan-4"), 0.5 / scene.fastest_rate))
         results.jumps.push_back(jump);
     }
@@ -95,259 +72,6 @@ Results run(const Options& options) {
   return results;
 }
 
-// ---- what it says
-
-double largest_jump(const Results& results) {
-  double largest = 0.0;
-  for (const CutJump& jump : results.jumps)
-    for (const double value : {jump.energy, jump.momentum, jump.angular}) largest = reference::larger(largest, value);
-  return largest;
-}
-
-Verdict verdict(bool holds) { return holds ? Verdict::holds : Verdict::falls_short; }
-
-Claim order_claim(const Results& results, OrderCase which) {
-  Claim claim{.id = fmt::format("order-{}", name(which))};
-  std::replace(claim.id.begin(), claim.id.end(), ' ', '-');
-  claim.text = which == OrderCase::unaligned_cut
-                   ? "every integrator falls to order 1 across a cut within a step"
-                   : fmt::format("every integrator shows its order, {}, in x and in v", name(which));
-  claim.paper_value = "three successive halvings within 0.1";
-  double farthest = 0.0;
-  std::size_t holding = 0, all = 0;
-  for (const OrderStudy& study : results.studies) {
-    if (study.which != which) continue;
-    ++all;
-    if (study.holds) {
-      ++holding;
-      farthest = std::max({farthest, std::abs(study.p_x - study.theory), std::abs(study.p_v - study.theory)});
-    } else {
-      claim.reason += fmt::format("{}{}: {}", claim.reason.empty() ? "" : "; ", study.integrator, study.reason);
-    }
-  }
-  claim.measured = fmt::format("{} of {} integrators, farthest {:.3f}", holding, all, farthest);
-  claim.verdict = verdict(holding == all);
-  return claim;
-}
-
-bool by_independent_codes(const Results& results) {
-  return std::ranges::all_of(results.stages, [](const OrderStage& stage) { return stage.certified.independent; });
-}
-std::string references_heading(const Results& results) {
-  return by_independent_codes(results) ? "by independent codes" : "by two methods of one library";
-}
-
-std::vector<Claim> claims_of(const Results& results) {
-  std::vector<Claim> claims;
-  for (const OrderCase which : order_cases) claims.push_back(order_claim(results, which));
-
-  double closest = 0.0, farthest = 0.0;
-  bool accepted = true;
-  for (const OrderStage& stage : results.stages) {
-    const reference::CertifiedMotion& certified = stage.certified;
-    accepted = accepted && certified.accepted;
-    closest = reference::larger(closest, reference::larger(certified.agreement, certified.self_difference));
-    for (const reference::CodeAgreement& code : certified.codes) farthest = reference::larger(farthest, code.distance);
-  }
-  claims.push_back(
-      {.id = "oracle-agreement",
-       .text = fmt::format("{} agree on the references, in mean edge lengths",
-                           by_independent_codes(results) ? "independent codes" : "two methods of one library"),
-       .paper_value = fmt::format("<= {:.0e}", accepted_agreement),
-       .measured = fmt::format("{:.1e} in extended precision, {:.1e} the farthest of all", closest, farthest),
-       .verdict = verdict(accepted && farthest <= accepted_agreement)});
-
-  double deviation = 0.0;
-  std::string who;
-  for (const DiscreteExact& d : results.discrete)
-    if (!(d.deviation <= deviation) && !std::isnan(deviation)) {
-      deviation = d.deviation;
-      who = d.integrator;
-    }
-  Claim discrete{.id = "discrete-exact",
-                 .text = "integrators are the powers of their amplification on an oscillator",
-                 .paper_value = fmt::format("<= {:.0e}", discrete_gate),
-                 .measured = fmt::format("{:.1e}", deviation)};
-  if (!results.discrete.empty())
-    discrete.bound_or_interval = fmt::format("after {} steps, the farthest: {}", results.discrete[0].steps, who);
-  for (const std::string& none : results.no_discrete)
-    discrete.reason += fmt::format("{}{} states no amplification", discrete.reason.empty() ? "" : "; ", none);
-  for (const DiscreteExact& d : results.discrete)
-    if (!d.diagnosis.empty())
-      discrete.reason += fmt::format("{}{}: {}", discrete.reason.empty() ? "" : "; ", d.integrator, d.diagnosis);
-  discrete.verdict = results.discrete.empty() ? Verdict::not_tested : verdict(deviation <= discrete_gate);
-  claims.push_back(discrete);
-
-  claims.push_back(
-      {.id = "force-is-gradient",
-       .text = "forces are minus the derivative of the energy",
-       .paper_value = "within the rounding bound",
-       .measured = fmt::format("{:.1e} N of {:.2g} N", results.force.deviation, results.force.largest_force),
-       .bound_or_interval = fmt::format("bound {:.1e} N", results.force.bound),
-       .verdict = verdict(results.force.ratio <= 1.0)});
-  const double jump = largest_jump(results);
-  claims.push_back({.id = "cut-jump",
-                    .text = "energy, momentum and angular momentum stay at a cut",
-                    .paper_value = fmt::format("<= {:.0e} relative", jump_gate),
-                    .measured = fmt::format("{:.1e}", jump),
-                    .verdict = verdict(jump <= jump_gate)});
-  const EnergyDrift& drift = results.drift;
-  claims.push_back({.id = "energy-momentum-drift",
-                    .text = fmt::format("the energy-momentum scheme keeps the energy at h omega = {:g}, across a cut",
-                                        drift.h_omega),
-                    .paper_value = fmt::format("<= {:.0e} relative", drift_gate),
-                    .measured = fmt::format("{:.1e} in {} steps", drift.drift, drift.steps),
-                    .verdict = verdict(drift.diagnosis.empty() && drift.drift <= drift_gate),
-                    .reason = drift.diagnosis});
-  const KeptFactor& factor = results.factor;
-  claims.push_back(
-      {.id = "kept-factor",
-       .text = "a factor that is kept saves factorisations at the same error (backward Euler, stiff inclusions)",
-       .paper_value = fmt::format(">= {} times fewer", savings_gate),
-       .measured = fmt::format("{} instead of {} in {} steps", factor.kept, factor.fresh, factor.steps),
-       .bound_or_interval =
-           fmt::format("{:.1e} edges apart; the error of the step is {:.1e}", factor.difference, factor.step_error),
-       .verdict = verdict(factor.diagnosis.empty() && factor.fresh >= savings_gate * factor.kept &&
-                          factor.difference <= kept_difference * factor.step_error),
-       .reason = factor.diagnosis});
-  return claims;
-}
-
-char mark(Regime regime) {
-  switch (regime) {
-    case Regime::failed: return '!';
-    case Regime::large: return '^';
-    case Regime::pre_asymptotic: return '~';
-    case Regime::asymptotic: return ' ';
-    case Regime::floor: return '_';
-  }
-  return '?';
-}
-
-std::string orders_text(const OrderStudy& study, double OrderPoint::*order) {
-  std::string text;
-  for (const OrderPoint& p : study.points) {
-    if (!p.has_order && p.diagnosis.empty()) continue;
-    if (!text.empty()) text += ' ';
-    text += p.has_order ? fmt::format("{:.2f}{}", p.*order, mark(p.regime)) : std::string("!");
-  }
-  return text;
-}
-
-Table order_table(const Results& results) {
-  Table table({{"integrator"},
-               {"scene"},
-               {"theory", Align::right},
-               {"h omega", Align::right},
-               {"p in x, by halving"},
-               {"p in v"},
-               {"holds"}});
-  for (const OrderStudy& s : results.studies) {
-    const std::string steps =
-        s.points.empty() ? "-" : fmt::format("{:.2g} .. {:.2g}", s.points.front().h_omega, s.points.back().h_omega);
-    table.add_row({s.integrator, std::string(name(s.which)), fmt::format("{}", s.theory), steps,
-                   orders_text(s, &OrderPoint::p_x), orders_text(s, &OrderPoint::p_v),
-                   s.holds ? "yes" : "NO: " + s.reason});
-  }
-  return table;
-}
-
-Table oracle_table(const Results& results) {
-  Table table({{"scene"},
-               {"code"},
-               {"distance / edges", Align::right},
-               {"evaluations", Align::right},
-               {"CPU s", Align::right}});
-  for (const OrderStage& stage : results.stages)
-    for (const reference::CodeAgreement& code : stage.certified.codes)
-      table.add_row({std::string(name(stage.which)), code.code,
-                     code.failure.empty() ? fmt::format("{:.1e}", code.distance) : code.failure,
-                     fmt::format("{}", code.evaluations), fmt::format("{:.3f}", code.cpu_s)});
-  return table;
-}
-
-Table discrete_table(const Results& results) {
-  Table table({{"integrator"},
-               {"zeta", Align::right},
-               {"h omega", Align::right},
-               {"steps", Align::right},
-               {"deviation", Align::right}});
-  for (const DiscreteExact& d : results.discrete)
-    table.add_row({d.integrator, fmt::format("{:g}", d.zeta), fmt::format("{:.3g}", d.h_omega),
-                   fmt::format("{}", d.steps), d.diagnosis.empty() ? fmt::format("{:.1e}", d.deviation) : d.diagnosis});
-  return table;
-}
-
-nlohmann::ordered_json to_json(const Results& results, const std::vector<Claim>& claims) {
-  nlohmann::ordered_json json{{"holds", exit_code(claims) == 0}, {"claims", nlohmann::json(claims)}};
-  for (const OrderStudy& s : results.studies) {
-    nlohmann::ordered_json study{{"integrator", s.integrator}, {"scene", name(s.which)}, {"theory", s.theory},
-                                 {"holds", s.holds},           {"p_x", number(s.p_x)},   {"p_v", number(s.p_v)}};
-    if (!s.reason.empty()) study["reason"] = s.reason;
-    for (const OrderPoint& p : s.points) {
-      nlohmann::ordered_json point{{"steps", p.steps}, {"h_omega", p.h_omega}, {"regime", name(p.regime)}};
-      if (p.diagnosis.empty()) {
-        point["error_x"] = number(p.errors.x);
-        point["error_v"] = number(p.errors.v);
-        point["error_energy"] = number(p.errors.energy);
-        point["error_momentum"] = number(p.errors.momentum);
-        point["error_angular"] = number(p.errors.angular);
-      } else {
-        point["diagnosis"] = p.diagnosis;
-      }
-      if (p.has_order) {
-        point["p_x"] = number(p.p_x);
-        point["p_v"] = number(p.p_v);
-      }
-      study["points"].push_back(point);
-    }
-    json["orders"].push_back(study);
-  }
-  for (const OrderStage& stage : results.stages) {
-    const reference::CertifiedMotion& c = stage.certified;
-    nlohmann::ordered_json oracle{{"scene", name(stage.which)},       {"accepted", c.accepted},
-                                  {"independent", c.independent},     {"self_difference", number(c.self_difference)},
-                                  {"agreement", number(c.agreement)}, {"floor", number(c.floor)},
-                                  {"gain", number(c.largest_gain())}};
-    for (const reference::CodeAgreement& code : c.codes)
-      oracle["codes"].push_back({{"code", code.code},
-                                 {"distance", number(code.distance)},
-                                 {"evaluations", code.evaluations},
-                                 {"cpu_s", code.cpu_s},
-                                 {"failure", code.failure}});
-    json["references"].push_back(oracle);
-  }
-  for (const DiscreteExact& d : results.discrete)
-    json["discrete"].push_back({{"integrator", d.integrator},
-                                {"zeta", d.zeta},
-                                {"h_omega", d.h_omega},
-                                {"steps", d.steps},
-                                {"deviation", number(d.deviation)},
-                                {"diagnosis", d.diagnosis}});
-  json["force"] = {{"deviation", results.force.deviation},
-                   {"bound", results.force.bound},
-                   {"ratio", number(results.force.ratio)},
-                   {"largest_force", results.force.largest_force}};
-  json["energy_drift"] = {{"steps", results.drift.steps},
-                          {"h_omega", results.drift.h_omega},
-                          {"drift", number(results.drift.drift)},
-                          {"diagnosis", results.drift.diagnosis}};
-  json["kept_factor"] = {{"steps", results.factor.steps},
-                         {"fresh", results.factor.fresh},
-                         {"kept", results.factor.kept},
-                         {"difference", number(results.factor.difference)},
-                         {"step_error", number(results.factor.step_error)},
-                         {"diagnosis", results.factor.diagnosis}};
-  for (const CutJump& jump : results.jumps)
-    json["jumps"].push_back({{"time", jump.time},
-                             {"vertices_before", jump.vertices_before},
-                             {"vertices_after", jump.vertices_after},
-                             {"energy", number(jump.energy)},
-                             {"momentum", number(jump.momentum)},
-                             {"angular", number(jump.angular)}});
-  return json;
-}
-
 void validate(const Options& options, Outcome& outcome) {
   std::optional<RunFolder> folder;
   nlohmann::json manifest;
@@ -358,7 +82,7 @@ void validate(const Options& options, Outcome& outcome) {
     manifest = begin_manifest(facts);
     folder->write_manifest(manifest);
   }
-  const Results results = run(options);
+  const OrderResults results = run(options);
   const std::vector<Claim> claims = claims_of(results);
   outcome.exit_code = exit_code(claims) == 0 ? exit_agrees : exit_disagrees;
   if (folder) {
@@ -371,18 +95,18 @@ void validate(const Options& options, Outcome& outcome) {
     folder->write_manifest(manifest);
   }
   if (options.json) {
-    fmt::print("{}\n", to_json(results, claims).dump(2));
+    tell("{}\n", json_text(to_json(results, claims), 2));
     return;
   }
-  fmt::print("The references: a box of 3 x 3 x 3 cubes for 16.5 / omega_max, {}\n\n{}\n", references_heading(results),
-             to_text(oracle_table(results)));
-  fmt::print(
+  tell("The references: a box of 3 x 3 x 3 cubes for 16.5 / omega_max, {}\n\n{}\n", references_heading(results),
+       to_text(oracle_table(results)));
+  tell(
       "Observed orders; ^ error above {:g}, ~ not within 0.1, _ near the floor of the reference, ! no result; over "
       "two\n"
       "halvings across the unaligned cut\n\n{}\n",
       options.quick ? quick_error : OrderOptions{}.most_error, to_text(order_table(results)));
-  fmt::print("Against the exact maps of the methods\n\n{}\n", to_text(discrete_table(results)));
-  fmt::print("{}", to_text(std::span<const Claim>(claims)));
+  tell("Against the exact maps of the methods\n\n{}\n", to_text(discrete_table(results)));
+  tell("{}", to_text(std::span<const Claim>(claims)));
 }
 
 }  // namespace

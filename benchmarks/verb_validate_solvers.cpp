@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/clock.h"
+#include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/solver_report.h"
+#include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/plain/error.h"
 
@@ -89,15 +91,13 @@ void append(SolverResults& all, SolverResults part) {
 
 void validate(const Options& options, Outcome& outcome) {
   const auto say = [&](const std::string& text) {
-    fmt::print(options.json ? stderr : stdout, "{}\n", text);
+    tell(options.json ? stderr : stdout, "{}\n", text);
     std::fflush(options.json ? stderr : stdout);
   };
   for (const std::string& part : options.only)
     if (std::ranges::find(parts, part) == std::end(parts))
       throw InputError(fmt::format("--only {}: there are accuracy, edits, updates, crossover, steps", part));
-  const RunFolder folder(options.out.empty()
-                             ? new_run_path(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "results", "solvers")
-                             : std::filesystem::path(options.out));
+  const RunFolder folder(run_path(options.out, "solvers"));
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of the tasks", options.seed}};
@@ -119,17 +119,18 @@ void validate(const Options& options, Outcome& outcome) {
     say(fmt::format("\n{}\n\n{}\n{}", t.heading, to_text(t.table), t.note));
     folder.write_table(t.name, t.heading, t.table, t.note);
   }
+  std::string trouble;
   if (std::ranges::any_of(results.crossovers, [](const Crossover& c) { return c.failure.empty(); }))
-    if (const std::string trouble = draw(crossover_plot(results.crossovers), folder.path(), "crossover");
-        !trouble.empty())
-      say(trouble);
+    trouble = draw(crossover_plot(results.crossovers), folder.path(), "crossover");
+  if (!trouble.empty()) say(trouble);
   const std::vector<Claim> claims = claims_of(results);
   folder.write_claims(claims);
   finish_manifest(manifest);
   folder.write_manifest(manifest);
   outcome.exit_code = exit_code(claims) == 0 ? exit_agrees : exit_disagrees;
+  picture_missing(outcome, trouble);
   say("\nTargets\n\n" + to_text(std::span<const Claim>(claims)));
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"claims", claims}, {"manifest", manifest}}.dump(2));
+  if (options.json) tell("{}\n", json_text(nlohmann::json{{"claims", claims}, {"manifest", manifest}}, 2));
   say(fmt::format("{}Written to {}.", options.quick ? "This was a quick run. " : "", folder.path().string()));
 }
 
@@ -141,7 +142,7 @@ void add_validate_solvers(CLI::App& validate_verb, Outcome& outcome) {
       "solvers", "Linear systems: backward errors at all scales, factors that follow edits, and where implicit pays.");
   verb->add_option("--only", options->only, "of accuracy, edits, updates, crossover, steps [all]");
   verb->add_flag("--quick", options->quick, "smaller bodies, one size, fewer repetitions");
-  verb->add_option("--out", options->out, "folder to write to, new or empty [results/solvers-TIME]");
+  verb->add_option("--out", options->out, "folder to write to, new or empty [dartboard-results/solvers-TIME]");
   verb->add_option("--seed", options->seed, "of the order of the timed tasks [1]");
   verb->add_flag("--json", options->json,
                  "print claims and manifest as JSON on standard output, the rest on standard error");

@@ -288,7 +288,7 @@ PointState CgalBody::state() const {
 void CgalBody::set_state(const PointState& state) { complex_->set_state(state); }
 std::vector<Eigen::Vector3d> CgalBody::spring_and_drag_forces() const { return complex_->forces(); }
 
-CellCounts CgalBody::counts() const {
+CgalCounts CgalBody::counts() const {
   const auto n = complex_->map.count_cells({0, 1, 2, 3, 4});
   return {complex_->map.number_of_darts(), n[0], n[1], n[2], n[3], n[4]};
 }

@@ -18,9 +18,9 @@ enum class CgalWalk {
 };
 
 /// What CGAL counts in the map.
-struct CellCounts {
+struct CgalCounts {
   std::size_t darts, vertices, edges, faces, volumes, components;
-  bool operator==(const CellCounts&) const = default;
+  bool operator==(const CgalCounts&) const = default;
 };
 
 /// A mass/spring body whose points are vertex attributes and whose springs are edge attributes of a 3-g-map, moved by
@@ -47,7 +47,7 @@ class CgalBody {
   /// f_i - viscosity m_i v_i [N] at the current state, for every point, also the fixed.
   std::vector<Eigen::Vector3d> spring_and_drag_forces() const;
 
-  CellCounts counts() const;
+  CgalCounts counts() const;
 
   /// CGAL's own judgement of the map and its attributes.
   bool is_valid() const;

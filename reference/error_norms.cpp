@@ -8,15 +8,15 @@
 #include <limits>
 
 #include "core/plain/error.h"
-#include "reference/larger.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard::reference {
 namespace {
 
 using Vector = Eigen::Matrix<long double, 3, 1>;
 
-void raise(long double& largest, long double value) { largest = larger(largest, value); }
-void raise(double& largest, long double value) { largest = larger(largest, static_cast<double>(value)); }
+void raise(long double& largest, long double value) { largest = max_or_nan(largest, value); }
+void raise(double& largest, long double value) { largest = max_or_nan(largest, static_cast<double>(value)); }
 
 double in_units_of(long double scale, long double error) {
   if (scale == 0.0L && error == 0.0L) return 0.0;

@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
-#include "reference/larger.h"
 #include "reference/ode_intervals.h"
 
 namespace dartboard::reference {
@@ -16,8 +16,8 @@ namespace {
 double distance(const NetworkMotion& motion, const CodeRun& a, const CodeRun& b, double edge) {
   double largest = 0.0;
   for (std::size_t c = 0; c < motion.checkpoints.size(); ++c)
-    largest =
-        larger(largest, position_distance(motion.network_of(motion.interval_at(c)), a.states[c], b.states[c], edge));
+    largest = max_or_nan(largest,
+                         position_distance(motion.network_of(motion.interval_at(c)), a.states[c], b.states[c], edge));
   return largest;
 }
 
@@ -81,7 +81,7 @@ double position_distance(const SpringNetwork& network, const std::vector<long do
 
 double CertifiedMotion::largest_gain() const {
   double largest = 0.0;
-  for (const double g : gain) largest = larger(largest, g);
+  for (const double g : gain) largest = max_or_nan(largest, g);
   return largest;
 }
 
@@ -136,13 +136,13 @@ CertifiedMotion certify(const NetworkMotion& motion, const CertifyOptions& optio
   }
   certified.accepted = certified.self_difference <= options.accepted && confirmed;
   // h^8: of the difference of two runs with steps 1 and 0.7, the finer one has 0.7^8 / (1 - 0.7^8) = 0.061
-  double known = larger(0.061 * certified.self_difference, certified.agreement);
+  double known = max_or_nan(0.061 * certified.self_difference, certified.agreement);
   double rounding = 0.0;
   for (std::size_t c = 0; c < certified.states.size(); ++c)
-    rounding = larger(
+    rounding = max_or_nan(
         rounding, position_distance(motion.network_of(certified.interval[c]), reference.states[c],
                                     flat<long double>(certified.states[c], Eigen::Vector3d::Zero()), certified.edge));
-  certified.floor = larger(100.0 * known, 10.0 * rounding);
+  certified.floor = max_or_nan(100.0 * known, 10.0 * rounding);
   if (options.gain) certified.gain = gains(motion, runs.front(), certified.edge, twin_step);
   return certified;
 }

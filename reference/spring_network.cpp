@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/plain/error.h"
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 
 namespace dartboard::reference {
@@ -92,7 +93,7 @@ double mean_rest_length(const SpringNetwork& network) {
 double fastest_rate(const SpringNetwork& network, std::span<const Eigen::Vector3d> x) {
   const double omega = std::sqrt(largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.stiffness); }));
   const double decay = largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.damping); });
-  return std::max(omega, decay + network.viscosity);
+  return max_or_nan(omega, decay + network.viscosity);
 }
 
 }  // namespace dartboard::reference

@@ -33,7 +33,7 @@
 #include <limits>
 
 #include "core/plain/error.h"
-#include "reference/larger.h"
+#include "core/plain/nan_maximum.h"
 #include "reference/rebuild.h"
 
 namespace dartboard::reference {
@@ -174,7 +174,7 @@ StateBound state_bound(const Problem& problem, const PointState& start, int step
   const auto largest = [&body, n](const Vectors& w) {
     double most = 0.0;
     for (std::size_t i = 0; i < n; ++i)
-      if (!body.fixed[i]) most = larger(most, w[i].norm());
+      if (!body.fixed[i]) most = max_or_nan(most, w[i].norm());
     return most;
   };
 
@@ -201,7 +201,7 @@ StateBound state_bound(const Problem& problem, const PointState& start, int step
         a[i] = p.force / mass - viscosity * vs[i] + gravity;
         const double eps = p.error / mass + gamma(2 * body.cells[i] + body.springs[i] + 10) *
                                                 (p.magnitude / mass + viscosity * vs[i].norm() + gravity.norm());
-        A = larger(A, slack * (p.by_position / mass * Xs + (p.by_velocity / mass + viscosity) * Vs + eps));
+        A = max_or_nan(A, slack * (p.by_position / mass * Xs + (p.by_velocity / mass + viscosity) * Vs + eps));
       }
       if (!std::isfinite(A)) return {infinity, infinity};
 

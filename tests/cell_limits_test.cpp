@@ -47,7 +47,7 @@ TEST(CellLimits, CountTheDartsThatAMapHas) {
 
 TEST(CellLimits, LetAMeshBeAsLargeAsAMapAndNoLarger) {
   const auto of = [](CellKind kind, double count) {
-    CellCounts cells{};
+    CountsByKind cells{};
     cells[static_cast<std::size_t>(kind)] = count;
     return beyond_a_map(cells);
   };

@@ -19,9 +19,9 @@ Problem of(Mesh mesh) {
 }
 
 // Darts, vertices, edges, faces, volumes, components.
-void expect_counts(const Mesh& mesh, const CellCounts& expected) {
+void expect_counts(const Mesh& mesh, const CgalCounts& expected) {
   const CgalBody body(of(mesh));
-  const CellCounts n = body.counts();
+  const CgalCounts n = body.counts();
   EXPECT_TRUE(body.is_valid());
   EXPECT_EQ(n, expected) << n.darts << " " << n.vertices << " " << n.edges << " " << n.faces << " " << n.volumes << " "
                          << n.components;

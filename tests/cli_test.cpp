@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -13,27 +12,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/program_for_tests.h"
+
+namespace dartboard {
 namespace {
 
 namespace fs = std::filesystem;
 const std::string binary = DARTBOARD_BINARY;
 const std::string liver = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/meshes/liver564.mesh";
-
-struct Answer {
-  int status;
-  std::string out;  // standard output and error together
-};
-
-Answer run(const std::string& arguments, const char* redirect = "2>&1") {
-  const std::string command = binary + " " + arguments + " " + redirect;
-  FILE* pipe = popen(command.c_str(), "r");
-  Answer answer{-1, ""};
-  std::array<char, 4096> buffer;
-  for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) answer.out.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return answer;
-}
 
 // A file that is gone when the test is over.
 struct TemporaryFile {
@@ -390,3 +376,4 @@ TEST(Scene, SchemaIsJson) {
 }
 
 }  // namespace
+}  // namespace dartboard

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -73,6 +74,40 @@ TEST(Includes, OfValidationDoNotReachTheCommandLine) {
 }
 TEST(Includes, OfBenchmarksLeaveCgalToTheOthers) {
   EXPECT_EQ(forbidden("benchmarks/", {"core/", "reference/", "validation/", "benchmarks/"}), Files{});
+}
+
+/// Files below `room` but the `allowed` ones that hold one of some words.
+Files users_of(const std::string& room, const std::vector<std::string>& words, const Files& allowed) {
+  const fs::path root = DARTBOARD_SOURCE_DIR;
+  Files users;
+  for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+    const std::string name = fs::relative(entry.path(), root).generic_string();
+    if (!entry.is_regular_file() || std::ranges::find(allowed, name) != allowed.end()) continue;
+    std::ifstream file(entry.path());
+    for (std::string text; std::getline(file, text);)
+      for (const std::string& word : words)
+        if (text.find(word) != std::string::npos) users.push_back(name + ": " + text);
+  }
+  return users;
+}
+
+// What is printed, and what is written as JSON, has been made harmless on its way; nothing goes through a shell.
+TEST(Sources, PrintThroughTellAlone) {
+  EXPECT_EQ(users_of("benchmarks", {"fmt::print(", "std::cout <<", "std::cerr", "printf(", "fputs("},
+                     {"benchmarks/tell.h", "benchmarks/progress.cpp"}),
+            Files{});
+  for (const char* room : {"core", "reference", "validation"})
+    EXPECT_EQ(users_of(room, {"fmt::print(", "std::cout", "std::cerr", " printf("}, {}), Files{}) << room;
+}
+TEST(Sources, WriteJsonThroughJsonTextAlone) {
+  // of numbers, and of a scene made in memory
+  EXPECT_EQ(users_of("benchmarks", {".dump("},
+                     {"benchmarks/json_text.h", "benchmarks/settle_accuracy.cpp", "benchmarks/ablation_study.cpp"}),
+            Files{});
+}
+TEST(Sources, StartNoShell) {
+  for (const char* room : {"core", "reference", "validation", "benchmarks"})
+    EXPECT_EQ(users_of(room, {"popen(", "std::system(", " system(\"", "\"/bin/sh\"", "\"sh\""}, {}), Files{}) << room;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/summation_bound.h"
 #include "tests/meshes_for_tests.h"
 
 namespace dartboard {
@@ -23,12 +24,13 @@ Problem falling_grid() {
   return problem;
 }
 
-/// The baseline, with one number of what it tells spoilt; of the state, where `compare_motion` compares it.
+/// The baseline, or another contender, with one number of what it tells spoilt; of the state, where `compare_motion`
+/// compares it.
 class Spoilt : public ContenderBody {
  public:
   enum class What { nothing, force, position, velocity, points };
-  Spoilt(const Problem& problem, What what, double by)
-      : body_(contender("graph").make(problem)), what_(what), by_(by) {}
+  Spoilt(const Problem& problem, What what, double by, std::string_view base = "graph")
+      : body_(contender(base).make(problem)), what_(what), by_(by) {}
   void step(int n) override {
     body_->step(n);
     steps_ += n;
@@ -84,6 +86,44 @@ TEST(CompareMotion, StopsAContenderWithOneNumberThatIsNone) {
 }
 
 TEST(CompareMotion, StopsAContenderThatTellsOfFewerPoints) { EXPECT_FALSE(agrees(spoilt(Spoilt::What::points, 0.0))); }
+
+/// A walk of the core's whose one number is off.
+Contender spoilt_walk(Spoilt::What what, double by) {
+  Contender walk = contender("lists");
+  walk.make = [=](const Problem& problem) { return std::make_unique<Spoilt>(problem, what, by, "lists"); };
+  return walk;
+}
+
+// Coordinates are below 2 m, velocities and forces here below 1 in their units, of 1e-16 and less.
+TEST(CompareMotion, StopsAWalkOfTheCoreWithOneWrongBit) {
+  EXPECT_TRUE(agrees(spoilt_walk(Spoilt::What::nothing, 0.0)));
+  for (const auto what : {Spoilt::What::force, Spoilt::What::position, Spoilt::What::velocity})
+    EXPECT_FALSE(agrees(spoilt_walk(what, 0x1p-48))) << static_cast<int>(what);
+}
+
+// The baseline itself uses a thousandth of its bounds.
+TEST(CompareMotion, AcceptsHalfABoundAndRefusesThree) {
+  const Problem problem = falling_grid();
+  const auto first = contender("arrays").make(problem);
+  first->step(20);
+  const PointState start = first->state();
+  const double force = reference::force_bound(problem, start)[5];
+  const reference::StateBound state = reference::state_bound(problem, start, 5);
+  const std::pair<Spoilt::What, double> bounds[]{
+      {Spoilt::What::force, force}, {Spoilt::What::position, state.position}, {Spoilt::What::velocity, state.velocity}};
+  for (const auto& [what, bound] : bounds) {
+    EXPECT_TRUE(agrees(spoilt(what, 0.5 * bound))) << static_cast<int>(what);
+    EXPECT_FALSE(agrees(spoilt(what, 3.0 * bound))) << static_cast<int>(what);
+  }
+}
+
+TEST(CompareMotion, TellsHowFarOffAContenderIs) {
+  const Contender both[]{contender("arrays"), spoilt(Spoilt::What::position, 1e-6)};
+  const MotionAgreement a = compare_motion(falling_grid(), 5, both).at(1);
+  EXPECT_NEAR(a.position_difference, 1e-6, 1e-12);
+  EXPECT_LT(a.velocity_difference, 1e-12);
+  EXPECT_NE(a.hash, compare_motion(falling_grid(), 5, both).at(0).hash);
+}
 
 // Their states are the same bits then.
 TEST(CompareMotion, StopsEverybodyWhereTheFirstHasNoNumbers) {

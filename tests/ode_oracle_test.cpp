@@ -287,5 +287,50 @@ TEST(SpringNetwork, KnowsItsFastestRate) {
   EXPECT_NEAR(fastest_rate(network, x), 18.0, 1e-9);
 }
 
+// A damper without a spring in a medium: both slow its masses' relative motion. A spring that is faster counts alone.
+TEST(SpringNetwork, AddsTheMediumToTheRateOfDecay) {
+  SpringNetwork network;
+  network.mass = {0.25, 0.5};
+  network.fixed = {0, 0};
+  network.springs = {{0, 1, 0.0, 3.0, 1.0}};
+  network.viscosity = 100.0;
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}};
+  EXPECT_NEAR(fastest_rate(network, x), 118.0, 1e-9);
+  network.springs[0] = {0, 1, 0.0, 0.0, 1.0};
+  EXPECT_NEAR(fastest_rate(network, x), 100.0, 1e-9);
+  network.springs[0].stiffness = 6e6;  // omega = sqrt(6 k)
+  EXPECT_NEAR(fastest_rate(network, x), 6e3, 1e-6);
+}
+
+// Points that are held do not swing: of three in a row, one between two walls.
+TEST(SpringNetwork, LeavesOutWhatIsHeld) {
+  SpringNetwork network;
+  network.mass = {1e-6, 2.0, 1e-6};
+  network.fixed = {1, 0, 1};
+  network.springs = {{0, 1, 4.0, 0.0, 1.0}, {1, 2, 4.0, 0.0, 1.0}};
+  const std::vector<Eigen::Vector3d> x{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  EXPECT_NEAR(fastest_rate(network, x), 2.0, 1e-9);
+}
+
+TEST(SpringNetwork, HasTheMeanRestLengthAsItsUnit) {
+  SpringNetwork network;
+  EXPECT_EQ(mean_rest_length(network), 1.0);
+  network.springs = {{0, 1, 1.0, 0.0, 1.0}, {1, 2, 1.0, 0.0, 4.0}};
+  EXPECT_EQ(mean_rest_length(network), 2.5);
+}
+
+TEST(OdeOracle, MeasuresDistancesByMassInEdges) {
+  SpringNetwork network;
+  network.mass = {1.0, 3.0};
+  network.fixed = {0, 0};
+  const std::vector<long double> a(12, 0.0L);
+  std::vector<long double> b = a;
+  b[3] = 1e-3L;
+  EXPECT_DOUBLE_EQ(position_distance(network, a, b, 0.5), std::sqrt(0.75) * 1e-3 / 0.5);
+  b[3] = 0.0L;
+  b[9] = 1.0L;  // a velocity is no distance
+  EXPECT_EQ(position_distance(network, a, b, 0.5), 0.0);
+}
+
 }  // namespace
 }  // namespace dartboard::reference

@@ -30,8 +30,8 @@ Panels two_panels() {
 TEST(PanelsText, ScriptHasEveryPanelInBothPictures) {
   const std::string script = panels_script(two_panels(), "figure");
   for (const char* part :
-       {"figure.png", "figure.svg", "layout 1,2", "set ytics (\"none\" 0, \"all\" 1)",
-        "\"figure.dat\" index 0 using 1:2:3 with image", "set logscale x", "\"figure.dat\" index 1 using 1:2"})
+       {"figure.png", "figure.svg", "layout 1,2", "set ytics ('none' 0, 'all' 1)",
+        "'./figure.dat' index 0 using 1:2:3 with image", "set logscale x", "'./figure.dat' index 1 using 1:2"})
     EXPECT_NE(script.find(part), std::string::npos) << part;
 }
 

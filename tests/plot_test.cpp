@@ -35,27 +35,30 @@ TEST(PlotText, DataHoldEveryPointWithAllItsDigits) {
 
 TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
   const std::string script = plot_script(small_plot(), "figure");
-  EXPECT_NE(script.find("set output \"figure.png\""), std::string::npos);
-  EXPECT_NE(script.find("set output \"figure.svg\""), std::string::npos);
-  EXPECT_NE(script.find("\"figure.dat\" index 0 using 1:2 with linespoints linecolor rgb \"#80ff0000\""),
+  EXPECT_NE(script.find("set output './figure.png'"), std::string::npos);
+  EXPECT_NE(script.find("set output './figure.svg'"), std::string::npos);
+  EXPECT_NE(script.find("'./figure.dat' index 0 using 1:2 with linespoints linecolor rgb \"#80ff0000\""),
             std::string::npos);
   EXPECT_EQ(script.find("index 1"), std::string::npos);
-  EXPECT_NE(script.find("A \\\"quoted\\\" title"), std::string::npos);
+  EXPECT_NE(script.find("'A \"quoted\" title'"), std::string::npos);
 }
 
 TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
   // 200 pixels of 10-point letters, 8 pixels each: 23 letters a line
-  EXPECT_EQ(quoted_title("short", 200, 10.0), "\"short\"");
-  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0), "\"one two three four five\\nsix seven\"");
-  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0, 1), "\"one two three four ...\"");
-  // letters beyond ASCII count once, quotes are escaped, blanks and breaks are one blank
+  EXPECT_EQ(quoted_title("short", 200, 10.0), "'short'");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0),
+            "'one two three four five' . \"\\n\" . 'six seven'");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0, 1), "'one two three four ...'");
+  // letters beyond ASCII count once, apostrophes are typographic, blanks and breaks are one blank
   EXPECT_EQ(
       quoted_title(
           "\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9",
           200, 10.0),
-      "\"\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 "
-      "\xC3\xA9t\xC3\xA9\"");
-  EXPECT_EQ(quoted_title("a \"b\"\n  c", 200, 10.0), "\"a \\\"b\\\" c\"");
+      "'\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 "
+      "\xC3\xA9t\xC3\xA9'");
+  EXPECT_EQ(quoted_title("a \"b's\"\n  c", 200, 10.0), "'a \"b\xE2\x80\x99s\" c'");
+  // a word that is longer than a line is cut
+  EXPECT_EQ(quoted_title(std::string(100000, 'a'), 200, 10.0), "'" + std::string(20, 'a') + "...'");
 }
 
 TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {

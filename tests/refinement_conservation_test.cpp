@@ -9,17 +9,15 @@
 #include "core/mechanics/refine.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
+#include "tests/conservation_rows_for_tests.h"
 #include "validation/conserved_sums.h"
+#include "validation/refinement_effects.h"
 #include "validation/subdivided_cells.h"
 
 namespace dartboard {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
-
-std::string violation_of(const ConservationResult& result) {
-  return result.violation ? to_string(*result.violation) : "none";
-}
 
 ConservationPlan short_plan(std::uint64_t seed, std::size_t operations) {
   ConservationPlan plan;
@@ -39,6 +37,17 @@ struct RefinementConservation : testing::Test {
     };
     return violation_of(
         validate_refinement<Map>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1), short_plan(4, 200), late));
+  }
+  // What comes of a run in which `fault` strikes at every refinement of an edge without bracing.
+  template <class Fault>
+  static ConservationResult refined(Fault&& fault) {
+    const FollowSubdivision<Map> faulty = [&](LiveBody<Map>& body, const Subdivision& subdivision, double bracing) {
+      ChangedEmbeddings changed = follow_subdivision(body, subdivision, bracing);
+      if (bracing == 0.0 && subdivision.children.size() == 2 * subdivision.parents.size()) fault(body);
+      return changed;
+    };
+    return validate_refinement<Map>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1), short_plan(4, 200), {},
+                                    faulty);
   }
 };
 using Solids = testing::Types<Map3, TetMap>;
@@ -92,6 +101,50 @@ TYPED_TEST(RefinementConservation, FailsWhenACellHasNotItsShareOfTheMass) {
 TYPED_TEST(RefinementConservation, FailsWhenAViewIsStale) {
   const auto what = this->first_violation([](auto&, auto& views) { views.pattern = {}; });
   EXPECT_NE(what.find("views"), std::string::npos) << what;
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenTheNewVertexIsNotInTheMiddle) {
+  const auto result = this->refined([](auto& body) { body.vertices.position.back().x() += 1e-9; });
+  EXPECT_NE(violation_of(result).find("vertices put in"), std::string::npos) << violation_of(result);
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenTheNewVertexDoesNotMoveAsTheOthersDo) {
+  const auto result = this->refined([](auto& body) { body.vertices.velocity.back().y() += 1e-9; });
+  EXPECT_NE(violation_of(result).find("vertices put in"), std::string::npos) << violation_of(result);
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenARefinementMovesAnotherVertex) {
+  const auto result = this->refined([](auto& body) { body.vertices.position.front().x() += 1e-9; });
+  EXPECT_NE(violation_of(result).find("duplicated"), std::string::npos) << violation_of(result);
+}
+
+TYPED_TEST(RefinementConservation, FailsWhenANewVertexIsHeld) {
+  const auto result = this->refined([](auto& body) { body.vertices.fixed.back() = !body.vertices.fixed.back(); });
+  EXPECT_NE(violation_of(result).find("duplicated"), std::string::npos) << violation_of(result);
+}
+
+// A vertex that is off by a tenth of a micrometre feels 1e-8 N: forces, energy and spin are looked at, too.
+TYPED_TEST(RefinementConservation, LooksAtForcesEnergiesAndMomentaAroundARefinement) {
+  const auto off = this->refined([](auto& body) { body.vertices.position.back().x() += 1e-7; });
+  for (const char* what : {"forces around", "elastic energy", "angular momentum"})
+    EXPECT_FALSE(row(off, what).holds) << what;
+  const auto fast = this->refined([](auto& body) { body.vertices.velocity.back().x() += 1e-7; });
+  for (const char* what : {"linear momentum", "kinetic energy"}) EXPECT_FALSE(row(fast, what).holds) << what;
+}
+
+TEST(RefinementMeansOfCorners, AreOffByTheRoundingOfFourOperations) {
+  VertexColumns columns;
+  columns.position = {{1, 0, 0}, {3, 4, 0}};
+  columns.velocity = {{0, 0, 2}, {0, 0, -4}};
+  columns.fixed = {1, 0};
+  const std::uint32_t corners[]{0, 1};
+  const RefinementMeans means(columns, corners);
+  EXPECT_EQ(means.x, Eigen::Vector3d(2, 2, 0));
+  EXPECT_EQ(means.v, Eigen::Vector3d(0, 0, -1));
+  EXPECT_FALSE(means.all_fixed);
+  // two means of up to four terms: twice gamma_5 of the mean of the absolute values, (2, 2, 0) and (0, 0, 3)
+  EXPECT_NEAR(means.off, 2 * 5 * 0x1p-53 * std::sqrt(8.0), 1e-20);
+  EXPECT_NEAR(means.off_v, 2 * 5 * 0x1p-53 * 3.0, 1e-20);
 }
 
 TEST(RefinementConservationMeshes, MustBeOfTetrahedra) {

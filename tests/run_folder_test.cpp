@@ -8,6 +8,7 @@
 
 #include "core/plain/error.h"
 #include "tests/folder_for_tests.h"
+#include "tests/processes_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -103,11 +104,24 @@ TEST_F(RunFolderTest, NamesTheNumberThatJsonCannotHold) {
 
 TEST_F(RunFolderTest, NewRunPathsDoNotCollide) {
   const fs::path first = new_run_path(folder_, "reproduce");
-  fs::create_directories(first);
   const fs::path second = new_run_path(folder_, "reproduce");
   EXPECT_NE(first, second);
-  EXPECT_FALSE(fs::exists(second));
+  EXPECT_TRUE(fs::is_directory(first) && fs::is_directory(second));
   EXPECT_TRUE(second.filename().string().starts_with("reproduce-20")) << second;
+}
+
+TEST_F(RunFolderTest, NewRunPathsOfProcessesThatStartAtOnceDoNotCollide) {
+  const auto statuses = at_once(20, [this](int) {
+    try {
+      const RunFolder run(new_run_path(folder_, "reproduce"));
+      run.write("result.txt", "result");
+      return 0;
+    } catch (const IoError&) {
+      return 1;
+    }
+  });
+  EXPECT_EQ(statuses, std::vector<int>(20, 0));
+  EXPECT_EQ(files_in(folder_), 20u);
 }
 
 }  // namespace

@@ -110,8 +110,8 @@ TEST(SceneEvents, TearsTheLowestOfTwoVerticesThatAreAsNear) {
 }
 
 TEST(SceneEvents, TearsAFanAroundAVertexInsideTheBody) {
-  // around the middle of 4 x 4 x 4 cubes: the six triangles of the plane across x there, a closed fan; the six edges
-  // between them and the vertex come apart, what lies around the fan does not
+  // around the middle of 4 x 4 x 4 cubes: the six triangles of one cube's sides there, a closed fan around the corner of
+  // its six tetrahedra; the six edges between them come apart, what lies around the fan does not
   Json scene = with_events(moving_box(), R"([{"at": 0, "tear": {"vertex": 62, "direction": [1, 0, 0]}}])");
   scene["body"]["generate"]["box"]["cells"] = {4, 4, 4};
   const CellCounts before = Simulation(parse(with_events(scene, "[]"))).body().counts();

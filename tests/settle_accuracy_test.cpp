@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -74,6 +75,26 @@ TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
   const Json pasted = Json::parse("{" + said.substr(from, said.find('\n', from) - from) + "}");
   EXPECT_EQ(pasted.at("step").get<double>(), scene.step);
   EXPECT_EQ(pasted.at("integrator"), scene.integrator);
+}
+
+// Frames at times that the recommended step does not meet shorten it, and what is promised is of the shorter one.
+TEST(SettleAccuracy, PromisesTheErrorOfTheStepThatIsTaken) {
+  Json json = accurate_box(1e-3);
+  json["integrator"] = "verlet";
+  SceneFile plain = parse(json);
+  const auto alone = settle_accuracy(plain, ticking());
+  json["output"] = {{"frames_every", 0.1 * 7 / 128}};
+  SceneFile timed = parse(json);
+  const auto fitted = settle_accuracy(timed, ticking());
+  ASSERT_TRUE(alone && fitted);
+  EXPECT_EQ(fitted->recommended_step, alone->recommended_step);
+  ASSERT_LT(fitted->step, 0.97 * alone->step);
+  // the order is 2, and one that was seen is between half of that and that
+  const double power =
+      std::log(fitted->predicted_error / alone->predicted_error) / std::log(fitted->step / alone->step);
+  EXPECT_GT(power, 0.9);
+  EXPECT_LT(power, 2.1);
+  EXPECT_GT(fitted->predicted_s, alone->predicted_s);
 }
 
 TEST(SettleAccuracy, KeepsTheIntegratorThatTheSceneNames) {

@@ -326,6 +326,43 @@ TEST(Simulation, RefusesAStepThatIsTooLongWhereTheSceneSaysSo) {
   EXPECT_EQ(refusal.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most ", 0), 0u) << refusal;
 }
 
+// What is not written in the scene is not what the user can change.
+TEST(Simulation, NamesTheAccuracyThatAStepWasChosenForWhereItRefusesOne) {
+  SceneFile scene = parse(too_stiff("refuse"));
+  scene.accuracy = 1e-3;
+  try {
+    const Simulation simulation(scene);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_EQ(what.rfind("file: /accuracy: a step of 0.01 s is too long for rk4; expected 'step' in its place", 0), 0u)
+        << what;
+  }
+}
+
+TEST(Simulation, GoesByTheLimitOfItsBodyForARunOfItsDuration) {
+  const Simulation simulation(parse(too_stiff("warn")));
+  const SimulatedBody& body = simulation.body();
+  const StepLimit limit = StableStepEstimate()
+                              .refresh(body.system(), body.vertices().position)
+                              .limit(make_integrator("rk4")->scheme(), horizon_of(0.2));
+  EXPECT_EQ(simulation.step_limit().stable, limit.stable);
+  EXPECT_EQ(simulation.step_limit().unstable, limit.unstable);
+  EXPECT_EQ(simulation.step_warning()->stable, limit.stable);
+  for (const double step : {limit.stable, std::nextafter(limit.stable, 1.0)}) {
+    SceneFile scene = parse(too_stiff("warn"));
+    scene.step = step;
+    EXPECT_EQ(Simulation(scene).step_warning().has_value(), step > limit.stable);
+  }
+}
+
+TEST(Simulation, DividesAStepIntoAsFewPartsAsAreStable) {
+  const Simulation simulation(parse(too_stiff("substep")));
+  const auto parts = static_cast<double>(simulation.step_warning()->parts);
+  EXPECT_LE(0.01 / parts, simulation.step_limit().stable);
+  EXPECT_GT(0.01 / (parts - 1), simulation.step_limit().stable);
+}
+
 TEST(Simulation, RefusesAStepThatWouldTakeTooManyParts) {
   Json scene = too_stiff("substep");
   scene["material"]["stiffness"] = 6.4e21;

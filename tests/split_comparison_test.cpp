@@ -8,6 +8,7 @@
 
 #include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_all.h"
+#include "tests/conservation_rows_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -67,11 +68,19 @@ TYPED_TEST(SplitComparison, FailsWhenAnotherCellWasToLeave) {
 
 TYPED_TEST(SplitComparison, FailsWhenASpringOfThePartHasOtherEnds) {
   LooseCell<TypeParam> loose;
-  // in the arrays of the body, a spring of the part has other ends
-  loose.views.cells.edges[loose.body.edge(loose.body.map, loose.places.corner[loose.start.mesh.first[4]])].ends = {0,
-                                                                                                                   1};
+  // in the arrays of the body, a spring of the part goes to the vertex that is farthest from its first end
+  auto& edge = loose.views.cells.edges[loose.body.edge(loose.body.map, loose.places.corner[loose.start.mesh.first[4]])];
+  const auto& x = loose.body.vertices.position;
+  const auto distance = [&](std::size_t k) { return (x[k] - x[edge.ends[0]]).norm(); };
+  std::uint32_t farthest = 0;
+  for (std::uint32_t k = 1; k < x.size(); ++k)
+    if (distance(k) > distance(farthest)) farthest = k;
+  edge.ends[1] = farthest;
   loose.split({4});
-  EXPECT_TRUE(loose.result.violation);
+  ASSERT_TRUE(loose.result.violation);
+  // its elongation and its motion are others
+  for (const char* what : {"sums of part and rest", "motion as within the body"})
+    EXPECT_FALSE(row(loose.result, what).holds) << what;
 }
 
 }  // namespace

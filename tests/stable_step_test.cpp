@@ -265,7 +265,7 @@ TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
       StableStepEstimate estimate;
       const StableStep& limits = estimate.refresh(body.system(), body.x);
       const double h = limits.safe_step(integrator->scheme(), horizon);
-      EXPECT_EQ(h, quick_stable_step(body.system()).safe_step(integrator->scheme(), horizon));
+      EXPECT_GE(h, quick_stable_step(body.system()).safe_step(integrator->scheme(), horizon));
       // these two multiply by exp(-rate h), which no step is too long for
       const bool exact = entry.name == "verlet" || entry.name == "symplectic-euler";
       EXPECT_EQ(std::isfinite(h), !exact) << entry.name << " " << h;
@@ -273,10 +273,8 @@ TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
       EXPECT_TRUE(limits.is_stable(integrator->scheme(), 0.999 * h, horizon)) << entry.name;
       EXPECT_FALSE(limits.is_stable(integrator->scheme(), 1.001 * h, horizon)) << entry.name;
       EXPECT_TRUE(slows_down(body, *integrator, 0.98 * h)) << entry.name << " viscous " << viscous;
-      // Gershgorin's bound of dampers that meet is not reached; that of viscosity is
-      if (viscous) {
-        EXPECT_FALSE(slows_down(body, *entry.make(), 1.02 * h)) << entry.name;
-      }
+      // of dampers that meet one shape alone is amplified, and first the others have to decay
+      EXPECT_FALSE(slows_down(body, *entry.make(), (viscous ? 1.02 : 1.1) * h)) << entry.name << " viscous " << viscous;
     }
 }
 

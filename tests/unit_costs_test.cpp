@@ -7,6 +7,10 @@
 
 #include <algorithm>
 
+#include "benchmarks/clock.h"
+#include "benchmarks/statistics.h"
+#include "core/scene/system_arrays.h"
+#include "core/time/accelerations.h"
 #include "tests/moving_box.h"
 
 namespace dartboard {
@@ -48,6 +52,37 @@ TEST(UnitCosts, OfTermsThatNoiseHidesAreNotBelowZero) {
   EXPECT_EQ(item->ns_below, 5);
   EXPECT_EQ(std::ranges::find(plan.items, Part::damping, &PlanItem::part)->ns_below, 0);
   EXPECT_EQ(plan.ns(), 60);  // a whole step is known all the same
+}
+
+TEST(UnitCosts, OfAStepAreWhatEachTermAddsToIt) {
+  double UnitCosts::*const terms[]{&UnitCosts::fixed, &UnitCosts::damping};
+  // four evaluations of 10, 20 for the rest of the step, then 3 for what is held and 12 for damping
+  const UnitCosts costs = step_costs(4, {10, 60, 63, 75}, terms);
+  EXPECT_EQ(costs.evaluations, 4);
+  EXPECT_EQ(costs.force, 10);
+  EXPECT_EQ(costs.stages, 20);
+  EXPECT_EQ(costs.fixed, 3);
+  EXPECT_EQ(costs.damping, 12);
+  EXPECT_EQ(costs.viscosity, 0);
+  EXPECT_EQ(costs.noise, 0);
+}
+
+// Beside the same evaluations timed here; a busy machine may take three times as long at one time as at another.
+TEST(UnitCosts, OfAForceEvaluationAreItsTime) {
+  const SceneFile scene = parse(moving_box());
+  const Problem problem = make_problem(scene);
+  const ScenePlan plan = plan_scene(scene, problem);
+  const SystemArrays arrays(problem, plan.counts);
+  std::vector<Eigen::Vector3d> a(arrays.x.size());
+  std::vector<double> ns;
+  for (int run = 0; run < 21; ++run) {
+    const std::int64_t start = thread_cpu_ns();
+    for (int k = 0; k < 100; ++k) accelerations(arrays.system(), {}, arrays.x, arrays.v, a);
+    ns.push_back(static_cast<double>(thread_cpu_ns() - start) / 100);
+  }
+  const double ratio = measure_unit_costs(scene, problem, plan).force / median(ns);
+  EXPECT_GT(ratio, 1.0 / 3.0);
+  EXPECT_LT(ratio, 3.0);
 }
 
 TEST(UnitCosts, ChargeOutputAsOftenAsItIsDue) {

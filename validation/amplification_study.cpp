@@ -103,9 +103,10 @@ std::vector<double> amplification_steps(int per_decade) {
   return thetas;
 }
 
-std::vector<AmplificationPoint> measure_amplification(std::span<const double> thetas) {
+std::vector<AmplificationPoint> measure_amplification(std::span<const double> thetas,
+                                                      std::span<const IntegratorEntry> entries) {
   std::vector<AmplificationPoint> points;
-  for (const IntegratorEntry& entry : integrators()) {
+  for (const IntegratorEntry& entry : entries) {
     const auto integrator = entry.make();
     const Scheme& scheme = integrator->scheme();
     for (const double theta : thetas) {

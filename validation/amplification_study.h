@@ -38,7 +38,8 @@ std::complex<double> theoretical_amplification(const Scheme& scheme, double thet
 /// Runs on a mass on a spring at a wall, colinear and hence exactly linear: a step from two independent states gives
 /// the matrix of the step, and its eigenvalue is the measurement; of BDF2 three steps give its recurrence. Implicit
 /// methods at all `thetas`, explicit ones where they are stable.
-std::vector<AmplificationPoint> measure_amplification(std::span<const double> thetas);
+std::vector<AmplificationPoint> measure_amplification(std::span<const double> thetas,
+                                                      std::span<const IntegratorEntry> entries = integrators());
 
 /// From 1e-2 to 1e3, so many to a decade.
 std::vector<double> amplification_steps(int per_decade);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/plain/nan_maximum.h"
+
 namespace dartboard {
 namespace {
 
@@ -22,7 +24,7 @@ std::size_t prefix_of(const TradeoffScene& scene) {
 double growth_of(const std::vector<double>& errors, const std::vector<double>& times) {
   if (errors.size() < 2) return 1.0;
   const std::size_t first = (errors.size() - 1) / 2, last = errors.size() - 1;
-  const double early = largest(std::span(errors).first(first + 1)), late = largest(errors);
+  const double early = max_or_nan(std::span(errors).first(first + 1)), late = max_or_nan(errors);
   if (!(early > 0.0) || !(late > 0.0)) return 1.0;
   return std::clamp(std::log(late / early) / std::log(times[last] / times[first]), 0.5, 2.0);
 }
@@ -61,10 +63,10 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   for (double& e : left) e = richardson(c, e);
   const double growth = std::pow(1.0 / part, growth_of(left, scene.motion.checkpoints));
   c.pilot_h = finest.h;
-  c.error_at_pilot = growth * largest(left);
+  c.error_at_pilot = growth * max_or_nan(left);
   c.coarser.clear();
   for (std::size_t k = runs.size() - 1; k-- > 0;) {
-    const double error = c.error_at_pilot + growth * largest(differences(scene, runs[k]->run, finest));
+    const double error = c.error_at_pilot + growth * max_or_nan(differences(scene, runs[k]->run, finest));
     const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
     if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k]->run.h, error});
   }
@@ -121,13 +123,13 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     }
     if (runs.size() >= 2) change.push_back(differences(scene, runs[runs.size() - 2].run, runs.back().run));
     // the largest step that is stable is accurate enough by far: how its error falls is of no interest
-    if (change.size() == 1 && largest(change[0]) * 10.0 / (part * part) < error) break;
+    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) break;
     if (change.size() < 2) continue;
-    c.observed_order = std::log2(largest(change[change.size() - 2]) / largest(change.back()));
+    c.observed_order = std::log2(max_or_nan(change[change.size() - 2]) / max_or_nan(change.back()));
     if (shows_its_order(c)) break;
     if (3.0 * runs.back().cpu_s > allowed_s) break;
   }
-  const bool at_once = change.size() == 1 && std::isfinite(largest(change[0])) && runs.size() == 2;
+  const bool at_once = change.size() == 1 && std::isfinite(max_or_nan(change[0])) && runs.size() == 2;
   if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
     c.untried = !runs.empty();
     c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
@@ -161,7 +163,7 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
       break;
     }
     c.pilot_h = tolerance;
-    if (runs.size() >= 2) change.push_back(largest(differences(scene, runs[runs.size() - 2].run, runs.back().run)));
+    if (runs.size() >= 2) change.push_back(max_or_nan(differences(scene, runs[runs.size() - 2].run, runs.back().run)));
     if (change.size() < 2) continue;
     c.observed_order = std::log10(change[change.size() - 2] / change.back());
     if (std::abs(c.observed_order - 1.0) < 0.2) break;
@@ -178,7 +180,7 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
   double looser = c.pilot_h;
   for (std::size_t k = runs.size() - 1; k-- > 0;) {
     looser *= 10.0;
-    const double seen = c.error_at_pilot + largest(differences(scene, runs[k].run, runs.back().run));
+    const double seen = c.error_at_pilot + max_or_nan(differences(scene, runs[k].run, runs.back().run));
     const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
     if (std::isfinite(seen) && seen > before)
       c.coarser.push_back({looser, seen, static_cast<double>(runs[k].run.work.steps)});
@@ -218,7 +220,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     return Longer::unstable;
   }
   const std::vector<double> change = differences(scene, coarse.run, fine.run);
-  if (!(largest(change) > 0.0)) return Longer::skipped;
+  if (!(max_or_nan(change) > 0.0)) return Longer::skipped;
   // a third, where there is time for it, tells whether the order shows
   const PilotRun* finest = &fine;
   PilotRun third;
@@ -226,8 +228,8 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     third = pilots.run(c, scene, {.steps = 4 * steps});
     if (third.run.result.ok()) {
       const std::vector<double> left = differences(scene, fine.run, third.run);
-      if (!(largest(left) > 0.0) || !std::isfinite(largest(left))) return Longer::skipped;
-      c.observed_order = std::log2(largest(change) / largest(left));
+      if (!(max_or_nan(left) > 0.0) || !std::isfinite(max_or_nan(left))) return Longer::skipped;
+      c.observed_order = std::log2(max_or_nan(change) / max_or_nan(left));
       c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
       c.slope = slope_of(c);
       finest = &third;

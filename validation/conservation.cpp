@@ -241,11 +241,8 @@ class Run {
     ledger_.within(Check::oracle_velocity, motion.velocity, motion.bound.velocity, 1.0, motion.velocity, 0.0);
   }
 
-  // The target that the project set itself: 1e-15 times the square root of the number of operations. Masses are
-  // computed anew from their cells, so that in truth drift does not grow: it stays below gamma of the cells around a
-  // vertex.
   void compare_drift() {
-    const double target = 1e-15 * std::sqrt(static_cast<double>(std::max<std::size_t>(done(), 1)));
+    const double target = drift_target(done());
     const auto compare = [&](Check check, const Drift& drift, Conserved c) {
       ledger_.within(check, drift.largest(), checks_.is_exact(c) ? 0.0 : target, 1.0, drift.largest(), 0.0);
     };

@@ -27,7 +27,7 @@ bool sums_are_exact(const std::vector<double>& terms, double each_used) {
   return sum == 0.0 || sum < 0x1p52 * q;  // 2^52: `sum` itself is rounded
 }
 
-long euler_of(const CellCounts& n) {
+long euler_of(const CountsByDimension& n) {
   return static_cast<long>(n[0]) - static_cast<long>(n[1]) + static_cast<long>(n[2]) - static_cast<long>(n[3]);
 }
 
@@ -53,7 +53,7 @@ ConservationChecks<Map>::ConservationChecks(const Subject<Map>& subject, Conserv
 }
 
 template <class Map>
-CellCounts ConservationChecks<Map>::counts_of_body() const {
+CountsByDimension ConservationChecks<Map>::counts_of_body() const {
   const LiveBody<Map>& body = at_.body;
   if constexpr (Map::dimension == 2)
     return {body.vertices.size(), body.springs.size(), body.cell_dart.size(), 0};
@@ -90,7 +90,7 @@ ConservedSums ConservationChecks<Map>::after_series(const BeforeSeries<Map>& bef
 }
 
 template <class Map>
-void ConservationChecks<Map>::columns_fit(const CellCounts& predicted) {
+void ConservationChecks<Map>::columns_fit(const CountsByDimension& predicted) {
   const auto n = counts_of_body();
   for (std::size_t i = 0; i < 4; ++i) ledger_.equal(counts, n[i], predicted[i], "dimension", i);
   ledger_.equal(counts, n[Map::dimension], at_.cells.count(), "dimension", Map::dimension);
@@ -105,7 +105,7 @@ void ConservationChecks<Map>::columns_fit(const CellCounts& predicted) {
     ledger_.equal(counts, size, n[Map::dimension], "column of dimension", Map::dimension);
   // the sums below read the arrays
   const CellArrays& arrays = at_.views.cells;
-  const CellCounts seen{arrays.vertices.size(), arrays.edges.size(), arrays.faces.size(), arrays.volumes.size()};
+  const CountsByDimension seen{arrays.vertices.size(), arrays.edges.size(), arrays.faces.size(), arrays.volumes.size()};
   for (std::size_t i = 0; i < 4; ++i) ledger_.equal(counts, seen[i], n[i], "array of dimension", i);
 }
 
@@ -259,7 +259,7 @@ void ConservationChecks<Map>::all_edges() {
 template <class Map>
 void ConservationChecks<Map>::all_counts() {
   const auto& map = at_.body.map;
-  CellCounts expected{}, orbits{count_cells<0>(map), count_cells<1>(map), count_cells<2>(map), 0};
+  CountsByDimension expected{}, orbits{count_cells<0>(map), count_cells<1>(map), count_cells<2>(map), 0};
   at_.cells.for_each_vertex([&](std::uint32_t, auto) { ++expected[0]; });
   at_.cells.for_each_edge([&](std::uint32_t, auto) { ++expected[1]; });
   expected[Map::dimension] = at_.cells.count();

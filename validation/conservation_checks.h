@@ -26,7 +26,7 @@ struct Subject {
 };
 
 /// Numbers of cells by dimension; of a surface, the fourth is zero.
-using CellCounts = std::array<std::size_t, 4>;
+using CountsByDimension = std::array<std::size_t, 4>;
 
 /// The body before a series of operations.
 template <class Map>
@@ -34,7 +34,7 @@ struct BeforeSeries {
   ConservedSums sums;
   VertexColumns vertices;
   decltype(LiveBody<Map>::vertex) number;
-  CellCounts counts;
+  CountsByDimension counts;
 };
 
 /// The comparisons, each written into the ledger.
@@ -55,8 +55,8 @@ class ConservationChecks {
 
  private:
   ConservedSums all_sums() const;
-  CellCounts counts_of_body() const;
-  void columns_fit(const CellCounts& predicted);
+  CountsByDimension counts_of_body() const;
+  void columns_fit(const CountsByDimension& predicted);
   void columns_were_duplicated(const BeforeSeries<Map>& before);
   void changed_cells(const ChangedEmbeddings& changed);
   ConservedSums sums_are_conserved(const ConservedSums& before, const ConservedSums& removed);

@@ -1,7 +1,10 @@
 #include "validation/conservation_ledger.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {
@@ -54,9 +57,10 @@ void ConservationLedger::within(Check check, double deviation, double bound, dou
   const double share = deviation == 0.0 ? 0.0 : deviation / bound;
   if (scale > 0.0) {
     double& closest = share_[static_cast<std::size_t>(check)];
-    r.largest = std::max(r.largest, deviation / scale);
-    // of several checks without any deviation, the one with the widest bound
-    if (!r.bound || share > closest || (share == closest && bound / scale > *r.bound)) {
+    r.largest = max_or_nan(r.largest, deviation / scale);
+    // of several checks without any deviation, the one with the widest bound; a share that is no number stays
+    const bool farther = !(share <= closest) && !std::isnan(closest);
+    if (!r.bound || farther || (share == closest && bound / scale > *r.bound)) {
       r.deviation = deviation / scale;
       r.bound = bound / scale;
       closest = share;

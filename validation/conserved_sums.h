@@ -35,6 +35,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/plain/nan_maximum.h"
+
 namespace dartboard {
 
 /// gamma_n; n u < 1.
@@ -154,6 +156,13 @@ inline double quantum(double x) {
   return std::ldexp(1.0, exponent);
 }
 
+/// The drift that is allowed after so many operations, relative: the target that the project set itself. Masses are
+/// computed anew from their cells, so that in truth drift does not grow: it stays below gamma of the cells around a
+/// vertex.
+inline double drift_target(std::size_t operations) {
+  return 1e-15 * std::sqrt(static_cast<double>(std::max<std::size_t>(operations, 1)));
+}
+
 /// What should be left of a total, in two doubles, and how far the body's was from it at most.
 class Drift {
  public:
@@ -164,7 +173,7 @@ class Drift {
   }
   void remove(double part) { expected_.add(-part); }
   void compare(double total) {
-    if (initial_ > 0.0) largest_ = std::max(largest_, std::abs(total - expected_.value()) / initial_);
+    if (initial_ > 0.0) largest_ = max_or_nan(largest_, std::abs(total - expected_.value()) / initial_);
   }
   double largest() const { return largest_; }
 

@@ -31,7 +31,9 @@ std::optional<double> unstable_theta(const Scheme& scheme, double factor) {
   return theta;
 }
 
-Detection watch(const IntegratorEntry& entry, SpringColumns body, double h, double factor) {
+}  // namespace
+
+Detection watch_for_divergence(const IntegratorEntry& entry, SpringColumns body, double h, double factor) {
   Detection found;
   found.integrator = entry.name;
   found.factor = factor;
@@ -61,8 +63,6 @@ Detection watch(const IntegratorEntry& entry, SpringColumns body, double h, doub
   return found;
 }
 
-}  // namespace
-
 std::vector<Detection> measure_detection(bool quick) {
   std::vector<double> factors{1.0001, 1.001, 1.003, 1.01, 1.03, 1.1, 1.2, 1.5, 2, 5, 10, 1e2, 1e4, 1e8};
   if (quick) factors = {1.001, 1.01, 1.1, 2, 1e4};
@@ -78,7 +78,7 @@ std::vector<Detection> measure_detection(bool quick) {
         for (const double factor : factors) {
           const std::optional<double> theta = unstable_theta(scheme, factor);
           if (!theta) continue;
-          Detection found = watch(entry, body, *theta / omega, factor);
+          Detection found = watch_for_divergence(entry, body, *theta / omega, factor);
           found.body = std::string(name) + (mixed ? "" : ", fastest mode");
           all.push_back(std::move(found));
         }

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/time/integrators.h"
+#include "validation/spring_columns.h"
+
 namespace dartboard {
 
 /// A run with a step beyond the limit.
@@ -31,5 +34,8 @@ struct Detection {
 /// and large motions may soften a body so that it never does; no bound on energy can be passed sooner, and none below
 /// it spares stable runs.
 std::vector<Detection> measure_detection(bool quick);
+
+/// One of these runs, in steps of h [s]; `factor` is h over the limit.
+Detection watch_for_divergence(const IntegratorEntry& entry, SpringColumns body, double h, double factor);
 
 }  // namespace dartboard

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/plain/error.h"
+#include "core/plain/nan_maximum.h"
 #include "reference/closed_form.h"
-#include "reference/larger.h"
 
 namespace dartboard {
 namespace {
@@ -80,8 +80,7 @@ DiscreteExact compare_with_discrete_map(const IntegratorEntry& entry, double zet
     }
   }
   exact = apply_power(amplification, steps + 1 - known, exact);
-  result.deviation =
-      static_cast<double>(reference::larger(std::abs(state()[0] - exact[0]), std::abs(state()[1] - exact[1])));
+  result.deviation = static_cast<double>(max_or_nan(std::abs(state()[0] - exact[0]), std::abs(state()[1] - exact[1])));
   return result;
 }
 

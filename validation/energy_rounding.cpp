@@ -71,7 +71,9 @@ long double weight_of_positions(std::string_view integrator, double h) {
   return -product(1, 0) / product(0, 1);
 }
 
-double slope(const std::vector<RoundingGrowth::Point>& points) {
+}  // namespace
+
+double exponent_of(std::span<const RoundingGrowth::Point> points) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   const auto n = static_cast<double>(points.size());
   for (const auto& p : points) {
@@ -83,8 +85,6 @@ double slope(const std::vector<RoundingGrowth::Point>& points) {
   }
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
-
-}  // namespace
 
 RoundingGrowth measure_rounding_growth(std::string_view integrator, std::uint64_t steps, int starts) {
   RoundingGrowth growth{std::string(integrator), 0.05, starts, {}, 0.0};
@@ -106,7 +106,7 @@ RoundingGrowth measure_rounding_growth(std::string_view integrator, std::uint64_
     }
   }
   for (RoundingGrowth::Point& point : growth.points) point.error = std::sqrt(point.error);
-  growth.exponent = slope(growth.points);
+  growth.exponent = exponent_of(growth.points);
   return growth;
 }
 

@@ -2,6 +2,7 @@
 // What rounding alone does: to the energy over long runs, and to the motion in tiny steps.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct RoundingGrowth {
   std::vector<Point> points;
   double exponent = 0.0;  // of the steps, by least squares on logarithms; 1/2 where errors are a random walk
 };
+
+/// The power of the steps that the errors grow with, by least squares on logarithms.
+double exponent_of(std::span<const RoundingGrowth::Point> points);
 
 /// Runs of an oscillator from `starts` random states, h omega = 0.05, looked at after 10^4 steps (10^3 if there are
 /// fewer than 10^6) and then at every half decade up to `steps`.

@@ -16,6 +16,7 @@
 #include "core/time/stable_step.h"
 #include "core/time/trial_state.h"
 #include "core/views/spring_ends.h"
+#include "validation/extreme_judgement.h"
 #include "validation/extreme_matrix.h"
 
 namespace dartboard {
@@ -94,15 +95,16 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
     return cell;
   }
   cell.outcome = cell.warnings.empty() ? ExtremeOutcome::ok : ExtremeOutcome::degraded;
-  const double after = total_energy(system_of(body, ends), body.vertices.position, body.vertices.velocity);
-  // explicit Euler gains theta^2 per step; the other methods, at theta = 0.3, keep the energy to some percent
-  // dissociations keep the energy, removals take away what they remove
   const bool removes = events.find_first_of("rR") != std::string_view::npos;
-  const bool has_died = conserves_energy(integrator->scheme()) && !removes && 200.0 * after < before;
-  if (has_died || !check_finite(body.vertices.position, body.vertices.velocity).ok() ||
-      !(after <= before * (which.integrator == "explicit-euler" ? std::exp(0.09 * 60) : 1.2) + 1e-20)) {
-    cell.outcome = ExtremeOutcome::silent;
-    cell.note = fmt::format("energy went from {:.3g} to {:.3g}", before, after);
+  const ExtremeVerdict verdict = verdict_of(EventsObservation{
+      .finite = check_finite(body.vertices.position, body.vertices.velocity).ok(),
+      .energy_before = before,
+      .energy_after = total_energy(system_of(body, ends), body.vertices.position, body.vertices.velocity),
+      .explicit_euler = which.integrator == "explicit-euler",
+      .must_live = conserves_energy(integrator->scheme()) && !removes});
+  if (verdict.outcome == ExtremeOutcome::silent) {
+    cell.outcome = verdict.outcome;
+    cell.note = verdict.note;
   }
   return cell;
 }

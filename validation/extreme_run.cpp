@@ -8,11 +8,12 @@
 #include <limits>
 #include <optional>
 
+#include "core/plain/nan_maximum.h"
 #include "core/time/divergence.h"
 #include "core/time/integrators.h"
-#include "core/time/nan_proof.h"
 #include "core/time/preflight.h"
 #include "core/time/stable_step.h"
+#include "validation/extreme_judgement.h"
 
 namespace dartboard {
 namespace {
@@ -47,86 +48,74 @@ std::optional<double> distance_from_finer(const ExtremeSetup& setup, const Sprin
   return distance;
 }
 
-/// Has a motion that nothing damps come to rest? Of methods that keep the energy, or a quantity near it; within their
-/// limit of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
-bool has_died(const SpringColumns& start, const Scheme& scheme, const StableStep& limits, long double before,
-              long double after, double rounding) {
+/// Does nothing take energy from the motion? Of methods that keep the energy, or a quantity near it; within their limit
+/// of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
+bool must_live(const SpringColumns& start, const Scheme& scheme, const StableStep& limits) {
   const bool damped = limits.damping_time.upper > 0.0 || limits.viscous_rate.upper > 0.0;
-  return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0) && 200.0L * (after + rounding) < before;
+  return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0);
 }
 
-/// The outcome of a run that ended without a diagnosis.
-void judge(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& start, const SpringColumns& end,
-           const Scheme& scheme, const StableStep& limits) {
-  cell.outcome = cell.warnings.empty() ? ExtremeOutcome::ok : ExtremeOutcome::degraded;
-  if (!finite(end)) {
-    cell.outcome = ExtremeOutcome::silent;
-    cell.note = "the state is not finite";
-    return;
-  }
-  const long double before = energy_of(start), after = energy_of(end);
-  double rounding = 0.0, size = largest_coordinate(start.x);
-  for (const Spring& s : start.springs) rounding += s.stiffness * std::pow(64 * epsilon * (size + s.rest_length), 2);
-  // between two checks an unstable step that was warned of may grow past the detector's bound
-  const bool warned = std::ranges::find(cell.warnings, to_string(StepCode::unstable_step)) != cell.warnings.end();
-  if (!(after <= (warned ? 1e6 : 200.0) * (before + rounding))) {
-    cell.note =
-        fmt::format("energy has grown from {:.3g} to {:.3g}", static_cast<double>(before), static_cast<double>(after));
-    cell.outcome = ExtremeOutcome::silent;
-    return;
-  }
-  const double theta = setup.h * limits.upper, zeta = limits.damping_ratio().upper;
-  std::optional<double> distance;
-  if (setup.compare && theta * (1 + 2 * zeta) <= 0.5 && cell.warnings.empty())
-    distance = distance_from_finer(setup, start, end);
-  if (!distance) {
-    if (warned || !has_died(start, scheme, limits, before, after, rounding)) return;
-    cell.outcome = ExtremeOutcome::silent;
-    cell.note =
-        fmt::format("energy has fallen from {:.3g} to {:.3g}", static_cast<double>(before), static_cast<double>(after));
-    return;
-  }
-  const auto steps = static_cast<double>(setup.steps);
-  double amplitude = 0.0;
+bool warned_of(const ExtremeCell& cell, StepCode code) {
+  return std::ranges::find(cell.warnings, to_string(code)) != cell.warnings.end();
+}
+
+/// Look at a run that ended without a diagnosis.
+ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end,
+                           const Scheme& scheme, const StableStep& limits) {
+  const SpringColumns& start = setup.body;
+  ExtremeObservation seen{.finite = finite(end),
+                          .warned = !cell.warnings.empty(),
+                          .warned_of_instability = warned_of(cell, StepCode::unstable_step)};
+  if (!seen.finite) return seen;
+  seen.energy_before = energy_of(start);
+  seen.energy_after = energy_of(end);
+  seen.must_live = must_live(start, scheme, limits);
+  FinerRunScale scale{.theta = setup.h * limits.upper,
+                      .zeta = limits.damping_ratio().upper,
+                      .order = scheme.order,
+                      .explicit_euler = scheme.name == "explicit-euler",
+                      .steps = static_cast<double>(setup.steps),
+                      .size = largest_coordinate(start.x)};
+  for (const Spring& s : start.springs)
+    seen.energy_rounding += s.stiffness * std::pow(64 * epsilon * (scale.size + s.rest_length), 2);
+  if (!setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
   for (std::size_t i = 0; i < start.x.size(); ++i)
-    amplitude = std::max(amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
+    scale.amplitude = std::max(scale.amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
   for (std::size_t s = 0; s < start.springs.size(); ++s)
-    amplitude = std::max(amplitude, std::abs((start.x[start.ends[s][1]] - start.x[start.ends[s][0]]).norm() -
-                                             start.springs[s].rest_length));
-  // of order p: theta^p at once and theta^(p+1) per step, with constants below 8; explicit Euler also grows
-  const double order = std::pow(theta * (1 + 2 * zeta), scheme.order);
-  const double growth = scheme.name == "explicit-euler" ? std::exp(theta * theta * steps) : 1.0;
-  const double bound = 8 * amplitude * order * (1 + steps * theta) * growth +
-                       // rounding of positions, which forces turn into velocities
-                       64 * epsilon * (size + amplitude * steps * theta) * (1 + steps * theta) +
-                       1e-9 * amplitude * steps;  // what implicit methods leave of their equations
-  if (*distance <= bound) return;
-  cell.outcome = ExtremeOutcome::silent;
-  cell.note = fmt::format("{:.3g} m from a finer run; the bound is {:.3g}", *distance, bound);
+    scale.amplitude = std::max(
+        scale.amplitude,
+        std::abs((start.x[start.ends[s][1]] - start.x[start.ends[s][0]]).norm() - start.springs[s].rest_length));
+  seen.distance_from_finer = distance_from_finer(setup, start, end);
+  seen.bound_from_finer = finer_run_bound(scale);
+  return seen;
 }
 
-/// How far a run at an offset is from the same run at the origin, in roundings of the offset; and whether it was warned
-/// of where that is much of an edge.
-void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end) {
+/// How far a run at an offset is from the same run at the origin; nothing where that one fails.
+std::optional<OffsetObservation> observe_offset(const ExtremeCell& cell, const ExtremeSetup& setup,
+                                                const SpringColumns& end) {
   SpringColumns twin = setup.body;
   twin.x = setup.at_origin;
   const auto integrator = make_integrator(cell.integrator);
   for (std::uint64_t k = 0; k < cell.step; ++k)
-    if (!integrator->step(twin.system(), twin.motion(), setup.h).ok()) return;
-  double distance = 0.0, shortest = std::numeric_limits<double>::infinity();
+    if (!integrator->step(twin.system(), twin.motion(), setup.h).ok()) return {};
+  OffsetObservation seen{.offset = setup.offset,
+                         .shortest = std::numeric_limits<double>::infinity(),
+                         .warned = warned_of(cell, StepCode::coordinate_precision),
+                         .iterates = integrator->work().newton_iterations > 0,
+                         .explicit_euler = cell.integrator == "explicit-euler",
+                         .steps = cell.step};
   for (std::size_t i = 0; i < twin.x.size(); ++i)
-    distance = max_or_nan(distance, (end.x[i] - Vector3d(setup.offset, 0, 0) - twin.x[i]).norm());
-  for (const Spring& s : twin.springs) shortest = std::min(shortest, s.rest_length);
-  const double rounding = epsilon * setup.offset;
-  cell.offset_error = distance / rounding;
+    seen.distance = max_or_nan(seen.distance, (end.x[i] - Vector3d(setup.offset, 0, 0) - twin.x[i]).norm());
+  for (const Spring& s : twin.springs) seen.shortest = std::min(seen.shortest, s.rest_length);
+  return seen;
+}
+
+void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end) {
+  const std::optional<OffsetObservation> seen = observe_offset(cell, setup, end);
+  if (!seen) return;
+  cell.offset_error = seen->distance / seen->rounding();
   cell.note = fmt::format("{:.3g} eps D from the run at the origin", *cell.offset_error);
-  const bool warned =
-      std::ranges::find(cell.warnings, to_string(StepCode::coordinate_precision)) != cell.warnings.end();
-  // explicit Euler makes rounding grow as it does everything
-  const double growth = cell.integrator == "explicit-euler" ? std::exp(0.045 * static_cast<double>(cell.step)) : 1.0;
-  // Newton's method stops within what rounding leaves of its equations, in each step
-  const double allowed = (integrator->work().newton_iterations > 0 ? 1000 : 30) * rounding * growth;
-  if (!(distance <= allowed) || (rounding > 1e-6 * shortest && !warned)) cell.outcome = ExtremeOutcome::silent;
+  if (!seen->is_right()) cell.outcome = ExtremeOutcome::silent;
 }
 
 }  // namespace
@@ -178,17 +167,17 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
     }
     return cell;
   }
-  if (setup.halfway && setup.steps - setup.steps / 2 >= 32) {
+  if (setup.halfway && must_be_found_by(setup.steps)) {
     cell.outcome = ExtremeOutcome::silent;
     cell.note = "what was injected was not found";
     return cell;
   }
-  judge(cell, setup, setup.body, body, scheme, limits);
+  const ExtremeVerdict verdict = verdict_of(observe(cell, setup, body, scheme, limits));
+  cell.outcome = verdict.outcome;
+  cell.note = verdict.note;
   if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body);
   // a step that theory calls unstable must have been predicted
-  if (cell.outcome != ExtremeOutcome::ok || scheme.implicit || limits.lower == 0.0) return cell;
-  if (limits.damping_time.upper == 0.0 && limits.viscous_rate.upper == 0.0 &&
-      setup.h * limits.lower > 1.01 * stable_limit(scheme, 0.0, horizon.steps, horizon.gain)) {
+  if (cell.outcome == ExtremeOutcome::ok && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
     cell.outcome = ExtremeOutcome::silent;
     cell.note = "an unstable step was not predicted";
   }

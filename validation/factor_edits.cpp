@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 #include "core/time/accelerations.h"
 #include "core/time/backward_error.h"
-#include "core/time/nan_proof.h"
 #include "validation/solver_bodies.h"
 
 namespace dartboard {

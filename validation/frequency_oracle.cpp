@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 
 namespace dartboard {
@@ -87,7 +88,7 @@ LargestEigenvalue largest_eigenvalue(const Sparse& a, double tolerance) {
 FastestMode fastest_mode(const SpringColumns& body) {
   const LargestEigenvalue largest = largest_eigenvalue(scaled_stiffness(body));
   FastestMode mode;
-  mode.omega = std::sqrt(std::max(0.0, largest.value));
+  mode.omega = std::sqrt(max_or_nan(0.0, largest.value));
   // omega^2 lies between value - residual and value + 1e-9 value
   mode.error = largest.value > 0.0 ? std::max(largest.residual, 1e-9 * largest.value) / mode.omega : 0.0;
   mode.proven = largest.proven;

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/time/integrator.h"
+
 namespace dartboard {
 
 /// The energy-momentum scheme on a body that moves freely, undamped, and is cut along a plane half way.
@@ -16,6 +18,8 @@ struct EnergyDrift {
   std::string diagnosis;  // of the step that failed
 };
 EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega);
+/// The same by another method.
+EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator);
 
 /// Backward Euler on the paper's body with a tenth of its tetrahedra 10^4 times stiffer, damped: a matrix factored for
 /// every linear system, and one factor kept as long as it serves.

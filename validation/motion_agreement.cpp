@@ -3,26 +3,25 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/larger.h"
+#include "core/plain/nan_maximum.h"
 #include "reference/summation_bound.h"
 
 namespace dartboard {
 namespace {
 
-using reference::larger;
 using Vectors = std::vector<Eigen::Vector3d>;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // Eigen's norms and std::max lose a NaN.
 double largest_coordinate(const Eigen::Vector3d& d) {
-  return larger(larger(std::abs(d[0]), std::abs(d[1])), std::abs(d[2]));
+  return max_or_nan(max_or_nan(std::abs(d[0]), std::abs(d[1])), std::abs(d[2]));
 }
 
 double largest_difference(const Vectors& a, const Vectors& b) {
   if (a.size() != b.size()) return no_number;
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = larger(largest, largest_coordinate(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) largest = max_or_nan(largest, largest_coordinate(a[i] - b[i]));
   return largest;
 }
 
@@ -32,7 +31,7 @@ double largest_share_of_bound(const Vectors& a, const Vectors& b, const std::vec
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double difference = largest_coordinate(a[i] - b[i]);
     if (!std::isfinite(bound[i])) return no_number;
-    if (difference != 0.0) largest = larger(largest, difference / bound[i]);
+    if (difference != 0.0) largest = max_or_nan(largest, difference / bound[i]);
   }
   return largest;
 }

@@ -6,12 +6,6 @@
 
 namespace dartboard {
 
-double largest(std::span<const double> values) {
-  double most = 0.0;
-  for (const double x : values) most = !(x <= most) ? x : most;
-  return most;
-}
-
 TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t checkpoints) {
   TradeoffScene made = scene;
   made.closed_form = {};

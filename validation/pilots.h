@@ -16,9 +16,6 @@ struct PilotRun {
   double cpu_s = 0.0;
 };
 
-/// The largest of some values; a NaN wins.
-double largest(std::span<const double> values);
-
 /// A scene up to a part of its duration, with checkpoints of its own; events after that are left out.
 ///
 /// pre  0 < part <= 1

@@ -17,8 +17,8 @@
 #include <limits>
 
 #include "core/operations/dissociate_all.h"
+#include "core/plain/nan_maximum.h"
 #include "core/time/runge_kutta_4.h"
-#include "reference/larger.h"
 #include "reference/rebuild.h"
 
 namespace dartboard {
@@ -51,7 +51,7 @@ void move(Body& body, const Walk& walk, double h, int steps) {
 double largest_difference(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k)
-    for (int i = 0; i < 3; ++i) largest = reference::larger(largest, std::abs(a[k][i] - b[k][i]));
+    for (int i = 0; i < 3; ++i) largest = max_or_nan(largest, std::abs(a[k][i] - b[k][i]));
   return largest;
 }
 

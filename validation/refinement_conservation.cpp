@@ -29,9 +29,11 @@ constexpr std::uint32_t deepest = 8;  // refinements that a cell may go through:
 template <class Map>
 class Run {
  public:
-  Run(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper)
+  Run(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper,
+      const FollowSubdivision<Map>& followed)
       : plan_(plan),
         tamper_(tamper),
+        follow_(followed),
         random_(plan.seed),
         ledger_(result_, plan.seed, compared),
         fresh_(start),
@@ -145,7 +147,7 @@ class Run {
     const SpringForceSums forces_before = spring_force_sums(body, at_.views.cells);
 
     const Subdivision subdivision = subdivide(body.map, cell);
-    const ChangedEmbeddings changed = adapt(body, subdivision, bracing);
+    const ChangedEmbeddings changed = follow_(body, subdivision, bracing);
     at_.views.apply(body, TopologyChange{}, changed);
     const auto children = at_.cells.subdivide(start_cell, nodes, bracing);
     ledger_.equal(Check::counts, subdivision.children.size(), children.size(), "children, of parents", parents.size());
@@ -295,13 +297,14 @@ class Run {
   }
 
   void compare_drift() {
-    const double target = 1e-15 * std::sqrt(static_cast<double>(std::max<std::size_t>(result_.operations(), 1)));
+    const double target = drift_target(result_.operations());
     ledger_.within(Check::mass_drift, mass_.largest(), target, 1.0, mass_.largest(), 0.0);
     ledger_.within(Check::stiffness_drift, stiffness_.largest(), target, 1.0, stiffness_.largest(), 0.0);
   }
 
   const ConservationPlan& plan_;
   const Tamper<Map>& tamper_;
+  const FollowSubdivision<Map>& follow_;
   SplitMix64 random_;
   ConservationResult result_;
   ConservationLedger ledger_;
@@ -317,13 +320,16 @@ class Run {
 }  // namespace
 
 template <class Map>
-ConservationResult validate_refinement(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper) {
+ConservationResult validate_refinement(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper,
+                                       const FollowSubdivision<Map>& followed) {
   for (const CellKind kind : start.mesh.kinds)
     if (kind != CellKind::tetrahedron) throw InputError("expected a mesh of tetrahedra");
-  return Run<Map>(start, plan, tamper).run();
+  return Run<Map>(start, plan, tamper, followed).run();
 }
 
-template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<Map3>&);
-template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<TetMap>&);
+template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<Map3>&,
+                                                const FollowSubdivision<Map3>&);
+template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<TetMap>&,
+                                                const FollowSubdivision<TetMap>&);
 
 }  // namespace dartboard

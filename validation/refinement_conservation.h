@@ -1,6 +1,7 @@
 #pragma once
 // Refinements among cuts and removals of a body that moves, and what they must keep or change by a known amount.
 
+#include "core/mechanics/refine.h"
 #include "validation/conservation.h"
 
 namespace dartboard {
@@ -8,6 +9,14 @@ namespace dartboard {
 /// Called with the body and its views after each series, in tests that want a fault seen.
 template <class Map>
 using Tamper = std::function<void(LiveBody<Map>&, Views&)>;
+
+/// What makes a body follow a subdivision: core's function, or a faulty stand-in.
+template <class Map>
+using FollowSubdivision = std::function<ChangedEmbeddings(LiveBody<Map>&, const Subdivision&, double bracing)>;
+template <class Map>
+ChangedEmbeddings follow_subdivision(LiveBody<Map>& body, const Subdivision& subdivision, double bracing) {
+  return adapt(body, subdivision, bracing);
+}
 
 /// Refine edges, faces and volumes of a moving body of tetrahedra at random, with dissociations, torn fans and removals
 /// in between, until it has twice its cells; then take it apart until nothing is left; then again with a fresh one.
@@ -31,9 +40,12 @@ using Tamper = std::function<void(LiveBody<Map>&, Views&)>;
 /// throws  InputError if the mesh has other cells than tetrahedra, or is one that build_body refuses
 template <class Map>
 ConservationResult validate_refinement(const Problem& start, const ConservationPlan& plan,
-                                       const Tamper<Map>& tamper = {});
+                                       const Tamper<Map>& tamper = {},
+                                       const FollowSubdivision<Map>& followed = follow_subdivision<Map>);
 
-extern template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<Map3>&);
-extern template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<TetMap>&);
+extern template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<Map3>&,
+                                                       const FollowSubdivision<Map3>&);
+extern template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<TetMap>&,
+                                                       const FollowSubdivision<TetMap>&);
 
 }  // namespace dartboard

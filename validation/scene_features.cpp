@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/time/baraff_witkin.h"
+#include "core/time/stable_step.h"
 
 namespace dartboard {
 namespace {
@@ -28,6 +29,22 @@ double gershgorin(const reference::SpringNetwork& network) {
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (!network.fixed[i]) largest = std::max(largest, 2.0 * sum[i] / network.mass[i]);
   return std::sqrt(largest);
+}
+
+/// At the start, and after each event that happens later.
+std::vector<StableStep> limits_of(const TradeoffScene& scene) {
+  if (scene.limits) return {*scene.limits};
+  SceneStage stage(scene);
+  std::vector<StableStep> limits;
+  const auto look = [&] { limits.push_back(StableStepEstimate().refresh(stage.system(), stage.motion().x)); };
+  std::size_t passed = 0;
+  for (; passed < scene.motion.events.size() && scene.motion.events[passed].time <= 0.0; ++passed) stage.pass_event();
+  look();
+  for (; passed < scene.motion.events.size(); ++passed) {
+    stage.pass_event();
+    look();
+  }
+  return limits;
 }
 
 }  // namespace
@@ -59,6 +76,7 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock) {
   f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
   f.phase = scene.duration * f.omega_low;
 
+  f.limits = limits_of(scene);
   SceneStage stage(scene);
   const SpringSystem system = stage.system();
   std::vector<Eigen::Vector3d> a(f.vertices);
@@ -86,22 +104,8 @@ double implicit_step_seconds(const TradeoffScene& scene, double h, const CpuCloc
 }
 
 double stability_limit(const Scheme& scheme, const SceneFeatures& f, double duration) {
-  if (scheme.implicit) return infinity;
   double limit = infinity;
-  for (double part = 1.0; part > 0.05; part *= 0.7) {
-    const double omega = 1.02 * part * f.omega_low;
-    // what a run of this length can amplify depends on its steps, and those on the limit
-    double steps = duration * omega, theta = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      theta = stable_limit(scheme, part * f.damping_ratio, std::max(8.0, steps), 10.0);
-      steps = duration * omega / std::max(theta, 1e-3);
-    }
-    // Methods that split the damping off sweep over the springs one by one. In a body that is not what it is for one
-    // oscillator: symplectic Euler, stable there for theta < 4.8 at a damping ratio of 1, was seen to fail above 2.1.
-    if (scheme.symplectic && f.damping_ratio > 0.0) theta = std::min(theta, scheme.imaginary_limit);
-    limit = std::min(limit, theta / omega);
-    if (f.damping_ratio == 0.0) break;  // the fastest is the first to become unstable
-  }
+  for (const StableStep& step : f.limits) limit = std::min(limit, step.limit(scheme, horizon_of(duration)).stable);
   return limit;
 }
 

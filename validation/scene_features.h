@@ -2,7 +2,9 @@
 // What the choice of an integrator depends on: of a scene, and of this machine.
 
 #include <cstddef>
+#include <vector>
 
+#include "core/time/step_limit.h"
 #include "validation/scene_stage.h"
 
 namespace dartboard {
@@ -17,6 +19,7 @@ struct SceneFeatures {
   double motion_size = 0.0;                  // [edges] velocities over that rate
   double force_s = 0.0;                      // seconds of a force evaluation here
   double implicit_step_s = 0.0;              // seconds of a linearly implicit step here, its factor kept
+  std::vector<StableStep> limits{};          // of the step: at the start, and there after each event
 };
 
 /// All but `implicit_step_s`, which takes a factorisation to know.
@@ -26,10 +29,8 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock);
 /// infinite when they fail.
 double implicit_step_seconds(const TradeoffScene& scene, double h, const CpuClock& clock);
 
-/// The largest stable step [s] of a method for a scene, over all rates up to omega_max and the damping ratios there,
-/// which are proportional to the rate; infinite for implicit methods.
-///
-/// What a run of that length can amplify counts (`stable_limit`), not what an endless one would.
+/// The longest stable step [s] of a method for a scene: the least that StableStep::limit says of the start and of what
+/// events leave there, for a run of that duration. A simulation of the scene goes by the same number.
 double stability_limit(const Scheme& scheme, const SceneFeatures& features, double duration);
 
 }  // namespace dartboard

@@ -12,8 +12,11 @@
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
 #include "core/plain/error.h"
+#include "core/scene/needs.h"
 #include "core/scene/scene_problem.h"
+#include "core/scene/simulated_body.h"
 #include "core/time/dormand_prince_54.h"
+#include "core/time/stable_step.h"
 #include "reference/spring_network.h"
 
 namespace dartboard {
@@ -157,6 +160,8 @@ TradeoffScene network_scene(const SceneFile& file, const Problem& problem) {
   made.duration = file.duration;
   made.fastest_rate = reference::fastest_rate(made.motion.network, problem.mesh.points);
   made.edge = reference::mean_rest_length(made.motion.network);
+  const auto body = make_simulated_body(problem, needs_of(file, problem).body);
+  made.limits = StableStepEstimate().refresh(body->system(), body->vertices().position);
   made.omissions.emplace_back("The body is not of tetrahedra alone: it is run as its springs, without a map.");
   check(made.motion);
   return made;

@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "core/plain/error.h"
+#include "core/plain/nan_maximum.h"
 #include "core/time/blanes_moan_4.h"
 #include "core/time/dormand_prince_54.h"
 #include "reference/error_norms.h"
-#include "reference/larger.h"
 #include "reference/ode_oracle.h"
 
 namespace dartboard {
@@ -82,7 +82,7 @@ std::string_view name(ReferenceKind kind) {
 
 double self_converged_floor(double change, double agreement) {
   // order 4: the finer run has a fifteenth of the change; ten times that is the floor
-  return reference::larger(reference::larger(10.0 / 15.0 * change, 1e-12), agreement);
+  return max_or_nan(max_or_nan(10.0 / 15.0 * change, 1e-12), agreement);
 }
 
 std::string certainty_of(const reference::CertifiedMotion& certified) {

@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 #include "core/time/accelerations.h"
 #include "core/time/backward_error.h"
 #include "core/time/conjugate_gradients.h"
-#include "core/time/nan_proof.h"
 #include "validation/solver_bodies.h"
 
 namespace dartboard {

@@ -9,7 +9,6 @@
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/plain/random.h"
-#include "core/time/integrators.h"
 #include "core/time/stable_step.h"
 #include "core/views/spring_ends.h"
 #include "validation/frequency_oracle.h"
@@ -55,8 +54,9 @@ Subject mesh_subject(const MeshBody& mesh, bool quick) {
   return {mesh.name, mesh.body, {mesh.omega}, {mesh.omega, mesh.shape, quick ? 1000u : 2000u}, 5e-3, 5};
 }
 
-void measure(const Subject& subject, std::span<const double> damping_ratios, std::vector<StabilityLimit>& limits) {
-  for (const IntegratorEntry& entry : integrators()) {
+void measure(const Subject& subject, std::span<const double> damping_ratios, std::span<const IntegratorEntry> entries,
+             std::vector<StabilityLimit>& limits) {
+  for (const IntegratorEntry& entry : entries) {
     const auto integrator = entry.make();
     const Scheme& scheme = integrator->scheme();
     if (scheme.implicit) continue;
@@ -124,12 +124,12 @@ SpringColumns columns_of(const TetBody& body) {
 
 bool StabilityLimit::holds() const { return std::abs(measured / theory - 1.0) <= tolerance; }
 
-std::vector<StabilityLimit> measure_stability_limits(bool quick) {
+std::vector<StabilityLimit> measure_stability_limits(bool quick, std::span<const IntegratorEntry> entries) {
   std::vector<StabilityLimit> limits;
-  measure(oscillator_subject(), ratios, limits);
-  measure(chain_subject(), ratios, limits);
+  measure(oscillator_subject(), ratios, entries, limits);
+  measure(chain_subject(), ratios, entries, limits);
   for (const char* name : {"box", "sheet"})
-    measure(mesh_subject(with_frequency(name, extreme_body(name)), quick), ratios, limits);
+    measure(mesh_subject(with_frequency(name, extreme_body(name)), quick), ratios, entries, limits);
   return limits;
 }
 
@@ -150,10 +150,11 @@ std::vector<MeshBody> mesh_bodies(const std::string& name, const Mesh& mesh, int
   return bodies;
 }
 
-std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick) {
+std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick,
+                                                std::span<const IntegratorEntry> entries) {
   std::vector<StabilityLimit> limits;
   for (const MeshBody& mesh : bodies)
-    measure(mesh_subject(mesh, quick), std::span(mesh_ratios).first(quick ? 1 : 2), limits);
+    measure(mesh_subject(mesh, quick), std::span(mesh_ratios).first(quick ? 1 : 2), entries, limits);
   return limits;
 }
 

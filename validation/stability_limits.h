@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/plain/mesh.h"
+#include "core/time/integrators.h"
 #include "validation/extreme_bodies.h"
 
 namespace dartboard {
@@ -25,7 +26,8 @@ struct StabilityLimit {
 /// explicit integrator. Of runs of N steps the limit is where the first oscillation grows by 1e3: rho^N = 1e3, which
 /// tells even weak growth. Limits above 20 are left out, and those of damped networks by symplectic Euler, whose scheme
 /// speaks of one damper only.
-std::vector<StabilityLimit> measure_stability_limits(bool quick);
+std::vector<StabilityLimit> measure_stability_limits(bool quick,
+                                                     std::span<const IntegratorEntry> entries = integrators());
 
 /// A body made from a mesh, with what is known of its highest frequency.
 struct MeshBody {
@@ -43,6 +45,7 @@ struct MeshBody {
 std::vector<MeshBody> mesh_bodies(const std::string& name, const Mesh& mesh, int operations, std::uint64_t seed);
 
 /// The limits on them, undamped and damped; quick ones are undamped and of shorter runs.
-std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick);
+std::vector<StabilityLimit> measure_mesh_limits(std::span<const MeshBody> bodies, bool quick,
+                                                std::span<const IntegratorEntry> entries = integrators());
 
 }  // namespace dartboard

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "core/plain/nan_maximum.h"
 #include "validation/extreme_bodies.h"
 #include "validation/growth_run.h"
 
@@ -37,8 +39,8 @@ double growth_of(Integrator& integrator, const SpringColumns& at_rest, double th
   if (n < skip + 2 * window)
     return std::log(std::max(sizes.back(), 1e-300) / sizes.front()) / static_cast<double>(n - 1);
   const auto begin = sizes.begin() + skip;
-  const double first = *std::max_element(begin, begin + window),
-               last = *std::max_element(sizes.end() - window, sizes.end());
+  const double first = max_or_nan(std::span(begin, begin + window)),
+               last = max_or_nan(std::span(sizes.end() - window, sizes.end()));
   return std::log(last / first) / static_cast<double>(n - skip - window);
 }
 
@@ -65,7 +67,7 @@ void for_each_change(double from, double to, double scan, const Grows& grows, co
 
 double StabilityMap::worst() const {
   double worst = 0.0;
-  for (const Crossing& c : boundary) worst = std::max(worst, c.distance());
+  for (const Crossing& c : boundary) worst = max_or_nan(worst, c.distance());
   return worst;
 }
 

@@ -20,7 +20,7 @@ struct StabilityMap {
     double distance() const { return std::abs(measured / theory - 1.0); }
   };
   std::vector<Crossing> boundary;
-  double worst() const;  // distance
+  double worst() const;  // distance; NaN where one is
 
   struct Point {
     double theta, zeta;

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/plain/problem.h"
+#include "core/topology/summary.h"
+#include "reference/cgal_body.h"
 
 namespace dartboard {
 
@@ -13,6 +15,9 @@ struct CountAgreement {
   std::size_t ours = 0, cgal = 0;
   bool agrees() const { return ours == cgal; }
 };
+
+/// What is counted, by its name, with both answers.
+std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CgalCounts& cgal);
 
 /// Darts, i-cells and components of the problem's mesh, counted by coverages of our map and by CGAL of its own.
 std::vector<CountAgreement> compare_counts(const Problem& problem);

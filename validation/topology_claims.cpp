@@ -11,7 +11,6 @@
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
-#include "core/topology/convert.h"
 #include "core/topology/sew.h"
 #include "core/topology/summary.h"
 
@@ -103,7 +102,10 @@ ClaimAnswer try_same_graph_twice(const Mesh& mesh) {
 
 ClaimAnswer try_combinatorial_round_trip(const Mesh& mesh) {
   const Map3 map = build_map<Map3>(mesh).map;
-  const CombinatorialMap half = to_combinatorial_map(map);
+  return comes_back(map, to_combinatorial_map(map));
+}
+
+ClaimAnswer comes_back(const Map3& map, const CombinatorialMap& half) {
   const bool same = are_isomorphic(map, to_generalized_map<3>(half));
   return {same, fmt::format("{} darts, {} in the combinatorial map, {} on return", map.dart_count(), half.beta.size(),
                             same ? "isomorphic" : "not isomorphic")};

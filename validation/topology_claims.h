@@ -5,6 +5,8 @@
 #include <string>
 
 #include "core/plain/mesh.h"
+#include "core/topology/convert.h"
+#include "core/topology/generalized_map.h"
 
 namespace dartboard {
 
@@ -27,5 +29,7 @@ ClaimAnswer try_same_graph_twice(const Mesh& mesh);
 
 /// Section 2: export to a combinatorial map, with half the darts, and back.
 ClaimAnswer try_combinatorial_round_trip(const Mesh& mesh);
+/// Whether `half`, exported from `map`, brings it back.
+ClaimAnswer comes_back(const Map3& map, const CombinatorialMap& half);
 
 }  // namespace dartboard

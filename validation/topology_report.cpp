@@ -318,6 +318,16 @@ std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins) {
   return rows.take();
 }
 
+AgreementRow compare_isomorphism(std::span<const MapTwin* const> twins, std::size_t first, const AlphaList& alphas) {
+  AgreementRow row{"isomorphic to ours", std::vector<std::string>(twins.size()), true};
+  for (std::size_t k = first; k < twins.size(); ++k) {
+    const bool same = are_isomorphic(*twins[k], alphas);
+    row.answers[k] = same ? "yes" : "no";
+    row.agrees = row.agrees && same;
+  }
+  return row;
+}
+
 bool TopologyComparison::agrees() const {
   return std::all_of(rows.begin(), rows.end(), [](const AgreementRow& row) { return row.agrees; });
 }
@@ -344,14 +354,7 @@ TopologyComparison compare_topology(const Mesh& mesh) {
   result.rows = compare_twins(pointers);
 
   // the maps that CGAL made of the mesh against those it makes of our alphas
-  AgreementRow row{"isomorphic to ours", std::vector<std::string>(twins.size()), true};
-  const AlphaList found = twins[0]->alphas();
-  for (std::size_t k = ours; k < twins.size(); ++k) {
-    const bool same = are_isomorphic(*twins[k], found);
-    row.answers[k] = same ? "yes" : "no";
-    row.agrees = row.agrees && same;
-  }
-  result.rows.push_back(std::move(row));
+  result.rows.push_back(compare_isomorphism(pointers, ours, twins[0]->alphas()));
   return result;
 }
 

@@ -45,6 +45,10 @@ struct AgreementRow {
 /// cost    O(2^(n+1) darts) per twin
 std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins);
 
+/// CGAL's verdict on whether each of its twins is isomorphic to the map it makes of these alphas; twins before `first`
+/// are not CGAL's and have no answer.
+AgreementRow compare_isomorphism(std::span<const MapTwin* const> twins, std::size_t first, const AlphaList& alphas);
+
 /// The comparison of a mesh at rest: ours (Map2 or Map3, and TetMap where it can) against CGAL's maps of the mesh,
 /// which are built without core; and CGAL's verdict on whether its maps are isomorphic to those it makes of our alphas.
 struct TopologyComparison {

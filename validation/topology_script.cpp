@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -164,8 +165,11 @@ std::string to_string(const Operation& op) {
 }
 
 std::string to_string(const TopologyScript& script) {
-  std::string text = fmt::format("{}\nmesh {}\nstorage {}\noracles {}\n", first_line, script.mesh, name(script.storage),
-                                 name(script.oracles));
+  // a name of several lines would be read as operations
+  const bool one_line = script.mesh.find_first_of("\r\n") == std::string::npos;
+  std::string text =
+      fmt::format("{}\nmesh {}\nstorage {}\noracles {}\n", first_line,
+                  one_line ? script.mesh : terminal_text(script.mesh), name(script.storage), name(script.oracles));
   for (const Operation& op : script.operations) text += to_string(op) + "\n";
   return text;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/time/step_limit.h"
 #include "validation/spring_scene.h"
 
 namespace dartboard {
@@ -23,6 +24,8 @@ struct TradeoffScene {
   double fastest_rate = 0.0;                                  // [1/s] reference::fastest_rate, the largest over time
   double edge = 1.0;                                          // [m] mean rest length at the start
   std::vector<std::string> omissions = {};                    // what the scene leaves out, in plain sentences
+  // what limits the step of the simulation that the scene stands for; none: of the body or the network themselves
+  std::optional<StableStep> limits = {};
 };
 
 struct TradeoffEntry {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 #include "core/time/backward_euler.h"
 #include "core/time/baraff_witkin.h"
@@ -303,7 +304,7 @@ std::vector<Regret> regrets(std::span<const WorkPoint> points, std::span<const d
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const double cost = cost_at(points, p.contender, errors[k]);
       regret.of_error.push_back(best[k].contender.empty() ? infinity : cost / best[k].cost);
-      regret.worst = std::max(regret.worst, regret.of_error.back());
+      regret.worst = max_or_nan(regret.worst, regret.of_error.back());
     }
     result.push_back(std::move(regret));
   }

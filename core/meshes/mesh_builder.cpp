@@ -108,7 +108,7 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   check_order(std::max(dimension, 2));
   if (dimension == 0)
     fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
-  CellCounts counts{};
+  CountsByKind counts{};
   for (CellKind kind : kinds_)
     if (dartboard::dimension(kind) == dimension) ++counts[static_cast<std::size_t>(kind)];
   if (const std::string beyond = beyond_a_map(counts); !beyond.empty())

@@ -27,7 +27,7 @@ inline void require_spacing(const char* who, double spacing) {
 
 /// So many cells must fit into a map; the node numbers of a mesh that does are counted in 32 bits too.
 inline void require_room(const char* who, CellKind kind, double count) {
-  CellCounts cells{};
+  CountsByKind cells{};
   cells[static_cast<std::size_t>(kind)] = count;
   if (const std::string beyond = beyond_a_map(cells); !beyond.empty())
     throw InputError(fmt::format("{}: {}", who, beyond));

@@ -4,7 +4,7 @@
 
 namespace dartboard {
 
-std::string beyond_a_map(const CellCounts& cells) {
+std::string beyond_a_map(const CountsByKind& cells) {
   double all = 0.0, darts = 0.0;
   int dimension_of_all = 2;
   for (std::size_t k = 0; k < cells.size(); ++k) {

@@ -23,10 +23,10 @@ constexpr int darts_of(CellKind kind) {
 }
 
 /// How many cells of each kind there are, in the order of CellKind; not in 32 bits.
-using CellCounts = std::array<double, 6>;
+using CountsByKind = std::array<double, 6>;
 
 /// What is too much of a mesh of so many cells, and the limit: "134554608 tetrahedra, where a map numbers at most
 /// 134217728". Empty if they fit.
-std::string beyond_a_map(const CellCounts& cells);
+std::string beyond_a_map(const CountsByKind& cells);
 
 }  // namespace dartboard

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/plain/error.h"
+#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {
@@ -44,14 +45,6 @@ std::uint32_t vertex_of(const Probe& probe, const VertexColumns& v) {
   return best;
 }
 
-// A field of a CSV file (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 }  // namespace
 
 void track_probes(std::span<const Probe> probes, SimulatedBody& body) {
@@ -62,7 +55,7 @@ std::string probes_header(std::span<const Probe> probes) {
   std::string header = "time [s]";
   for (const Probe& probe : probes)
     for (const char* quantity : {"x [m]", "y [m]", "z [m]", "vx [m/s]", "vy [m/s]", "vz [m/s]"})
-      header += ',' + field(probe.name + ' ' + quantity);
+      header += ',' + csv_field(probe.name + ' ' + quantity);
   return header + '\n';
 }
 

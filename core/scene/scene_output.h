@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "core/plain/folder_claim.h"
 #include "core/scene/diagnostics.h"
 #include "core/scene/frame.h"
 #include "core/scene/probes.h"
@@ -19,7 +20,7 @@ namespace dartboard {
 class SceneOutput {
  public:
   /// Creates the folder, and those above it, for a body of cells of a dimension.
-  /// throws  IoError if it exists and is not an empty folder, or cannot be created
+  /// throws  IoError if it exists and is not an empty folder, is claimed by another run, or cannot be created
   explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3);
 
   /// throws  IoError if a file cannot be written (below too)
@@ -33,6 +34,7 @@ class SceneOutput {
  private:
   void write_row(std::ofstream& out, const char* name, const std::string& row) const;
 
+  FolderClaim claim_;
   std::filesystem::path folder_;
   PvdFile list_;
   std::ofstream diagnostics_, probes_;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
+#include "core/time/stop_request.h"
 
 namespace dartboard {
 namespace {
@@ -21,7 +22,24 @@ class EnergyDrift {
   double start_, change_ = 0.0, size_ = 0.0;
 };
 
+/// The state after the last step that was taken: to whom it has not been due.
+void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
+                       const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunResult& result) {
+  const std::uint64_t n = simulation.steps_done();
+  const auto lacks = [n](const std::optional<std::uint64_t>& every) { return n > 0 && !(every && n % *every == 0); };
+  if (lacks(plan.frame_steps)) watcher.frame(simulation.frame());
+  if (lacks(plan.diagnostic_steps)) {
+    result.last = simulation.diagnostics();
+    watcher.diagnostics(result.last);
+  }
+  if (lacks(probe_steps)) watcher.probes(simulation.probes());
+}
+
 }  // namespace
+
+double mass_unaccounted_for(double start, double removed, double end) {
+  return start == 0.0 ? 0.0 : std::abs(start - removed - end) / start;
+}
 
 RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps) {
@@ -36,7 +54,13 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   watcher.probes(simulation.probes());
   if (simulation.step_count() == 0) result.divergence = simulation.start_failure();
   while (simulation.steps_done() < end && !result.interrupted) {
-    result.divergence = simulation.advance();
+    try {
+      result.divergence = simulation.advance();
+    } catch (const Stopped&) {
+      result.interrupted = true;
+      hand_out_the_rest(simulation, plan, probe_steps, watcher, result);
+      break;
+    }
     if (result.divergence) {
       result.last = simulation.diagnostics();
       const std::uint64_t kept = simulation.steps_done() - result.divergence->taken_back;

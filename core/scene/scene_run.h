@@ -28,8 +28,12 @@ struct RunResult {
   double energy_drift = 0.0;
 };
 
-/// Run to the end, to `most_steps`, until the watcher interrupts it, or until the motion diverges. The first state is
-/// always handed out, and the last if it is good: what was handed out last before a divergence stays.
+/// What became of the mass beyond what removals took, relative to the mass at the start; 0 where there was none.
+double mass_unaccounted_for(double start, double removed, double end);
+
+/// Run to the end, to `most_steps`, until the watcher interrupts it or a StopRequest (stop_request.h) a step, or until
+/// the motion diverges. The first state is always handed out, and the last if it is good: what was handed out last
+/// before a divergence stays.
 RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps = {});
 

@@ -14,7 +14,6 @@
 #include "core/scene/scene_problem.h"
 #include "core/time/energy.h"
 #include "core/time/integrators.h"
-#include "core/time/nan_proof.h"
 #include "core/time/preflight.h"
 
 namespace dartboard {
@@ -64,12 +63,6 @@ bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed) {
   return sum_of_squares(velocity) <= speed * speed;
 }
 
-struct Simulation::Sums {
-  double mass, energy;  // kinetic and elastic
-  Eigen::Vector3d momentum;
-  double size_of_momentum;  // sum of m |v|
-};
-
 std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
   std::string text =
       fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
@@ -89,6 +82,7 @@ std::string to_string(const Divergence& d) {
 Simulation::Simulation(const SceneFile& scene)
     : step_(settled_step(scene)),
       step_count_(step_of_time(scene.duration, step_)),
+      horizon_(horizon_of(scene.duration)),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
@@ -116,8 +110,10 @@ Simulation::Simulation(const SceneFile& scene)
   }
   look_at_step();
   if (const auto refusal = refused())
-    throw InputError(fmt::format("{}: /step: {}; expected at most {:.6g} s, or another 'unstable_step'", scene.file,
-                                 refusal->quantity, refusal->value));
+    throw InputError(fmt::format("{}: {}: {}; expected {}, or another 'unstable_step'", scene.file,
+                                 scene.accuracy ? "/accuracy" : "/step", refusal->quantity,
+                                 scene.accuracy ? fmt::format("'step' in its place, at most {:.6g} s", refusal->value)
+                                                : fmt::format("at most {:.6g} s", refusal->value)));
   look_before_run();
   start_ = detector_.start(body_->system(), body_->motion(), step_);
   if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
@@ -169,37 +165,35 @@ std::optional<Divergence> Simulation::start_failure() {
   return failure(detector_.with_witness(start_, body_->system(), body_->motion()));
 }
 
-// The run is as long as the scene; it must not amplify anything twofold that theory says it does not.
+// What the close look needs is let go: it is taken at the start and after events only.
+StableStep Simulation::look_closely() const {
+  return StableStepEstimate().refresh(body_->system(), body_->vertices().position);
+}
+
+StepLimit Simulation::step_limit() const { return look_closely().limit(integrator_->scheme(), horizon_); }
+
 void Simulation::look_at_step() {
-  const Horizon horizon{.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0};
   const Scheme& scheme = integrator_->scheme();
   limits_ = quick_stable_step(body_->system());
   too_long_ = false;
   parts_ = 1;
-  if (limits_.is_stable(scheme, step_, horizon)) return;
-  // what the close look needs is let go: it is taken at the start and after events only
-  limits_ = StableStepEstimate().refresh(body_->system(), body_->vertices().position);
-  const double stable = limits_.safe_step(scheme, horizon);
-  too_long_ = step_ > stable;
-  if (too_long_ && unstable_step_ == UnstableStep::substep) {
-    // the more parts, the longer the run in steps, and the less each may amplify
-    double parts = std::ceil(step_ / stable);
-    for (int tries = 0; tries < 60 && parts <= most_parts; ++tries) {
-      const double allowed = limits_.safe_step(scheme, {.steps = horizon.steps * parts, .gain = horizon.gain});
-      if (step_ / parts <= allowed) break;
-      parts = std::ceil(std::max(parts * 1.2, std::min(step_ / allowed, parts * 4.0)));
-    }
-    too_long_ = !(parts <= most_parts);
-    parts_wanted_ = parts;
-    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts);
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  limits_ = look_closely();
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  stable_ = limits_.safe_step(scheme, horizon_);
+  too_long_ = true;
+  if (unstable_step_ == UnstableStep::substep) {
+    parts_wanted_ = std::ceil(step_ / stable_);
+    too_long_ = !(parts_wanted_ <= most_parts);
+    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts_wanted_);
   }
-  if (!warning_ && (too_long_ || parts_ > 1)) warning_ = StepWarning{done_, stable, parts_};
+  if (!warning_) warning_ = StepWarning{done_, stable_, parts_};
 }
 
 // Steps too long and coordinates too large have warnings of their own, which a run may add to.
 void Simulation::look_before_run() {
   const Preflight found = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
-                                           step_ / static_cast<double>(parts_), limits_);
+                                           step_ / static_cast<double>(parts_), limits_, horizon_);
   if (found.warns_of(StepCode::coordinate_precision)) look_at_coordinates();
   warnings_ = found.warnings;
   std::erase_if(warnings_, [](const StepResult& w) {
@@ -220,8 +214,7 @@ std::optional<Divergence> Simulation::refused() const {
   d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
   if (unstable_step_ == UnstableStep::substep)
     d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
-  d.value = limits_.safe_step(integrator_->scheme(),
-                              {.steps = static_cast<double>(std::max<std::uint64_t>(1, step_count_)), .gain = 2.0});
+  d.value = stable_;
   d.predicted = true;
   return d;
 }
@@ -240,12 +233,10 @@ void Simulation::happen() {
   for (Scheduled& scheduled : events_) {
     if (scheduled.clock.next() > done_) continue;
     while (scheduled.clock.next() <= done_) scheduled.clock.advance();
-    std::optional<Sums> before;
-    if (watch_ && scheduled.dissociates) before = sums();
-    const std::size_t made = scheduled.event->apply();
+    const std::size_t made =
+        watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
     scheduled.was_due = true;
     scheduled.operations += made;
-    if (before && made > 0) compare(*before);
     operations_ += made;
     if (made > 0) integrator_->restart();
   }
@@ -262,25 +253,6 @@ bool Simulation::drive() {
   const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
   if (changed) integrator_->restart();
   return changed;
-}
-
-Simulation::Sums Simulation::sums() const {
-  const SpringSystem system = body_->system();
-  const VertexColumns& v = body_->vertices();
-  double size = 0.0;
-  for (std::size_t k = 0; k < v.size(); ++k) size += v.mass[k] * v.velocity[k].norm();
-  return {body_->mass(), kinetic_energy(system, v.velocity) + elastic_energy(system, v.position),
-          linear_momentum(system, v.velocity), size};
-}
-
-void Simulation::compare(const Sums& before) {
-  const Sums after = sums();
-  const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
-  ++jumps_.events;
-  jumps_.mass = max_or_nan(jumps_.mass, relative(after.mass - before.mass, before.mass));
-  jumps_.momentum =
-      max_or_nan(jumps_.momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
-  jumps_.energy = max_or_nan(jumps_.energy, relative(after.energy - before.energy, before.energy));
 }
 
 std::optional<Divergence> Simulation::diverged() const {

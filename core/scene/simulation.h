@@ -11,6 +11,7 @@
 #include "core/scene/diagnostics.h"
 #include "core/scene/driven_vertices.h"
 #include "core/scene/event_clock.h"
+#include "core/scene/event_jumps.h"
 #include "core/scene/frame.h"
 #include "core/scene/probes.h"
 #include "core/scene/scene_file.h"
@@ -47,14 +48,6 @@ std::string to_string(const StepWarning& warning, double step, std::string_view 
 /// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
-/// How much dissociations changed what they must not change: the largest over all events that only dissociate.
-struct EventJumps {
-  std::uint64_t events = 0;  // that dissociated
-  double mass = 0.0;         // relative to the mass before
-  double momentum = 0.0;     // relative to the sum of m |v|
-  double energy = 0.0;       // kinetic and elastic, relative to their sum before
-};
-
 /// What is due at a step boundary happens before the state there is looked at: at the start by the constructor, then at
 /// the end of each step.
 class Simulation {
@@ -90,6 +83,9 @@ class Simulation {
   /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
   /// step is stable.
   const StableStep& stable_step() const { return limits_; }
+  /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps go by; see
+  /// StableStep::limit.   cost  a close look: a hundred force evaluations
+  StepLimit step_limit() const;
   /// The first step found too long, and how it is divided now.
   const std::optional<StepWarning>& step_warning() const { return warning_; }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
@@ -124,11 +120,9 @@ class Simulation {
     bool was_due = false;
     std::size_t operations = 0;
   };
-  struct Sums;
-  Sums sums() const;
   void happen();
   bool drive();
-  void compare(const Sums& before);
+  StableStep look_closely() const;
   void look_at_step();
   void look_at_coordinates();
   void look_before_run();
@@ -140,6 +134,7 @@ class Simulation {
 
   double step_;
   std::uint64_t step_count_, done_ = 0;
+  Horizon horizon_;
   std::unique_ptr<SimulatedBody> body_;
   DrivenVertices driven_;
   std::unique_ptr<Integrator> integrator_;
@@ -154,6 +149,7 @@ class Simulation {
   std::vector<StepResult> warnings_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
+  double stable_ = 0.0;        // [s] the longest step that is, where this one is too long
   double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
   StepResult start_;           // what the detector finds in the state before a step
   DivergenceDetector detector_;

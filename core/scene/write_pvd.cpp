@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <string_view>
 
+#include "core/plain/escape.h"
 #include "core/scene/atomic_file.h"
 
 namespace dartboard {
@@ -19,8 +20,8 @@ constexpr std::string_view tail = "  </Collection>\n</VTKFile>\n";
 
 void PvdFile::add(const FrameFile& frame) {
   errno = 0;
-  std::string text =
-      fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n{}", frame.time, frame.file, tail);
+  std::string text = fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n{}", frame.time,
+                                 xml_text(frame.file), tail);
   if (!file_.is_open()) {
     file_.open(path_, std::ios::binary | std::ios::trunc);
     text.insert(0, head);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mechanics/spring_forces.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {

@@ -6,6 +6,7 @@
 #include "core/time/backward_error.h"
 #include "core/time/cholesky_implementation.h"
 #include "core/time/nan_proof.h"
+#include "core/time/stop_request.h"
 
 namespace dartboard {
 
@@ -23,21 +24,36 @@ std::string_view to_string(SolveStatus status) {
   return "?";
 }
 
-Cholesky::Cholesky(const CholeskyOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}
+Cholesky::Cholesky(const CholeskyOptions& options) : implementation_(std::make_shared<Implementation>(options)) {}
 Cholesky::~Cholesky() = default;
 Cholesky::Cholesky(Cholesky&&) noexcept = default;
 Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
-SolveStatus Cholesky::factorise(const BlockMatrix& matrix) { return implementation_->factorise(NodeEntries(matrix)); }
-SolveStatus Cholesky::factorise(const ScalarMatrix& matrix) { return implementation_->factorise(NodeEntries(matrix)); }
+// Where the work is given up it keeps what it works on, and we begin anew.
+template <class Action>
+SolveStatus Cholesky::unless_stopped(Action&& action) {
+  try {
+    return action(*implementation_);
+  } catch (const Stopped&) {
+    implementation_ = std::make_shared<Implementation>(CholeskyOptions(implementation_->options));
+    throw;
+  }
+}
+
+SolveStatus Cholesky::factorise(const BlockMatrix& matrix) {
+  return unless_stopped([&](Implementation& i) { return i.factorise(NodeEntries(matrix)); });
+}
+SolveStatus Cholesky::factorise(const ScalarMatrix& matrix) {
+  return unless_stopped([&](Implementation& i) { return i.factorise(NodeEntries(matrix)); });
+}
 SolveStatus Cholesky::update(std::span<const RankOneTerm> terms) {
   return implementation_->has_room(terms) ? implementation_->update(terms) : SolveStatus::not_factored;
 }
 SolveStatus Cholesky::follow(const BlockMatrix& after, std::span<const RankOneTerm> terms) {
-  return implementation_->follow(NodeEntries(after), terms);
+  return unless_stopped([&](Implementation& i) { return i.follow(NodeEntries(after), terms); });
 }
 SolveStatus Cholesky::follow(const ScalarMatrix& after, std::span<const RankOneTerm> terms) {
-  return implementation_->follow(NodeEntries(after), terms);
+  return unless_stopped([&](Implementation& i) { return i.follow(NodeEntries(after), terms); });
 }
 SolveStatus Cholesky::solve(std::span<const Vector3d> b, std::span<Vector3d> x) { return implementation_->solve(b, x); }
 

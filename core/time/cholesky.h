@@ -87,6 +87,8 @@ class Cholesky {
 
   /// Factor a matrix; it is analysed if its pattern is not the one of last time. A pattern that has grown or changed
   /// keeps the ordering: vertices that are added stand beside the vertex that they share most neighbours with.
+  ///
+  /// throws  Stopped (stop_request.h) where that was asked for while it took long; there is no factor then
   SolveStatus factorise(const BlockMatrix& matrix);
   SolveStatus factorise(const ScalarMatrix& matrix);
 
@@ -103,6 +105,7 @@ class Cholesky {
   ///
   /// A vertex that is dissociated hands springs to its twin at the same place: only their rows change, however many
   /// springs there are and however they are stretched. The twin's row is a spare one.
+  /// throws  as factorise
   SolveStatus follow(const BlockMatrix& after, std::span<const RankOneTerm> terms);
   SolveStatus follow(const ScalarMatrix& after, std::span<const RankOneTerm> terms);
 
@@ -139,7 +142,9 @@ class Cholesky {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  template <class Action>
+  SolveStatus unless_stopped(Action&& action);
+  std::shared_ptr<Implementation> implementation_;  // shared with work that was given up
 };
 
 }  // namespace dartboard

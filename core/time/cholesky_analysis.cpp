@@ -166,6 +166,11 @@ bool Cholesky::Implementation::shape(const NodePattern& p) {
   return true;
 }
 
+// Roughly: it decides on nothing but a thread. The ordering takes most of it.
+double Cholesky::Implementation::predicted_analysis_seconds(const NodePattern& p) const {
+  return 1e-6 * static_cast<double>(p.row.size() + p.node_count());
+}
+
 bool Cholesky::Implementation::analyse(const NodePattern& p) {
   free_factor();
   const bool keep_order = !order.empty() && p.node_count() >= order_nodes && order_nodes > 0;

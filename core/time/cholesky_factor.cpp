@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/time/nan_proof.h"
+#include "core/time/stop_request.h"
 
 // Present where OpenBLAS is the BLAS.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -86,6 +87,14 @@ SolveStatus Cholesky::Implementation::checked() {
   return SolveStatus::ok;
 }
 
+// In a thread of its own where it is predicted to take long; that keeps us alive if the work is given up.
+int Cholesky::Implementation::unless_stopped(double seconds, std::function<int(Implementation&)> work) {
+  if (!may_be_stopped(seconds)) return work(*this);
+  const auto result = std::make_shared<int>(0);
+  do_unless_stopped([self = shared_from_this(), work = std::move(work), result] { *result = work(*self); });
+  return *result;
+}
+
 SolveStatus Cholesky::Implementation::factorise(const NodeEntries& m) {
   factored = false;
   failed = NodePattern::none;
@@ -94,7 +103,12 @@ SolveStatus Cholesky::Implementation::factorise(const NodeEntries& m) {
   if (!same_rows) order.clear();
   rows_per_node = m.rows;
   if (!L || !same_rows || column_start != m.pattern.column_start || row != m.pattern.row || m.nodes != order_nodes) {
-    if (!analyse(m.pattern)) return memory_failure();
+    const double seconds = predicted_analysis_seconds(m.pattern);
+    const bool analysed =
+        may_be_stopped(seconds)
+            ? unless_stopped(seconds, [p = m.pattern](Implementation& self) { return self.analyse(p) ? 1 : 0; }) != 0
+            : analyse(m.pattern);
+    if (!analysed) return memory_failure();
   } else if (!pattern_kept) {
     cholmod_free_factor(&L, &common);
     L = cholmod_copy_factor(symbolic, &common);
@@ -107,7 +121,9 @@ SolveStatus Cholesky::Implementation::factorise(const NodeEntries& m) {
   for (int k = 0; k < entries; ++k)
     if (!std::isfinite(value[k])) return SolveStatus::not_finite;
   common.status = CHOLMOD_OK;
-  if (!cholmod_factorize(A, L, &common) && common.status >= CHOLMOD_OK) return SolveStatus::not_factored;
+  const int done = unless_stopped(factorisation_cost(),
+                                  [](Implementation& self) { return cholmod_factorize(self.A, self.L, &self.common); });
+  if (!done && common.status >= CHOLMOD_OK) return SolveStatus::not_factored;
   ++counters.factorisations;
   updates = 0;
   const SolveStatus status = checked();

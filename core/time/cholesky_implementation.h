@@ -5,6 +5,8 @@
 #include <cholmod.h>
 
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/time/cholesky.h"
@@ -38,7 +40,7 @@ struct NodeEntries {
 std::vector<int> extended_order(const std::vector<int>& order, std::size_t old_count, const NodePattern& pattern,
                                 std::size_t capacity);
 
-struct Cholesky::Implementation {
+struct Cholesky::Implementation : std::enable_shared_from_this<Implementation> {
   CholeskyOptions options;
   CholeskyCounters counters;
   cholmod_common common;
@@ -73,12 +75,14 @@ struct Cholesky::Implementation {
   bool analyse_with_order();
   bool shape(const NodePattern& pattern);
   bool analyse(const NodePattern& pattern);
+  double predicted_analysis_seconds(const NodePattern& pattern) const;
 
   // cholesky_factor.cpp
   void copy_values(const NodeEntries& m);
   SolveStatus failure(std::size_t position);
   SolveStatus memory_failure();
   SolveStatus checked();
+  int unless_stopped(double seconds, std::function<int(Implementation&)> work);
   SolveStatus factorise(const NodeEntries& m);
   SolveStatus solve(std::span<const Eigen::Vector3d> right, std::span<Eigen::Vector3d> x);
 

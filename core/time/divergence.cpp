@@ -6,7 +6,7 @@
 
 #include "core/mechanics/spring_forces.h"
 #include "core/time/energy.h"
-#include "core/time/nan_proof.h"
+#include "core/plain/nan_maximum.h"
 #include "core/time/trial_state.h"
 
 namespace dartboard {

@@ -8,6 +8,7 @@
 #include "core/mechanics/spring_forces.h"
 #include "core/time/nan_proof.h"
 #include "core/time/power_of_two.h"
+#include "core/time/stop_request.h"
 
 namespace dartboard {
 namespace {
@@ -253,6 +254,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
     if (!std::isfinite(now)) return nonfinite_residual(now);
     if (now <= 1.0 && (options_.tolerance > 0.0 || now >= 0.5 * last || now == 0.0)) return {};
     if (iteration == options_.max_iterations) break;
+    throw_if_stopped();
     ++work.newton_iterations;
     last = now;
 

@@ -1,18 +1,13 @@
 #pragma once
-// Maxima that do not lose a NaN.
+// Columns of vectors that may hold what is not a number.
 
 #include <Eigen/Core>
 #include <cmath>
 #include <span>
 
-namespace dartboard {
+#include "core/plain/nan_maximum.h"
 
-/// The larger of two numbers, NaN if either is. std::max(a, NaN) is a, so a residual that is no number would pass as
-/// small.
-inline double max_or_nan(double a, double b) {
-  if (std::isnan(a) || std::isnan(b)) return a + b;
-  return a < b ? b : a;
-}
+namespace dartboard {
 
 /// The largest absolute coordinate; NaN if one is NaN, 0 if there is none.
 inline double max_abs_or_nan(std::span<const Eigen::Vector3d> v) {

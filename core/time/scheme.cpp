@@ -1,6 +1,7 @@
 #include "core/time/scheme.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "core/plain/error.h"
@@ -23,12 +24,14 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta) {
 
 namespace {
 
-// The first argument above 0 at which the radius grows too fast; one that is not a number counts as growth.
-template <class Radius>
-double first_growth(const Radius& radius, double steps, double gain, double ceiling) {
-  if (!(gain > 1.0) || !(steps > 0.0)) throw InputError("a stability limit needs a gain above 1 and some steps");
-  const double allowed = std::log(gain) / steps;
-  const auto stable = [&](double at) { return std::log(radius(at)) < allowed; };
+// The first argument above 0 at which the radius grows too fast for a run of so many steps; a radius that is not a
+// number counts as growth.
+template <class Radius, class Steps>
+double first_growth(const Radius& radius, const Steps& steps, double gain, double ceiling) {
+  if (!(gain > 1.0) || !(steps(1.0) > 0.0)) throw InputError("a stability limit needs a gain above 1 and some steps");
+  const auto stable = [&, logarithm = std::log(gain)](double at) {
+    return std::log(radius(at)) < logarithm / steps(at);
+  };
   constexpr double scan = 1e-3;
   for (int i = 1; i * scan <= ceiling; ++i) {
     if (stable(i * scan)) continue;
@@ -44,16 +47,38 @@ double first_growth(const Radius& radius, double steps, double gain, double ceil
   return Scheme::unlimited;
 }
 
+auto always(double steps) {
+  return [steps](double) { return steps; };
+}
+auto within(double phase) {
+  return [phase](double theta) { return std::max(1.0, phase / theta); };
+}
+
+auto oscillation(const Scheme& scheme, double zeta) {
+  return [&scheme, zeta](double theta) { return spectral_radius(scheme, theta, zeta); };
+}
+// An oscillation so slow that it does nothing in a step, damped at the rate asked for: 2 zeta theta is h times that.
+auto decay(const Scheme& scheme) {
+  constexpr double slow = 1e-9;
+  return [&scheme](double z) { return spectral_radius(scheme, slow, z / (2 * slow)); };
+}
+
 }  // namespace
 
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling) {
-  return first_growth([&](double theta) { return spectral_radius(scheme, theta, zeta); }, steps, gain, ceiling);
+  return first_growth(oscillation(scheme, zeta), always(steps), gain, ceiling);
 }
 
-// An oscillation so slow that it does nothing in a step, damped at the rate asked for: 2 zeta theta is h times that.
+double stable_limit_within(const Scheme& scheme, double zeta, double phase, double gain, double ceiling) {
+  return first_growth(oscillation(scheme, zeta), within(phase), gain, ceiling);
+}
+
 double damping_limit(const Scheme& scheme, double steps, double gain, double ceiling) {
-  constexpr double slow = 1e-9;
-  return first_growth([&](double z) { return spectral_radius(scheme, slow, z / (2 * slow)); }, steps, gain, ceiling);
+  return first_growth(decay(scheme), always(steps), gain, ceiling);
+}
+
+double damping_limit_within(const Scheme& scheme, double phase, double gain, double ceiling) {
+  return first_growth(decay(scheme), within(phase), gain, ceiling);
 }
 
 }  // namespace dartboard

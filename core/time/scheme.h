@@ -24,6 +24,7 @@ struct Scheme {
   bool symmetric = false;      // a step of -h undoes a step of h, where nothing dissipates
   bool keeps_angular = false;  // angular momentum is exact; linear momentum is, for all
   bool compensated = false;    // carries on with the digits that rounding takes from the state
+  bool sweeps = false;         // damps spring by spring: in a network that is not what `amplification` says of zeta > 0
   bool one_step = true;        // false: keeps states of earlier steps, and starts again after a restart
   double imaginary_limit = 0;  // stable for zeta = 0 and 0 < theta <= this; `unlimited` when for all
   Eigen::MatrixXd (*amplification)(double theta, double zeta) = nullptr;
@@ -44,8 +45,13 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 /// returns `unlimited` when there is none below `ceiling`
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling = 20.0);
 
-/// The same on the negative real axis: the first h times rate at which the method amplifies v' = - rate v, a motion
-/// that nothing but damping acts on.
+/// The same for a run of a given duration instead of a number of steps: `phase` is the duration times omega, which is
+/// phase / theta steps, and one at least. The shorter the steps, the less each of them may amplify.
+double stable_limit_within(const Scheme& scheme, double zeta, double phase, double gain, double ceiling = 20.0);
+
+/// Both on the negative real axis: the first h times rate at which the method amplifies v' = - rate v, a motion that
+/// nothing but damping acts on. There the phase is the duration times the rate.
 double damping_limit(const Scheme& scheme, double steps, double gain, double ceiling = 20.0);
+double damping_limit_within(const Scheme& scheme, double phase, double gain, double ceiling = 20.0);
 
 }  // namespace dartboard

@@ -6,6 +6,7 @@
 
 #include "core/plain/error.h"
 #include "core/time/accelerations.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {
@@ -73,88 +74,42 @@ Bounds viscous_rates(const SpringSystem& system) {
   return b;
 }
 
-// The longest step where no spring oscillates: what damps may limit it still.
-double damped_step(const StableStep& step, const Scheme& scheme, const Horizon& horizon) {
-  const double rate = step.viscous_rate.upper;
-  return rate == 0.0 ? unlimited : damping_limit(scheme, horizon.steps, horizon.gain) / rate;
+/// Gershgorin's bound for all damping over the masses, whatever the directions.
+double damping_bound(const SpringSystem& system) {
+  std::vector<double> sum(system.vertex_count(), 0.0);
+  for (std::size_t s = 0; s < system.springs.size(); ++s)
+    for (const auto i : system.ends[s]) sum[i] += 2.0 * system.springs[s].damping;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (!system.fixed[i]) highest = max_or_nan(highest, (sum[i] + system.viscosity[i]) * system.inverse_mass[i]);
+  return highest;
 }
 
-bool has_no_limit(const Scheme& scheme) {
-  if (!scheme.implicit && scheme.amplification == nullptr)
-    throw InputError("a stable step needs a scheme with an amplification");
-  return scheme.implicit && (scheme.amplification == nullptr || scheme.imaginary_limit == unlimited);
+/// The same for what the springs have across their directions, as a frequency.
+double across_bound(const SpringSystem& system, std::span<const SpringTangent> tangents) {
+  std::vector<double> sum(system.vertex_count(), 0.0);
+  for (std::size_t s = 0; s < tangents.size(); ++s)
+    for (const auto i : system.ends[s]) sum[i] += 2.0 * tangents[s].across;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (!system.fixed[i]) highest = max_or_nan(highest, sum[i] * system.inverse_mass[i]);
+  return std::sqrt(highest);
+}
+
+/// A rate of damping that is known bounds the frequencies that it belongs to: d is at least alpha + beta (omega^2 -
+/// across^2).
+void tighten(StableStep& step) {
+  const double beta = step.damping_time.lower, room = step.damping_rate.upper - step.viscous_rate.lower;
+  if (beta > 0.0 && room >= 0.0) step.upper = std::min(step.upper, std::sqrt(step.across * step.across + room / beta));
+  step.upper = std::max(step.upper, step.lower);
 }
 
 }  // namespace
 
-Bounds StableStep::damping_ratio() const {
-  if (upper == 0.0) return {};
-  return {(damping_time.lower * lower + viscous_rate.lower / upper) / 2,
-          (damping_time.upper * upper + viscous_rate.upper / std::max(lower, upper / 2)) / 2};
-}
-
-double StableStep::safe_step(const Scheme& scheme, double zeta, const Horizon& horizon) const {
-  if (has_no_limit(scheme)) return unlimited;
-  if (!std::isfinite(upper) || !std::isfinite(zeta)) return 0.0;
-  if (upper == 0.0) return unlimited;
-  return stable_limit(scheme, zeta, horizon.steps, horizon.gain) / upper;
-}
-
-bool StableStep::is_stable(const Scheme& scheme, double h, const Horizon& horizon) const {
-  if (has_no_limit(scheme)) return true;
-  if (!std::isfinite(upper) || !std::isfinite(h)) return false;
-  if (upper == 0.0) return h <= damped_step(*this, scheme, horizon);
-  const double allowed = std::log(horizon.gain) / horizon.steps;
-  const auto stable = [&](double omega, double beta, double alpha) {
-    // of `upper` itself the limit is as exact as the bisection for it
-    const double radius = spectral_radius(scheme, h * omega * (1 - 1e-9), beta * omega / 2 + alpha / (2 * omega));
-    return std::log(radius) < allowed;  // not where it is not a number
-  };
-  // A splitting method damps spring by spring, which damps a network less than the test oscillator: no damping must do.
-  const bool splits = scheme.symplectic && !scheme.implicit;
-  constexpr int samples = 64;
-  const bool uniform = damping_time.lower == damping_time.upper && viscous_rate.lower == viscous_rate.upper;
-  for (int i = samples; i >= 1; --i) {
-    const double omega = upper * i / samples;
-    if (!stable(omega, damping_time.upper, viscous_rate.upper)) return false;
-    if (splits && !stable(omega, 0.0, 0.0)) return false;
-    if (uniform) continue;
-    if (!stable(omega, damping_time.lower, viscous_rate.lower) ||
-        !stable(omega, damping_time.upper, viscous_rate.lower) ||
-        !stable(omega, damping_time.lower, viscous_rate.upper))
-      return false;
-  }
-  // Above its first limit a method may be stable again, and the gap between may be narrow (that of Blanes and Moan's is
-  // 0.9 %): where the highest frequency is beyond it, others may be in it.
-  constexpr double fine = 2e-3, ceiling = 20.0;
-  const double from = scheme.imaginary_limit, to = std::min(h * upper, ceiling);
-  if (from == 0.0) return true;
-  for (int i = 0; from + i * fine < to; ++i) {
-    const double omega = (from + i * fine) / h;
-    if (!stable(omega, damping_time.upper, viscous_rate.upper)) return false;
-    if (splits && !stable(omega, 0.0, 0.0)) return false;
-  }
-  return true;
-}
-
-// Limits are not monotonic in the damping ratio, and lower frequencies have other ratios: what the ratios at the
-// highest frequency allow is shortened until all are stable.
-double StableStep::safe_step(const Scheme& scheme, const Horizon& horizon) const {
-  if (upper == 0.0 && !has_no_limit(scheme)) return damped_step(*this, scheme, horizon);
-  const Bounds ratio = damping_ratio();
-  double h = std::min(safe_step(scheme, ratio.lower, horizon), safe_step(scheme, ratio.upper, horizon));
-  if (scheme.symplectic) h = std::min(h, safe_step(scheme, 0.0, horizon));
-  if (h == 0.0 || has_no_limit(scheme)) return h;
-  // an overdamped frequency may have no limit, where those below it have one
-  constexpr double ceiling = 20.0;
-  h = std::min(h, ceiling / upper);
-  for (int tries = 0; tries < 1000 && !is_stable(scheme, h, horizon); ++tries) h *= 0.97;
-  return is_stable(scheme, h, horizon) ? h : 0.0;
-}
-
 StableStep quick_stable_step(const SpringSystem& system) {
   StableStep step;
-  step.any_state = step.upper = frequency_bound(system);
+  step.damping_rate.upper = damping_bound(system);
+  step.any_state = step.upper = step.across = frequency_bound(system);
   step.damping_time = damping_times(system);
   step.viscous_rate = viscous_rates(system);
   // the bound knows nothing of damping, and the extremes of the rates pass over what is not a number
@@ -184,17 +139,27 @@ bool StableStepEstimate::prepare(const SpringSystem& system, std::span<const Vec
   return finite == 0.0 && std::isfinite(unit_);
 }
 
-// out = M^-1/2 K M^-1/2 in, divided by Gershgorin's bound so that no system is too stiff or too soft for the numbers
-void StableStepEstimate::multiply(const SpringSystem& system, std::span<const Vector3d> in, std::span<Vector3d> out) {
+/// M^-1/2 K M^-1/2 or M^-1/2 C M^-1/2, divided by Gershgorin's bound so that no system is too stiff or too soft for the
+/// numbers.
+struct StableStepEstimate::Operator {
+  const SpringSystem& system;
+  std::span<const SpringTangent> tangents;
+  double unit;
+  bool viscous;  // C has viscosities too
+};
+
+void StableStepEstimate::multiply(const Operator& m, std::span<const Vector3d> in, std::span<Vector3d> out) {
   for (std::size_t i = 0; i < in.size(); ++i) scaled_[i] = scale_[i] * in[i];
-  multiply_stiffness(system, tangents_, scaled_, out);
-  for (std::size_t i = 0; i < in.size(); ++i) out[i] *= scale_[i] / unit_;
+  multiply_stiffness(m.system, m.tangents, scaled_, out);
+  if (m.viscous)
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] += m.system.viscosity[i] * scaled_[i];
+  for (std::size_t i = 0; i < in.size(); ++i) out[i] *= scale_[i] / m.unit;
   ++multiplications_;
 }
 
-double StableStepEstimate::power_iteration(const SpringSystem& system) {
-  const std::size_t before = std::min(shape_.size(), system.vertex_count());
-  shape_.resize(system.vertex_count());
+double StableStepEstimate::power_iteration(const Operator& matrix) {
+  const std::size_t n = matrix.system.vertex_count(), before = std::min(shape_.size(), n);
+  shape_.resize(n);
   for (std::size_t i = 0; i < shape_.size(); ++i) {
     if (i >= before)
       for (double& c : shape_[i]) c = random_.next_signed();
@@ -206,7 +171,7 @@ double StableStepEstimate::power_iteration(const SpringSystem& system) {
         for (double& c : shape_[i]) c = random_.next_signed();
     if (scale_to_unit(shape_) == 0.0) return 0.0;
   }
-  multiply(system, shape_, w_);
+  multiply(matrix, shape_, w_);
   const double quotient = dot(shape_, w_);
   if (quotient > 0.0) {
     std::ranges::copy(w_, shape_.begin());
@@ -217,33 +182,34 @@ double StableStepEstimate::power_iteration(const SpringSystem& system) {
   return quotient;
 }
 
-double StableStepEstimate::dense_largest(const SpringSystem& system) {
-  const auto n = static_cast<Eigen::Index>(3 * system.vertex_count());
-  Eigen::MatrixXd matrix(n, n);
-  q_.assign(system.vertex_count(), Vector3d::Zero());
+double StableStepEstimate::dense_largest(const Operator& matrix) {
+  const auto n = static_cast<Eigen::Index>(3 * matrix.system.vertex_count());
+  Eigen::MatrixXd dense(n, n);
+  q_.assign(matrix.system.vertex_count(), Vector3d::Zero());
   for (Eigen::Index k = 0; k < n; ++k) {
     double& coordinate = q_[static_cast<std::size_t>(k / 3)][k % 3];
     coordinate = 1.0;
-    multiply(system, q_, w_);
+    multiply(matrix, q_, w_);
     coordinate = 0.0;
-    matrix.col(k) = Eigen::Map<const Eigen::VectorXd>(w_.data()->data(), n);
+    dense.col(k) = Eigen::Map<const Eigen::VectorXd>(w_.data()->data(), n);
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-Bounds StableStepEstimate::lanczos(const SpringSystem& system, std::size_t coordinates) {
-  const double slope = std::asinh(std::sqrt(2.0 * static_cast<double>(coordinates)) / failure);
-  const auto steps = static_cast<std::size_t>(std::ceil((slope / std::acosh(excess) + 1.0) / 2.0));
-  const std::size_t n = system.vertex_count();
+Bounds StableStepEstimate::lanczos(const Operator& matrix, SplitMix64& random, double wanted) {
+  const auto free = static_cast<std::size_t>(std::ranges::count_if(scale_, [](double s) { return s != 0.0; }));
+  const double slope = std::asinh(std::sqrt(6.0 * static_cast<double>(free)) / failure);
+  const auto steps = static_cast<std::size_t>(std::ceil((slope / std::acosh(wanted) + 1.0) / 2.0));
+  const std::size_t n = matrix.system.vertex_count();
   q_.resize(n);
   previous_.assign(n, Vector3d::Zero());
   for (std::size_t i = 0; i < n; ++i)
-    for (double& c : q_[i]) c = scale_[i] == 0.0 ? 0.0 : random_.next_signed();
+    for (double& c : q_[i]) c = scale_[i] == 0.0 ? 0.0 : random.next_signed();
   scale_to_unit(q_);
   std::vector<double> diagonal, beside;
   double remains = 0.0;
   while (diagonal.size() < steps) {
-    multiply(system, q_, w_);
+    multiply(matrix, q_, w_);
     const double a = dot(q_, w_);
     for (std::size_t i = 0; i < n; ++i) w_[i] -= a * q_[i] + remains * previous_[i];
     diagonal.push_back(a);
@@ -260,24 +226,51 @@ Bounds StableStepEstimate::lanczos(const SpringSystem& system, std::size_t coord
   return {ritz, ritz * factor * factor};
 }
 
+// Bounds of the largest eigenvalue, the upper one at most `factor` squared above it.
+Bounds StableStepEstimate::largest_eigenvalue(const Operator& matrix, SplitMix64& random, double factor) {
+  if (3 * matrix.system.vertex_count() > dense_coordinates) return lanczos(matrix, random, factor);
+  const double largest = dense_largest(matrix);
+  return {largest, largest};
+}
+
+// The draws are of its own, so that damping changes no bit of the frequencies.
+Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, double factor) {
+  const double bound = damping_bound(system);
+  if (bound == 0.0) return {};
+  dampers_ = tangents_;
+  for (SpringTangent& t : dampers_) {
+    t.along = t.damping;
+    t.across = 0.0;
+  }
+  SplitMix64 random(2);
+  const Bounds found = largest_eigenvalue({system, dampers_, bound, true}, random, factor);
+  return {bound * std::max(0.0, found.lower * (1.0 - rounding)), std::min(bound, bound * (found.upper + rounding))};
+}
+
 const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::span<const Vector3d> x) {
   const bool finite = prepare(system, x);
   latest_.damping_time = damping_times(system);
   latest_.viscous_rate = viscous_rates(system);
-  latest_.lower = 0.0;
+  latest_.damping_rate = {0.0, unlimited};
+  latest_.lower = latest_.across = 0.0;
   latest_.upper = finite ? 0.0 : unlimited;
-  if (!finite || unit_ == 0.0) return latest_;
+  if (!finite) return latest_;
   evaluate_tangents(system, x, Compression::projected, tangents_);
-  const auto free = static_cast<std::size_t>(std::ranges::count_if(scale_, [](double s) { return s != 0.0; }));
-  Bounds squared;
-  if (3 * system.vertex_count() <= dense_coordinates) {
-    squared.lower = squared.upper = dense_largest(system);
-  } else {
-    squared = lanczos(system, 3 * free);
+  if (unit_ == 0.0) {
+    latest_.damping_rate = largest_damping_rate(system, std::sqrt(excess));
+    return latest_;
   }
-  squared.lower = std::max(squared.lower, power_iteration(system));
+  const Operator stiffness{system, tangents_, unit_, false};
+  Bounds squared = largest_eigenvalue(stiffness, random_, excess);
+  squared.lower = std::max(squared.lower, power_iteration(stiffness));
+  latest_.across = across_bound(system, tangents_);
   latest_.lower = latest_.any_state * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(latest_.any_state, latest_.any_state * std::sqrt(std::max(0.0, squared.upper + rounding)));
+  // just above a ratio of 1 the rate of decay grows with the root of what is missing: 10 % are 0.9 % of a rate
+  const Bounds ratio = latest_.damping_ratio();
+  const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
+  latest_.damping_rate = largest_damping_rate(system, is_critical ? critical_excess : std::sqrt(excess));
+  tighten(latest_);
   return latest_;
 }
 
@@ -286,7 +279,7 @@ const StableStep& StableStepEstimate::follow(const SpringSystem& system, std::sp
   if (!prepare(system, x)) return refresh(system, x);
   if (unit_ == 0.0) return latest_;
   evaluate_tangents(system, x, Compression::projected, tangents_);
-  const double lower = latest_.any_state * std::sqrt(std::max(0.0, power_iteration(system)));
+  const double lower = latest_.any_state * std::sqrt(std::max(0.0, power_iteration({system, tangents_, unit_, false})));
   if (lower > latest_.upper) return refresh(system, x);
   latest_.lower = std::max(latest_.lower, lower);
   return latest_;

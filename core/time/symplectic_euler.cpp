@@ -21,6 +21,7 @@ const Scheme symplectic_euler{
     .stages = 1,
     .symplectic = true,
     .keeps_angular = true,
+    .sweeps = true,
     .imaginary_limit = 2.0,
     .amplification = amplification,
     .source = "Hairer, Lubich, Wanner: Geometric Numerical Integration, section VI.3",

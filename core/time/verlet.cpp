@@ -22,6 +22,7 @@ const Scheme verlet{
     .symplectic = true,
     .symmetric = true,
     .keeps_angular = true,
+    .sweeps = true,
     .imaginary_limit = 2.0,
     .amplification = amplification,
     .source = "Hairer, Lubich, Wanner: Geometric numerical integration illustrated by the Stormer-Verlet method, 2003",

@@ -1,11 +1,31 @@
 #!/usr/bin/env python3
-"""Copy the rooms of core into a folder, with every fault of a list compiled in behind a switch.
+"""Copy rooms of the project into a folder, with every fault of a list compiled in behind a switch.
 
-    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT ROOM...
+    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT ROOM...   all files of some rooms
+    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT           only the files that hold a fault, of any room
 
-The switch is the environment variable DARTBOARD_FAULT: the number of the one fault that is on, or unset. The sources
-themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
+The switch is the environment variable DARTBOARD_FAULT: the number of the fault that is on (or of two, with a comma), or
+unset. The sources themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
 again. A snippet that is not found exactly once is an error: whoever changes the line changes the fault with it.
+
+A list is blocks of `key: value` lines, parted by empty lines; lines that begin with # are comments.
+
+    fault:   what is wrong, as a phrase
+    file:    where, from the root of the project
+    right:   a snippet of the file that occurs once in it, or in `in`; statements end in ; or }
+    wrong:   what stands there instead with the fault on
+    in:      (optional) a longer snippet that occurs once in the file and holds `right`
+    claim:   (optional) the claims of claims.json that this fault is about, as patterns: update-*
+
+and who notices, one of
+
+    killer:  the full name of the gtest that fails
+    run:     the arguments of a run of the whole program that ends with 0 while nothing is wrong; {scenes} is the folder
+             of scenes beside the list, {out} a fresh folder
+    says:    with `run`: what that run prints with the fault on, and not without it
+    status:  (optional) with `run`: the exit status with the fault on [1]
+    hides:   the name of another fault that has a `run`: this one is in the judge, and with both on that run no longer
+             ends as its block demands, so that the block notices
 
 Standard library only, and of it only what Debian's python3-minimal has.
 """
@@ -17,15 +37,24 @@ import sys
 SWITCH = """#pragma once
 // Made by tests/faults/make_faulty_tree.py: which seeded fault is on.
 
+#include <cstdio>
 #include <cstdlib>
 #include <type_traits>
 
 namespace dartboard {
 
-inline const int chosen_fault = std::getenv("DARTBOARD_FAULT") ? std::atoi(std::getenv("DARTBOARD_FAULT")) : 0;
+struct ChosenFaults {
+  int one = 0, other = 0;
+  ChosenFaults() {
+    if (const char* numbers = std::getenv("DARTBOARD_FAULT")) std::sscanf(numbers, "%d,%d", &one, &other);
+  }
+};
+inline const ChosenFaults chosen_faults;
 
 /// Constant expressions stay right: they cannot be switched when the program runs.
-constexpr bool fault(int number) { return !std::is_constant_evaluated() && number == chosen_fault; }
+constexpr bool fault(int number) {
+  return !std::is_constant_evaluated() && (number == chosen_faults.one || number == chosen_faults.other);
+}
 
 }  // namespace dartboard
 """
@@ -36,19 +65,29 @@ class Mistake(Exception):
 
 
 class Fault:
-    """One block of the list: `key: value` lines. `in` is needed where `right` alone is ambiguous; `killer` is the test
-    that must fail with the fault on, by its full name."""
+    """One block of the list."""
 
-    FIELDS = ("fault", "file", "in", "right", "wrong", "killer")
-    OPTIONAL = ("in", "killer")
+    FIELDS = ("fault", "file", "in", "right", "wrong", "claim", "killer", "run", "says", "status", "hides")
+    REQUIRED = ("fault", "file", "right", "wrong")
 
-    def __init__(self, number, fields, line):
-        self.number, self.line = number, line
+    def __init__(self, fields, line):
+        self.number, self.line = number_of(fields["fault"]), line
         self.name, self.file = fields["fault"], fields["file"]
         self.right, self.wrong = fields["right"], fields["wrong"]
         self.context = fields.get("in", self.right)
-        self.killer = fields.get("killer")
+        self.claims = fields.get("claim", "").split()
+        self.killer, self.run, self.says = fields.get("killer"), fields.get("run"), fields.get("says")
+        self.status = int(fields.get("status", "1"))
+        self.hides = fields.get("hides")
         self.is_statement = self.right.endswith((";", "}"))
+
+    def mistake(self):
+        """What its fields contradict each other in, or None."""
+        if bool(self.killer) + bool(self.run) + bool(self.hides) > 1:
+            return "has more than one of killer, run and hides: choose one"
+        if bool(self.run) != bool(self.says):
+            return "has a run that says nothing, or says something in no run"
+        return None
 
     def place(self, text):
         """Where `right` begins and ends in the text of the file."""
@@ -65,19 +104,30 @@ class Fault:
         return text.index(snippet)
 
 
+def number_of(name):
+    """FNV-1a, 31 bits: a fault that comes or goes leaves the numbers of the others, and so their copies, as they are."""
+    number = 2166136261
+    for byte in name.encode():
+        number = (number ^ byte) * 16777619 & 0xFFFFFFFF
+    return number >> 1
+
+
 def read_faults(path):
-    """The faults of a list, numbered from 1 in its order."""
+    """The faults of a list, in its order."""
     faults, fields, begin = [], {}, 0
 
     def finish():
         if not fields:
             return
-        missing = [key for key in Fault.FIELDS if key not in Fault.OPTIONAL and key not in fields]
+        missing = [key for key in Fault.REQUIRED if key not in fields]
         if missing:
             raise Mistake("%s:%d: this fault has no '%s'" % (path, begin, missing[0]))
-        if any(f.name == fields["fault"] for f in faults):
-            raise Mistake("%s:%d: a second fault of the name '%s'" % (path, begin, fields["fault"]))
-        faults.append(Fault(len(faults) + 1, dict(fields), begin))
+        fault = Fault(dict(fields), begin)
+        if any(f.number == fault.number for f in faults):
+            raise Mistake("%s:%d: a second fault of the name '%s', or of its number" % (path, begin, fault.name))
+        if fault.mistake():
+            raise Mistake("%s:%d: fault '%s' %s" % (path, begin, fault.name, fault.mistake()))
+        faults.append(fault)
         fields.clear()
 
     with open(path, encoding="utf-8") as lines:
@@ -89,10 +139,14 @@ def read_faults(path):
                 continue
             match = re.match(r"(\w+): *(.*)", line)
             if not match or match[1] not in Fault.FIELDS or match[1] in fields:
-                raise Mistake("%s:%d: expected one line each of %s" % (path, number, ", ".join(Fault.FIELDS)))
+                raise Mistake("%s:%d: expected one line each of some of %s" % (path, number, ", ".join(Fault.FIELDS)))
             begin = begin if fields else number
             fields[match[1]] = match[2].rstrip()
     finish()
+    runs = {f.name for f in faults if f.run}
+    for f in faults:
+        if f.hides and f.hides not in runs:
+            raise Mistake("%s:%d: fault '%s' hides none that has a run" % (path, f.line, f.name))
     return faults
 
 
@@ -148,20 +202,20 @@ def main(source_root, fault_list, output, *rooms):
     of_file = {}
     for fault in faults:
         of_file.setdefault(fault.file, []).append(fault)
+    paths = [room + "/" + name for room in rooms for name in sorted(os.listdir(os.path.join(source_root, room)))
+             if name.endswith((".h", ".cpp"))]
+    if not rooms:
+        paths = [path for path in sorted(of_file) if os.path.exists(os.path.join(source_root, path))]
     # all or nothing: a mistake must not leave a tree that is half new
     texts, mistakes = {"fault.h": SWITCH}, []
-    for room in rooms:
-        for name in sorted(os.listdir(os.path.join(source_root, room))):
-            if not name.endswith((".h", ".cpp")):
-                continue
-            path = room + "/" + name
-            with open(os.path.join(source_root, path), encoding="utf-8") as file:
-                text = file.read()
-            here = of_file.pop(path, None)
-            try:
-                texts[path] = with_faults(text, here) if here else text
-            except Mistake as mistake:
-                mistakes.append(str(mistake))
+    for path in paths:
+        with open(os.path.join(source_root, path), encoding="utf-8") as file:
+            text = file.read()
+        here = of_file.pop(path, None)
+        try:
+            texts[path] = with_faults(text, here) if here else text
+        except Mistake as mistake:
+            mistakes.append(str(mistake))
     for path, lost in of_file.items():
         mistakes.append("line %d: fault '%s' is stale: no %s is copied" % (lost[0].line, lost[0].name, path))
     if mistakes:

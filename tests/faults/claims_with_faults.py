@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""Demand that every claim of some claims.json has a fault that is about it.
+
+    claims_with_faults.py FAULT_LIST CLAIMS...
+
+A claim without one may be answered by a judge that cannot say no. Standard library only.
+"""
+
+import fnmatch
+import json
+import sys
+
+from make_faulty_tree import Mistake, read_faults
+
+
+def main(fault_list, *files):
+    patterns = {pattern for fault in read_faults(fault_list) for pattern in fault.claims}
+    claims = set()
+    for path in files:
+        with open(path, encoding="utf-8") as file:
+            claims |= {claim["id"] for claim in json.load(file)}
+    bare = sorted(claim for claim in claims if not any(fnmatch.fnmatch(claim, pattern) for pattern in patterns))
+    for claim in bare:
+        print("%s: no fault of %s is about it: no block has it in a 'claim' line" % (claim, fault_list))
+    print("%d of %d claims have a fault" % (len(claims) - len(bare), len(claims)))
+    return 1 if bare or not claims else 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(*sys.argv[1:]))
+    except Mistake as mistake:
+        sys.exit("%s: %s" % (sys.argv[0], mistake))

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""What share of wrong programs does the suite kill? Wrong programs of one change each, drawn from a seed.
+
+    mutants.py --seed 2 --count 400 --work DIR      draw, build, run, report; goes on where it was interrupted
+    mutants.py --work DIR --report                  the report of what has been judged so far
+    mutants.py --work DIR --budget 3600             run survivors with the tests that were too slow before
+
+The changes are drawn over all sources of core, reference, validation and benchmarks, each place alike (sites.py,
+draw.py). A copy of the repository is built once with all of them in it behind one switch (schemata.py, build.py). Every
+test is run once as it is, which tells the mutants that it reaches; each mutant is then run with those tests, likeliest
+and quickest first, until one fails (judge.py). Nothing outside DIR is written.
+
+DIR ends with report.md (shares by room, with intervals), survivors/ROOM.md, sample.jsonl, results.jsonl. Mutants that
+are no wrong programs are set aside one by one in equivalent.txt, with the reason.
+
+Needs what the build needs, and Debian's python3-clang-14 for drawing. An hour or two on two processors.
+"""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+
+import build as building
+import draw
+import judge
+import report
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+ROOMS = ["core", "reference", "validation", "benchmarks"]
+# not run: what builds copies of its own, what counts instructions, and the tests of this tool
+LEFT_OUT = r"^(SeededFaults|instructions|Mutants|OneDefinition)"
+
+
+def say(text):
+    print("mutants: " + text, flush=True)
+
+
+class Work:
+    """The folder that holds everything, step by step, so that a step that is done is not done again."""
+
+    def __init__(self, folder):
+        self.folder = os.path.abspath(folder)
+        self.tree, self.build = self.path("tree"), self.path("build")
+        os.makedirs(self.folder, exist_ok=True)
+
+    def path(self, *parts):
+        return os.path.join(self.folder, *parts)
+
+    def has(self, name):
+        return os.path.exists(self.path(name))
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return [json.loads(line) for line in file] if name.endswith("l") else json.load(file)
+
+    def write(self, name, what):
+        with open(self.path(name + ".new"), "w", encoding="utf-8") as file:
+            if name.endswith("l"):
+                file.writelines(json.dumps(item) + "\n" for item in what)
+            else:
+                json.dump(what, file, indent=1)
+        os.replace(self.path(name + ".new"), self.path(name))
+
+
+def commit_of(source):
+    text = lambda *words: subprocess.run(["git", "-C", source, *words], capture_output=True, text=True).stdout.strip()
+    changed = text("status", "--porcelain", "--", *ROOMS, "tests")
+    return text("rev-parse", "HEAD") + (" with changes" if changed else "")
+
+
+def drawn(work, source, seed, count, jobs):
+    """The sample, and the sources that it was drawn from."""
+    if not work.has("sample.jsonl"):
+        try:
+            import sites
+        except ImportError:
+            sys.exit("mutants: drawing reads the syntax tree: apt-get install python3-clang-14 (and run Debian's /usr/bin/python3)")
+        building.copy_of_repository(source, work.tree)
+        building.configure(work.tree, work.build)
+        if not work.has("sites.jsonl"):
+            work.write("sites.jsonl", sites.find_sites(work.tree, ROOMS, os.path.join(work.build, "compile_commands.json"), jobs, say))
+        all_sites = work.read("sites.jsonl")
+        texts = {}
+        for file in {site["file"] for site in all_sites}:
+            with open(os.path.join(work.tree, file), "rb") as text:
+                texts[file] = text.read()
+        sample = draw.draw(all_sites, texts, count, seed)
+        rooms = {}
+        for site in all_sites:
+            for room in {draw.room_of(site["file"]), draw.sub_room_of(site["file"])}:
+                rooms[room] = rooms.get(room, 0) + 1
+        work.write("about.json", {"commit": commit_of(source), "seed": seed, "count": count, "sites": rooms,
+                                  "shares": draw.shares(all_sites, count)})
+        work.write("texts.json", {file: text.decode() for file, text in texts.items()})
+        work.write("sample.jsonl", sample)
+    about = work.read("about.json")
+    if seed is not None and (about["seed"], about["count"]) != (seed, count):
+        sys.exit("mutants: %s holds seed %d, count %d: take another folder" % (work.folder, about["seed"], about["count"]))
+    return work.read("sample.jsonl"), {file: text.encode() for file, text in work.read("texts.json").items()}
+
+
+def built(work, sample, texts):
+    """{id: why} of the mutants that do not compile."""
+    if not work.has("dropped.json"):
+        work.write("dropped.json", building.build_all(work.build, work.tree, texts, sample, say))
+    return {int(number): why for number, why in work.read("dropped.json").items()}
+
+
+def first_of_each_room(sample, dropped, shares):
+    """The first that compile, as many as the room's share; those that do not compile before the last of them count as drawn."""
+    taken, compiled = [], {}
+    for mutant in sample:
+        room = mutant["room"]
+        if compiled.get(room, 0) < shares[room]:
+            taken.append(mutant)
+            compiled[room] = compiled.get(room, 0) + (mutant["id"] not in dropped)
+    return taken
+
+
+def judged(work, sample, tests, sound, jobs, budget):
+    """Judges what has not been judged, or ran out of a smaller budget; results are appended one by one."""
+    done = {result["id"]: result for result in (work.read("results.jsonl") if work.has("results.jsonl") else [])}
+    todo = [m for m in sample if m["id"] not in done or done[m["id"]]["not_run"] and done[m["id"]]["budget"] < budget]
+    lock, start = threading.Lock(), time.monotonic()
+    counter = [0]
+
+    def one(mutant):
+        result = judge.judge(mutant, tests, sound, budget, done.get(mutant["id"]))
+        result["budget"] = budget
+        with lock:
+            done[mutant["id"]] = result
+            with open(work.path("results.jsonl"), "a", encoding="utf-8") as file:
+                file.write(json.dumps(result) + "\n")
+            counter[0] += 1
+            if counter[0] % 10 == 0 or counter[0] == len(todo):
+                killed = sum(bool(done[m["id"]]["killer"]) for m in sample if m["id"] in done)
+                say("%d of %d judged in %.0f min; %d killed so far" % (counter[0], len(todo), (time.monotonic() - start) / 60, killed))
+                write_report(work, sample, sound)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(one, todo))
+
+
+def write_report(work, sample, sound):
+    about = work.read("about.json")
+    dropped = {int(number): why for number, why in work.read("dropped.json").items()}
+    results = {result["id"]: result for result in (work.read("results.jsonl") if work.has("results.jsonl") else [])}
+    equivalents = report.read_equivalents(os.path.join(HERE, "equivalent.txt"))
+    text = "Mutants of %s, seed %d, %d wanted.\n\n" % (about["commit"], about["seed"], about["count"])
+    text += report.table(sample, results, dropped, equivalents, about["sites"])
+    kinds = report.counts(sample, results, dropped, equivalents, lambda file: "all")
+    text += "\nBy outcome: " + ", ".join("%s %d" % item for item in sorted(kinds["all"].items())) + "\n"
+    with open(work.path("report.md"), "w", encoding="utf-8") as file:
+        file.write(text)
+
+    def reached_by(mutant):
+        names = [name for name, run in sound.items() if mutant["id"] in run["reached_set"]]
+        return sorted(names, key=lambda name: (-judge.affinity(name, mutant), sound[name]["seconds"]))[:3]
+
+    os.makedirs(work.path("survivors"), exist_ok=True)
+    for room, blocks in report.survivors(sample, results, dropped, equivalents, reached_by).items():
+        with open(work.path("survivors", room.replace("/", "_") + ".md"), "w", encoding="utf-8") as file:
+            file.write("# %s: %d survivors\n\n%s" % (room, len(blocks), "".join(blocks)))
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--work", required=True, help="folder for the copy, its build, and the results")
+    parser.add_argument("--seed", type=int)
+    parser.add_argument("--count", type=int, default=400)
+    parser.add_argument("--budget", type=float, default=60, help="seconds of tests run per mutant, as they take without one (60)")
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--source", default=ROOT, help="the repository (this one)")
+    parser.add_argument("--leave-out", default=LEFT_OUT, help="tests that are not run, as a regular expression (%(default)s)")
+    parser.add_argument("--report", action="store_true", help="only report")
+    arguments = parser.parse_args()
+    work = Work(arguments.work)
+    if arguments.seed is None and not work.has("sample.jsonl"):
+        parser.error("--seed is needed to draw")
+    seed = arguments.seed
+    sample, texts = drawn(work, arguments.source, seed, arguments.count, arguments.jobs)
+    dropped = built(work, sample, texts)
+    tests = judge.tests_of(work.build, arguments.leave_out)
+    if not work.has("tests.json"):
+        say("%d tests without a mutant" % len(tests))
+        work.write("tests.json", judge.sound_runs(tests, arguments.jobs, say))
+    sound = work.read("tests.json")
+    for run in sound.values():
+        run["reached_set"] = set(run["reached"])
+    tests = [test for test in tests if test.name in sound]
+    taken = first_of_each_room(sample, dropped, work.read("about.json")["shares"])
+    compiled = [mutant for mutant in taken if mutant["id"] not in dropped]
+    if not arguments.report:
+        judged(work, compiled, tests, sound, arguments.jobs, arguments.budget)
+    print(write_report(work, taken, sound))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

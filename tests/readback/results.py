@@ -1,0 +1,89 @@
+"""What a run of `dartboard simulate` leaves, read by others: meshio, xml.etree, csv and json."""
+
+import base64
+import csv
+import json
+import os
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import meshio
+import numpy as np
+
+
+class Frame:
+    """One .vtu file: vertices x, v, mass; cells with mesh_cell and component; time."""
+
+    def __init__(self, path):
+        mesh = meshio.read(path)
+        self.x, self.v, self.mass = mesh.points, mesh.point_data["velocity"], mesh.point_data["mass"].ravel()
+        if self.v.shape != self.x.shape:
+            self.v = self.v.reshape(self.x.shape)
+        self.cells = [(block.type, tuple(int(v) for v in nodes)) for block in mesh.cells for nodes in block.data]
+        joined = lambda name: [int(n) for block in mesh.cell_data[name] for n in np.ravel(block)]
+        self.mesh_cell, self.component = joined("mesh_cell"), joined("component")
+        self.point_names, self.cell_names = set(mesh.point_data), set(mesh.cell_data)
+        (self.time,) = (float(t) for t in mesh.field_data["TimeValue"].ravel())
+
+
+class Run:
+    """The program is run on a scene that lies in `folder`; everything it wrote and printed."""
+
+    def __init__(self, program, scene, folder, *options):
+        self.folder = folder
+        done = subprocess.run([program, "simulate", scene, "--json", "--out", folder, *options],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        self.status, self.errors = done.returncode, done.stderr
+        if self.status not in (0, 1):
+            raise RuntimeError("dartboard simulate ends with %d: %s" % (self.status, self.errors))
+        self.printed = json.loads(done.stdout)
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            self.summary = json.load(file)
+        self.listed = [(float(entry.get("timestep")), entry.get("file")) for entry in
+                       ElementTree.parse(os.path.join(folder, "frames.pvd")).getroot().iter("DataSet")]
+        self.frames = [Frame(os.path.join(folder, name)) for _, name in self.listed]
+        self.diagnostics = table(os.path.join(folder, "diagnostics.csv"))
+        probes = os.path.join(folder, "probes.csv")
+        self.probes = table(probes) if os.path.exists(probes) else []
+
+
+def table(path):
+    """A list of rows, each {head of the column: text}."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    for row in rows:
+        if len(row) != len(rows[0]):
+            raise RuntimeError("%s: a row of %d fields under %d heads" % (path, len(row), len(rows[0])))
+    if len(set(rows[0])) != len(rows[0]):
+        raise RuntimeError("%s: two columns have one head" % path)
+    return [dict(zip(rows[0], row)) for row in rows[1:]]
+
+
+def decoded(path, name):
+    """An array of a .vtu file by its name, decoded by hand: meshio says what it makes of a file, this what it holds."""
+    for array in ElementTree.parse(path).getroot().iter("DataArray"):
+        if array.get("Name") == name:
+            data = base64.b64decode(array.text)
+            assert len(data) == 8 + int.from_bytes(data[:8], "little")
+            return array, data[8:]
+    raise KeyError(name)
+
+
+def fnv1a(words, fold):
+    """FNV-1a of 64 bits over numbers; what `fold` does to the value after each is an addition of the program's own."""
+    value = 0xcbf29ce484222325
+    for word in words:
+        value = fold(((value ^ word) * 0x100000001b3) & 0xffffffffffffffff)
+    return value
+
+
+def state_hash(frame):
+    """Of a frame's positions and velocities, in words of 8 bytes, folded (core/topology/hash.h)."""
+    words = np.concatenate([np.ascontiguousarray(c, dtype="<f8").view("<u8").ravel() for c in (frame.x, frame.v)])
+    return "%016x" % fnv1a((int(w) for w in words), lambda value: value ^ value >> 32)
+
+
+def file_hash(path):
+    """Of a file's bytes, as it is defined."""
+    with open(path, "rb") as file:
+        return "fnv1a64:%016x" % fnv1a(file.read(), lambda value: value)
