@@ -85,17 +85,23 @@ TYPED_TEST(Adapt, SharesAVertexMassAndAnEdgeStiffnessBetweenTheParts) {
 }
 
 TYPED_TEST(Adapt, DuplicatesPositionAndVelocity) {
-  auto body = build_body<TypeParam, Held::by_every_dart>(box(1));
+  Problem problem = box(1);
+  problem.fixed = {0, 7};  // the diagonal of the cube, at which all its tetrahedra are
+  auto body = build_body<TypeParam, Held::by_every_dart>(problem);
   const auto before = body.vertices;
   Draw draw;
   for (int k = 0; k < 30; ++k) adapt(body, dissociate_face(body.map, some_live_dart(body.map, draw)));
   ASSERT_GT(body.vertices.size(), before.size());
+  int held = 0;
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k) {
     std::uint32_t origin = 0;
     while (before.point[origin] != body.vertices.point[k]) ++origin;
     EXPECT_EQ(body.vertices.position[k], before.position[origin]);
     EXPECT_EQ(body.vertices.velocity[k], before.velocity[origin]);
+    EXPECT_EQ(body.vertices.fixed[k], before.fixed[origin]);
+    held += body.vertices.fixed[k];
   }
+  EXPECT_GT(held, 2);
 }
 
 TYPED_TEST(Adapt, StaysConsistentThroughDissociations) {

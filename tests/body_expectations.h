@@ -42,6 +42,7 @@ void expect_consistent(const MassSpringBody<Map, Held::by_every_dart>& body, con
   ASSERT_NEAR(by_vertex, by_cell, by_cell * 0x1p-40);
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k) {
     ASSERT_EQ(body.vertices.mass[k], body.mass_of(Vertex{body.vertices.dart[k]}));
+    ASSERT_EQ(body.vertices.inverse_mass[k], 1.0 / body.vertices.mass[k]);
     ASSERT_EQ(body.vertices.viscosity[k], body.material.viscosity * body.vertices.mass[k]);
   }
   for (std::uint32_t k = 0; k < body.springs.size(); ++k) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/operations/remove_component.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
@@ -58,6 +59,17 @@ TYPED_TEST(RemoveVolume, OneByOneEmptiesTheBody) {
     ASSERT_EQ(check(map), "");
     ASSERT_EQ(count_cells<3>(map), --volumes);
   }
+}
+
+TYPED_TEST(RemoveVolume, OfAWholeComponentTellsEachOfItsCellsOnce) {
+  auto map = build_map<TypeParam>(unequal_tetrahedra()).map;
+  const TopologyChange change = remove_component(map, Dart{30});
+  EXPECT_EQ(map.dart_count(), 0u);
+  EXPECT_EQ(change.removed_vertices.size(), 5u);
+  EXPECT_EQ(change.removed_edges.size(), 9u);
+  EXPECT_EQ(change.removed_faces.size(), 7u);
+  EXPECT_EQ(change.removed_volumes.size(), 2u);
+  EXPECT_THROW(remove_component(map, Dart{30}), TopologyError);
 }
 
 TYPED_TEST(RemoveVolume, OfADeadDartIsRefused) {

@@ -54,6 +54,15 @@ struct SparsePatternOf : testing::Test {};
 using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(SparsePatternOf, Solids);
 
+TYPED_TEST(SparsePatternOf, OneBodyIsForgottenForAnother) {
+  SparsePattern pattern;
+  for (const Mesh& mesh : {kuhn_grid(2, 2, 1, 1.0), regular_tetrahedron(), unequal_tetrahedra()}) {
+    const auto body = body_of<TypeParam>(mesh);
+    pattern.rebuild(body);
+    expect_rebuilt(pattern, body);
+  }
+}
+
 TYPED_TEST(SparsePatternOf, OneTetrahedronIsAFullTriangle) {
   const auto body = body_of<TypeParam>(regular_tetrahedron());
   SparsePattern pattern;

@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "core/mechanics/refine.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/plain/error.h"
@@ -71,6 +72,24 @@ TYPED_TEST(SplitOffBody, MovesThePartBitForBitAsTheWholeDid) {
     ASSERT_EQ(part.vertices.velocity[k], whole.vertices.velocity[there]);
     ASSERT_EQ(part.vertices.fixed[k], whole.vertices.fixed[there]);
   }
+}
+
+// A refined body contributes stiffness by shares, which the part must have to come apart later.
+TYPED_TEST(SplitOffBody, TakesAlongTheSharesOfWhatWasRefined) {
+  auto body = three_boxes<TypeParam>();
+  refine(body, Volume{body.cell_dart[8]}, 0.5);
+  auto part = split_off(body, body.cell_dart[6]).part;
+  CellArrays arrays;
+  arrays.rebuild(part);
+  EXPECT_EQ(part.cell_dart.size(), 12u + 3u);
+  expect_consistent(part, arrays);
+}
+
+TYPED_TEST(SplitOffBody, RemembersWhichOfItsCellsWereListedInsideOut) {
+  auto body = three_boxes<TypeParam>();
+  for (std::size_t c = 0; c < body.cell_inside_out.size(); ++c) body.cell_inside_out[c] = c % 3 == 0;
+  std::vector<std::uint8_t> expected(body.cell_inside_out.begin() + 6, body.cell_inside_out.begin() + 18);
+  EXPECT_EQ(split_off(body, body.cell_dart[6]).part.cell_inside_out, expected);
 }
 
 TYPED_TEST(SplitOffBody, SharesMassMomentumAndSpringsOut) {

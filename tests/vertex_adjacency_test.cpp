@@ -42,6 +42,16 @@ struct VertexAdjacencyOf : testing::Test {};
 using Solids = testing::Types<Map3, TetMap>;
 TYPED_TEST_SUITE(VertexAdjacencyOf, Solids);
 
+TYPED_TEST(VertexAdjacencyOf, OneBodyIsForgottenForAnother) {
+  VertexAdjacency view;
+  for (const Mesh& mesh : {kuhn_grid(2, 2, 1, 1.0), regular_tetrahedron(), unequal_tetrahedra()}) {
+    const auto body = body_of<TypeParam>(mesh);
+    view.rebuild(body);
+    expect_rebuilt(view, body);
+    EXPECT_EQ(view.vertex_count(), body.vertices.size());
+  }
+}
+
 TYPED_TEST(VertexAdjacencyOf, TwoTetrahedraHasThreeEdgesAtTheTipsAndFourElsewhere) {
   const auto body = body_of<TypeParam>(unequal_tetrahedra());
   VertexAdjacency view;
