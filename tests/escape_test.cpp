@@ -66,6 +66,10 @@ TEST(GnuplotStringText, HasNoSingleQuoteOfItsOwn) {
   }
 }
 
+TEST(GnuplotStringText, HasNoEndOfACharacterSectionWhichXmlForbids) {
+  EXPECT_EQ(gnuplot_string("a]]>b ]> >"), "'a]] >b ]> >'");
+}
+
 TEST(ShellWord, IsQuotedWhereAShellWouldAct) {
   EXPECT_EQ(shell_word("results/disagreement-box-1.txt"), "results/disagreement-box-1.txt");
   EXPECT_EQ(shell_word("a b"), "'a b'");

@@ -240,6 +240,12 @@ TEST(ReproduceTimes, FallOnBothSidesOfABoundWithoutAVerdict) {
   EXPECT_EQ(exit_code(answer_time(timed(12.0, 12.0, 8.0, 8.0, 1.3, 1.0, 0.02))), 1);
 }
 
+TEST(ReproduceTimes, OverArraysThatAreSlowerThanThePapersDoNotCarryOver) {
+  EXPECT_EQ(one(answer_time(timed(12.0, 12.0, 8.0, 8.0, 1.9, 1.9)), "arrays-step").verdict, Verdict::holds);
+  EXPECT_EQ(one(answer_time(timed(12.0, 12.0, 8.0, 8.0, 2.1, 2.1)), "arrays-step").verdict,
+            Verdict::does_not_carry_over);
+}
+
 TEST(ReproduceTimes, AreNotAskedForWhereAContenderFailedItsGate) {
   ReproduceResults results = timed(12.0, 12.0, 8.0, 8.0, 2.0, 2.0);
   std::erase_if(results.per_step, [](const Sample& s) { return s.task == "lists"; });

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/plain/nan_maximum.h"
 #include "core/time/integrators.h"
 #include "tests/ticking_clock_for_tests.h"
 #include "validation/pilots.h"
@@ -15,7 +16,7 @@ double error_of(const TradeoffScene& scene, const char* name, std::uint64_t step
   const TimedRun run = run_timed(scene, *integrator, {.steps = steps}, ticking());
   TimedRun exact;
   exact.states = scene.closed_form();
-  return largest(differences(scene, run, exact));
+  return max_or_nan(differences(scene, run, exact));
 }
 
 TEST(RoundingFloor, BoundsWhatRoundingLeavesOfAMotionInTinySteps) {

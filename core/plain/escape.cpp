@@ -86,7 +86,10 @@ std::string terminal_lines(std::string_view text) { return visible(text, true); 
 
 std::string gnuplot_string(std::string_view text) {
   std::string out = "'";
-  for (const char c : terminal_text(text)) out += c == '\'' ? std::string("\xe2\x80\x99") : std::string(1, c);
+  for (const char c : terminal_text(text)) {
+    if (c == '>' && out.ends_with("]]")) out += ' ';  // gnuplot writes it into its SVG as it is, where XML forbids it
+    out += c == '\'' ? std::string("\xe2\x80\x99") : std::string(1, c);
+  }
   return out + "'";
 }
 
