@@ -9,6 +9,7 @@
 
 #include "benchmarks/json_number.h"
 #include "benchmarks/table.h"
+#include "benchmarks/tell.h"
 #include "core/scene/simulation.h"
 #include "core/time/integrators.h"
 #include "core/time/stable_step.h"
@@ -124,7 +125,7 @@ StepExplanation explain_step(SceneFile scene) {
 }
 
 std::string to_text(const StepExplanation& e, const SceneFile& scene) {
-  std::string text = fmt::format("{}\n{}, h = {:.6g} s\n\n", scene.name, scene.integrator, scene.step);
+  std::string text = fmt::format("{}\n{}, h = {:.6g} s\n\n", one_line(scene.name), scene.integrator, scene.step);
   text += fmt::format("highest frequency: {:.6g} to {:.6g} 1/s (in any state at most {:.6g})\n", e.limits.lower,
                       e.limits.upper, e.limits.any_state);
   const Bounds ratio = e.limits.damping_ratio();

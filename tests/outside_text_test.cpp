@@ -38,7 +38,11 @@ TEST_F(GnuplotString, IsReadBackByGnuplotWhichRunsNothing) {
   for (const std::string& name : many_hostile_names(300)) {
     if (name.size() > 5000) continue;  // more than a line of gnuplot holds; titles are shortened
     script += "print " + gnuplot_string(name) + "\n";
-    for (const char c : terminal_text(name)) expected += c == '\'' ? std::string("\xe2\x80\x99") : std::string(1, c);
+    // apostrophes are typographic, and nothing ends a section of XML
+    for (const char c : terminal_text(name)) {
+      if (c == '>' && expected.ends_with("]]")) expected += ' ';
+      expected += c == '\'' ? std::string("\xe2\x80\x99") : std::string(1, c);
+    }
     expected += '\n';
     ++count;
   }
