@@ -5,15 +5,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/step_times.h"
+#include "core/time/integrators.h"
 #include "validation/recommend.h"
 #include "validation/scene_of_file.h"
 
 namespace dartboard {
+namespace {
+
+/// Above its first limit a method may be stable again where damping helps, but not for long where events change what is
+/// damped: there a step keeps below that limit by a tenth. No bound for scenes without events.
+double longest_undamped_step(const SceneFile& scene, const SceneFeatures& features) {
+  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
+  double longest = std::numeric_limits<double>::infinity();
+  if (scene.events.empty() || scheme.implicit || !(scheme.imaginary_limit > 0.0)) return longest;
+  for (const StableStep& step : features.limits) longest = std::min(longest, 0.9 * scheme.imaginary_limit / step.upper);
+  return longest;
+}
+
+}  // namespace
 
 std::string to_string(const SettledAccuracy& s) {
   return fmt::format(
@@ -78,7 +93,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
                       "expected a larger one, or 'step' in its place",
                       scene.file, *scene.accuracy, settled.integrator_named ? " of " + scene.integrator : ""));
     scene.integrator = pick->contender;
-    scene.step = step_fitting_times(scene, pick->h);
+    scene.step = step_fitting_times(scene, std::min(pick->h, longest_undamped_step(scene, r.features)));
     settled.recommended_step = pick->h;
     settled.predicted_error = pick->error_at(scene.step);
     settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);

@@ -150,10 +150,18 @@ TEST(Reproduce, OfAPartThatThereIsNotIsAUsageErrorThatNamesThoseThereAre) {
 TEST(Reproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
   const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-reproduce");
   const Answer answer = run("reproduce --part paper --quick --json --out " + out.string(), "2>/dev/null");
-  EXPECT_LE(answer.status, 1) << answer.out;  // what is timed may fall short on a busy machine
   const auto json = nlohmann::json::parse(answer.out);
   EXPECT_TRUE(json.at("gates_passed").get<bool>());
-  for (const auto& claim : json.at("claims")) EXPECT_NE(claim.at("measured"), "") << claim;
+  bool surprises = false;  // on a busy machine a time may be another than the known one
+  for (const auto& claim : json.at("claims")) {
+    EXPECT_NE(claim.at("measured"), "") << claim;
+    EXPECT_NE(claim.at("verdict"), "falls short") << claim;
+    if (claim.at("verdict") == "does not carry over" && !claim.contains("reason")) surprises = true;
+    if (claim.at("id") == "paper-ladder" || claim.at("id") == "rebuild-negligible") {
+      EXPECT_EQ(claim.at("verdict"), "does not carry over") << claim;
+    }
+  }
+  EXPECT_EQ(answer.status, surprises ? 1 : 0) << answer.out;
   const auto listed = nlohmann::json::parse(run("list claims --json", "").out).at("claims");
   EXPECT_EQ(json.at("claims").size(), listed.size());
   for (const char* name : {"claims.json", "samples.jsonl", "manifest.json", "timing.md", "counts.md", "agreement.md"})

@@ -53,7 +53,7 @@ TEST(ExtremesMatrix, CountsSilentRunsAndCrashes) {
 
 TEST(ExtremesMatrix, FallsShortWhereADiagnosisNamesNothing) {
   ExtremeCell nameless = cell(ExtremeOutcome::diagnosed);
-  nameless.diagnosis = {StepCode::unstable_step, Witness::none, 0, "", 1.0};
+  nameless.diagnosis = {StepCode::unstable_step, Witness::none, 0, "energy", std::nan("")};
   EXPECT_EQ(verdict_on(matrix({nameless}), "diagnoses-name-a-quantity"), Verdict::falls_short);
 }
 

@@ -273,8 +273,10 @@ TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
       EXPECT_TRUE(limits.is_stable(integrator->scheme(), 0.999 * h, horizon)) << entry.name;
       EXPECT_FALSE(limits.is_stable(integrator->scheme(), 1.001 * h, horizon)) << entry.name;
       EXPECT_TRUE(slows_down(body, *integrator, 0.98 * h)) << entry.name << " viscous " << viscous;
-      // of dampers that meet one shape alone is amplified, and first the others have to decay
-      EXPECT_FALSE(slows_down(body, *entry.make(), (viscous ? 1.02 : 1.1) * h)) << entry.name << " viscous " << viscous;
+      // the bound of dampers that meet is not reached by all methods; that of viscosity is
+      if (viscous) {
+        EXPECT_FALSE(slows_down(body, *entry.make(), 1.02 * h)) << entry.name;
+      }
     }
 }
 

@@ -43,7 +43,9 @@ void expect_one_limit(SceneFile scene) {
     EXPECT_EQ(stability_limit(scheme, features_of(studied, ticking()), studied.duration),
               Simulation(quiet).step_limit().stable)
         << scene.file;
-    EXPECT_LE(stability_limit(scheme, features_of(scene_of_file(scene), ticking()), scene.duration), limit.stable)
+    // what events leave may only shorten it, but is bracketed anew: to the last bit it is not the same bracket
+    EXPECT_LE(stability_limit(scheme, features_of(scene_of_file(scene), ticking()), scene.duration),
+              StableStepEstimate::excess * limit.stable)
         << scene.file;
   } catch (const InputError&) {
     // chains and driven bodies are not studied
@@ -159,7 +161,7 @@ TEST(StepAgreement, GalleryScenesWithAnAccuracyRunWithoutAWarning) {
     Simulation simulation(scene);
     RunWatcher nobody;
     run_scene(simulation, scene.output, nobody);
-    EXPECT_FALSE(simulation.step_warning()) << name;
+    EXPECT_FALSE(simulation.step_warning()) << name << ": " << scene.integrator << ", h = " << scene.step;
   }
   EXPECT_GE(count, 1u);
 }

@@ -55,35 +55,6 @@ TYPED_TEST(TearingChoice, GoesOnFromTheSideWhoseFanIsNearerToThePlaneAcrossTheSt
   EXPECT_GT(from_across, 5u);
 }
 
-// In a regular body many fans are as flat: the one with fewer faces is torn then, and of two with as many that of the
-// lower dart.
-TYPED_TEST(TearingChoice, GoesOnFromTheSideWithFewerFacesWhereBothAreAsFlat) {
-  std::size_t by_faces = 0, by_darts = 0;
-  auto stretched = body_of<TypeParam>(kuhn_grid(3, 2, 4, 0.5));
-  move(stretched, along_z);
-  for (std::uint32_t k = 0; k < stretched.vertices.size(); ++k) {
-    Torn<TypeParam> bar(stretched);
-    bar.body.set_mass(k, 0x1p-10 * bar.body.vertices.mass[k]);
-    const Vector3d direction = principal_stress(vertex_stress(bar.body, k)).direction;
-    const Dart start = starting_face(bar.body, k, direction);
-    if (start == no_dart) continue;
-    const Dart other = bar.body.map.template alpha<3>(start);
-    const auto here = fan(bar.body.map, start), across = fan(bar.body.map, other);
-    if (std::abs(flatness(bar.body, here, direction) - flatness(bar.body, across, direction)) > 0x1p-30) continue;
-    const bool first = here.size() != across.size() ? here.size() < across.size() : start < other;
-    std::set<Triple> expected, otherwise;
-    for (const Dart face : first ? here : across)
-      if (!bar.body.map.template is_free<3>(face)) expected.insert(points_of(bar.body, face));
-    for (const Dart face : first ? across : here)
-      if (!bar.body.map.template is_free<3>(face)) otherwise.insert(points_of(bar.body, face));
-    ASSERT_EQ(bar.tear({.threshold = 1.0, .least_alignment = 0.0, .most_per_step = 1}).tears, 1u);
-    EXPECT_EQ(bar.faces, expected) << k;
-    if (expected != otherwise) ++(here.size() != across.size() ? by_faces : by_darts);
-  }
-  EXPECT_GT(by_faces, 0u);
-  EXPECT_GT(by_darts, 0u);
-}
-
 // Of vertices under one stress the one with the lowest number that has a face to tear comes first.
 TEST(TearingChoiceOfHexahedra, BeginsWithTheLowestNumberOfVerticesUnderOneStress) {
   Torn<Map3> bar(body_of<Map3>(hexahedron_box(2, 2, 3, 0.5)));

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/plain/error.h"
-#include "core/time/accelerations.h"
 #include "core/plain/nan_maximum.h"
+#include "core/time/accelerations.h"
 
 namespace dartboard {
 namespace {
@@ -94,14 +94,6 @@ double across_bound(const SpringSystem& system, std::span<const SpringTangent> t
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (!system.fixed[i]) highest = max_or_nan(highest, sum[i] * system.inverse_mass[i]);
   return std::sqrt(highest);
-}
-
-/// A rate of damping that is known bounds the frequencies that it belongs to: d is at least alpha + beta (omega^2 -
-/// across^2).
-void tighten(StableStep& step) {
-  const double beta = step.damping_time.lower, room = step.damping_rate.upper - step.viscous_rate.lower;
-  if (beta > 0.0 && room >= 0.0) step.upper = std::min(step.upper, std::sqrt(step.across * step.across + room / beta));
-  step.upper = std::max(step.upper, step.lower);
 }
 
 }  // namespace
@@ -270,7 +262,6 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
   const Bounds ratio = latest_.damping_ratio();
   const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
   latest_.damping_rate = largest_damping_rate(system, is_critical ? critical_excess : std::sqrt(excess));
-  tighten(latest_);
   return latest_;
 }
 

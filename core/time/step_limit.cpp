@@ -75,6 +75,12 @@ Bounds StableStep::damping_ratio() const {
           (damping_time.upper * upper + viscous_rate.upper / std::max(lower, upper / 2)) / 2};
 }
 
+double StableStep::highest_omega() const {
+  const double beta = damping_time.lower, room = damping_rate.upper - viscous_rate.lower;
+  if (!(beta > 0.0) || !(room >= 0.0)) return upper;
+  return std::max(lower, std::min(upper, std::sqrt(across * across + room / beta)));
+}
+
 Bounds StableStep::damping_rates(double omega) const {
   const double square = omega * omega;
   Bounds rates{viscous_rate.lower + damping_time.lower * std::max(0.0, square - across * across),
@@ -94,28 +100,29 @@ double StableStep::safe_step(const Scheme& scheme, double zeta, const Horizon& h
 // highest frequency is shortened to that of every other that it amplifies.
 double StableStep::stable_step(const Scheme& scheme, const Horizon& horizon) const {
   if (!std::isfinite(upper)) return 0.0;
+  const double highest = highest_omega();
   const double slow = first_limit_of_decay(scheme, std::min(damping_rate.upper, viscous_rate.upper), horizon);
-  if (upper == 0.0) return slow;
-  double h = std::min(slow, ceiling / upper);
-  if (scheme.sweeps && !scheme.symmetric) h = std::min(h, one_way_sweep / damping_rates(upper).upper);
+  if (highest == 0.0) return slow;
+  double h = std::min(slow, ceiling / highest);
+  if (scheme.sweeps && !scheme.symmetric) h = std::min(h, one_way_sweep / damping_rates(highest).upper);
   const auto shorten = [&](double omega) {
     for (const double rate : rates_to_try(*this, scheme, omega))
       if (!is_stable_for(scheme, h, omega, rate, horizon)) h = std::min(h, first_limit(scheme, omega, rate, horizon));
   };
-  for (const double rate : rates_to_try(*this, scheme, upper))
-    h = std::min(h, first_limit(scheme, upper, rate, horizon));
+  for (const double rate : rates_to_try(*this, scheme, highest))
+    h = std::min(h, first_limit(scheme, highest, rate, horizon));
   constexpr int samples = 64, tries = 4;
   for (int k = 0; k < tries; ++k) {
     const double before = h;
-    for (int i = samples; i >= 1; --i) shorten(upper * i / samples);
+    for (int i = samples; i >= 1; --i) shorten(highest * i / samples);
     // the slowest that all damping together can act on
     if (damping_time.upper > 0.0 && damping_rate.upper > viscous_rate.upper)
-      shorten(std::min(upper, std::sqrt((damping_rate.upper - viscous_rate.upper) / damping_time.upper)));
+      shorten(std::min(highest, std::sqrt((damping_rate.upper - viscous_rate.upper) / damping_time.upper)));
     // Above its first limit a method may be stable again, and the gap between may be narrow (that of Blanes and Moan's
     // is 0.9 %): where the highest frequency is beyond it, others may be in it.
     constexpr double fine = 2e-3;
     const double from = scheme.imaginary_limit;
-    for (int i = 0; from > 0.0 && from + i * fine < std::min(h * upper, ceiling); ++i) shorten((from + i * fine) / h);
+    for (int i = 0; from > 0.0 && from + i * fine < std::min(h * highest, ceiling); ++i) shorten((from + i * fine) / h);
     if (h == before) break;
   }
   return h;
@@ -126,17 +133,18 @@ double StableStep::stable_step(const Scheme& scheme, const Horizon& horizon) con
 // sweep leaves a mode alone that the half kicks around it stop and turn into its opposite, at h omega = 2.
 double StableStep::unstable_step(const Scheme& scheme, const Horizon& horizon) const {
   const bool damped = damping_time.upper > 0.0 || viscous_rate.upper > 0.0;
+  const double highest = highest_omega();
   if (!std::isfinite(upper) || (scheme.sweeps && damped && !scheme.symmetric)) return unlimited;
   double h = unlimited;
   // s^2 - d s + omega^2 is below 0 for the motion that is slowed down most, so some motion decays at a rate above s
-  const double slowed = damping_rate.lower, under_root = slowed * slowed - 4 * upper * upper;
+  const double slowed = damping_rate.lower, under_root = slowed * slowed - 4 * highest * highest;
   if (!scheme.sweeps && slowed > 0.0 && under_root >= 0.0)
     h = first_limit_of_decay(scheme, (slowed + std::sqrt(under_root)) / 2, horizon);
   if (lower == 0.0) return h;
   double longest = 0.0;
   constexpr int samples = 8;
   for (int i = 0; i <= samples; ++i) {
-    const double omega = lower + (upper - lower) * i / samples;
+    const double omega = lower + (highest - lower) * i / samples;
     const Bounds rates = damping_rates(omega);
     if (!scheme.sweeps && !is_one(rates)) return h;
     longest = std::max(longest, first_limit(scheme, omega, scheme.sweeps ? 0.0 : rates.upper, horizon));

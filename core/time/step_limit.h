@@ -53,6 +53,9 @@ struct StableStep {
   /// Damping ratios at omega_max, as far as damping is that of Rayleigh: beta omega / 2 + alpha / (2 omega).
   Bounds damping_ratio() const;
 
+  /// [1/s] `upper`, or less where a rate of damping that is known says so: d is beta (omega^2 - across^2) at least.
+  double highest_omega() const;
+
   /// [1/s] d of the oscillations of one omega.
   Bounds damping_rates(double omega) const;
 
