@@ -40,6 +40,7 @@ const std::string body = "liver";
 struct Answers {
   std::vector<Claim> claims;
   bool gates_passed = true;
+  std::string picture_trouble{};  // of one that could not be drawn
 };
 
 using Say = std::function<void(const std::string&)>;
@@ -79,11 +80,12 @@ Answers reproduce_extremes(const Options& options, const RunFolder& folder, cons
   const ExtremesResults results =
       measure_extremes({.quick = options.quick, .silent = options.json}, [](const auto&, std::string_view) {});
   const RunFolder part(folder.path() / "extremes");
-  for (const std::string& trouble : write_extremes(results, part)) tell(stderr, "{}\n", trouble);
+  const std::vector<std::string> troubles = write_extremes(results, part);
+  for (const std::string& trouble : troubles) tell(stderr, "{}\n", trouble);
   for (const NamedTable& t : tables_of(results))
     if (t.study == "matrix") say(t.heading + "\n\n" + to_text(t.table));
   for (const auto& cell : forbidden_cells(results)) say(json_text(cell));
-  Answers answers{claims_of(results)};
+  Answers answers{.claims = claims_of(results), .picture_trouble = troubles.empty() ? "" : troubles.front()};
   say(to_text(std::span<const Claim>(answers.claims)));
   return answers;
 }
@@ -110,6 +112,7 @@ void reproduce(const Options& options, Outcome& outcome) {
   const auto add = [&](Answers part) {
     all.claims.insert(all.claims.end(), part.claims.begin(), part.claims.end());
     all.gates_passed = all.gates_passed && part.gates_passed;
+    all.picture_trouble += part.picture_trouble;
     folder.write_claims(all.claims);  // what is answered stays if the next part is interrupted
   };
   if (options.wants("paper")) add(reproduce_paper(options, problem, folder, say));
@@ -118,6 +121,7 @@ void reproduce(const Options& options, Outcome& outcome) {
   folder.write_manifest(manifest);
 
   outcome.exit_code = reproduce_exit_code(all.claims, all.gates_passed);
+  picture_missing(outcome, all.picture_trouble);
   if (options.json)
     tell("{}\n",
          json_text(nlohmann::json{{"claims", all.claims}, {"manifest", manifest}, {"gates_passed", all.gates_passed}},
