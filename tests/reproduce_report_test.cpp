@@ -37,6 +37,7 @@ TEST(PaperClaims, ThatAreNotMetFallShortOfBodiesAndDoNotCarryOverOfTimes) {
     EXPECT_EQ(met.verdict, Verdict::holds) << row.id;
     EXPECT_EQ(open.verdict, Verdict::not_tested) << row.id;
     EXPECT_FALSE(open.reason.empty()) << row.id;
+    EXPECT_EQ(missed.reason, row.does_not_carry_over) << row.id;
     EXPECT_EQ(missed.verdict, row.about == About::bodies ? Verdict::falls_short : Verdict::does_not_carry_over)
         << row.id;
     // a sentence on times may be wrong here, for a reason that is known; a sentence on bodies never
