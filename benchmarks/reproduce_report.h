@@ -21,6 +21,7 @@ struct ReproduceResults {
   std::vector<CountAgreement> counts;
   std::vector<MotionAgreement> motion;
   std::vector<Sample> per_step;  // scaled to one step
+  bool quick = false;            // few rounds: they may confirm what is known of times, and are no witness against it
 
   bool timed(const std::string& id) const;
   Ratio ratio(const std::string& id, const std::string& baseline) const { return paired_ratio(per_step, id, baseline); }

@@ -48,6 +48,7 @@ using Say = std::function<void(const std::string&)>;
 /// The paper's walks, gated and timed, and its claims.
 Answers reproduce_paper(const Options& options, const Problem& problem, const RunFolder& folder, const Say& say) {
   ReproduceResults results;
+  results.quick = options.quick;
   say(fmt::format("Topology-based Physical Simulation, section 5, on a body of the paper's size{}\n",
                   options.quick ? " (a quick run: few rounds, wide intervals)" : ""));
   results.counts = compare_counts(problem);

@@ -247,6 +247,18 @@ TEST(ReproduceTimes, OverArraysThatAreSlowerThanThePapersDoNotCarryOver) {
             Verdict::does_not_carry_over);
 }
 
+// Few rounds on a busy machine: what they would contradict is left to a whole run, what they confirm or know is said.
+TEST(ReproduceTimes, OfAQuickRunContradictNothingThatIsKnown) {
+  ReproduceResults results = timed(11.3, 3.0, 8.5, 0.09, 1.3, 1.0, 0.02);
+  results.quick = true;
+  const auto claims = answer_time(results);
+  EXPECT_EQ(one(claims, "arrays-overhead").verdict, Verdict::not_tested);
+  EXPECT_NE(one(claims, "arrays-overhead").reason.find("--quick"), std::string::npos);
+  EXPECT_EQ(one(claims, "coverage-slower").verdict, Verdict::holds);
+  EXPECT_EQ(one(claims, "paper-ladder").verdict, Verdict::does_not_carry_over);
+  EXPECT_EQ(exit_code(claims), 0);
+}
+
 TEST(ReproduceTimes, AreNotAskedForWhereAContenderFailedItsGate) {
   ReproduceResults results = timed(12.0, 12.0, 8.0, 8.0, 2.0, 2.0);
   std::erase_if(results.per_step, [](const Sample& s) { return s.task == "lists"; });

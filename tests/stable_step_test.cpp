@@ -151,6 +151,59 @@ TEST(StableStep, IsThatOfTheSlowestWhereTheyDecayFastest) {
   EXPECT_FALSE(step.is_stable(scheme("rk4"), 1.0));
 }
 
+// A stretched body: what moves across its springs is not damped, and explicit Euler amplifies it at steps at which the
+// highest frequency, half of whose square lies along the springs, decays.
+TEST(StableStep, IsThatOfSlowMotionsThatNothingDamps) {
+  StableStep step;
+  step.lower = step.upper = step.any_state = 100.0;
+  step.across = 50.0;
+  step.damping_time = {0.01, 0.01};
+  step.damping_rate = {75.0, 100.0};
+  const Scheme& euler = scheme("explicit-euler");
+  const Horizon horizon{.steps = 100, .gain = 2.0};
+  // |1 + i h omega|^100 = 2
+  const double of_undamped = std::sqrt(std::pow(2.0, 2.0 / 100) - 1.0) / 50.0;
+  EXPECT_LE(step.safe_step(euler, horizon), of_undamped * (1 + 1e-6));
+}
+
+/// The largest rate at which dampers and viscosity slow down, from a matrix put together entry by entry here.
+double true_damping_rate(const SpringArrays& body) {
+  const auto n = static_cast<Eigen::Index>(3 * body.x.size());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    const auto i = static_cast<Eigen::Index>(3 * body.ends[s][0]), j = static_cast<Eigen::Index>(3 * body.ends[s][1]);
+    const Eigen::Vector3d along = (body.x[body.ends[s][1]] - body.x[body.ends[s][0]]).normalized();
+    const Eigen::Matrix3d block = body.springs[s].damping * along * along.transpose();
+    c.block<3, 3>(i, i) += block;
+    c.block<3, 3>(j, j) += block;
+    c.block<3, 3>(i, j) -= block;
+    c.block<3, 3>(j, i) -= block;
+  }
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const auto vertex = static_cast<std::size_t>(r / 3);
+    c(r, r) += body.viscosity[vertex];
+    const double s = body.fixed[vertex] ? 0.0 : std::sqrt(body.inverse_mass[vertex]);
+    c.row(r) *= s;
+    c.col(r) *= s;
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(c, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+TEST(StableStep, KnowsTheLargestRateOfDampingFromBothSides) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SpringArrays body = random_body(seed);
+    SplitMix64 random(seed);
+    for (Spring& s : body.springs) s.damping = 0.1 * s.stiffness * std::exp(random.next_signed());
+    for (std::size_t i = 0; i < body.mass.size(); ++i) body.viscosity[i] = 0.5 * body.mass[i];
+    StableStepEstimate estimate;
+    const Bounds found = estimate.refresh(body.system(), body.x).damping_rate;
+    const double rate = true_damping_rate(body);
+    EXPECT_LE(found.lower, rate * (1 + 1e-9)) << seed;
+    EXPECT_GE(found.upper, rate * (1 - 1e-9)) << seed;
+    EXPECT_LE(found.upper, (StableStepEstimate::excess + 0.01) * rate) << seed;
+  }
+}
+
 // Just above its limit this method amplifies, and soon after it is stable again.
 TEST(StableStep, IsNotBeyondANarrowGapOfStability) {
   StableStep step;
