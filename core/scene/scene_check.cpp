@@ -190,10 +190,10 @@ std::optional<std::string> nearest_of(std::span<const std::string> words, std::s
   for (const std::string& known : words) {
     const std::string a = plain(word), b = plain(known);
     // at least as far apart as their lengths, and a word may be of any length
-    const auto [shorter, longer] = std::minmax(a.size(), b.size());
+    const std::size_t shorter = std::min(a.size(), b.size()), longer = std::max(a.size(), b.size());
     if (3 * (longer - shorter) > longer) continue;
     const std::size_t far = edit_distance(a, b);
-    if (far >= least || 3 * far > std::max(a.size(), b.size())) continue;
+    if (far >= least || 3 * far > longer) continue;
     least = far;
     nearest = known;
   }

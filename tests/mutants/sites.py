@@ -448,12 +448,13 @@ def is_integral(type):
 
 
 def arguments_of(command):
-    """What clang understands of a compiler's command line, less inputs and outputs."""
-    words, kept, skip = shlex.split(command)[1:], [], False
-    for word in words:
+    """What clang understands of a compiler's command line, less inputs, outputs and what is precompiled."""
+    words, kept, skip = shlex.split(command), [], False
+    compiler = 0 if words[1].startswith("-") else 1  # behind a launcher, such as ccache
+    for word in words[compiler + 1:]:
         if skip:
             skip = False
-        elif word in ("-o", "-c", "-MF", "-MT"):
+        elif word in ("-o", "-c", "-MF", "-MT", "-include"):
             skip = True
         elif word.startswith(("-I", "-D", "-U", "-std", "-isystem", "-f", "-m")) and word != "-fno-tree-slp-vectorize" or \
                 not word.startswith("-"):
@@ -527,5 +528,7 @@ def find_sites(root, rooms, compile_commands, workers, say):
                 by_place.setdefault(key, site)
             if done % 20 == 0:
                 say("read %d of %d sources" % (done, len(jobs)))
+    if not by_place:
+        raise SystemExit("mutants: no place to change was found in " + ", ".join(rooms))
     # the same whichever process walked a header first
     return sorted(by_place.values(), key=lambda s: (s["file"], s["edits"][0][0][0], s["edits"][0][0][1], s["kind"]))
