@@ -16,6 +16,7 @@ namespace dartboard {
 struct TopologyFigures {
   std::map<std::string, std::map<std::string, double>> bytes;  // per tetrahedron, by body and contender
   std::vector<std::string> disagreements;
+  bool all_bodies = true;  // else some were left out, and what is said of all of them is not tested
   std::map<std::string, std::vector<Sample>> samples;  // by "BODY:FIGURE"
   std::map<std::string, double> units;                 // by "BODY:FIGURE:CONTENDER"
 

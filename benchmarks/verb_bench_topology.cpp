@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -105,9 +106,12 @@ void compare_scaling(TopologyFigures& results, std::vector<std::string>& agreed,
 }
 
 /// Run everything once, untimed: who finds something else than CGAL (or, where CGAL finds nothing, than the others)?
-std::vector<std::string> agreed_groups(TopologyFigures& results, std::uint64_t seed) {
+std::vector<std::string> agreed_groups(TopologyFigures& results, const std::vector<std::string>& bodies,
+                                       std::uint64_t seed) {
+  const auto is_wanted = [&bodies](const std::string& body) { return std::ranges::find(bodies, body) != bodies.end(); };
   std::vector<std::string> agreed;
   for (const std::string& body : topology_bodies) {
+    if (!is_wanted(body)) continue;
     const Mesh mesh = topology_mesh(body);
     const auto cells = static_cast<double>(mesh.cell_count());
     const auto per_cell = [&](std::size_t bytes) { return static_cast<double>(bytes) / cells; };
@@ -130,13 +134,19 @@ std::vector<std::string> agreed_groups(TopologyFigures& results, std::uint64_t s
         results.disagreements.push_back(fmt::format("{}, {}:{} not timed", body, group.figure, words));
     }
   }
-  compare_scaling(results, agreed, seed);
+  if (is_wanted(scaling)) compare_scaling(results, agreed, seed);
   return agreed;
 }
 
 // ---- the verb
 
-void bench_topology(const BenchOptions& options, Outcome& outcome) {
+std::vector<std::string> every_body() {
+  std::vector<std::string> all = topology_bodies;
+  all.push_back(scaling);
+  return all;
+}
+
+void bench_topology(const BenchOptions& options, const std::vector<std::string>& bodies, Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   facts.seeds = {{"order of tasks, random faces", options.seed}};
@@ -146,7 +156,10 @@ void bench_topology(const BenchOptions& options, Outcome& outcome) {
 
   // No timing without agreement.
   TopologyFigures results;
-  const std::vector<std::string> groups = agreed_groups(results, options.seed);
+  const std::vector<std::string> all = every_body();
+  results.all_bodies =
+      std::ranges::all_of(all, [&](const auto& body) { return std::ranges::find(bodies, body) != bodies.end(); });
+  const std::vector<std::string> groups = agreed_groups(results, bodies, options.seed);
   for (const std::string& d : results.disagreements) run.say("They disagree: " + d);
 
   const int processes = options.quick ? 6 : 11, rounds = options.quick ? 3 : 6;
@@ -195,7 +208,10 @@ void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome) {
       bench.add_subcommand("topology", "Memory, walks, checks, building and unsewing, side by side with CGAL.");
   const auto options =
       add_bench_options(*topology, "fewer processes and rounds", "the order of turns and the random faces");
-  topology->callback([options, &outcome] { bench_topology(*options, outcome); });
+  const auto only = std::make_shared<std::vector<std::string>>(every_body());
+  topology->add_option("--only", *only, fmt::format("of {} [all]", fmt::join(every_body(), ", ")))
+      ->check(CLI::IsMember(every_body()));
+  topology->callback([options, only, &outcome] { bench_topology(*options, *only, outcome); });
   add_measure_topology(app);
 }
 

@@ -117,6 +117,21 @@ TEST(BenchTopologyClaims, AreNotTestedWhereContendersDisagreed) {
   EXPECT_TRUE(ids_of(claims_of(f), Verdict::holds).empty());
 }
 
+// What is said of all bodies is not said of one, however good it is.
+TEST(BenchTopologyClaims, AreNotTestedWhereABodyWasLeftOut) {
+  TopologyFigures f = good_topology();
+  f.all_bodies = false;
+  f.bytes.erase("kuhn-48000");
+  for (const char* group : {"kuhn-48000", "scaling"}) {
+    std::erase_if(f.units, [&](const auto& entry) { return entry.first.starts_with(group); });
+    std::erase_if(f.samples, [&](const auto& entry) { return entry.first.starts_with(group); });
+  }
+  for (const Claim& c : claims_of(f)) {
+    EXPECT_EQ(c.verdict, Verdict::not_tested) << c.id;
+    EXPECT_NE(c.reason.find("--only"), std::string::npos) << c.id;
+  }
+}
+
 // ---- operations
 
 const std::vector<std::string> bodies{"liver564", "kuhn-2058", "kuhn-105456", "kuhn-998250"};
