@@ -98,6 +98,8 @@ TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
   EXPECT_EQ(verdicts(pairs)[4], untold);
   pairs[1].audit.actual_s = 5.5;
   pairs[1].audit.pilot_s = 1.2;  // 22 %
+  pairs[2].audit.actual_s = 6.0;
+  pairs[2].audit.pilot_s = 0.6;
   EXPECT_EQ(verdicts(pairs)[4], no);
 }
 

@@ -116,24 +116,6 @@ TEST(CompensatedState, IsThePlainMethodToTheLastDigits) {
   }
 }
 
-// A pair that turns by half a radian in a time unit: with directions from elsewhere in the step the order would be 1.
-TEST(CompensatedState, IsOfOrderTwoWhereDampersTurn) {
-  const auto end_of = [](const char* name, int steps) {
-    SpringArrays body;
-    body.add_vertex(1.0, {0, 0, 0}, {0, -0.5, 0});
-    body.add_vertex(1.0, {2, 0, 0}, {0.25, 0.5, 0});
-    body.add_spring(0, 1, 4.0, 1.8, 0.8);
-    run(*make_integrator(name), body, 2.0 / steps, steps);
-    return body.x[1];
-  };
-  const Eigen::Vector3d exact = end_of("rk4", 2000);
-  const double coarse = (end_of("verlet-compensated", 40) - exact).norm();
-  const double fine = (end_of("verlet-compensated", 80) - exact).norm();
-  // 4 to the leading order; the next makes a few per cent of it at 40 steps
-  EXPECT_GT(coarse / fine, 3.6);
-  EXPECT_LT(coarse / fine, 4.4);
-}
-
 TEST(CompensatedState, LeavesNothingToWarnOfInTinySteps) {
   SpringArrays body = oscillator();
   StableStepEstimate estimate;

@@ -222,6 +222,11 @@ def main(source_root, fault_list, output, *rooms):
         raise Mistake("adapt %s to the new sources\n%s" % (fault_list, "\n".join(mistakes)))
     for path, text in texts.items():
         write_if_changed(os.path.join(output, path), text)
+    # a copy of what holds a fault no more would still be found before the file itself
+    for folder, _, names in os.walk(output):
+        for name in names:
+            if os.path.relpath(os.path.join(folder, name), output) not in texts:
+                os.remove(os.path.join(folder, name))
 
 
 if __name__ == "__main__":
