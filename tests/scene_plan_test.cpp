@@ -151,6 +151,8 @@ TEST(ScenePlan, NamesTheKeyThatAskedForEachThing) {
   EXPECT_EQ(why(Part::integrator), "/integrator: rk4 (the default)");
   EXPECT_EQ(why(Part::gravity), "/gravity: [0.0,0.0,-9.81] (the default)");
   EXPECT_EQ(why(Part::event), "/events/0/tear");
+  scene["gravity"] = {1.5, -2.5, 3.5};
+  EXPECT_EQ(item(plan(parse(scene)), Part::gravity)->why, "/gravity: [1.5,-2.5,3.5]");
   for (const PlanItem& i : planned.items)
     EXPECT_TRUE(i.why.starts_with("/") || i.why.starts_with("always") || i.why.starts_with("changes of the map"))
         << name(i.part) << ": " << i.why;
