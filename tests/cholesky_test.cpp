@@ -97,6 +97,20 @@ TEST(Cholesky, FactorsAgainAfterAnIndefiniteMatrix) {
   EXPECT_EQ(cholesky.counters().analyses, 1u);
 }
 
+TEST(Cholesky, FollowsByAFactorAnewWhereThereIsNoneToUpdate) {
+  BodyMatrix good(disturbed_grid());
+  Cholesky cholesky;
+  ASSERT_EQ(cholesky.factorise(good.blocks), SolveStatus::ok);
+  BodyMatrix indefinite = good;
+  indefinite.blocks.diagonal[4](0, 0) = -1.0;
+  ASSERT_EQ(cholesky.factorise(indefinite.blocks), SolveStatus::not_positive_definite);
+  ASSERT_EQ(cholesky.follow(good.blocks, std::vector{RankOneTerm{4, NodePattern::none, {1, 0, 0}, 1.0}}),
+            SolveStatus::ok);
+  EXPECT_EQ(cholesky.counters().refactor_chosen, 1u);
+  EXPECT_EQ(cholesky.counters().update_chosen, 0u);
+  EXPECT_LT(solved_error(cholesky, good.blocks), 20 * epsilon);
+}
+
 TEST(Cholesky, NotANumberIsReportedInMatrixAndRightSide) {
   BodyMatrix body(disturbed_grid());
   Cholesky cholesky;

@@ -332,6 +332,23 @@ TEST(Divergence, KeepsAStateEverySixtyFourSteps) {
   EXPECT_EQ(body.x[0].x(), 64.0);
 }
 
+// However often the system changed, the work of a driver counts once: it has put 0.5 J into its spring.
+TEST(Divergence, CountsTheWorkOfADriverOnce) {
+  SpringArrays body;
+  body.add_vertex(1.0, {0, 0, 0});
+  body.add_vertex(1.0, {1, 0, 0}, {1e-3, 0, 0}, true);
+  body.add_spring(0, 1, 1.0, 1.0);
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1.0).ok());
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(detector.system_changed(body.system(), body.motion()).ok());
+  for (int k = 0; k < 1000; ++k) {
+    body.x[1].x() += 1e-3;
+    ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok()) << k;
+  }
+  body.v[0] = {15, 0, 0};  // 112 J
+  EXPECT_FALSE(detector.check_all(body.system(), body.motion()).ok());
+}
+
 // A body that moves far faster than it is driven: the work that is done comes on top of the energy that there was.
 TEST(Divergence, IsNotWhatABodyHasAboveTheWorkOfItsDriver) {
   SpringArrays body = two_strangers();

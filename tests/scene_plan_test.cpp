@@ -191,6 +191,20 @@ TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
   EXPECT_NEAR(planned.mean.cells, (2 * 48 + 2 * 44 + 2 * 40 + 4 * 36) / 480.0, 1e-12);
 }
 
+// A vertex is torn off each time that this is asked for, a plane cut at the first.
+TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
+  const ScenePlan planned = plan(parse(with_events(
+      moving_box(), R"([{"every": 0.002, "from": 0.002, "until": 0.006, "tear": {"vertex": 0, "direction": [1, 0, 0]}},
+                        {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"random": {"count": 4}}},
+                        {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"ids": [3, 5]}}])")));
+  EXPECT_EQ(planned.events[0].operations, 3.0);
+  EXPECT_EQ(planned.events[0].with_operations, 3.0);
+  EXPECT_EQ(planned.events[1].operations, 12.0);
+  EXPECT_EQ(planned.events[1].with_operations, 3.0);
+  EXPECT_EQ(planned.events[2].operations, 2.0);
+  EXPECT_EQ(planned.events[2].with_operations, 1.0);
+}
+
 // ---- what no item plans
 
 TEST(MeasuredPlan, TellsApartWhatNoItemPlans) {
