@@ -1,5 +1,6 @@
 #include "benchmarks/audit_plan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "validation/random_scenes.h"
@@ -26,6 +27,8 @@ std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
 }
 
 }  // namespace
+
+double longest_sweep_run(double dearest_pick_s) { return std::max(2.2 * dearest_pick_s, 0.005); }
 
 AuditCases::AuditCases(std::uint64_t seed, bool quick) : seed_(seed), quick_(quick), random_(seed + 77) {}
 

@@ -18,6 +18,10 @@ struct AuditCase {
   AuditCheck check = AuditCheck::reference_and_sweep;
 };
 
+/// [s] How long a run of the sweep may take beside picks of which the dearest is predicted to take that long. What
+/// takes longer cannot be cheaper than it, but steps are powers of two.
+double longest_sweep_run(double dearest_pick_s);
+
 /// The cases of an audit, one after the other: scenes that a reference and a sweep can follow; longer ones without a
 /// sweep, and without a reference by other codes; at last one whose costs alone can be told. With `quick` a few small
 /// ones of the first kind.

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 
+#include "benchmarks/json_number.h"
 #include "benchmarks/statistics.h"
 
 namespace dartboard {
@@ -128,6 +130,44 @@ Table audit_table(const std::vector<AuditedPair>& pairs) {
                    p.confidence, p.reference});
   }
   return table;
+}
+
+Table audited_scenes_table(const std::vector<AuditedPair>& pairs) {
+  Table scenes({{"scene"}, {"what was drawn"}, {"vertices", Align::right}, {"T omega_max", Align::right}});
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (k == 0 || pairs[k].scene != pairs[k - 1].scene)
+      scenes.add_row({pairs[k].scene, pairs[k].what, std::to_string(pairs[k].vertices),
+                      fmt::format("{:.0f}", pairs[k].omega_phase)});
+  return scenes;
+}
+
+nlohmann::json json_of(const AuditedPair& p) {
+  const Audit& a = p.audit;
+  return {{"scene", p.scene},
+          {"what", p.what},
+          {"vertices", p.vertices},
+          {"springs", p.springs},
+          {"omega_phase", number(p.omega_phase)},
+          {"reference", p.reference},
+          {"floor", number(p.floor)},
+          {"error", a.error},
+          {"pick", p.pick},
+          {"confidence", p.confidence},
+          {"steps", p.setting.steps},
+          {"tolerance", p.setting.tolerance},
+          {"told", p.told()},
+          {"actual_error", number(a.actual_error)},
+          {"predicted_error", number(a.predicted_error)},
+          {"actual_evaluations", number(a.actual_evaluations)},
+          {"predicted_evaluations", number(a.predicted_evaluations)},
+          {"actual_cost", number(a.actual_cost)},
+          {"predicted_cost", number(a.predicted_cost)},
+          {"actual_s", number(a.actual_s)},
+          {"predicted_s", number(a.predicted_s)},
+          {"pilot_s", number(a.pilot_s)},
+          {"swept", p.swept},
+          {"best", a.best},
+          {"best_cost", number(a.best_cost)}};
 }
 
 Plot audit_plot(const std::vector<AuditedPair>& pairs, const std::string& subtitle) {

@@ -1,6 +1,7 @@
 #pragma once
 // What an audit of `recommend` on unseen scenes says: its pairs of scene and error, claims, table and picture.
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct AuditedPair {
 std::vector<Claim> audit_claims(const std::vector<AuditedPair>& pairs);
 
 Table audit_table(const std::vector<AuditedPair>& pairs);
+
+/// What was drawn, a row for each scene.   pre  the pairs of a scene follow each other
+Table audited_scenes_table(const std::vector<AuditedPair>& pairs);
+
+/// One line of samples.jsonl; what is not finite is null.
+nlohmann::json json_of(const AuditedPair& pair);
 
 /// Actual over asked error against predicted over actual time, a point for each pair.
 Plot audit_plot(const std::vector<AuditedPair>& pairs, const std::string& subtitle);

@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "benchmarks/clock.h"
 #include "benchmarks/processes.h"
@@ -95,12 +94,7 @@ json blas() {
   if (auto* threads = loaded<int()>("openblas_get_num_threads")) result["threads"] = threads();
   if (!result["name"].is_null()) return result;
   // another one: the folder of its library says which ("blas/libblas.so.3.11.0" is the reference)
-  Dl_info info{};
-  if (void* dgemm = dlsym(RTLD_DEFAULT, "dgemm_"); dgemm != nullptr && dladdr(dgemm, &info) != 0) {
-    std::error_code error;
-    const fs::path library = fs::canonical(info.dli_fname, error);
-    if (!error) result["name"] = (library.parent_path().filename() / library.filename()).string();
-  }
+  result["name"] = or_null(library_of(dlsym(RTLD_DEFAULT, "dgemm_")));
   return result;
 }
 
@@ -187,6 +181,15 @@ std::optional<std::vector<std::string>> git(const fs::path& folder, std::vector<
 }
 
 }  // namespace
+
+std::optional<std::string> library_of(const void* function) {
+  Dl_info info{};
+  if (function == nullptr || dladdr(function, &info) == 0) return std::nullopt;
+  std::error_code error;
+  const fs::path library = fs::canonical(info.dli_fname, error);
+  if (error) return std::nullopt;
+  return (library.parent_path().filename() / library.filename()).string();
+}
 
 json git_state(const fs::path& folder) {
   json state{{"commit", nullptr}, {"dirty", nullptr}};

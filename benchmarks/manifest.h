@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,9 @@ std::string file_hash(const std::filesystem::path& file);
 /// A path as the manifest names it: relative to the source folder or the working folder if it lies there, else only the
 /// file name.
 std::string published_path(const std::filesystem::path& path);
+
+/// The folder and the file of the library that a function is of: "blas/libblas.so.3.11.0"; nothing if there is none.
+std::optional<std::string> library_of(const void* function);
 
 /// The words of a command line with every absolute path in them (alone, after '=' or after a flag of one letter)
 /// published as above.

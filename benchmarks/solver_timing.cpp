@@ -26,15 +26,6 @@ void require(SolveStatus status) {
     throw SolverError(fmt::format("a factorisation that is timed ended: {}", to_string(status)));
 }
 
-/// No timing without agreement: all contenders solve the same system.
-void require_agreement(const std::string& task, const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
-                       std::span<const Eigen::Vector3d> x, double bound) {
-  const double error = normwise_backward_error(matrix, b, x);
-  if (!(error <= bound))
-    throw SolverError(fmt::format(
-        "'{}' is not timed: the backward error of its solution is {:.1e}, the bound is {:.1e}", task, error, bound));
-}
-
 // One contender: a factor of the whole body, and what it does when a vertex is dissociated.
 struct FactorTask {
   std::string name;
@@ -86,6 +77,14 @@ class StepEquations {
 };
 
 }  // namespace
+
+void require_agreement(const std::string& task, const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
+                       std::span<const Eigen::Vector3d> x, double bound) {
+  const double error = normwise_backward_error(matrix, b, x);
+  if (!(error <= bound))
+    throw SolverError(fmt::format(
+        "'{}' is not timed: the backward error of its solution is {:.1e}, the bound is {:.1e}", task, error, bound));
+}
 
 double factor_bound(std::size_t unknowns, std::size_t updates) {
   constexpr double u = std::numeric_limits<double>::epsilon() / 2;

@@ -1,11 +1,14 @@
 #pragma once
 // Paired times of what linear solvers do for a step and for a topological change.
 
+#include <Eigen/Core>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "benchmarks/paired.h"
+#include "core/time/node_matrix.h"
 
 namespace dartboard {
 
@@ -31,6 +34,12 @@ struct SolverTimes {
 /// Higham, theorem 10.4: (A + E) x = b with |E| <= gamma_{3n+1} |L| |L'|, and the norm of |L| |L'| is at most the trace
 /// of A, which is at most n times the norm of A. An update is as backward stable as a factorisation and counts as one.
 double factor_bound(std::size_t unknowns, std::size_t updates);
+
+/// No timing without agreement: all contenders solve the same system.
+///
+/// throws  SolverError for a task whose solution x of A x = b has a larger normwise backward error
+void require_agreement(const std::string& task, const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
+                       std::span<const Eigen::Vector3d> x, double bound);
 
 /// One interior vertex is dissociated, another one in each round: the factor follows, by the rule, by rank-one terms
 /// and by rows, or is analysed with the old ordering extended and found again; with AMD and with METIS. Assembly of the

@@ -10,12 +10,12 @@
 #include "benchmarks/album.h"
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
+#include "benchmarks/gallery_report.h"
 #include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/settle_accuracy.h"
-#include "benchmarks/table.h"
 #include "benchmarks/tell.h"
 #include "core/plain/error.h"
 #include "core/scene/scene_run.h"
@@ -27,16 +27,6 @@ namespace {
 struct Options {
   std::string out;
   bool json = false;
-};
-
-struct Shown {
-  SceneFile scene;
-  std::string file, map, hash, picture_trouble, divergence;
-  std::uint64_t steps = 0;
-  std::size_t operations = 0, expected = 0, held = 0;
-  double cpu_s = 0.0;
-
-  bool holds() const { return divergence.empty() && held == expected; }
 };
 
 std::vector<std::filesystem::path> scene_files() {
@@ -59,8 +49,8 @@ class AlbumWatcher : public RunWatcher {
   Album& album_;
 };
 
-Shown show(const std::filesystem::path& file, const RunFolder* folder) {
-  Shown shown;
+ShownScene show(const std::filesystem::path& file, const RunFolder* folder) {
+  ShownScene shown;
   shown.scene = read_scene(file);
   shown.file = file.filename().string();
   settle_accuracy(shown.scene, thread_cpu_ns);
@@ -86,46 +76,6 @@ Shown show(const std::filesystem::path& file, const RunFolder* folder) {
   return shown;
 }
 
-Table table_of(const std::vector<Shown>& all) {
-  Table table({{"scene"},
-               {"map"},
-               {"integrator"},
-               {"steps", Align::right},
-               {"operations", Align::right},
-               {"expected", Align::right},
-               {"hash"},
-               {"holds"}});
-  for (const Shown& s : all)
-    table.add_row({s.scene.name, s.map, s.scene.integrator, std::to_string(s.steps), std::to_string(s.operations),
-                   fmt::format("{} of {}", s.held, s.expected), s.hash, s.holds() ? "yes" : "NO"});
-  return table;
-}
-
-std::string page_of(const std::vector<Shown>& all) {
-  std::string page = "# Gallery\n\nEach scene at four times of its run, drawn from its own output.\n";
-  for (const Shown& s : all)
-    page += fmt::format(
-        "\n## {0}\n\n{1}\n\n![{0}]({2}.png)\n\n{3}: {4}, {5}, {6} steps, {7} operations; {8} of {9} "
-        "expectations hold.\n",
-        markdown_text(s.scene.name), markdown_line(s.scene.about), file_name_of(s.scene.name), markdown_code(s.file),
-        s.map, s.scene.integrator, s.steps, s.operations, s.held, s.expected);
-  return page;
-}
-
-nlohmann::ordered_json to_json(const Shown& s) {
-  return {{"scene", s.scene.name},
-          {"map", s.map},
-          {"integrator", s.scene.integrator},
-          {"steps", s.steps},
-          {"operations", s.operations},
-          {"hash", s.hash},
-          {"expected", s.expected},
-          {"held", s.held},
-          {"holds", s.holds()},
-          {"divergence", s.divergence},
-          {"cpu_s", s.cpu_s}};
-}
-
 void gallery(const Options& options, Outcome& outcome) {
   const auto files = scene_files();
   std::optional<RunFolder> folder;
@@ -138,7 +88,7 @@ void gallery(const Options& options, Outcome& outcome) {
     manifest = begin_manifest(facts);
     folder->write_manifest(manifest);
   }
-  std::vector<Shown> all;
+  std::vector<ShownScene> all;
   {
     Progress progress("gallery", files.size(), options.json);
     for (const auto& file : files) {
@@ -146,24 +96,24 @@ void gallery(const Options& options, Outcome& outcome) {
       progress.advance(all.back().scene.name);
     }
   }
-  if (!std::ranges::all_of(all, &Shown::holds)) outcome.exit_code = exit_disagrees;
-  for (const Shown& s : all) picture_missing(outcome, s.picture_trouble);
+  if (!std::ranges::all_of(all, &ShownScene::holds)) outcome.exit_code = exit_disagrees;
+  for (const ShownScene& s : all) picture_missing(outcome, s.picture_trouble);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Shown& s : all) json.push_back(to_json(s));
+  for (const ShownScene& s : all) json.push_back(to_json(s));
   if (folder) {
-    folder->write("gallery.md", page_of(all));
+    folder->write("gallery.md", gallery_page(all));
     folder->write_json("gallery.json", json);
     finish_manifest(manifest);
     folder->write_manifest(manifest);
   }
   if (options.json) {
     tell("{}\n", json_text(json, 2));
-    for (const Shown& s : all)
+    for (const ShownScene& s : all)
       if (!s.picture_trouble.empty()) tell(stderr, "{}\n", s.picture_trouble);
     return;
   }
-  tell("{}", to_text(table_of(all)));
-  for (const Shown& s : all) {
+  tell("{}", to_text(gallery_table(all)));
+  for (const ShownScene& s : all) {
     if (!s.divergence.empty()) tell("{}: the motion {}\n", one_line(s.scene.name), s.divergence);
     if (!s.picture_trouble.empty()) tell("{}\n", s.picture_trouble);
   }

@@ -9,7 +9,6 @@
 #include "benchmarks/audit_plan.h"
 #include "benchmarks/audit_report.h"
 #include "benchmarks/clock.h"
-#include "benchmarks/json_number.h"
 #include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/progress.h"
@@ -19,35 +18,6 @@
 
 namespace dartboard {
 namespace {
-
-nlohmann::json json_of(const AuditedPair& p) {
-  const Audit& a = p.audit;
-  return {{"scene", p.scene},
-          {"what", p.what},
-          {"vertices", p.vertices},
-          {"springs", p.springs},
-          {"omega_phase", number(p.omega_phase)},
-          {"reference", p.reference},
-          {"floor", number(p.floor)},
-          {"error", a.error},
-          {"pick", p.pick},
-          {"confidence", p.confidence},
-          {"steps", p.setting.steps},
-          {"tolerance", p.setting.tolerance},
-          {"told", p.told()},
-          {"actual_error", number(a.actual_error)},
-          {"predicted_error", number(a.predicted_error)},
-          {"actual_evaluations", number(a.actual_evaluations)},
-          {"predicted_evaluations", number(a.predicted_evaluations)},
-          {"actual_cost", number(a.actual_cost)},
-          {"predicted_cost", number(a.predicted_cost)},
-          {"actual_s", number(a.actual_s)},
-          {"predicted_s", number(a.predicted_s)},
-          {"pilot_s", number(a.pilot_s)},
-          {"swept", p.swept},
-          {"best", a.best},
-          {"best_cost", number(a.best_cost)}};
-}
 
 std::vector<AuditedPair> audit_case(const AuditCase& drawn) {
   const auto& [scene, errors, check] = drawn;
@@ -67,9 +37,8 @@ std::vector<AuditedPair> audit_case(const AuditCase& drawn) {
   WorkPrecision sweep;
   const bool sweep_too = check == AuditCheck::reference_and_sweep;
   if (sweep_too) {
-    // what takes longer than the dearest pick cannot be cheaper than it, but steps are powers of two
     WorkPrecisionOptions how;
-    how.most_s = std::max(2.2 * longest, 0.005);
+    how.most_s = longest_sweep_run(longest);
     how.fewest_repetitions = 2;
     how.repetitions_s = 0.02;
     sweep = work_precision(scene, reference, tradeoff_contenders(), clock, how);
@@ -138,11 +107,7 @@ void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
   manifest["cpu_s"] = cpu_s;
   const std::vector<Claim> claims = audit_claims(pairs);
   const Table table = audit_table(pairs);
-  Table scenes({{"scene"}, {"what was drawn"}, {"vertices", Align::right}, {"T omega_max", Align::right}});
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (k == 0 || pairs[k].scene != pairs[k - 1].scene)
-      scenes.add_row({pairs[k].scene, pairs[k].what, std::to_string(pairs[k].vertices),
-                      fmt::format("{:.0f}", pairs[k].omega_phase)});
+  const Table scenes = audited_scenes_table(pairs);
   folder.write_claims(claims);
   folder.write_table("audit", "Recommendations and what happened", table, reading);
   folder.write_table("scenes", "The scenes", scenes);

@@ -36,13 +36,6 @@ struct Options {
 constexpr int agreement_steps = 10;
 const std::string body = "liver";
 
-/// What a part of the run comes to.
-struct Answers {
-  std::vector<Claim> claims;
-  bool gates_passed = true;
-  std::string picture_trouble{};  // of one that could not be drawn
-};
-
 using Say = std::function<void(const std::string&)>;
 
 /// The paper's walks, gated and timed, and its claims.
@@ -110,10 +103,8 @@ void reproduce(const Options& options, Outcome& outcome) {
   folder.write_manifest(manifest);
 
   Answers all;
-  const auto add = [&](Answers part) {
-    all.claims.insert(all.claims.end(), part.claims.begin(), part.claims.end());
-    all.gates_passed = all.gates_passed && part.gates_passed;
-    all.picture_trouble += part.picture_trouble;
+  const auto add = [&](const Answers& part) {
+    all.append(part);
     folder.write_claims(all.claims);  // what is answered stays if the next part is interrupted
   };
   if (options.wants("paper")) add(reproduce_paper(options, problem, folder, say));

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,8 +16,7 @@
 #include "benchmarks/progress.h"
 #include "benchmarks/scene_names.h"
 #include "benchmarks/settle_accuracy.h"
-#include "benchmarks/simulation_json.h"
-#include "benchmarks/table.h"
+#include "benchmarks/simulate_report.h"
 #include "benchmarks/tell.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
@@ -27,7 +25,6 @@
 #include "core/scene/scene_output.h"
 #include "core/scene/scene_run.h"
 #include "core/scene/scene_verdict.h"
-#include "core/time/preflight.h"
 
 namespace dartboard {
 namespace {
@@ -69,147 +66,6 @@ class Watcher : public RunWatcher {
   Progress& progress_;
   std::uint64_t steps_per_report_;
 };
-
-/// Everything the summary says.
-struct Report {
-  const SceneFile& scene;
-  const Simulation& simulation;
-  const RunResult& result;
-  std::optional<SettledAccuracy> settled;  // where the scene asks for an accuracy
-  std::vector<ExpectedRow> expected;
-  std::string unjudged;  // why there is no verdict; empty where there is one
-  double wall_s, cpu_s;
-  std::string folder;
-  std::size_t frames;
-  std::string picture;  // what became of it
-
-  bool holds() const {
-    return !result.divergence &&
-           std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
-  }
-  /// The step that the last state is of: after a divergence the one that the body has gone back to.
-  std::uint64_t kept_step() const {
-    return simulation.steps_done() - (result.divergence ? result.divergence->taken_back : 0);
-  }
-  /// What became of the mass beyond what removals took, relative to the mass at the start.
-  double mass_drift() const {
-    const SimulatedBody& body = simulation.body();
-    return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
-  }
-  double removed_at_start = 0.0;
-};
-
-std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("{:.2e}", drift); }
-
-Table summary_of(const Report& r) {
-  Table table({{"quantity", Align::left}, {"start", Align::right}, {"end", Align::right}});
-  const Diagnostics &first = r.result.first, &last = r.result.last;
-  const auto shown = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; };
-  const auto row = [&](const std::string& what, double start, double end) {
-    table.add_row({what, shown(start), shown(end)});
-  };
-  const auto counts = [&table](const char* what, std::size_t start, std::size_t end) {
-    table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
-  };
-  row("time [s]", first.time, last.time);
-  counts("steps", 0, r.kept_step());
-  counts("operations", first.operations, last.operations);
-  counts("vertices", first.counts.vertices, last.counts.vertices);
-  counts("edges", first.counts.edges, last.counts.edges);
-  counts("faces", first.counts.faces, last.counts.faces);
-  counts("cells", first.counts.cells, last.counts.cells);
-  counts("components", first.counts.components, last.counts.components);
-  row("mass [kg]", first.mass, last.mass);
-  row("kinetic energy [J]", first.kinetic, last.kinetic);
-  row("elastic energy [J]", first.elastic, last.elastic);
-  row("gravitational energy [J]", first.gravitational, last.gravitational);
-  const int dimension = r.simulation.dimension();
-  row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
-  row(fmt::format("largest stress [{}]", stress_unit(dimension)), first.largest_stress, last.largest_stress);
-  return table;
-}
-
-void print(const Report& r) {
-  tell("{}\n{}, {}, h = {:.6g} s\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(), r.scene.integrator,
-       r.scene.step, to_text(summary_of(r)));
-  if (r.settled) {
-    tell("{}\n", to_string(*r.settled));
-    for (const std::string& omission : r.settled->omissions) tell("  {}\n", omission);
-  }
-  const auto steps = static_cast<double>(r.simulation.steps_done());
-  const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
-  tell("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
-  if (r.simulation.body().removed_mass() > 0.0)
-    tell("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
-  const EventJumps& jumps = r.simulation.jumps();
-  if (jumps.events > 0)
-    tell(
-        "largest jump at {} that {}: mass {}, momentum {}, kinetic and elastic energy {} "
-        "(relative)\n",
-        counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
-        drift_text(jumps.momentum), drift_text(jumps.energy));
-  tell("hash of the last state {:016x}\n", r.simulation.body().state_hash());
-  if (const auto& warning = r.simulation.step_warning())
-    tell("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
-  if (const auto& warning = r.simulation.coordinate_warning()) tell("warning: {}\n", to_string(*warning));
-  for (const StepResult& warning : r.simulation.warnings()) tell("warning: {}\n", explained(warning));
-  for (const std::string& path : r.simulation.idle_events())
-    tell("warning: the event at {} never did anything\n", path);
-  if (r.result.divergence)
-    tell("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
-         to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
-  if (!r.expected.empty()) {
-    Table table(
-        {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
-    for (const ExpectedRow& row : r.expected)
-      table.add_row({row.what, row.expected, row.actual, row.holds ? "yes" : "NO"});
-    tell("\n{}", to_text(table));
-  }
-  if (!r.unjudged.empty()) tell("\n{}\n", r.unjudged);
-  if (!r.folder.empty())
-    tell("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
-         r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
-  if (!r.picture.empty()) tell("{}\n", r.picture);
-}
-
-nlohmann::ordered_json to_json(const Report& r) {
-  nlohmann::ordered_json json{{"scene", r.scene.name},
-                              {"map", r.simulation.body().map_name()},
-                              {"integrator", r.scene.integrator},
-                              {"holds", r.holds()},
-                              {"steps", r.simulation.steps_done()},
-                              {"first", to_json(r.result.first)},
-                              {"last", to_json(r.result.last)},
-                              {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
-                              {"wall_s", r.wall_s},
-                              {"cpu_s", r.cpu_s},
-                              {"mass_drift", r.mass_drift()},
-                              {"jumps", to_json(r.simulation.jumps())}};
-  if (const auto& d = r.result.divergence)
-    json["divergence"] = {{"step", d->step},
-                          {"time", d->time},
-                          {"quantity", d->quantity},
-                          {"vertex", d->vertex},
-                          {"taken_back", d->taken_back},
-                          {"kept_step", r.kept_step()},
-                          {"kept_time", r.result.last.time},
-                          {"value", fmt::format("{:.17g}", d->value)}};
-  if (const auto& warning = r.simulation.step_warning())
-    json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
-  if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
-  json["warnings"] = nlohmann::ordered_json::array();
-  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(explained(w));
-  json["idle_events"] = r.simulation.idle_events();
-  json["expected"] = nlohmann::ordered_json::array();
-  for (const ExpectedRow& row : r.expected)
-    json["expected"].push_back(
-        {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
-  if (r.settled) json["settled"] = nlohmann::json(*r.settled);
-  if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
-  json["interrupted"] = r.result.interrupted;
-  if (!r.folder.empty()) json["folder"] = r.folder;
-  return json;
-}
 
 /// What the run was made of, beside its results.
 nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const Outcome& outcome) {
@@ -254,18 +110,18 @@ void simulate(const Options& options, Outcome& outcome) {
     const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps());
   }
-  Report report{.scene = scene,
-                .simulation = simulation,
-                .result = result,
-                .settled = settled,
-                .expected = {},
-                .unjudged = {},
-                .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
-                .cpu_s = static_cast<double>(process_cpu_ns() - cpu) * 1e-9,
-                .folder = output ? output->folder().string() : "",
-                .frames = output ? output->frame_count() : 0,
-                .picture = "",
-                .removed_at_start = removed_at_start};
+  SimulationReport report{.scene = scene,
+                          .simulation = simulation,
+                          .result = result,
+                          .settled = settled,
+                          .expected = {},
+                          .unjudged = {},
+                          .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
+                          .cpu_s = static_cast<double>(process_cpu_ns() - cpu) * 1e-9,
+                          .folder = output ? output->folder().string() : "",
+                          .frames = output ? output->frame_count() : 0,
+                          .picture = "",
+                          .removed_at_start = removed_at_start};
   if (result.interrupted)
     report.unjudged =
         fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
@@ -293,7 +149,7 @@ void simulate(const Options& options, Outcome& outcome) {
     tell("{}\n", json_text(to_json(report), 2));
     if (outcome.exit_code == exit_io) tell(stderr, "{}\n", report.picture);
   } else {
-    print(report);
+    tell("{}", to_text(report));
   }
 }
 

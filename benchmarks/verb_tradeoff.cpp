@@ -3,19 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/cli.h"
 #include "benchmarks/clock.h"
-#include "benchmarks/json_number.h"
 #include "benchmarks/json_text.h"
 #include "benchmarks/manifest.h"
 #include "benchmarks/run_folder.h"
 #include "benchmarks/study_names.h"
 #include "benchmarks/tell.h"
+#include "benchmarks/tradeoff_json.h"
 #include "benchmarks/tradeoff_report.h"
+#include "benchmarks/tradeoff_tables.h"
 #include "benchmarks/work_precision_plot.h"
 #include "core/plain/error.h"
 #include "validation/scene_of_file.h"
@@ -31,152 +31,6 @@ struct Options {
   double most_s = 0.0;
   std::uint64_t seed = 1;
 };
-
-// JSON has no number for what is not finite.
-nlohmann::json json_of(const WorkCounters& w) {
-  return {{"steps", w.steps},
-          {"failed_steps", w.failed_steps},
-          {"rejected_steps", w.rejected_steps},
-          {"force_evaluations", w.force_evaluations},
-          {"damping_sweeps", w.damping_sweeps},
-          {"assemblies", w.assemblies},
-          {"analyses", w.analyses},
-          {"factorisations", w.factorisations},
-          {"solves", w.solves},
-          {"rank_one_updates", w.rank_one_updates},
-          {"newton_iterations", w.newton_iterations},
-          {"linear_iterations", w.linear_iterations},
-          {"line_search_trials", w.line_search_trials},
-          {"projections", w.projections},
-          {"factor_nonzeros", w.factor_nonzeros}};
-}
-
-nlohmann::json json_of(const std::string& scene, const WorkPoint& p) {
-  nlohmann::json json{{"scene", scene},
-                      {"integrator", p.contender},
-                      {"peer", p.peer},
-                      {"h", number(p.h)},
-                      {"h_omega", number(p.h_omega)},
-                      {"work", json_of(p.work)},
-                      {"costs", p.costs},
-                      {"cost", number(p.cost)},
-                      {"cpu_s", number(p.cpu_s)},
-                      {"force_s", number(p.force_s)},
-                      {"under_floor", p.under_floor}};
-  if (p.setting.steps > 0)
-    json["steps"] = p.setting.steps;
-  else
-    json["tolerance"] = p.setting.tolerance;
-  if (p.failed()) {
-    json["code"] = p.code;
-    json["diagnosis"] = p.diagnosis;
-  } else {
-    json["errors"] = {{"x", number(p.errors.x)},
-                      {"x_p95", number(p.errors.x_p95)},
-                      {"x_largest", number(p.errors.x_largest)},
-                      {"v", number(p.errors.v)},
-                      {"energy", number(p.errors.energy)},
-                      {"momentum", number(p.errors.momentum)},
-                      {"angular", number(p.errors.angular)}};
-  }
-  return json;
-}
-
-std::vector<double> decades(const WorkPrecision& study) {
-  std::vector<double> errors;
-  for (int k = 1; k <= 13; ++k) {
-    const double error = std::pow(10.0, -k);
-    if (error < study.reference.floor) break;
-    errors.push_back(error);
-  }
-  return errors;
-}
-
-std::string show(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "-"; }
-
-Table winners_table(const WorkPrecision& study) {
-  Table table({{"error [edges]"},
-               {"cheapest"},
-               {"cost [evaluations' time]", Align::right},
-               {"force evaluations", Align::right},
-               {"seconds", Align::right},
-               {"runner-up"},
-               {"costs", Align::right},
-               {"cvode-adams costs", Align::right}});
-  double force_s = 0.0;
-  for (const WorkPoint& p : study.points)
-    if (force_s == 0.0 || p.force_s < force_s) force_s = p.force_s;
-  const auto ratio = [](double cost, double best) {
-    return std::isfinite(cost) ? fmt::format("{:.2f} x", cost / best) : "-";
-  };
-  for (const Winner& w : winners(study.points, decades(study))) {
-    const double peer = cost_at(study.points, "cvode-adams", w.error);
-    if (w.contender.empty())
-      table.add_row({fmt::format("{:.0e}", w.error), "none", "-", "-", "-", "-", "-", "-"});
-    else
-      table.add_row({fmt::format("{:.0e}", w.error), w.contender, fmt::format("{:.0f}", w.cost),
-                     fmt::format("{:.0f}", w.evaluations), show(w.cost * force_s),
-                     w.runner_up.empty() ? "-" : w.runner_up,
-                     w.runner_up.empty() ? "-" : ratio(w.runner_up_cost, w.cost), ratio(peer, w.cost)});
-  }
-  return table;
-}
-
-Table regrets_table(const WorkPrecision& study) {
-  const std::vector<double> errors = decades(study);
-  std::vector<Column> columns{{"always"}};
-  for (const double error : errors) columns.push_back({fmt::format("{:.0e}", error), Align::right});
-  columns.push_back({"worst", Align::right});
-  Table table(columns);
-  for (const Regret& r : regrets(study.points, errors)) {
-    std::vector<std::string> row{r.contender + (r.peer ? " (peer)" : "")};
-    for (const double x : r.of_error) row.push_back(std::isfinite(x) ? fmt::format("{:.3g}", x) : "-");
-    row.push_back(show(r.worst));
-    table.add_row(row);
-  }
-  return table;
-}
-
-Table points_table(const WorkPrecision& study) {
-  Table table({{"integrator"},
-               {"h omega_max", Align::right},
-               {"tolerance", Align::right},
-               {"E_x", Align::right},
-               {"E_v", Align::right},
-               {"energy", Align::right},
-               {"force evaluations", Align::right},
-               {"factorisations", Align::right},
-               {"solves", Align::right},
-               {"cost [evaluations' time]", Align::right},
-               {"range"},
-               {"standing"}});
-  for (const WorkPoint& p : study.points) {
-    const bool bad = p.failed();
-    table.add_row(
-        {p.contender, show(p.h_omega), p.setting.steps > 0 ? "" : fmt::format("{:.0e}", p.setting.tolerance),
-         bad ? "" : fmt::format("{:.2e}", p.errors.x), bad ? "" : fmt::format("{:.2e}", p.errors.v),
-         bad ? "" : fmt::format("{:.2e}", p.errors.energy), std::to_string(p.work.force_evaluations),
-         std::to_string(p.work.factorisations), std::to_string(p.work.solves), fmt::format("{:.0f}", p.cost),
-         fmt::format("{:.0f} .. {:.0f}", p.cost_low(), p.cost_high()),
-         bad ? p.diagnosis : fmt::format("{}{}", name(p.standing), p.under_floor ? ", under the floor" : "")});
-  }
-  return table;
-}
-
-/// Each line as it may stand there.
-std::string bullets(const std::vector<std::string>& lines, std::string (*escaped)(std::string_view)) {
-  std::string text;
-  for (const std::string& line : lines) text += fmt::format("- {}\n", escaped(line));
-  return text;
-}
-
-constexpr std::string_view reading =
-    "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
-    "with the "
-    "runs; a run includes all of its factorisations and what its scene does to the body. Between two steps the cost is "
-    "interpolated on the log-log scale. The regret of a fixed choice is its cost over that of the best; '-' where it "
-    "does not reach the error. A point is dominated when another is no less accurate and its slowest repetition is "
-    "faster than the fastest of the point.";
 
 /// Those that take part.
 ///
@@ -230,37 +84,12 @@ WorkPrecision study_scene(const std::string& scene_name, const Options& options,
       "\nOmissions\n\n" + bullets(study.omissions, terminal_text));
   // what the files are called
   const std::string stem = file_name_of(scene.name);
-  folder.write(stem + ".md",
-               fmt::format("# The trade between speed and accuracy: {}\n\n{}. T omega_max = {:.4g}; {} vertices, {} "
-                           "springs.\nReference: {}; errors below {:.1e} edges say nothing.\n\n![diagram]({}.svg)\n\n"
-                           "## The cheapest method for an error\n\n{}\n## Regret of a fixed choice\n\n{}\n{}\n\n## All "
-                           "runs\n\n{}\n## Omissions\n\n{}",
-                           markdown_text(scene.name), markdown_line(scene.what), scene.duration * scene.fastest_rate,
-                           study.vertices, study.springs, reference.what, reference.floor, stem,
-                           to_markdown(winners_table(study)), to_markdown(regrets_table(study)), reading,
-                           to_markdown(points_table(study)), bullets(study.omissions, markdown_text)));
+  folder.write(stem + ".md", tradeoff_page(study, stem));
   if (const std::string trouble = draw(work_precision_plot(study), folder.path(), stem); !trouble.empty()) {
     say(trouble);
     picture_missing(outcome, trouble);
   }
   return study;
-}
-
-nlohmann::json summary_of(const WorkPrecision& study) {
-  nlohmann::json best = nlohmann::json::array();
-  for (const Winner& w : winners(study.points, decades(study)))
-    best.push_back({{"error", w.error},
-                    {"integrator", w.contender},
-                    {"cost", number(w.cost)},
-                    {"force_evaluations", number(w.evaluations)},
-                    {"runner_up", w.runner_up},
-                    {"runner_up_cost", number(w.runner_up_cost)},
-                    {"cvode_adams_cost", number(cost_at(study.points, "cvode-adams", w.error))}});
-  return {{"scene", study.scene},
-          {"reference", study.reference.what},
-          {"floor", study.reference.floor},
-          {"winners", best},
-          {"omissions", study.omissions}};
 }
 
 void tradeoff(const Options& options, Outcome& outcome) {

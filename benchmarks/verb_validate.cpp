@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,15 +10,13 @@
 #include "benchmarks/clock.h"
 #include "benchmarks/json_text.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/table.h"
 #include "benchmarks/tell.h"
+#include "benchmarks/topology_verdict.h"
 #include "benchmarks/verb_validate.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 #include "validation/delaunay_ball.h"
-#include "validation/topology_fuzz.h"
-#include "validation/topology_report.h"
 
 namespace dartboard {
 namespace {
@@ -78,36 +75,13 @@ bool is_all_tetrahedra(const Mesh& mesh) {
   return std::all_of(mesh.kinds.begin(), mesh.kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; });
 }
 
-/// One series of random operations.
-struct Session {
-  ScriptStorage storage;
-  ScriptOracles oracles;
-  std::uint64_t seed;
-  FuzzResult result;
-  double operations_per_s = 0.0;
-};
-
-/// All that was asked of one mesh.
-struct Verdict {
-  std::string name;
-  std::size_t darts = 0;
-  TopologyComparison at_rest;
-  std::vector<Session> sessions;
-  std::string script_file;  // of the disagreement, if there is one
-
-  bool agrees() const {
-    return at_rest.agrees() && std::none_of(sessions.begin(), sessions.end(),
-                                            [](const Session& s) { return s.result.disagreement.has_value(); });
-  }
-};
-
 // With both oracles only what a combinatorial map can carry; with the generalized map anything goes, folds and flips
 // too.
-std::vector<Session> sessions_for(const Mesh& mesh, const Options& options) {
+std::vector<FuzzSeries> sessions_for(const Mesh& mesh, const Options& options) {
   const auto compact = is_all_tetrahedra(mesh) ? ScriptStorage::tetrahedral : ScriptStorage::general;
   if (options.self) return {{compact, ScriptOracles::none, options.seed, {}, 0.0}};
-  std::vector<Session> sessions{{compact, ScriptOracles::both, options.seed, {}, 0.0},
-                                {ScriptStorage::general, ScriptOracles::gmap, options.seed + 1, {}, 0.0}};
+  std::vector<FuzzSeries> sessions{{compact, ScriptOracles::both, options.seed, {}, 0.0},
+                                   {ScriptStorage::general, ScriptOracles::gmap, options.seed + 1, {}, 0.0}};
   if (compact == ScriptStorage::tetrahedral)
     sessions.push_back({compact, ScriptOracles::gmap, options.seed + 2, {}, 0.0});
   return sessions;
@@ -122,8 +96,8 @@ std::string write_script(const FuzzResult& result, const Target& target, std::ui
   return file;
 }
 
-Verdict judge(const Target& target, const Options& options, Progress& progress) {
-  Verdict verdict;
+TopologyVerdict judge(const Target& target, const Options& options, Progress& progress) {
+  TopologyVerdict verdict;
   verdict.name = short_name(target);
   Mesh mesh;
   try {
@@ -135,7 +109,7 @@ Verdict judge(const Target& target, const Options& options, Progress& progress) 
   verdict.darts = alphas_of(mesh).darts.size();
   progress.advance(verdict.name);
   if (options.count() == 0) return verdict;
-  for (Session& session : verdict.sessions = sessions_for(mesh, options)) {
+  for (FuzzSeries& session : verdict.sessions = sessions_for(mesh, options)) {
     FuzzPlan plan;
     plan.mesh_name = target.name;
     plan.storage = session.storage;
@@ -154,85 +128,6 @@ Verdict judge(const Target& target, const Options& options, Progress& progress) 
     break;
   }
   return verdict;
-}
-
-// ---- what is printed
-
-Table rest_table(const TopologyComparison& comparison) {
-  std::vector<Column> columns{{"question", Align::left}};
-  for (const std::string& carrier : comparison.carriers) columns.push_back({carrier, Align::right});
-  columns.push_back({"agrees", Align::left});
-  Table table(columns);
-  for (const AgreementRow& row : comparison.rows) {
-    std::vector<std::string> cells{row.what};
-    for (const std::string& answer : row.answers) cells.push_back(answer.empty() ? "-" : answer);
-    cells.emplace_back(row.agrees ? "yes" : "NO");
-    table.add_row(cells);
-  }
-  return table;
-}
-
-Table summary_table(const std::vector<Verdict>& verdicts) {
-  Table table({{"mesh", Align::left},
-               {"darts", Align::right},
-               {"at rest", Align::left},
-               {"combinatorial map", Align::left},
-               {"operations", Align::right},
-               {"refused by all", Align::right},
-               {"not carried", Align::right},
-               {"per second", Align::right},
-               {"agrees", Align::left}});
-  for (const Verdict& v : verdicts) {
-    std::size_t applied = 0, illegal = 0, not_carried = 0;
-    double slowest = 0.0;
-    for (const Session& s : v.sessions) {
-      applied += s.result.applied;
-      illegal += s.result.illegal;
-      not_carried += s.result.not_carried;
-      slowest = slowest == 0.0 ? s.operations_per_s : std::min(slowest, s.operations_per_s);
-    }
-    const auto held =
-        std::count_if(v.at_rest.rows.begin(), v.at_rest.rows.end(), [](const auto& row) { return row.agrees; });
-    table.add_row({v.name, fmt::format("{}", v.darts), fmt::format("{} of {}", held, v.at_rest.rows.size()),
-                   v.at_rest.no_cmap.empty() ? "yes" : "not representable: " + v.at_rest.no_cmap,
-                   fmt::format("{}", applied), fmt::format("{}", illegal), fmt::format("{}", not_carried),
-                   fmt::format("{:.0f}", slowest), v.agrees() ? "yes" : "NO"});
-  }
-  return table;
-}
-
-nlohmann::ordered_json to_json(const Disagreement& d) {
-  return {{"operation", d.operation}, {"line", d.line}, {"what", d.what}, {"ours", d.ours}, {"theirs", d.theirs}};
-}
-
-nlohmann::ordered_json to_json(const Verdict& v) {
-  nlohmann::ordered_json json{
-      {"mesh", v.name}, {"agrees", v.agrees()}, {"darts", v.darts}, {"carriers", v.at_rest.carriers}};
-  if (!v.at_rest.no_cmap.empty()) json["no_combinatorial_map"] = v.at_rest.no_cmap;
-  for (const AgreementRow& row : v.at_rest.rows)
-    json["at_rest"].push_back({{"what", row.what}, {"answers", row.answers}, {"agrees", row.agrees}});
-  for (const Session& s : v.sessions) {
-    nlohmann::ordered_json session{
-        {"storage", name(s.storage)},      {"oracles", name(s.oracles)},  {"seed", s.seed},
-        {"applied", s.result.applied},     {"illegal", s.result.illegal}, {"not_carried", s.result.not_carried},
-        {"per_second", s.operations_per_s}};
-    if (s.result.disagreement) {
-      session["disagreement"] = to_json(*s.result.disagreement);
-      session["script"] = to_string(s.result.script);
-      session["script_file"] = v.script_file;
-    }
-    json["sessions"].push_back(session);
-  }
-  return json;
-}
-
-void print_disagreements(const Verdict& v) {
-  for (const AgreementRow& row : v.at_rest.rows)
-    if (!row.agrees) tell("{}: at rest, {}: {}\n", v.name, row.what, fmt::join(row.answers, " | "));
-  for (const Session& s : v.sessions)
-    if (s.result.disagreement)
-      tell("{}: seed {}, {}\n{}Replay it with: dartboard validate topology --replay {}\n", v.name, s.seed,
-           to_string(*s.result.disagreement), to_string(s.result.script), shell_word(v.script_file));
 }
 
 void replay(const Options& options, Outcome& outcome) {
@@ -265,20 +160,20 @@ void validate(const Options& options, Outcome& outcome) {
   const std::size_t at_most_sessions = options.self ? 1 : 3;
   Progress progress("validate topology", targets.size() * (1 + at_most_sessions * ((options.count() + 999) / 1000)),
                     options.json);
-  std::vector<Verdict> verdicts;
+  std::vector<TopologyVerdict> verdicts;
   for (const Target& target : targets) verdicts.push_back(judge(target, options, progress));
 
-  const bool agree = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.agrees(); });
+  const bool agree = std::all_of(verdicts.begin(), verdicts.end(), [](const TopologyVerdict& v) { return v.agrees(); });
   outcome.exit_code = agree ? exit_agrees : exit_disagrees;
   if (options.json) {
     nlohmann::ordered_json json{{"agrees", agree}, {"seed", options.seed}, {"operations", options.count()}};
-    for (const Verdict& v : verdicts) json["meshes"].push_back(to_json(v));
+    for (const TopologyVerdict& v : verdicts) json["meshes"].push_back(to_json(v));
     tell("{}\n", json_text(json, 2));
     return;
   }
   if (!options.all) tell("{}\n", to_text(rest_table(verdicts[0].at_rest)));
   tell("{}\n", to_text(summary_table(verdicts)));
-  for (const Verdict& v : verdicts) print_disagreements(v);
+  for (const TopologyVerdict& v : verdicts) tell("{}", disagreements_text(v));
   tell("{}\n", agree ? "All agree." : "There are disagreements: see above.");
 }
 

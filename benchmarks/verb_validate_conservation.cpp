@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -9,9 +8,9 @@
 #include <optional>
 
 #include "benchmarks/clock.h"
+#include "benchmarks/conservation_report.h"
 #include "benchmarks/json_text.h"
 #include "benchmarks/progress.h"
-#include "benchmarks/table.h"
 #include "benchmarks/tell.h"
 #include "benchmarks/verb_validate.h"
 #include "core/meshes/mesh_generators.h"
@@ -31,18 +30,11 @@ struct Options {
   std::size_t count() const { return operations.value_or(quick ? 1000 : 10000); }
 };
 
-/// One body taken apart on one storage.
+/// One body to be taken apart on one storage.
 struct Session {
-  std::string name, storage;
   Problem problem;
-  std::uint64_t seed;
   std::function<ConservationResult(const Problem&, const ConservationPlan&)> validate;
-  ConservationResult result;
-  double operations_per_s = 0.0;
-
-  bool holds() const {
-    return !result.violation && std::all_of(result.rows.begin(), result.rows.end(), [](auto& r) { return r.holds; });
-  }
+  TakenApart body;
 };
 
 enum class Mode { take_apart, refine };
@@ -56,8 +48,9 @@ Session session(std::string name, std::string storage, Mesh mesh, const Material
       return validate_conservation<Map>(problem, plan);
   };
   if (mode == Mode::refine) name += ", refined";
-  return {
-      std::move(name), std::move(storage), moving_problem(std::move(mesh), material, seed), seed, validate, {}, 0.0};
+  Problem problem = moving_problem(std::move(mesh), material, seed);
+  TakenApart body{std::move(name), std::move(storage), problem.mesh.cell_count(), seed, problem.h, {}, 0.0};
+  return {std::move(problem), validate, std::move(body)};
 }
 
 Mesh find_mesh(const std::string& name) {
@@ -104,94 +97,22 @@ std::vector<Session> sessions_for(const Options& options) {
 
 void run(Session& session, const Options& options, Progress& progress) {
   ConservationPlan plan;
-  plan.seed = session.seed;
+  plan.seed = session.body.seed;
   plan.operations = options.count();
   // comparing everything takes longer for a larger body, and more so building another
   plan.everything_every = std::max<std::size_t>(20, session.problem.mesh.cell_count() / 20);
   plan.oracle_every = std::max<std::size_t>(options.count() / 20, 4 * plan.everything_every);
-  plan.progress = [&](std::size_t done) { progress.advance(fmt::format("{}: {} operations", session.name, done)); };
+  plan.progress = [&](std::size_t done) {
+    progress.advance(fmt::format("{}: {} operations", session.body.name, done));
+  };
   const auto start = steady_wall_ns();
   try {
-    session.result = session.validate(session.problem, plan);
+    session.body.result = session.validate(session.problem, plan);
   } catch (const InputError& error) {
-    throw IoError(fmt::format("{}: {}", session.name, error.what()));
+    throw IoError(fmt::format("{}: {}", session.body.name, error.what()));
   }
   const double seconds = static_cast<double>(steady_wall_ns() - start) * 1e-9;
-  session.operations_per_s = static_cast<double>(session.result.operations()) / seconds;
-}
-
-std::string bound_text(const ConservedRow& row) {
-  return !row.bound || *row.bound == 0.0 ? "exact" : fmt::format("{:.2e}", *row.bound);
-}
-
-std::string deviation_text(double deviation) { return deviation == 0.0 ? "0" : fmt::format("{:.2e}", deviation); }
-
-Table table_of(const ConservationResult& result) {
-  Table table({{"quantity", Align::left},
-               {"checks", Align::right},
-               {"largest deviation", Align::right},
-               {"bound", Align::right},
-               {"holds", Align::left}});
-  for (const ConservedRow& row : result.rows)
-    table.add_row({row.what, fmt::format("{}", row.checks), row.holds || row.bound ? deviation_text(row.largest) : "-",
-                   bound_text(row), row.holds ? (row.checks > 0 ? "yes" : "not met") : "NO"});
-  return table;
-}
-
-void print(const Session& s, const Options& options) {
-  const ConservationResult& r = s.result;
-  tell("{}, {} storage, {} cells, seed {}, h = {:.3g} s\n", s.name, s.storage, s.problem.mesh.cell_count(), s.seed,
-       s.problem.h);
-  tell(
-      "{} operations ({} dissociations, {} torn fans, {} removals, {} refinements) in {} series, {} steps between; "
-      "{} parts split off; the body was emptied and refilled {} times\n",
-      r.operations(), r.dissociations, r.tears, r.removals, r.refinements, r.series, r.steps, r.parts_split_off,
-      r.refills);
-  tell("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
-       s.operations_per_s, r.bodies_from_scratch,
-       r.bodies_without_bound == 0
-           ? ""
-           : fmt::format(", for {} of which the bound of motion says nothing", r.bodies_without_bound));
-  tell("{}\n", to_text(table_of(r)));
-  if (r.violation)
-    tell("{}, {} storage: {}\nRepeat it with: dartboard validate conservation {} --operations {} --seed {}\n\n", s.name,
-         s.storage, to_string(*r.violation), shell_word(options.mesh), options.count(), options.seed);
-}
-
-nlohmann::ordered_json to_json(const Session& s) {
-  const ConservationResult& r = s.result;
-  nlohmann::ordered_json json{{"mesh", s.name},
-                              {"storage", s.storage},
-                              {"cells", s.problem.mesh.cell_count()},
-                              {"seed", s.seed},
-                              {"h", s.problem.h},
-                              {"holds", s.holds()},
-                              {"operations", r.operations()},
-                              {"dissociations", r.dissociations},
-                              {"tears", r.tears},
-                              {"removals", r.removals},
-                              {"refinements", r.refinements},
-                              {"parts_split_off", r.parts_split_off},
-                              {"series", r.series},
-                              {"steps", r.steps},
-                              {"refills", r.refills},
-                              {"bodies_from_scratch", r.bodies_from_scratch},
-                              {"bodies_without_bound", r.bodies_without_bound},
-                              {"operations_per_s", s.operations_per_s}};
-  for (const ConservedRow& row : r.rows) {
-    nlohmann::ordered_json quantity{
-        {"what", row.what}, {"checks", row.checks}, {"largest_deviation", row.largest}, {"holds", row.holds}};
-    quantity["exact"] = !row.bound || *row.bound == 0.0;
-    if (row.bound) {  // of the check that came closest to its bound
-      quantity["deviation"] = row.deviation;
-      quantity["bound"] = *row.bound;
-    }
-    json["quantities"].push_back(quantity);
-  }
-  if (const auto& v = r.violation)
-    json["violation"] = {{"what", v->what},     {"operation", v->operation}, {"seed", v->seed},
-                         {"actual", v->actual}, {"expected", v->expected},   {"bound", v->bound}};
-  return json;
+  session.body.operations_per_s = static_cast<double>(session.body.result.operations()) / seconds;
 }
 
 void validate(const Options& options, Outcome& outcome) {
@@ -202,7 +123,7 @@ void validate(const Options& options, Outcome& outcome) {
   for (Session& session : sessions) {
     run(session, options, progress);
     ++ran;
-    hold = hold && session.holds();
+    hold = hold && session.body.holds();
     if (!hold) break;
   }
   sessions.resize(ran);
@@ -210,11 +131,13 @@ void validate(const Options& options, Outcome& outcome) {
   outcome.exit_code = hold ? exit_agrees : exit_disagrees;
   if (options.json) {
     nlohmann::ordered_json json{{"holds", hold}, {"seed", options.seed}, {"operations", options.count()}};
-    for (const Session& session : sessions) json["sessions"].push_back(to_json(session));
+    for (const Session& session : sessions) json["sessions"].push_back(to_json(session.body));
     tell("{}\n", json_text(json, 2));
     return;
   }
-  for (const Session& session : sessions) print(session, options);
+  const std::string repeat = fmt::format("dartboard validate conservation {} --operations {} --seed {}",
+                                         shell_word(options.mesh), options.count(), options.seed);
+  for (const Session& session : sessions) tell("{}", to_text(session.body, repeat));
   tell("{}\n", hold ? "All is conserved." : "Something is not conserved: see above.");
 }
 

@@ -19,6 +19,14 @@ std::vector<AuditCase> quick_cases(std::uint64_t seed) {
 
 const std::vector<Eigen::Vector3d>& start_of(const AuditCase& drawn) { return drawn.scene.motion.start.x; }
 
+TEST(AuditSweep, GoesBeyondTheDearestPickByMoreThanOneHalvingAndHasTimeForTheShortest) {
+  EXPECT_GT(longest_sweep_run(1.0), 2.0);
+  EXPECT_LT(longest_sweep_run(1.0), 4.0);
+  EXPECT_DOUBLE_EQ(longest_sweep_run(10.0), 10.0 * longest_sweep_run(1.0));
+  EXPECT_GT(longest_sweep_run(0.0), 0.0);
+  EXPECT_LT(longest_sweep_run(0.0), 0.1);
+}
+
 TEST(AuditCases, AreTheSameForTheSameSeed) {
   const auto once = quick_cases(5), again = quick_cases(5);
   for (std::size_t k = 0; k < once.size(); ++k) {

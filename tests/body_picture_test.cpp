@@ -260,6 +260,29 @@ TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
   EXPECT_NEAR(std::stod(script.substr(label + 27)), shift.x(), 4e-5);
 }
 
+TEST_F(BodyPictureFiles, HaveARectangleAroundEachLink) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 0, -1}};
+  panel.frame.links = {{0, 1}, {1, 2}};
+  panel.point = {0, 1, 2};
+  ASSERT_EQ(draw_bodies(std::vector{panel}, "t", folder_, "links"), "");
+  const auto drawn = polygons(text("links.dat"));
+  const auto links = drawn_facets(panel, panel);
+  ASSERT_EQ(drawn.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    ASSERT_EQ(drawn[k].size(), 4u);
+    const Vector2d along = drawn[k][1] - drawn[k][0], aside = drawn[k][3] - drawn[k][0];
+    const Vector2d link = links[k].corners[1] - links[k].corners[0];
+    // six digits of numbers below 10
+    EXPECT_LT((drawn[k][2] - drawn[k][1] - aside).norm(), 4e-5);
+    EXPECT_NEAR(along.normalized().dot(link.normalized()), 1.0, 1e-3);
+    EXPECT_NEAR(along.norm() / link.norm(), 1.0, 0.02);
+    EXPECT_LT(std::abs(along.normalized().dot(aside.normalized())), 0.02);
+    EXPECT_GT(aside.norm(), 0.0);
+    EXPECT_LT(aside.norm(), 0.02 * link.norm());
+  }
+}
+
 TEST_F(BodyPictureFiles, HaveABodyThatFliesFarInTheMiddleOfItsPanel) {
   BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
   for (Vector3d& x : second.frame.mesh.points) x.x() += 100;

@@ -97,6 +97,20 @@ TEST(Cholesky, FactorsAgainAfterAnIndefiniteMatrix) {
   EXPECT_EQ(cholesky.counters().analyses, 1u);
 }
 
+TEST(Cholesky, FollowsByAFactorAnewWhereThereIsNoneToUpdate) {
+  BodyMatrix good(disturbed_grid());
+  Cholesky cholesky;
+  ASSERT_EQ(cholesky.factorise(good.blocks), SolveStatus::ok);
+  BodyMatrix indefinite = good;
+  indefinite.blocks.diagonal[4](0, 0) = -1.0;
+  ASSERT_EQ(cholesky.factorise(indefinite.blocks), SolveStatus::not_positive_definite);
+  ASSERT_EQ(cholesky.follow(good.blocks, std::vector{RankOneTerm{4, NodePattern::none, {1, 0, 0}, 1.0}}),
+            SolveStatus::ok);
+  EXPECT_EQ(cholesky.counters().refactor_chosen, 1u);
+  EXPECT_EQ(cholesky.counters().update_chosen, 0u);
+  EXPECT_LT(solved_error(cholesky, good.blocks), 20 * epsilon);
+}
+
 TEST(Cholesky, NotANumberIsReportedInMatrixAndRightSide) {
   BodyMatrix body(disturbed_grid());
   Cholesky cholesky;
@@ -207,6 +221,22 @@ TEST(Cholesky, NewVertexWithoutSpareRowIsAnalysedWithTheOldOrderingExtended) {
   EXPECT_EQ(cholesky.counters().orderings, 1u);
   EXPECT_EQ(cholesky.counters().analyses, 2u);
   EXPECT_LT(solved_error(cholesky, after.blocks), 20 * epsilon);
+}
+
+TEST(Cholesky, AnalysedForANewVertexHasSpareRowsAgain) {
+  const BodyMatrix before(disturbed_grid()), after(with_vertex_dissociated(before.arrays));
+  Cholesky cholesky({.spare_nodes = 3});
+  ASSERT_EQ(cholesky.factorise(before.blocks), SolveStatus::ok);
+  const std::size_t at_first = before.arrays.x.size() + 3;
+  ASSERT_EQ(cholesky.capacity(), at_first);
+  // one vertex more than there is room for
+  SpringArrays larger = after.arrays;
+  while (larger.x.size() <= at_first) larger.add_vertex(1.0, {0, 0, 1.0 * static_cast<double>(larger.x.size())});
+  const BodyMatrix beyond(larger);
+  ASSERT_EQ(cholesky.factorise(beyond.blocks), SolveStatus::ok);
+  EXPECT_EQ(cholesky.capacity(), larger.x.size() + 3);
+  EXPECT_EQ(cholesky.counters().orderings, 1u);
+  EXPECT_LT(solved_error(cholesky, beyond.blocks), 20 * epsilon);
 }
 
 /// A matrix that is the same for each of the three coordinates, in both forms.

@@ -277,6 +277,19 @@ TEST(CommandLine, TakesScenesOfTheGalleryByName) {
   EXPECT_EQ(run("scene --check sheet_cut.json").status, 0);
 }
 
+// Two cubes beside each other.
+TEST(Scene, CheckCountsTheCellsOfTheBodyAndTheSteps) {
+  const TemporaryFile scene("two.json", R"({"name": "x", "step": 0.001, "duration": 0.01,
+    "body": {"generate": {"box": {"cells": [2, 1, 1], "spacing": 1, "kind": "hexahedra"}}}})");
+  const Answer answer = run("scene --check " + scene.path.string());
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_TRUE(answer.out.starts_with(scene.path.string() + ": ")) << answer.out;
+  EXPECT_NE(answer.out.find(", 12 vertices, 20 edges, 11 faces, 2 cells in 1 component; 10 steps of 0.001 s, 0 "
+                            "events\n"),
+            std::string::npos)
+      << answer.out;
+}
+
 TEST(CommandLine, NamesTheScenesThatAreNearAnUnknownOne) {
   for (const std::string verb : {"scene --check", "simulate", "explain", "explain-dt", "recommend", "tradeoff"}) {
     const Answer answer = run(verb + " liver_cutt" + (verb == "recommend" ? " --error 1e-3" : ""));
@@ -347,7 +360,7 @@ TEST(Simulate, ChoosesTheStepOfASceneThatAsksForAnAccuracy) {
 }
 
 TEST(Recommend, TakesASceneFileAndSaysWhatItLeavesOut) {
-  const Answer answer = run("recommend " + scenes + "block_eroded.json --error 1e-3");
+  const Answer answer = run("recommend " + scenes + "block_eroded.json --error 1e-3", "2>/dev/null");
   EXPECT_EQ(answer.status, 0) << answer.out;
   EXPECT_NE(answer.out.find("/events/0 is left out"), std::string::npos) << answer.out;
   EXPECT_NE(answer.out.find("Take "), std::string::npos) << answer.out;
@@ -357,6 +370,12 @@ TEST(Recommend, SaysWhatDoublePrecisionReachesWhereAnErrorIsBelowIt) {
   const Answer answer = run("recommend chain --error 1e-30");
   EXPECT_EQ(answer.status, 1) << answer.out;
   EXPECT_NE(answer.out.find("cannot be met in double precision"), std::string::npos) << answer.out;
+}
+
+TEST(Recommend, LeavesStandardOutputToJsonWhereThatIsAskedFor) {
+  const Answer answer = run("recommend chain --error 1e-3 --json", "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_EQ(nlohmann::json::parse(answer.out).at(0).at("error"), 1e-3);
 }
 
 TEST(Tradeoff, ChecksTheNamesOfIntegratorsBeforeItWorks) {

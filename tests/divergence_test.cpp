@@ -320,6 +320,49 @@ TEST(Divergence, TellsHowManyStepsItGoesBack) {
   EXPECT_EQ(body.x[0], Eigen::Vector3d(0, 0, 0));
 }
 
+TEST(Divergence, KeepsAStateEverySixtyFourSteps) {
+  SpringArrays body = two_strangers();
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-3).ok());
+  for (int k = 1; k <= 70; ++k) {
+    body.x[0].x() = k;
+    ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok());
+  }
+  EXPECT_EQ(detector.restore(body.motion()), 6u);
+  EXPECT_EQ(body.x[0].x(), 64.0);
+}
+
+// However often the system changed, the work of a driver counts once: it has put 0.5 J into its spring.
+TEST(Divergence, CountsTheWorkOfADriverOnce) {
+  SpringArrays body;
+  body.add_vertex(1.0, {0, 0, 0});
+  body.add_vertex(1.0, {1, 0, 0}, {1e-3, 0, 0}, true);
+  body.add_spring(0, 1, 1.0, 1.0);
+  DivergenceDetector detector;
+  ASSERT_TRUE(detector.start(body.system(), body.motion(), 1.0).ok());
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(detector.system_changed(body.system(), body.motion()).ok());
+  for (int k = 0; k < 1000; ++k) {
+    body.x[1].x() += 1e-3;
+    ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok()) << k;
+  }
+  body.v[0] = {15, 0, 0};  // 112 J
+  EXPECT_FALSE(detector.check_all(body.system(), body.motion()).ok());
+}
+
+// A body that moves far faster than it is driven: the work that is done comes on top of the energy that there was.
+TEST(Divergence, IsNotWhatABodyHasAboveTheWorkOfItsDriver) {
+  SpringArrays body = two_strangers();
+  body.v[0] = {100, 0, 0};
+  body.add_vertex(1.0, {0, 9, 0}, {1e-3, 0, 0}, true);
+  body.add_vertex(1.0, {1, 9, 0});
+  body.add_spring(2, 3, 1.0, 1.0);
+  body.springs[0].damping = 1.0;  // so that the driver works
+  DivergenceDetector detector;
+  const auto integrator = make_integrator("rk4");
+  const Watched w = run(body, *integrator, 1e-3, 200, detector);
+  EXPECT_TRUE(w.result.ok()) << to_string(w.result);
+}
+
 TEST(Divergence, CountsItsChecks) {
   SpringArrays body = two_strangers();
   DivergenceDetector detector;

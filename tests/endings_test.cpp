@@ -129,6 +129,15 @@ TEST_F(Endings, APictureThatCannotBeDrawnIsAnIoErrorAndTheResultsStay) {
   EXPECT_EQ(ended(start({"simulate", "short.json", "--out", "with", "--picture"})), 0);
 }
 
+TEST_F(Endings, APictureOfAStudyThatCannotBeDrawnIsAnIoErrorToo) {
+  fs::create_directories(folder_ / "no programs");
+  EXPECT_EQ(ended(start({"extremes", "--axis", "amplification", "--quick", "--out", "out"},
+                        (folder_ / "no programs").string())),
+            3);
+  EXPECT_NE(text("errors.txt").find("no picture of amplification"), std::string::npos) << text("errors.txt");
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "amplification.md"));
+}
+
 TEST_F(Endings, OfAPictureAndAVerdictTheVerdictCounts) {
   fs::create_directories(folder_ / "no programs");
   nlohmann::json scene = nlohmann::json::parse(short_run);
@@ -145,6 +154,9 @@ TEST_F(Endings, WithoutAFolderResultsAreLeftWhereOneStands) {
   const fs::path run = fs::directory_iterator(results)->path();
   EXPECT_TRUE(run.filename().string().starts_with("solvers-")) << run;
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
+  for (const char* made : {"accuracy.md", "indefinite.md"}) EXPECT_TRUE(fs::exists(run / made)) << made;
+  for (const char* other : {"edits.md", "updates.md", "crossover.md", "steps.md"})
+    EXPECT_FALSE(fs::exists(run / other)) << other;
   EXPECT_NE(text("printed.txt").find("Written to dartboard-results/solvers-"), std::string::npos);
 }
 

@@ -212,6 +212,19 @@ TEST_P(EveryIntegrator, SaysThatAStepHasFailedAndCountsIt) {
   }
 }
 
+// Of six springs one is held at both ends, two at one.
+TEST(SystemCounts, TellSpringsBetweenFreeVerticesFromThoseHeldAtOneEnd) {
+  SpringArrays body;
+  for (int i = 0; i < 6; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0}, {0, 0, 0}, i == 0 || i == 1);
+  for (std::uint32_t i = 0; i < 5; ++i) body.add_spring(i, i + 1, 1.0, 1.0);
+  body.add_spring(0, 5, 1.0, 5.0);
+  const SystemCounts counts = counts_of(body.system());
+  EXPECT_EQ(counts.vertices, 6u);
+  EXPECT_EQ(counts.springs, 6u);
+  EXPECT_EQ(counts.links, 3u);
+  EXPECT_EQ(counts.anchors, 2u);
+}
+
 // Scenes are planned with it.
 TEST_P(EveryIntegrator, HoldsTheColumnsThatArePredicted) {
   for (const bool damped : {false, true})

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/meshes/gmsh_elements.h"
 #include "tests/mesh_samples.h"
 
 namespace dartboard {
@@ -47,6 +48,31 @@ TEST(Gmsh, RefusesABinaryFileAndAnotherVersion) {
 TEST(Gmsh, RefusesElementsOfSecondOrderByName) {
   EXPECT_EQ(refused(with(gmsh2, "4 4 2 0 1 2 3 4 5", "4 11 2 0 1 1 2 3 4 5 6 7 8 9 10")),
             "file:21: found a 10-node tetrahedron; expected elements of first order, with straight edges");
+}
+
+// Elements of higher order are called by how many nodes they have; those that cells are made of have as many as these.
+TEST(Gmsh, KnowsHowManyNodesEachElementHas) {
+  int elements = 0;
+  for (std::uint64_t type = 0; type < 200; ++type) {
+    const GmshElement* element = gmsh_element(type);
+    if (element == nullptr) continue;
+    ++elements;
+    const std::string name(element->name);
+    if (element->kind) {
+      EXPECT_EQ(element->nodes, node_count(*element->kind)) << name;
+      EXPECT_EQ(element->dimension, dimension(*element->kind)) << name;
+    } else if (const auto end = name.find("-node "); end != name.npos) {
+      EXPECT_EQ(element->nodes, std::stoi(name.substr(0, end))) << name;
+      const std::string shape = name.substr(end + 6);
+      const int expected = shape == "edge" ? 1 : shape == "triangle" || shape == "quadrilateral" ? 2 : 3;
+      EXPECT_EQ(element->dimension, expected) << name;
+    }
+  }
+  EXPECT_EQ(elements, 33);
+}
+
+TEST(Gmsh, EndsASectionByItsOwnNameAlone) {
+  EXPECT_NE(refused("$Words{ 1 $EndWords[ " + std::string(gmsh2)), "");
 }
 
 TEST(Gmsh, SkipsElementsOfSecondOrderWithLowerDimension) {

@@ -2,6 +2,7 @@
 
 #include "core/time/integrators.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,6 +65,9 @@ TEST(Integrators, OfAnUnknownNameAreRefusedWithTheKnownOnes) {
   } catch (const InputError& e) {
     for (const IntegratorEntry& entry : integrators())
       EXPECT_NE(std::string(e.what()).find(entry.name), std::string::npos) << e.what();
+    const std::string begin =
+        fmt::format("there is no integrator 'leapfog'; there are {}, {}, ", integrators()[0].name, integrators()[1].name);
+    EXPECT_TRUE(std::string(e.what()).starts_with(begin)) << e.what();
   }
 }
 

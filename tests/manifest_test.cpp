@@ -1,7 +1,14 @@
 #include "benchmarks/manifest.h"
 
+#include <cholmod.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <Eigen/Core>
+#include <array>
+#include <boost/version.hpp>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -69,6 +76,50 @@ TEST_F(ManifestTest, KnowsItsRun) {
   EXPECT_TRUE(manifest.at("libraries").contains("Eigen"));
   EXPECT_EQ(manifest.at("inputs").at(0).at("file"), "body.mesh");
   EXPECT_EQ(manifest.at("inputs").at(0).at("hash"), "fnv1a64:af63dc4c8601ec8c");
+}
+
+TEST_F(ManifestTest, HasTheVersionsThatTheHeadersOfLibrariesGive) {
+  const auto libraries = begin_manifest({}).at("libraries");
+  const auto parts = [&](const char* name) {
+    int major = -1, minor = -1, patch = -1;
+    const auto version = libraries.at(name).get<std::string>();
+    EXPECT_EQ(std::sscanf(version.c_str(), "%d.%d.%d", &major, &minor, &patch), 3) << name << " " << version;
+    return std::array{major, minor, patch};
+  };
+  const auto boost = parts("Boost"), fmt_ = parts("fmt"), eigen = parts("Eigen"), json = parts("nlohmann-json"),
+             cholmod = parts("CHOLMOD"), suite_sparse = parts("SuiteSparse");
+  EXPECT_EQ(100000 * boost[0] + 100 * boost[1] + boost[2], BOOST_VERSION);
+  EXPECT_EQ(10000 * fmt_[0] + 100 * fmt_[1] + fmt_[2], FMT_VERSION);
+  EXPECT_EQ(eigen, (std::array{EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION}));
+  EXPECT_EQ(json, (std::array{NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH}));
+  // the library that is loaded says it too
+  std::array<int, 3> loaded{};
+  const int code = cholmod_version(loaded.data());
+  EXPECT_EQ(code, CHOLMOD_VER_CODE(loaded[0], loaded[1]));
+  EXPECT_EQ(cholmod, loaded);
+  EXPECT_EQ(SUITESPARSE_VER_CODE(suite_sparse[0], suite_sparse[1]), SUITESPARSE_VERSION);
+  EXPECT_EQ(suite_sparse[2], SUITESPARSE_SUBSUB_VERSION);
+}
+
+TEST_F(ManifestTest, NamesTheProcessorAsTheSystemDoes) {
+  std::vector<std::string> models;
+  run_program("sed", {"-n", "s/^model name[^:]*: //p", "/proc/cpuinfo"},
+              [&](std::string_view line) { models.emplace_back(line); });
+  const auto cpu = begin_manifest({}).at("machine").at("cpu");
+  if (models.empty())
+    EXPECT_TRUE(cpu.is_null());
+  else
+    EXPECT_EQ(cpu, models[0]);
+}
+
+TEST_F(ManifestTest, NamesTheLibraryOfAFunction) {
+  const auto library = library_of(reinterpret_cast<const void*>(&::getpid));
+  ASSERT_TRUE(library);
+  EXPECT_NE(library->find("/libc"), std::string::npos) << *library;
+  EXPECT_NE(library->front(), '/');
+  EXPECT_FALSE(library_of(nullptr));
+  const int here = 0;
+  EXPECT_FALSE(library_of(&here));
 }
 
 TEST_F(ManifestTest, NamesNoAbsolutePath) {

@@ -34,6 +34,22 @@ TEST(Mark, IsSetAndUnsetDartByDart) {
   EXPECT_FALSE(mark({2}));
 }
 
+// Whatever room the mark has made, some new dart is the first beyond it.
+TEST(Mark, KeepsWhatIsSetOnDartsThatAreNew) {
+  for (int n = 1; n < 100; ++n) {
+    Map2 map = darts(n);
+    Mark mark(map), other(map);
+    for (int k = 0; k < 100; ++k) {
+      const Dart d = map.add_dart();
+      EXPECT_FALSE(mark(d));
+      mark.set(d);
+      EXPECT_TRUE(mark(d)) << n << " " << k;
+      EXPECT_TRUE(other.set_if_new(d));
+      EXPECT_FALSE(other.set_if_new(d)) << n << " " << k;
+    }
+  }
+}
+
 TEST(Mark, SetIfNewTellsTheFirstTimeOnly) {
   const Map2 map = darts(1);
   Mark mark(map);

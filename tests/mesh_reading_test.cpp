@@ -165,7 +165,8 @@ TEST(VtuTags, HaveEachAttributeOnce) {
 TEST(VtuTags, InACommentAreNone) {
   expect_two_tetrahedra(
       parse_mesh(with(vtu_ascii, "<Points>", "<!-- <Piece> </Points> & < -- > --><Points>"), MeshFormat::vtu, "file"));
-  expect_part(refused_vtu(with(vtu_ascii, "<Points>", "<!-- <Points>")), "the text ends inside a comment");
+  expect_part(refused_vtu(with(vtu_ascii, "<Points>", "<!-- <Points>")),
+              ": the text ends inside a comment or declaration; expected --> to end it");
 }
 
 // The examples of RFC 4648, section 10.

@@ -92,6 +92,19 @@ TEST(RunRounds, RepeatsItsOrderForTheSameSeedAndProcessOnly) {
   EXPECT_NE(first.order(), other.order());
 }
 
+TEST(RunRounds, SaysWhatItRefuses) {
+  const auto refused = [](const PairedOptions& options) {
+    try {
+      Recorder().run(options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused({.rounds = -7, .warmup = 2, .process = 3}), "rounds: -7 is not >= 1");
+  EXPECT_EQ(refused({.rounds = 5, .warmup = -6, .process = 3}), "warmup: -6 is not >= 0");
+}
+
 TEST(RunRounds, RefusesToMeasureNothing) {
   Recorder recorder;
   EXPECT_THROW(recorder.run({.rounds = 0}), InputError);

@@ -61,6 +61,23 @@ TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
   EXPECT_EQ(quoted_title(std::string(100000, 'a'), 200, 10.0), "'" + std::string(20, 'a') + "...'");
 }
 
+// A line of letters that just fits into the picture is broken where a legend takes of its width.
+TEST(PlotText, TitlesAreCentredBesideTheLegend) {
+  Plot plot = small_plot();
+  plot.series.resize(1);
+  plot.series[0].title.clear();
+  plot.title.clear();
+  for (int k = 0; k < 10; ++k) plot.title += k == 0 ? "ten letter" : " ten letter";
+  const std::string one_line = "set title '" + plot.title + "' font";
+  EXPECT_NE(plot_script(plot, "figure").find(one_line), std::string::npos);
+  // sixty letters of 9 pixels and what stands beside them leave 800 of 1400: 62 letters of 12 pixels
+  plot.series[0].title = std::string(60, 'l');
+  EXPECT_NE(plot_script(plot, "figure")
+                .find("set title 'ten letter ten letter ten letter ten letter ten letter ten' . \"\\n\" . 'letter ten"),
+            std::string::npos)
+      << plot_script(plot, "figure");
+}
+
 TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
   const std::string trouble = draw(small_plot(), folder_, "figure", "no-such-gnuplot");
   EXPECT_NE(trouble.find("no-such-gnuplot"), std::string::npos) << trouble;

@@ -81,6 +81,13 @@ TEST(Preflight, WarnsOfRoundingZeroLengthsAndDenormals) {
   SpringArrays slow = spring_grid(1, 1, 1);
   slow.v[0] = {1e-310, 0, 0};
   EXPECT_TRUE(check(slow, 1e-3).warns_of(StepCode::bad_scaling));
+  SpringArrays light = spring_grid(1, 1, 1);
+  light.mass[2] = 1e-310;
+  light.inverse_mass[2] = 1e300;
+  EXPECT_TRUE(check(light, 1e-3).warns_of(StepCode::bad_scaling));
+  SpringArrays soft = spring_grid(1, 1, 1);
+  soft.springs[1].stiffness = 1e-310;
+  EXPECT_TRUE(check(soft, 1e-3).warns_of(StepCode::bad_scaling));
   SpringArrays still = spring_grid(1, 1, 1);
   for (Eigen::Vector3d& p : still.x) p[1] += 1.0;
   for (Eigen::Vector3d& v : still.v) v = {1, 1, 1};

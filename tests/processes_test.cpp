@@ -1,8 +1,22 @@
 #include "benchmarks/processes.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
+
+namespace {
+std::vector<pid_t> killed;
+}  // namespace
+
+// This program's own stands before the C library's. What is nobody's child is not even tried.
+extern "C" int kill(pid_t pid, int signal) noexcept {
+  killed.push_back(pid);
+  if (pid <= 1) return -1;
+  return static_cast<int>(syscall(SYS_kill, pid, signal));
+}
 
 namespace dartboard {
 namespace {
@@ -60,6 +74,21 @@ TEST(Processes, DoNotOutliveASinkThatThrows) {
   // without the kill, this would wait an hour for the sleeping child
   const auto sink = [](std::string_view) { throw std::logic_error("sink"); };
   EXPECT_THROW(run_program("sh", {"-c", "echo line; exec sleep 3600"}, sink), std::logic_error);
+}
+
+TEST(Processes, AreKilledOnlyWhereTheirEndIsNotAwaited) {
+  killed.clear();
+  lines_of_shell("echo line");
+  failure_of([] { lines_of_shell("exit 3"); });
+  EXPECT_TRUE(killed.empty());
+  pid_t child = 0;
+  EXPECT_THROW(run_program("sh", {"-c", "echo $$; exec sleep 3600"},
+                           [&](std::string_view line) {
+                             child = static_cast<pid_t>(std::stol(std::string(line)));
+                             throw std::logic_error("sink");
+                           }),
+               std::logic_error);
+  EXPECT_EQ(killed, std::vector<pid_t>{child});
 }
 
 TEST(Processes, RunThisExecutableAgain) {

@@ -9,6 +9,8 @@
 #include "benchmarks/paper_claims.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
+#include "tests/tables_for_tests.h"
+#include "validation/contenders.h"
 
 namespace dartboard {
 namespace {
@@ -289,6 +291,98 @@ TEST(ReproduceNote, TellsAllFourWalksBesideThePapers) {
                       "dart does, lists 1.0 and 80 times, cell arrays 40 and the adjacency graph 50 times"),
             std::string::npos)
       << note;
+}
+
+// ---- tables
+
+TEST(ReproduceTables, HaveTheCountsOfBothMapsBesideThePapers) {
+  ReproduceResults r;
+  r.counts = {{"darts", 44544, 44545}, {"faces", 4143, 4143}};
+  const Table table = counts_table(r);
+  EXPECT_EQ(alignment(table), "lrrrl");
+  ASSERT_EQ(table.rows().size(), 2u);
+  EXPECT_EQ(labelled(table, 0), (Row{"count: darts", "paper: 44544", "this map: 44544", "CGAL: 44545", "agree: NO"}));
+  EXPECT_EQ(table.rows()[1], (Row{"faces", "-", "4143", "4143", "yes"}));
+}
+
+TEST(ReproduceTables, HaveTheStateOfEachContenderBesideItsBound) {
+  ReproduceResults r;
+  MotionAgreement bounded;
+  bounded.id = "graph";
+  bounded.hash = 0xbeef;
+  bounded.force_difference = 0.5;
+  bounded.position_difference = 2e-17;
+  bounded.position_bound = 3e-16;
+  bounded.agrees = true;
+  MotionAgreement same;
+  same.id = "lists";
+  same.agrees = true;
+  MotionAgreement other = same;
+  other.force_difference = 1e-20;
+  other.agrees = false;
+  r.motion = {bounded, same, other};
+  const Table table = agreement_table(r);
+  EXPECT_EQ(alignment(table), "llrrrl");
+  ASSERT_EQ(table.rows().size(), 3u);
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"contender: graph", "state hash: 000000000000beef", "force difference / bound: 0.5",
+                 "position difference [m]: 2.0e-17", "bound [m]: 3.0e-16", "agrees: yes"}));
+  EXPECT_EQ(table.rows()[1], (Row{"lists", "0000000000000000", "0", "0", "0, same bits", "yes"}));
+  EXPECT_EQ(table.rows()[2], (Row{"lists", "0000000000000000", "not 0", "0", "0, same bits", "NO"}));
+}
+
+TEST(ReproduceTables, HaveThePapersTimesBesideOurs) {
+  ReproduceResults r;
+  // a round in each of seven processes; wall time is twice the processor's
+  for (int process = 0; process < 7; ++process)
+    for (const auto& [task, ms] : {std::pair("graph", 0.5), {"arrays", 0.625}}) {
+      Sample sample;
+      sample.task = task;
+      sample.process = process;
+      sample.cpu_ns = std::llround(1e6 * ms);
+      sample.wall_ns = 2 * sample.cpu_ns;
+      r.per_step.push_back(sample);
+    }
+  const Table table = timing_table(r);
+  EXPECT_EQ(alignment(table), "llrrrrr");
+  ASSERT_EQ(table.rows().size(), contenders().size());
+  for (std::size_t k = 0; k < table.rows().size(); ++k) {
+    const Contender& c = contenders()[k];
+    const Row& row = table.rows()[k];
+    EXPECT_EQ(row[0], c.id);
+    EXPECT_EQ(row[1], c.section.empty() ? "-" : c.section);
+    EXPECT_EQ(row[2], c.paper_ms > 0.0 ? fmt::format("{:.0f}", c.paper_ms) : "-");
+    if (c.id == "graph") {
+      EXPECT_EQ(Row(row.begin() + 4, row.end()), (Row{"0.5000", "1.0000", "1"}));
+    } else if (c.id == "arrays") {
+      EXPECT_EQ(row[3], "<= 1.10");
+      EXPECT_EQ(Row(row.begin() + 4, row.end()),
+                (Row{"0.6250", "1.2500", to_string(Figure{1.25, median_interval(std::vector<double>(7, 1.25))})}));
+    } else {
+      EXPECT_EQ(Row(row.begin() + 4, row.end()), (Row{"-", "-", "not timed: failed a gate"}));
+    }
+  }
+}
+
+TEST(ReproduceAnswers, OfTwoPartsAreTheClaimsTheGatesAndTheTroublesOfBoth) {
+  const auto part = [](const std::string& id, bool passed, const std::string& trouble) {
+    Answers answers{.gates_passed = passed, .picture_trouble = trouble};
+    answers.claims.resize(1);
+    answers.claims[0].id = id;
+    return answers;
+  };
+  Answers all = part("first", true, "");
+  all.append(part("second", true, "no picture"));
+  ASSERT_EQ(all.claims.size(), 2u);
+  EXPECT_EQ(all.claims[0].id, "first");
+  EXPECT_EQ(all.claims[1].id, "second");
+  EXPECT_TRUE(all.gates_passed);
+  EXPECT_EQ(all.picture_trouble, "no picture");
+  all.append(part("third", false, ""));
+  EXPECT_FALSE(all.gates_passed);
+  EXPECT_EQ(all.picture_trouble, "no picture");
+  all.append(part("fourth", true, ""));
+  EXPECT_FALSE(all.gates_passed);
 }
 
 }  // namespace

@@ -157,6 +157,9 @@ TEST(SceneFile, NamesTheNearestKeyBySwapsToo) {
   EXPECT_EQ(edit_distance("denisty", "density"), 1u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  // nothing ahead of a word is looked at: the 'a' here would make a swap
+  EXPECT_EQ(edit_distance("ba", std::string_view("ab").substr(1)), 1u);
+  EXPECT_EQ(edit_distance(std::string_view("ab").substr(1), "ba"), 1u);
   Json json = smallest();
   json["stpe"] = 1;
   EXPECT_EQ(refusal(json.dump()), "file: /stpe: unknown key; the nearest valid key is 'step'");

@@ -151,6 +151,8 @@ TEST(ScenePlan, NamesTheKeyThatAskedForEachThing) {
   EXPECT_EQ(why(Part::integrator), "/integrator: rk4 (the default)");
   EXPECT_EQ(why(Part::gravity), "/gravity: [0.0,0.0,-9.81] (the default)");
   EXPECT_EQ(why(Part::event), "/events/0/tear");
+  scene["gravity"] = {1.5, -2.5, 3.5};
+  EXPECT_EQ(item(plan(parse(scene)), Part::gravity)->why, "/gravity: [1.5,-2.5,3.5]");
   for (const PlanItem& i : planned.items)
     EXPECT_TRUE(i.why.starts_with("/") || i.why.starts_with("always") || i.why.starts_with("changes of the map"))
         << name(i.part) << ": " << i.why;
@@ -187,6 +189,20 @@ TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
   EXPECT_EQ(planned.events[1].operations, 24.0);  // half of the 48
   // 2, 2 and 2 steps of 10 with 48, 44 and 40 cells, the rest with 36
   EXPECT_NEAR(planned.mean.cells, (2 * 48 + 2 * 44 + 2 * 40 + 4 * 36) / 480.0, 1e-12);
+}
+
+// A vertex is torn off each time that this is asked for, a plane cut at the first.
+TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
+  const ScenePlan planned = plan(parse(with_events(
+      moving_box(), R"([{"every": 0.002, "from": 0.002, "until": 0.006, "tear": {"vertex": 0, "direction": [1, 0, 0]}},
+                        {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"random": {"count": 4}}},
+                        {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"ids": [3, 5]}}])")));
+  EXPECT_EQ(planned.events[0].operations, 3.0);
+  EXPECT_EQ(planned.events[0].with_operations, 3.0);
+  EXPECT_EQ(planned.events[1].operations, 12.0);
+  EXPECT_EQ(planned.events[1].with_operations, 3.0);
+  EXPECT_EQ(planned.events[2].operations, 2.0);
+  EXPECT_EQ(planned.events[2].with_operations, 1.0);
 }
 
 // ---- what no item plans

@@ -42,6 +42,16 @@ TEST(SlackRowsOf, NothingBeginAgainWithoutRooms) {
   for (std::size_t row = 0; row < 3; ++row) EXPECT_EQ(row_of<0>(rows, row), std::vector{static_cast<int>(row)});
 }
 
+TEST(SlackRowsOf, NothingHoldNothing) {
+  Rows rows;
+  rows.add_row(5);
+  rows.clear();
+  EXPECT_TRUE(rows.column<0>().empty());
+  EXPECT_TRUE(rows.column<1>().empty());
+  rows.add_row();
+  EXPECT_EQ(rows.start(0), 0);
+}
+
 TEST(SlackRowsOf, RandomEditsAreThoseOfVectors) {
   Rows rows;
   std::vector<std::vector<int>> expected;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/table.h"
 #include "core/scene/simulation.h"
 #include "tests/moving_box.h"
 
@@ -89,6 +90,96 @@ TEST(StepExplanation, IsNoneWhereThereIsNoLimit) {
   EXPECT_TRUE(std::isinf(e.limit.stable));
   EXPECT_TRUE(to_json(e, scene).at("stable_step").is_null());
   EXPECT_NE(to_text(e, scene).find("stable in any"), std::string::npos);
+}
+
+/// Everything has another number.
+StepExplanation distinct() {
+  StepExplanation e;
+  e.limits.lower = 10.0;
+  e.limits.upper = 12.5;
+  e.limits.any_state = 20.0;
+  e.limits.damping_time = {0.01, 0.02};
+  e.limits.viscous_rate = {0.0, 0.0};
+  e.limit.stable = 0.25;
+  e.limit.unstable = 0.5;
+  e.quick = 0.125;
+  e.body.add_vertex(2.0, {1, 2, 3});
+  e.body.add_vertex(4.0, {1, 2, 8});
+  e.body.add_vertex(6.0, {1, 4, 8});
+  e.body.add_spring(0, 1, 70.0, 1.0);
+  e.body.add_spring(1, 2, 80.0, 1.0);
+  e.springs = {{1, 0.75}, {0, 0.25}};
+  e.vertices = {{2, 0.625}, {1, 0.375}};
+  e.remedies = {{"cut it", 0.375}, {"cut all", Scheme::unlimited}};
+  return e;
+}
+SceneFile scene_with(double step) {
+  SceneFile scene;
+  scene.name = "box";
+  scene.integrator = "rk4";
+  scene.step = step;
+  return scene;
+}
+
+TEST(StepExplanationText, HasEveryFigureInItsPlace) {
+  const StepExplanation e = distinct();
+  const Bounds ratio = e.limits.damping_ratio();
+  Table springs({{"spring", Align::right},
+                 {"between"},
+                 {"stiffness [N/m]", Align::right},
+                 {"length [m]", Align::right},
+                 {"share", Align::right}});
+  springs.add_row({"1", "1 and 2", "80", "2", "75.0 %"});
+  springs.add_row({"0", "0 and 1", "70", "5", "25.0 %"});
+  Table vertices({{"vertex", Align::right}, {"mass [kg]", Align::right}, {"at [m]"}, {"share", Align::right}});
+  vertices.add_row({"2", "6", "1, 4, 8", "62.5 %"});
+  vertices.add_row({"1", "4", "1, 2, 8", "37.5 %"});
+  Table remedies({{"if one would"}, {"stable step", Align::right}, {"gain", Align::right}});
+  remedies.add_row({"cut it", "0.375 s", "+50.0 %"});
+  remedies.add_row({"cut all", "any", ""});
+  EXPECT_LT(ratio.lower, ratio.upper);
+  EXPECT_EQ(to_text(e, scene_with(0.0625)),
+            "box\nrk4, h = 0.0625 s\n\nhighest frequency: 10 to 12.5 1/s (in any state at most 20)\n" +
+                fmt::format("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper) +
+                "longest stable step in the state at the start: 0.25 s (certainly below 0.5 s), in any state at least "
+                "0.125 s; the scene's is stable in any\n\nShares of the energy of the fastest oscillation:\n\n" +
+                to_text(springs) + "\n" + to_text(vertices) + "\n" + to_text(remedies));
+}
+
+TEST(StepExplanationText, CallsTheStepStableWhereItIs) {
+  const auto verdict = [](double step) {
+    const std::string text = to_text(distinct(), scene_with(step));
+    const std::size_t start = text.find("the scene's is ") + 15;
+    return text.substr(start, text.find('\n', start) - start);
+  };
+  EXPECT_EQ(verdict(0.125), "stable in any");
+  EXPECT_EQ(verdict(0.126), "stable at the start");
+  EXPECT_EQ(verdict(0.25), "stable at the start");
+  EXPECT_EQ(verdict(0.251), "TOO LONG");
+}
+
+TEST(StepExplanationText, SaysNothingOfACertainLimitWhereThereIsNone) {
+  StepExplanation e = distinct();
+  e.limit.unstable = Scheme::unlimited;
+  e.springs.clear();
+  const std::string text = to_text(e, scene_with(1.0));
+  EXPECT_NE(text.find("at the start: 0.25 s, in any state"), std::string::npos) << text;
+  EXPECT_EQ(text.find("Shares"), std::string::npos) << text;
+}
+
+TEST(StepExplanationJson, HoldsEveryFigure) {
+  const StepExplanation e = distinct();
+  const Bounds ratio = e.limits.damping_ratio();
+  nlohmann::ordered_json expected = nlohmann::ordered_json::parse(R"({"scene": "box", "integrator": "rk4",
+    "step": 0.0625, "stable": true, "stable_step": 0.25, "unstable_step": 0.5, "stable_step_quick": 0.125,
+    "omega_max": {"lower": 10.0, "upper": 12.5, "any_state": 20.0}, "damping_ratio": {},
+    "springs": [{"spring": 1, "ends": [1, 2], "stiffness": 80.0, "share": 0.75},
+      {"spring": 0, "ends": [0, 1], "stiffness": 70.0, "share": 0.25}],
+    "vertices": [{"vertex": 2, "mass": 6.0, "share": 0.625}, {"vertex": 1, "mass": 4.0, "share": 0.375}],
+    "remedies": [{"what": "cut it", "stable_step": 0.375}, {"what": "cut all", "stable_step": null}]})");
+  expected["damping_ratio"] = {{"lower", ratio.lower}, {"upper", ratio.upper}};
+  EXPECT_EQ(to_json(e, scene_with(0.0625)), expected);
+  EXPECT_EQ(to_json(e, scene_with(0.251)).at("stable"), false);
 }
 
 TEST(StepExplanation, IsOfAStepThatTheSceneRefuses) {

@@ -37,6 +37,11 @@ TEST(TetGen, RefusesCellsOfSecondOrder) {
               "file:8: found a 10-node tetrahedron");
 }
 
+TEST(TetGen, RefusesTwoBoundaryMarkers) {
+  expect_part(refused("3 2 0 2\n1 0 0 1 1\n2 1 0 1 1\n3 0 1 1 1\n1 3 0\n1 1 2 3\n"),
+              ": 2 boundary markers; expected 0 or 1");
+}
+
 TEST(TetGen, RefusesMoreOrFewerCellsThanAnnounced) {
   expect_part(refused(with(tetgen(), "2 4 1", "1 4 1")), "file:10: '1' follows the last cell");
   expect_part(refused(with(tetgen(), "2 4 1", "3 4 1")), "the text ends here; expected the number of a cell");
