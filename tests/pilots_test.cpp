@@ -77,6 +77,36 @@ TEST(PilotPrefix, LeavesAMethodUntriedWhoseSecondRunTakesTooLong) {
   EXPECT_EQ(c.confidence, Confidence::none);
 }
 
+// The machine is suspended for an hour in the second run: what that has left behind is no pilot.
+TEST(PilotPrefix, TakesNoErrorsFromARunThatWasGivenUp) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const RecommendOptions options;
+  std::uint64_t looks = 0, suspended_at = std::numeric_limits<std::uint64_t>::max();
+  const CpuClock clock = [&] {
+    ++looks;
+    return static_cast<std::int64_t>(looks * 1'000'000 + (looks >= suspended_at ? 3'600'000'000'000u : 0u));
+  };
+  std::uint64_t after_first = 0, after_second = 0;
+  {
+    Pilots pilots(scene, clock, options, clock());
+    pilots.run(candidate("verlet", false), scene, {.steps = 64}, 2);
+    after_first = looks;
+    pilots.run(candidate("verlet", false), scene, {.steps = 128}, 2);
+    after_second = looks;
+  }
+  // the forces are timed with two looks before and after a run, whose first look is its start and whose last is its end
+  ASSERT_LT(after_first + 4, after_second - 3);
+  for (suspended_at = after_first + 4; suspended_at < after_second - 2; ++suspended_at) {
+    looks = 0;
+    Pilots pilots(scene, clock, options, clock());
+    Candidate c = candidate("verlet", false);
+    pilot_prefix(c, pilots, scene.duration / 64.0, 1e-9, 1e-9);
+    EXPECT_EQ(c.pruned, "its pilots take too long") << suspended_at;
+    EXPECT_TRUE(c.untried) << suspended_at;
+    EXPECT_EQ(c.confidence, Confidence::none) << suspended_at;
+  }
+}
+
 TEST(PilotPrefix, SeesTheOrderOfAMethodAndItsErrors) {
   const Candidate c = piloted(candidate("verlet", false), std::numeric_limits<double>::infinity());
   ASSERT_TRUE(c.usable()) << c.pruned;
