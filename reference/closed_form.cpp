@@ -53,7 +53,7 @@ Swing oscillate(double omega2, double drag, Swing start, double t) {
     odd = even * t;
   } else {
     const double w = std::sqrt(-below);
-    const double slow = beta + w > 0.0 ? -omega2 / (beta + w) : 0.0, fast = -(beta + w);
+    const double slow = -omega2 / (beta + w), fast = -(beta + w);
     even = rate = (std::exp(slow * t) + std::exp(fast * t)) / 2.0;
     odd = std::exp(slow * t) * -std::expm1(-2.0 * w * t) / (2.0 * w);
   }

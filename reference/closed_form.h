@@ -24,6 +24,7 @@ struct Swing {
 
 /// q'' + drag q' + omega2 q = 0 after `t` seconds; under-, critically and overdamped alike, and omega2 may be zero.
 ///
+/// pre     drag >= 0
 /// units   omega2 1/s^2, drag 1/s
 Swing oscillate(double omega2, double drag, Swing start, double t);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "core/plain/error.h"
@@ -23,6 +24,25 @@ TEST(Amplification, IsThatOfTheClosedFormsForEveryIntegrator) {
   }
   // explicit Euler is stable nowhere
   EXPECT_EQ(seen.size(), integrators().size() - 1);
+}
+
+// Phases are those of the upper half of the plane and, beyond, of the whole turn.
+TEST(AmplificationPoint, TellsWhatWasMeasuredApartFromTheory) {
+  AmplificationPoint p;
+  p.measured = std::polar(0.5, 1.0);
+  p.theory = std::polar(0.25, -1.0);
+  const double turn = 2 * std::numbers::pi;
+  EXPECT_DOUBLE_EQ(p.amplitude(), 0.5);
+  EXPECT_DOUBLE_EQ(p.phase(), 1.0);
+  EXPECT_DOUBLE_EQ(p.theoretical_phase(), turn - 1.0);
+  EXPECT_DOUBLE_EQ(p.damping_ratio(), std::log(2.0));
+  EXPECT_DOUBLE_EQ(p.theoretical_damping_ratio(), std::log(4.0) / (turn - 1.0));
+  p.measured = p.theory * 1.25;
+  EXPECT_DOUBLE_EQ(p.deviation(), 0.25);
+  p.tolerance = 0.26;
+  EXPECT_TRUE(p.holds());
+  p.tolerance = 0.24;
+  EXPECT_FALSE(p.holds());
 }
 
 TEST(Amplification, CoversFiveDecadesForImplicitMethods) {

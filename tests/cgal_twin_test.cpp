@@ -131,6 +131,15 @@ TEST(CgalGmapTwin, RefusesFoldsByChoiceButCanBeFolded) {
   EXPECT_EQ(twin->violation(), "");
 }
 
+// Neither carries a fold: the one by choice, the other because beta would fix a dart.
+TEST(CgalTwins, RefuseFolds) {
+  for (const auto& twin : both_oracles(alphas_of(regular_tetrahedron()))) EXPECT_TRUE(twin->refuses_folds());
+  EXPECT_FALSE(make_core_twin<Map3>(regular_tetrahedron())->refuses_folds());
+  const auto combinatorial = make_cgal_cmap_twin(alphas_of(regular_tetrahedron()), nullptr);
+  EXPECT_FALSE(combinatorial->can_carry_sew(3, Dart{0}, Dart{5}));
+  EXPECT_TRUE(combinatorial->can_carry_sew(3, Dart{0}, Dart{7}));
+}
+
 TEST(CgalGmapTwin, CallsADartSewableToItselfInDimensionOne) {
   const auto twin = make_cgal_gmap_twin(darts_without_links(3, 1));
   EXPECT_TRUE(twin->can_sew(1, Dart{0}, Dart{0}));

@@ -50,6 +50,22 @@ TEST(ConservationChecksOfABody, NameADamperAndARestLengthThatAreOff) {
             "stiffness, damping, rest length of an edge, rest length, edge 0");
 }
 
+// Of the soup's springs, which are the body's edges here: each is found for its edge, and compared in stiffness and in
+// damping.
+TEST(ConservationChecksOfABody, CompareEverySpringOfTheSoup) {
+  const Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
+  Subject<TetMap> subject(start);
+  subject.body = subject.fresh;
+  subject.views.rebuild(subject.body);
+  ConservationResult result;
+  ConservationLedger ledger(result, 1,
+                            std::array{Check::counts, Check::euler, Check::valid, Check::mass_of_vertex,
+                                       Check::spring_of_edge, Check::views, Check::boundary_area, Check::side_by_side});
+  ConservationChecks<TetMap>(subject, ledger).everything();
+  ASSERT_FALSE(ledger.broken());
+  EXPECT_EQ(result.rows.back().checks, 3 * subject.body.springs.size());
+}
+
 // The body has a face more than there are, by its own count.
 TEST(ConservationChecksOfABody, NameANumberOfCellsThatIsOff) {
   EXPECT_EQ(found([](auto& at) { at.body.face_dart.push_back(at.body.face_dart.front()); }),

@@ -225,7 +225,12 @@ TEST(DiscreteExact, NoticesACoefficientThatIsWrongInItsTwelfthDigit) {
 
 TEST(ForceGradient, IsMinusTheForce) {
   PreparedScene scene = stage(OrderCase::undamped).scene;
-  EXPECT_LE(compare_forces_with_energy(scene).ratio, 1.0);
+  const ForceGradient found = compare_forces_with_energy(scene);
+  EXPECT_LE(found.ratio, 1.0);
+  EXPECT_GT(found.deviation, 0.0);
+  EXPECT_NEAR(found.ratio, found.deviation / found.bound, 1e-12 * found.ratio);
+  EXPECT_LT(found.bound, 1e-9 * found.largest_force);
+  EXPECT_LT(found.vertex, scene.motion.network.point_count());
   scene.body.springs.change(0, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
   EXPECT_GT(compare_forces_with_energy(scene).ratio, 1.0);
 }

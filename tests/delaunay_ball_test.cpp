@@ -106,6 +106,14 @@ TEST(DelaunayBallSeeds, RepeatAndDiffer) {
   EXPECT_THROW(delaunay_ball(3, 0), InputError);
 }
 
+TEST(DelaunayMeshes, HaveAsManyPointsAsTheirNamesSay) {
+  for (const NamedMesh& named : delaunay_meshes()) {
+    const std::string count = std::to_string(named.make().points.size());
+    EXPECT_EQ(named.name, "delaunay_ball_" + count);
+    EXPECT_NE(std::string(named.what).find("of " + count + " random points"), std::string::npos) << named.what;
+  }
+}
+
 TEST(DelaunayMeshes, AreSmall) {
   EXPECT_EQ(delaunay_meshes().size(), 2u);
   for (const NamedMesh& named : delaunay_meshes()) {

@@ -108,6 +108,13 @@ TEST_F(ErrorNorms, DoNotHideWhatIsNotANumber) {
   EXPECT_EQ(e.x, 0.0);
 }
 
+TEST_F(ErrorNorms, OfNoPointsAreZero) {
+  motion.network = {};
+  motion.start = exact = found = {};
+  const MotionErrors e = errors();
+  for (const double error : {e.x, e.x_p95, e.x_largest, e.v, e.energy, e.momentum, e.angular}) EXPECT_EQ(error, 0.0);
+}
+
 TEST_F(ErrorNorms, OfABodyAtRestAreInfiniteOnceItMoves) {
   exact.v = {{0, 0, 0}, {0, 0, 0}};
   found = exact;

@@ -105,6 +105,18 @@ TEST(FinerRunBound, FallsWithTheOrderOfTheMethod) {
   }
 }
 
+// A damping ratio zeta turns a rate omega into omega (1 + 2 zeta) at most.
+TEST(FinerRunBound, TakesTheStepForLongerByWhatIsDamped) {
+  for (const int order : {1, 2, 4}) {
+    const FinerRunScale undamped{.theta = 0.25, .order = order, .steps = 40, .amplitude = 1.0};
+    FinerRunScale damped = undamped;
+    for (const double zeta : {0.125, 0.5, 1.5}) {
+      damped.zeta = zeta;
+      EXPECT_NEAR(finer_run_bound(damped) / finer_run_bound(undamped), std::pow(1 + 2 * zeta, order), 1e-4) << order;
+    }
+  }
+}
+
 TEST(FinerRunBound, IsRoundingOfCoordinatesWhereNothingMoves) {
   const FinerRunScale still{.theta = 0.25, .order = 2, .steps = 40, .size = 3.0};
   EXPECT_DOUBLE_EQ(finer_run_bound(still), 64 * epsilon * 3.0 * (1 + 40 * 0.25));

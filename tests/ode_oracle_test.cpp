@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -221,6 +222,68 @@ TEST(OdeOracle, IsNotAcceptedWhenCodesAreFartherApartThanAsked) {
   EXPECT_FALSE(certified.independent);
   EXPECT_TRUE(certified.gain.empty());
   EXPECT_EQ(certified.states.size(), 2u);
+}
+
+// How many codes beside the runs of the reference were asked.
+std::ptrdiff_t others_in(const CertifiedMotion& certified) {
+  return std::count_if(certified.codes.begin(), certified.codes.end(),
+                       [](const CodeAgreement& code) { return !code.code.starts_with("Odeint Fehlberg"); });
+}
+
+TEST(OdeOracle, AsksEveryCodeUnlessItMayStopAtTheFirstThatSuffices) {
+  CertifyOptions options;
+  options.gain = false;
+  options.accepted = 1e-9;  // any code suffices
+  const std::ptrdiff_t of_sundials = have_sundials() ? 2 : 0;
+  EXPECT_EQ(others_in(certify(moving_grid(), options)), have_sundials() ? 2 : 1);
+  options.extrapolation = true;
+  EXPECT_EQ(others_in(certify(moving_grid(), options)), of_sundials + 1);
+  options.all_codes = false;
+  const CertifiedMotion at_once = certify(moving_grid(), options);
+  EXPECT_EQ(others_in(at_once), 1);
+  EXPECT_TRUE(at_once.accepted);
+  options.accepted = 1e-30;  // none does
+  options.refinements = 0;
+  EXPECT_EQ(others_in(certify(moving_grid(), options)), of_sundials + 1);
+}
+
+// Eight times as long in all lengths, the same motion: what is told in edges stays, and scaling by 8 rounds nothing.
+TEST(OdeOracle, TellsDistancesInEdgesOfTheStart) {
+  const NetworkMotion motion = moving_grid();
+  NetworkMotion long_one = motion;
+  long_one.network.gravity *= 8.0;
+  for (Spring& s : long_one.network.springs) s.rest_length *= 8.0;
+  for (auto* column : {&long_one.start.x, &long_one.start.v})
+    for (auto& p : *column) p *= 8.0;
+  CertifyOptions options;
+  options.accepted = 1e-30;  // so that no decision depends on the codes
+  options.refinements = 2;
+  const CertifiedMotion small = certify(motion, options), large = certify(long_one, options);
+  EXPECT_EQ(small.edge, mean_rest_length(motion.network));
+  EXPECT_LT(small.edge, 1.0);
+  EXPECT_EQ(large.edge, 8.0 * small.edge);
+  EXPECT_EQ(large.self_difference, small.self_difference);
+  EXPECT_EQ(large.gain, small.gain);
+  ASSERT_GE(large.codes.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(large.codes[k].distance, small.codes[k].distance) << k;
+}
+
+// What is known of the reference is the larger of the agreement and a part of the self-difference; a hundred times that
+// is the floor, where the rounding of the states to doubles does not exceed it.
+TEST(OdeOracle, HasAFloorOfAHundredTimesWhatItsCodesLeaveOpen) {
+  CertifyOptions options;
+  options.gain = false;
+  options.refinements = 0;
+  options.step_times_rate = 1.0;  // so coarse that the runs are far apart
+  const CertifiedMotion coarse = certify(moving_grid(), options);
+  EXPECT_GT(coarse.self_difference, 1e-11);
+  const double left = std::pow(0.7, 8) / (1.0 - std::pow(0.7, 8));
+  EXPECT_NEAR(coarse.floor / (100.0 * std::max(left * coarse.self_difference, coarse.agreement)), 1.0, 0.01);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 2; k < coarse.codes.size(); ++k) nearest = std::min(nearest, coarse.codes[k].distance);
+  EXPECT_EQ(coarse.agreement, nearest);
+  EXPECT_EQ(coarse.codes[0].distance, coarse.self_difference);
+  EXPECT_EQ(coarse.codes[1].distance, 0.0);  // the reference itself
 }
 
 // Springs of rest length 0 and negative stiffness push away from the wall in proportion to the distance: every

@@ -242,6 +242,18 @@ TEST(Recommend, ConsidersOneIntegratorOnlyWhereOneIsNamed) {
   EXPECT_NE(r.pick(), nullptr);
 }
 
+// A tenth of the error takes sqrt(10) times the steps of a method of order 2, up to whole steps between checkpoints.
+TEST(Recommend, TellsWhatOneMoreDigitCosts) {
+  RecommendOptions options;
+  options.only = "verlet";
+  options.adaptive = false;
+  const Recommendation r = recommend(chain_scene(8, 64.0), 1e-5, ticking(), options);
+  ASSERT_NE(r.pick(), nullptr);
+  ASSERT_EQ(r.pick()->confidence, Confidence::asymptotic);
+  EXPECT_NEAR(r.one_more_digit, std::sqrt(10.0), 0.05);
+  EXPECT_EQ(r.one_more_digit_by, "verlet");
+}
+
 TEST(Recommend, AToleranceMeetsTheErrorToo) {
   RecommendOptions options;
   options.only = "dormand-prince-54";

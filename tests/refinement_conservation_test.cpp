@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "core/mechanics/refine.h"
 #include "core/meshes/mesh_generators.h"
 #include "core/plain/error.h"
+#include "reference/rebuild.h"
 #include "tests/conservation_rows_for_tests.h"
+#include "tests/meshes_for_tests.h"
 #include "validation/conserved_sums.h"
 #include "validation/refinement_effects.h"
 #include "validation/subdivided_cells.h"
@@ -132,6 +135,75 @@ TYPED_TEST(RefinementConservation, LooksAtForcesEnergiesAndMomentaAroundARefinem
   for (const char* what : {"linear momentum", "kinetic energy"}) EXPECT_FALSE(row(fast, what).holds) << what;
 }
 
+// By the numbers of two full comparisons, at the start and at the end, of a body too large for more: what a series of
+// dissociations and removals changed has been compared beside them. A removal makes four vertices and six edges
+// lighter.
+TYPED_TEST(RefinementConservation, LooksAtWhatASeriesChanged) {
+  std::size_t seen = 0;
+  std::set<std::size_t> operations;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Problem problem = moving_problem(kuhn_box(3, 2, 2, 0.125, 0.2, 3), soft, 1);
+    ConservationPlan plan = short_plan(seed, 1);
+    plan.everything_every = 1000;
+    std::size_t vertices = 0, edges = 0;
+    const auto result = validate_refinement<TypeParam>(problem, plan, [&](auto& body, auto&) {
+      vertices = body.vertices.size();
+      edges = body.springs.size();
+    });
+    EXPECT_EQ(violation_of(result), "none");
+    if (result.refinements > 0) continue;
+    operations.insert(result.operations());
+    if (result.removals == 0) continue;
+    ++seen;
+    const reference::Rebuilt start = reference::rebuild(problem.mesh, soft);
+    EXPECT_GT(row(result, "mass of a vertex").checks, start.mass.size() + vertices) << seed;
+    EXPECT_GT(row(result, "stiffness, damping").checks, 3 * (start.springs.size() + edges)) << seed;
+  }
+  EXPECT_GT(seen, 3u);
+  EXPECT_EQ(operations, (std::set<std::size_t>{1, 2, 3}));
+}
+
+// A refinement changes cells: their masses are compared, three numbers each.
+TYPED_TEST(RefinementConservation, LooksAtTheCellsThatARefinementMade) {
+  std::size_t seen = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Problem problem = moving_problem(kuhn_box(3, 2, 2, 0.125, 0.2, 3), soft, 1);
+    ConservationPlan plan = short_plan(seed, 1);
+    plan.everything_every = 1000;
+    std::size_t cells = 0;
+    const auto result =
+        validate_refinement<TypeParam>(problem, plan, [&](auto& body, auto&) { cells = body.cell_dart.size(); });
+    if (result.refinements == 0) continue;
+    ++seen;
+    // each parent becomes two or more
+    const std::size_t before = problem.mesh.cell_count();
+    EXPECT_GE(row(result, "mass of a refined cell").checks, 3 * (before + cells + 2 * (cells - before) / 3)) << seed;
+  }
+  EXPECT_GT(seen, 3u);
+}
+
+// What is wrong by 1e-9 in a component is wrong by no more in a length.
+TYPED_TEST(RefinementConservation, TellsWhatItFoundBesideWhatItExpected) {
+  for (const bool moved : {true, false}) {
+    const auto result = this->refined(
+        [moved](auto& body) { (moved ? body.vertices.position : body.vertices.velocity).back().y() += 1e-9; });
+    ASSERT_TRUE(result.violation);
+    const double actual = std::stod(result.violation->actual), expected = std::stod(result.violation->expected);
+    EXPECT_NE(actual, expected);
+    EXPECT_NEAR(actual, expected, 1.001e-9);
+  }
+}
+
+TYPED_TEST(RefinementConservation, BoundsTheDriftByTheRootOfItsOperations) {
+  const auto result =
+      validate_refinement<TypeParam>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 1), soft, 1), short_plan(1, 200));
+  const double target = drift_target(result.operations());
+  for (const char* what : {"drift of total mass", "drift of total stiffness"}) {
+    EXPECT_EQ(row(result, what).bound, target) << what;
+    EXPECT_LE(row(result, what).deviation, target) << what;
+  }
+}
+
 TEST(RefinementMeansOfCorners, AreOffByTheRoundingOfFourOperations) {
   VertexColumns columns;
   columns.position = {{1, 0, 0}, {3, 4, 0}};
@@ -174,6 +246,28 @@ TEST(Refinements, LoseTheKineticEnergyOfMotionRelativeToTheMean) {
   const ConservedSums after = sums_of(body, views.cells);
   EXPECT_NEAR(after[Conserved::kinetic].value(), 0.75, 0x1p-50);
   EXPECT_NEAR(after[Conserved::momentum_z].value(), 2.0, 0x1p-50);
+}
+
+// Of a regular tetrahedron with edges of L^2 = 8, each square known to gamma_12. The square of the length from the
+// middle of s nodes to another one, j, is a sum of squares between them: 1/s of those to j, less 1/s^2 of those among
+// the s; so in absolute values 8 (1 + (s - 1) / (2 s)); adding them up has gamma_24 of that.
+TEST(SubdividedCells, KnowTheirLengthsToTheRoundingOfTheSquaresTheyAddUp) {
+  for (const std::uint8_t nodes : {std::uint8_t{0b0011}, std::uint8_t{0b0111}}) {
+    SubdividedCells cells(reference::regular_tetrahedron(), 1.0);
+    const double s = nodes == 0b0011 ? 2.0 : 3.0;
+    for (const auto& child : cells.subdivide(0, nodes, 1.0)) {
+      const auto j = 3u, edge = SubdividedCells::edge_between(child.replaced, j);
+      const double q = (gamma(24) + 1.001 * gamma(12)) * 8.0 * (1.0 + (s - 1.0) / (2.0 * s));
+      EXPECT_NEAR(cells.cells()[child.cell].square_error[edge] / q, 1.0, 1e-9) << s;
+      const auto [length, off] = cells.rest_length({child.cell, edge});
+      EXPECT_NEAR(length * length, 8.0 - 8.0 * (s - 1.0) / (2.0 * s), 1e-14) << s;
+      EXPECT_GE(off, q / length);
+      const auto& t = cells.cells()[child.cell];
+      const double of_points =
+          2.0 * (cells.points()[t.points[child.replaced]].error + cells.points()[t.points[j]].error);
+      EXPECT_LE(off, 1.01 * (q / length + gamma(6) * length + of_points));
+    }
+  }
 }
 
 // Kuhn's six tetrahedra of a unit cube, around its diagonal.

@@ -61,6 +61,30 @@ TEST(SelfConverged, PromisesNoMoreThanTheSecondMethodConfirms) {
   EXPECT_LE(reference::motion_errors(scene.motion, found.states, scene.closed_form()).x, found.floor);
 }
 
+// A run of the oracle makes steps of h omega = 0.25 with 13 evaluations each. No machine evaluates a spring in extended
+// precision in a nanosecond, and none takes a microsecond.
+TEST(ReferenceOf, AsksTheOracleWhereARunOfItIsQuickEnough) {
+  TradeoffScene scene = chain_scene(6, 16.0, 4);
+  scene.closed_form = nullptr;
+  const double evaluations = 16.0 / 0.25 * 13.0 * 7.0;  // of seven springs
+  const auto kind = [&](double oracle_s) {
+    return reference_of(scene, ticking(), {.oracle_s = oracle_s, .self_converged_s = 0.0, .gain = false}).kind;
+  };
+  EXPECT_EQ(kind(1e-9 * evaluations), ReferenceKind::self_converged);
+  EXPECT_EQ(kind(1e-6 * evaluations), ReferenceKind::certified);
+}
+
+// A run looks at the clock at its start and at its end, or more often, so that at least half of all time is in runs.
+TEST(SelfConverged, TakesTheTimeOfAllItsRuns) {
+  TradeoffScene scene = chain_scene(6, 16.0, 4);
+  scene.closed_form = nullptr;
+  std::int64_t now = 0;
+  const CpuClock clock = [&now] { return now += 1000; };
+  const SceneReference found = reference_of(scene, clock, {.oracle_s = 0.0, .self_converged_s = 1e9, .gain = false});
+  EXPECT_GE(found.cpu_s, 0.5e-9 * static_cast<double>(now));
+  EXPECT_LT(found.cpu_s, 1e-9 * static_cast<double>(now));
+}
+
 TEST(SelfConverged, IsConfirmedWhereThereIsTime) {
   const SceneReference found = self_converged(1e9);
   EXPECT_LE(found.agreement, found.floor);

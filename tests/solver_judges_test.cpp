@@ -60,6 +60,16 @@ TEST(FactorEditsJudge, MeasuresTheErrorsOfItsSolutions) {
   EXPECT_GE(run.componentwise, run.largest);  // the componentwise error is never below the normwise one
 }
 
+// The first edit takes a spring away and the second puts it back: up to three rank-one terms each, as many both times.
+TEST(FactorEditsJudge, TakesSpringsAwayAndPutsThemBack) {
+  const EditRun run = run_edits(edit_policies().at(0), 4, 0.2, 1, ticking());
+  EXPECT_EQ(run.failure, "");
+  EXPECT_EQ(run.edits, 2u);
+  EXPECT_GE(run.counters.rank_one_updates, 2u);
+  EXPECT_LE(run.counters.rank_one_updates, 6u);
+  EXPECT_EQ(run.counters.rank_one_updates % 2, 0u);
+}
+
 TEST(EnergyDriftJudge, SeesAMethodThatDoesNotKeepTheEnergy) {
   const EnergyDrift kept = measure_energy_drift(10, 20.0);
   EXPECT_LE(kept.drift, 1e-12);

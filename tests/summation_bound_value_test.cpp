@@ -92,6 +92,32 @@ TEST(StateBoundOfATetrahedron, AtRestHasAVelocityThatIsOffByTheForcesRounding) {
   EXPECT_NEAR(state_bound(one.problem, one.state, 1).velocity / expected, 1.0, 1e-2);
 }
 
+// In a free fall nothing pulls, so a bound only adds up: per step the velocity's is off by the acceleration's gamma_15
+// (2 n + p + 10) and by the last sum, gamma_8 of its terms and gamma_4 of what they are added to; the position's by the
+// velocities of the stages, each with the rounding of its product and sum, and by its own last sum.
+TEST(StateBoundOfATetrahedron, InAFreeFallAddsUpTheRoundingOfWhatItsMotionReaches) {
+  OneTetrahedron one;
+  one.problem.material = {.density = 1.0, .stiffness = 0.0, .damping = 0.0, .viscosity = 0.0};
+  const double g = 1e4, h = 0.5, left_out = 1.001;
+  one.problem.surroundings.gravity = {0, 0, -g};
+  one.problem.h = h;
+  double X = 0.0, V = 0.0;
+  for (int step = 0; step < 10; ++step) {
+    const double t = h * step, v = g * t, A = left_out * gamma(15) * g;
+    double x = 0.0;
+    for (const auto& at : one.problem.mesh.points) x = std::max(x, (at - Eigen::Vector3d(0, 0, g * t * t / 2)).norm());
+    const auto stage = [&](double reach) {
+      return V + reach * A + left_out * (gamma(1) * (v + reach * g) + gamma(2) * reach * g);
+    };
+    const double travel = h * (v + h * g / 2);
+    X += h / 6 * (V + 4 * stage(h / 2) + stage(h)) + left_out * (gamma(8) * travel + gamma(4) * (x + travel));
+    V += h * A + left_out * (gamma(8) * h * g + gamma(4) * (v + h * g));
+    const StateBound bound = state_bound(one.problem, one.state, step + 1);
+    EXPECT_NEAR(bound.velocity / (slack * V), 1.0, 1e-9) << step;
+    EXPECT_NEAR(bound.position / (slack * X), 1.0, 1e-9) << step;
+  }
+}
+
 // Differences grow by exp(h sqrt P) a step, P = 2 sum k / m of a corner: that is the spectral radius of (0 1; P 0).
 TEST(StateBoundOfATetrahedron, GrowsNoFasterThanItsLipschitzConstantSays) {
   OneTetrahedron one;

@@ -36,6 +36,13 @@ TEST(CompareCounts, AgreeOnTheCube) {
   EXPECT_TRUE(differ(all).empty());
 }
 
+TEST(CompareCounts, StartFromNothingOnEitherSide) {
+  const CountAgreement none;
+  EXPECT_EQ(none.ours, 0u);
+  EXPECT_EQ(none.cgal, 0u);
+  EXPECT_TRUE(none.agrees());
+}
+
 TEST(CompareCounts, NameWhatCgalCountsOneMoreOf) {
   const std::pair<const char*, std::size_t reference::CgalCounts::*> columns[]{
       {"darts", &reference::CgalCounts::darts},     {"vertices", &reference::CgalCounts::vertices},

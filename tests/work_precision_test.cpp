@@ -217,6 +217,86 @@ TEST(WorkPrecisionStudy, EveryContenderMeetsItsFailurePointAndConverges) {
   }
 }
 
+WorkPrecisionOptions once() {
+  WorkPrecisionOptions options;
+  options.fewest_repetitions = options.most_repetitions = 1;
+  return options;
+}
+
+std::vector<TradeoffContender> only(const std::string& name) {
+  return {{name, [name] { return make_integrator(name); }, false, false}};
+}
+
+TEST(WorkPrecisionStudy, EndsWhereTheReferenceTellsNoErrorsAnyMore) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  SceneReference reference = reference_of(scene, ticking());
+  reference.floor = 1e-4;
+  const WorkPrecision study = work_precision(scene, reference, only("rk4"), ticking(), once());
+  ASSERT_GT(study.points.size(), 2u);
+  for (std::size_t k = 0; k + 1 < study.points.size(); ++k) {
+    EXPECT_TRUE(study.points[k].failed() || study.points[k].errors.x >= 3e-4) << k;
+    EXPECT_EQ(study.points[k + 1].setting.steps, 2 * study.points[k].setting.steps);
+  }
+  EXPECT_LT(study.points.back().errors.x, 3e-4);
+  EXPECT_EQ(study.omissions, scene.omissions);
+  for (const WorkPoint& p : study.points) EXPECT_EQ(p.under_floor, !p.failed() && p.errors.x < 1e-4);
+}
+
+TEST(WorkPrecisionStudy, GivesARunUpThatTakesHalfAsLongAgainAsAllowed) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  WorkPrecisionOptions options = once();
+  options.most_s = 1e-6;  // a look: the first run has more
+  const WorkPrecision study = work_precision(scene, reference, only("rk4"), ticking(), options);
+  ASSERT_EQ(study.points.size(), 1u);
+  EXPECT_EQ(study.points[0].code, to_string(StepCode::budget));
+  ASSERT_EQ(study.omissions.size(), scene.omissions.size() + 1);
+  EXPECT_TRUE(study.omissions.back().starts_with("rk4: nothing below h omega_max = ")) << study.omissions.back();
+}
+
+/// Refuses every step.
+class Refusal : public Integrator {
+ public:
+  const Scheme& scheme() const override { return real_->scheme(); }
+  StepResult step(const SpringSystem&, Motion, double h) override {
+    return {StepCode::step_underflow, Witness::none, 0, "step", h};
+  }
+  void restart() override {}
+
+ private:
+  std::unique_ptr<Integrator> real_ = make_integrator("verlet");
+};
+
+TEST(WorkPrecisionStudy, GivesAMethodUpThatFailsEvenWithSmallSteps) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  const SceneReference reference = reference_of(scene, ticking());
+  const std::vector<TradeoffContender> refusal{{"refusal", [] { return std::make_unique<Refusal>(); }, false, false}};
+  const WorkPrecision study = work_precision(scene, reference, refusal, ticking(), once());
+  ASSERT_FALSE(study.points.empty());
+  for (const WorkPoint& p : study.points) {
+    EXPECT_TRUE(p.failed());
+    EXPECT_EQ(p.standing, Standing::failed);
+    EXPECT_EQ(p.h_omega < 1e-3, &p == &study.points.back());
+  }
+}
+
+TEST(Winners, NameTheRunnerUpAndItsCost) {
+  std::vector<WorkPoint> points{point("a", 1e-3, {10}), point("b", 1e-3, {30}), point("c", 1e-3, {20})};
+  classify(points, 0.0);
+  const double errors[]{1e-3};
+  Winner best = winners(points, errors)[0];
+  EXPECT_EQ(best.contender, "a");
+  EXPECT_EQ(best.cost, 10.0);
+  EXPECT_EQ(best.runner_up, "c");
+  EXPECT_EQ(best.runner_up_cost, 20.0);
+  points.pop_back();
+  points.pop_back();
+  best = winners(points, errors)[0];
+  EXPECT_EQ(best.contender, "a");
+  EXPECT_EQ(best.runner_up, "");
+  EXPECT_EQ(best.runner_up_cost, 0.0);
+}
+
 TEST(CvodeAdamsPeer, FollowsTheChainWithinItsToleranceOrSaysThatThereIsNoSundials) {
   const TradeoffScene scene = chain_scene(6, 16.0, 4);
   if (!CvodeAdams::available()) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/plain/nan_maximum.h"
+
 namespace dartboard {
 
 TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t checkpoints) {
@@ -94,10 +96,8 @@ std::vector<double> differences(const TradeoffScene& scene, const TimedRun& a, c
 double distance_from_start(const TradeoffScene& scene, const TimedRun& run) {
   double farthest = 0.0;
   for (const PointState& state : run.states)
-    for (std::size_t i = 0; i < std::min(state.x.size(), scene.motion.start.x.size()); ++i) {
-      const double away = (state.x[i] - scene.motion.start.x[i]).norm() / scene.edge;
-      if (!(away <= farthest)) farthest = away;
-    }
+    for (std::size_t i = 0; i < std::min(state.x.size(), scene.motion.start.x.size()); ++i)
+      farthest = max_or_nan(farthest, (state.x[i] - scene.motion.start.x[i]).norm() / scene.edge);
   return farthest;
 }
 
