@@ -141,6 +141,17 @@ TEST(StableStep, IsABoundWhereFrequenciesLieTooCloseToBeFound) {
   EXPECT_GE(estimate.refresh(body.system(), body.x).upper, 2.0 * (1.0 - std::pow(22.0 / 7 / (2 * (n + 1)), 2) / 2));
 }
 
+// The same chain of dampers: the largest rate is 4 d / m cos^2(pi / (2 (n + 1))).
+TEST(StableStep, IsABoundWhereRatesOfDampingLieTooCloseToBeFound) {
+  constexpr int n = 2000;
+  SpringArrays body;
+  for (int i = 0; i < n + 2; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0}, {0, 0, 0}, i == 0 || i == n + 1);
+  for (std::uint32_t i = 0; i <= n; ++i) body.add_spring(i, i + 1, 1.0, 1.0, 1.0);
+  StableStepEstimate estimate;
+  const double cosine = 1.0 - std::pow(22.0 / 7 / (2 * (n + 1)), 2) / 2;
+  EXPECT_GE(estimate.refresh(body.system(), body.x).damping_rate.upper, 4.0 * cosine * cosine);
+}
+
 // With a viscosity of 2.8 / h, what is slow decays along the real axis, of which the method holds less than 2.79; the
 // highest frequency has half of that decay.
 TEST(StableStep, IsThatOfTheSlowestWhereTheyDecayFastest) {
