@@ -113,19 +113,12 @@ TEST(BenchTopologyClaimsInWords, SayWhatIsAskedAndWhatWasMeasured) {
   set_times(f, "kuhn-48000:vertex-orbit",
             {{"general", 6.0, 1e6}, {"tetrahedral", 2.5, 2e6}, {"CGAL", 75.0, 4e6}, {"bare CGAL", 30.0, 1e6}});
   const auto claims = claims_of(f);
-  const auto expect = [&](const std::string& id, const std::string& asked, const std::string& measured,
-                          const std::string& rests_on) {
-    const Claim& c = find_claim(claims, id);
-    EXPECT_EQ(c.paper_value, asked) << id;
-    EXPECT_EQ(c.measured, measured) << id;
-    EXPECT_EQ(c.bound_or_interval, rests_on) << id;
-    EXPECT_FALSE(c.text.empty()) << id;
-  };
-  expect("topology-memory", "<= 64 bytes per tetrahedron", "65 / 50", "counted");
-  expect("topology-vertex-orbit", "<= 3 ns per dart, 20x CGAL", "2 / 2.5",
-         steady(25.0) + " (bare: 10); " + steady(30.0) + " (bare: 12)");
-  expect("topology-unsew-cut-scaling", "<= 1.5", "1.4", to_string(median_interval(std::vector<double>(7, 1.4))));
-  expect("topology-unsew-random-scaling", "<= 3", "", "");
+  expect_words(claims, "topology-memory", "<= 64 bytes per tetrahedron", "65 / 50", "counted");
+  expect_words(claims, "topology-vertex-orbit", "<= 3 ns per dart, 20x CGAL", "2 / 2.5",
+               steady(25.0) + " (bare: 10); " + steady(30.0) + " (bare: 12)");
+  expect_words(claims, "topology-unsew-cut-scaling", "<= 1.5", "1.4",
+               to_string(median_interval(std::vector<double>(7, 1.4))));
+  expect_words(claims, "topology-unsew-random-scaling", "<= 3", "", "");
   EXPECT_NE(find_claim(claims, "topology-unsew-cut-scaling").text.find("along a cut"), std::string::npos);
   EXPECT_NE(find_claim(claims, "topology-unsew-random-scaling").text.find("at random"), std::string::npos);
 }

@@ -1,5 +1,7 @@
 #pragma once
-// Claims, looked up.
+// Claims, looked up and read.
+
+#include <gtest/gtest.h>
 
 #include <span>
 #include <stdexcept>
@@ -23,6 +25,16 @@ inline const Claim& find_claim(std::span<const Claim> claims, const std::string&
   for (const Claim& claim : claims)
     if (claim.id == id) return claim;
   throw std::out_of_range("no claim " + id);
+}
+
+/// The claim of this name says what is asked, what was measured and what that rests on in these words.
+inline void expect_words(std::span<const Claim> claims, const std::string& id, const std::string& asked,
+                         const std::string& measured, const std::string& rests_on) {
+  const Claim& c = find_claim(claims, id);
+  EXPECT_EQ(c.paper_value, asked) << id;
+  EXPECT_EQ(c.measured, measured) << id;
+  EXPECT_EQ(c.bound_or_interval, rests_on) << id;
+  EXPECT_FALSE(c.text.empty()) << id;
 }
 
 }  // namespace dartboard
