@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/claims_for_tests.h"
+#include "tests/solver_times_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -27,18 +28,8 @@ SolveCell solved(SolvePath path) {
 
 /// Seven rounds of one process, each task taking the milliseconds given.
 SolverTimes timed(std::size_t vertices, const std::vector<std::pair<std::string, double>>& ms) {
-  SolverTimes t;
+  SolverTimes t = solver_times(std::to_string(vertices) + " vertices", ms);
   t.vertices = vertices;
-  t.body = std::to_string(vertices) + " vertices";
-  for (int round = 0; round < 7; ++round)
-    for (const auto& [task, each] : ms) {
-      Sample sample;
-      sample.task = task;
-      sample.round = round;
-      sample.cpu_ns = sample.wall_ns = std::llround(1e6 * each);
-      t.samples.push_back(sample);
-    }
-  for (const auto& [task, each] : ms) t.tasks.push_back(task);
   return t;
 }
 SolverTimes update(std::size_t vertices, double following_ms) {

@@ -9,6 +9,7 @@
 #include "benchmarks/solver_report.h"
 #include "core/plain/error.h"
 #include "tests/claims_for_tests.h"
+#include "tests/solver_times_for_tests.h"
 #include "tests/tables_for_tests.h"
 
 namespace dartboard {
@@ -16,22 +17,12 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr int rounds = 7;
+constexpr int rounds = solver_rounds;
 
 SolverTimes timed(const std::string& body, const std::vector<std::pair<std::string, double>>& ms) {
-  SolverTimes t;
-  t.body = body;
+  SolverTimes t = solver_times(body, ms);
   t.vertices = 512;
   t.terms = 19;
-  for (int round = 0; round < rounds; ++round)
-    for (const auto& [task, each] : ms) {
-      Sample sample;
-      sample.task = task;
-      sample.round = round;
-      sample.cpu_ns = sample.wall_ns = std::llround(1e6 * each);
-      t.samples.push_back(sample);
-    }
-  for (const auto& [task, each] : ms) t.tasks.push_back(task);
   return t;
 }
 SolverTimes update() {
