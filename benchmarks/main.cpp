@@ -11,11 +11,11 @@
 #include <iostream>
 #include <system_error>
 
-#include "benchmarks/cli.h"
-#include "benchmarks/option_checks.h"
-#include "benchmarks/tell.h"
+#include "benchmarks/cli/option_checks.h"
+#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/harness/tell.h"
 #include "core/plain/error.h"
-#include "core/time/stop_request.h"
+#include "core/time/solve/stop_request.h"
 
 using namespace dartboard;
 
@@ -57,7 +57,8 @@ int run(int argc, char** argv) {
   CLI::App app("Scores a topology-based mechanical simulator on truth, speed and stability.", "dartboard");
   app.require_subcommand(1);
   app.set_version_flag("--version", DARTBOARD_VERSION);
-  app.footer("Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed, or a picture could not be drawn.");
+  app.footer(
+      "Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed, or a picture could not be drawn.");
   add_reproduce(app, outcome);
   add_validate(app, outcome);
   add_bench(app, outcome);

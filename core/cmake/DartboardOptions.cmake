@@ -45,13 +45,58 @@ if(DARTBOARD_COVERAGE)
   target_link_options(dartboard_options INTERFACE --coverage)
 endif()
 
-# dartboard_library(NAME SOURCES... [LINK LIBS...]): a static library of ours.
-function(dartboard_library name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
-  add_library(${name} STATIC ${ARG_UNPARSED_ARGUMENTS})
-  target_link_libraries(${name} PUBLIC dartboard_options ${ARG_LINK})
-  if(DARTBOARD_PRECOMPILE)
-    target_precompile_headers(${name} PRIVATE <algorithm> <functional> <map> <span> <string> <vector>
-      <fmt/format.h> <Eigen/Geometry>)
+# One precompiled header for all folders: what most sources include and what costs most to read.
+if(DARTBOARD_PRECOMPILE)
+  file(WRITE ${CMAKE_BINARY_DIR}/precompiled.cpp "")
+  add_library(dartboard_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(dartboard_precompiled PRIVATE dartboard_options Eigen3::Eigen fmt::fmt)
+  target_precompile_headers(dartboard_precompiled PRIVATE <algorithm> <functional> <map> <span> <string> <vector>
+    <fmt/format.h> <Eigen/Geometry>)
+endif()
+
+# dartboard_libraries(VARIABLE NAMES...): the targets of folders; other names stay what they are.
+function(dartboard_libraries variable)
+  set(libraries)
+  foreach(name IN LISTS ARGN)
+    if(name MATCHES "^(core|reference|validation|benchmarks)(/|$)")
+      string(REPLACE "/" "_" name dartboard_${name})
+      if(NOT TARGET ${name})
+        message(FATAL_ERROR "There is no folder ${name} yet: folders see only what stands above them")
+      endif()
+    endif()
+    list(APPEND libraries ${name})
+  endforeach()
+  set(${variable} ${libraries} PARENT_SCOPE)
+endfunction()
+
+# dartboard_sees(PATH FOLDERS...): what the files of a folder may include, for the test that reads them.
+function(dartboard_sees path)
+  list(JOIN ARGN " " folders)
+  set_property(GLOBAL APPEND_STRING PROPERTY dartboard_folders "${path}: ${folders}\n")
+endfunction()
+
+# dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [NOT_PRECOMPILED])
+#
+# A library of the sources in a folder, not of those below it. SEES says which folders its files may include beside
+# core/plain, which all may; tests/program/includes_test.cpp holds them to it, and each has to stand above it, so that
+# there is no circle.
+function(dartboard_folder path)
+  cmake_parse_arguments(ARG "NOT_PRECOMPILED" "" "SEES;LINK" ${ARGN})
+  dartboard_sees(${path} ${ARG_SEES})
+  if(NOT path STREQUAL core/plain)
+    list(APPEND ARG_SEES core/plain)
+  endif()
+  dartboard_libraries(libraries ${ARG_SEES})
+  string(REPLACE "/" "_" target dartboard_${path})
+  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${path}/*.cpp)
+  if(NOT sources)
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE dartboard_options ${libraries} ${ARG_LINK})
+    return()
+  endif()
+  add_library(${target} STATIC ${sources})
+  target_link_libraries(${target} PUBLIC dartboard_options ${libraries} ${ARG_LINK})
+  if(DARTBOARD_PRECOMPILE AND NOT ARG_NOT_PRECOMPILED)
+    target_precompile_headers(${target} REUSE_FROM dartboard_precompiled)
   endif()
 endfunction()

@@ -9,7 +9,7 @@
 
 #include "core/plain/error.h"
 #include "core/topology/build.h"
-#include "core/topology/hash.h"
+#include "core/topology/storage/hash.h"
 
 namespace dartboard {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/forces/springs.h"
 #include "core/mechanics/embedding.h"
-#include "core/mechanics/springs.h"
 #include "core/plain/problem.h"
 #include "core/topology/generalized_map.h"
 

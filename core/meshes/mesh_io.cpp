@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "core/meshes/mesh_builder.h"
-#include "core/meshes/mesh_check.h"
-#include "core/meshes/mesh_formats.h"
-#include "core/meshes/text_scanner.h"
+#include "core/meshes/formats/mesh_builder.h"
+#include "core/meshes/formats/mesh_check.h"
+#include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;

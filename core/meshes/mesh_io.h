@@ -1,26 +1,15 @@
 #pragma once
 // Meshes from and to files: Medit, TetGen, Gmsh, legacy VTK and VTU. Every error names file, line and expectation.
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "core/plain/mesh.h"
+#include "core/meshes/formats/loaded_mesh.h"
 
 namespace dartboard {
 
 enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu };
-
-/// A checked mesh of one dimension, and in plain sentences whatever was skipped, dropped or repaired on the way.
-struct LoadedMesh {
-  Mesh mesh;
-  std::string format;  // as read: "Gmsh MSH 2.2"
-  std::vector<std::string> notices;
-  std::vector<std::uint32_t> place_of_point;  // of each point of the file in `mesh`; empty where none is dropped
-  static constexpr std::uint32_t dropped = 0xFFFFFFFF;  // a point of no cell has none
-};
 
 /// Read and check the mesh in a file whose format is told by its extension: .mesh, .node or .ele, .msh, .vtk, .vtu.
 /// For TetGen either file, or the stem of both, will do.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/topology/dart.h"
+#include "core/topology/storage/dart.h"
 
 namespace dartboard {
 

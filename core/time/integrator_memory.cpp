@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "core/plain/error.h"
-#include "core/time/accelerations.h"
+#include "core/time/implicit/local_global.h"
 #include "core/time/integrators.h"
-#include "core/time/local_global.h"
-#include "core/time/node_pattern.h"
-#include "core/time/step_solver.h"
+#include "core/time/solve/step_solver.h"
+#include "core/time/system/accelerations.h"
+#include "core/time/system/node_pattern.h"
 
 namespace dartboard {
 namespace {

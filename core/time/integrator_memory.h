@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "core/time/spring_system.h"
+#include "core/time/system/spring_system.h"
 
 namespace dartboard {
 

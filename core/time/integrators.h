@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/time/integrator.h"
+#include "core/time/method/integrator.h"
 
 namespace dartboard {
 

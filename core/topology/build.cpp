@@ -9,8 +9,8 @@
 #include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
-#include "core/topology/room.h"
 #include "core/topology/sew.h"
+#include "core/topology/storage/room.h"
 
 namespace dartboard {
 namespace {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "core/topology/alpha_table.h"
-#include "core/topology/dart.h"
-#include "core/topology/involutions.h"
-#include "core/topology/journal.h"
 #include "core/topology/mark.h"
-#include "core/topology/tet_table.h"
+#include "core/topology/storage/alpha_table.h"
+#include "core/topology/storage/dart.h"
+#include "core/topology/storage/involutions.h"
+#include "core/topology/storage/journal.h"
+#include "core/topology/storage/tet_table.h"
 #include "core/topology/topology_errors.h"
 
 namespace dartboard {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/topology/dart.h"
+#include "core/topology/storage/dart.h"
 
 namespace dartboard {
 

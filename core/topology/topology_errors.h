@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/topology/dart.h"
+#include "core/topology/storage/dart.h"
 
 namespace dartboard {
 

@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/forces/springs.h"
 #include "core/mechanics/adapt.h"
 
 namespace dartboard {
-
-/// The numbers of the vertices at the two ends of a spring.
-using SpringEnds = std::array<std::uint32_t, 2>;
 
 /// The ends of every edge: the vertices at its lowest dart and across alpha_0. Eight bytes per edge, in one stream.
 class SpringEndsView {

@@ -2,11 +2,11 @@
 // All views of a body at once; a scene that needs fewer holds fewer.
 
 #include "core/views/boundary_surface.h"
-#include "core/views/cell_arrays.h"
 #include "core/views/component_labels.h"
 #include "core/views/sparse_pattern.h"
 #include "core/views/spring_ends.h"
 #include "core/views/vertex_adjacency.h"
+#include "core/walks/cell_arrays.h"
 
 namespace dartboard {
 

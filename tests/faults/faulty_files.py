@@ -13,16 +13,7 @@ import os
 import re
 import sys
 
-from make_faulty_tree import Mistake, read_faults
-
-
-def sources_below(root, folders):
-    """Every .h and .cpp, by its path from the root."""
-    found = []
-    for folder in folders:
-        for place, _, names in os.walk(os.path.join(root, folder)):
-            found += [os.path.relpath(os.path.join(place, name), root) for name in names if name.endswith((".h", ".cpp"))]
-    return sorted(found)
+from make_faulty_tree import Mistake, read_faults, sources_below
 
 
 def main(root, fault_list, *folders):

@@ -187,6 +187,15 @@ def replaced(text, edits):
     return text
 
 
+def sources_below(root, folders):
+    """Every .h and .cpp, by its path from the root."""
+    found = []
+    for folder in folders:
+        for place, _, names in os.walk(os.path.join(root, folder)):
+            found += [os.path.relpath(os.path.join(place, name), root) for name in names if name.endswith((".h", ".cpp"))]
+    return sorted(found)
+
+
 def write_if_changed(path, text):
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:
@@ -202,8 +211,7 @@ def main(source_root, fault_list, output, *rooms):
     of_file = {}
     for fault in faults:
         of_file.setdefault(fault.file, []).append(fault)
-    paths = [room + "/" + name for room in rooms for name in sorted(os.listdir(os.path.join(source_root, room)))
-             if name.endswith((".h", ".cpp"))]
+    paths = sources_below(source_root, rooms)
     if not rooms:
         paths = [path for path in sorted(of_file) if os.path.exists(os.path.join(source_root, path))]
     # all or nothing: a mistake must not leave a tree that is half new

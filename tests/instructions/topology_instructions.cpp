@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "core/meshes/mesh_generators.h"
+#include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"

@@ -3,7 +3,7 @@
 
     pictures.py PROGRAM [TEST...]
 
-What a picture promises (benchmarks/body_picture.h): the boundary seen from the front, a little from the right and above,
+What a picture promises (benchmarks/figures/body_picture.h): the boundary seen from the front, a little from the right and above,
 z upwards; each component in a colour of its own, and what had been inside in another; panels side by side with times.
 """
 

@@ -1,0 +1,53 @@
+#include "benchmarks/cli/scene_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/plain/error.h"
+#include "core/scene/file/scene_check.h"
+#include "core/scene/file/scene_keys.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Those that are a slip of the keys away or hold the word; all where there are none.
+std::vector<std::string> near_names(std::vector<std::string> names, const std::string& word) {
+  std::vector<std::string> near;
+  for (const std::string& name : names)
+    if (nearest_of(std::span(&name, 1), word) || (word.size() > 2 && name.find(word) != std::string::npos))
+      near.push_back(name);
+  return near.empty() ? names : near;
+}
+
+}  // namespace
+
+fs::path gallery_folder() { return fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes"; }
+
+std::vector<std::string> scene_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path scene_file(const std::string& given, std::span<const std::string> others) {
+  std::error_code error;
+  const fs::path path(given);
+  if (fs::exists(path, error)) return path;
+  std::vector<std::string> names = scene_names();
+  const bool bare = !given.empty() && !path.has_parent_path();
+  const std::string stem = path.extension() == ".json" ? path.stem().string() : path.filename().string();
+  if (bare && std::ranges::find(names, stem) != names.end()) return gallery_folder() / (stem + ".json");
+  names.insert(names.end(), others.begin(), others.end());
+  const std::string hint = quoted_list(near_names(names, stem), ", ");
+  if (bare && stem == given)
+    throw InputError(fmt::format("'{}' is neither a scene file nor the name of a scene; there are {}", given, hint));
+  throw IoError(fmt::format("{}: there is no such file; expected a scene{}", given, bare ? ", or one of " + hint : ""));
+}
+
+}  // namespace dartboard

@@ -1,0 +1,21 @@
+#pragma once
+// What a scene may be called where it is studied: tradeoff, recommend.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "benchmarks/cli/scene_names.h"
+#include "validation/scenes/tradeoff_scenes.h"
+
+namespace dartboard {
+
+/// The name of a scene of the study as it is, else the file that `scene_file` finds.
+inline std::string study_scene_or_file(const std::string& given) {
+  std::vector<std::string> names;
+  for (const TradeoffEntry& entry : tradeoff_scenes()) names.emplace_back(entry.name);
+  if (std::ranges::find(names, given) != names.end()) return given;
+  return scene_file(given, names).string();
+}
+
+}  // namespace dartboard

@@ -1,0 +1,13 @@
+#include "benchmarks/cli/verbs/verbs.h"
+
+namespace dartboard {
+
+void add_bench(CLI::App& app, Outcome& outcome) {
+  auto* bench = app.add_subcommand("bench", "Measure one part against its targets and its peers.");
+  bench->require_subcommand(1);
+  add_bench_ablation(*bench, app, outcome);
+  add_bench_topology(*bench, app, outcome);
+  add_bench_operations(*bench, app, outcome);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/cli/scene_names.h"
+#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/tell.h"
+#include "core/plain/counted.h"
+#include "core/scene/file/scene_file.h"
+#include "core/scene/file/scene_pages.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+namespace {
+
+void check_scene(const std::string& given) {
+  const std::string file = scene_file(given).string();
+  SceneFile scene = read_scene(file);
+  if (scene.accuracy) {
+    // all but the step can be checked; any will do for that
+    scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
+    if (scene.integrator.empty()) scene.integrator = "rk4";
+    scene.unstable_step = UnstableStep::warn;
+  }
+  const Simulation simulation(scene);
+  const CellCounts n = simulation.body().counts();
+  const std::string steps = scene.accuracy
+                                ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
+                                : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
+  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(file),
+       simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
+       counted(scene.events.size(), "event"));
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, Outcome& outcome) {
+  struct Options {
+    bool schema = false, keys = false;
+    std::string check;
+  };
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("scene", "What a scene file may say.");
+  auto* what = verb->add_option_group("what");
+  what->add_flag("--schema", options->schema, "print the JSON Schema of scene files");
+  what->add_flag("--keys", options->keys, "print the reference page of all keys, in Markdown");
+  what->add_option("--check", options->check, "read and assemble a scene, and run nothing");
+  what->require_option(1);
+  verb->callback([options, &outcome] {
+    outcome.exit_code = exit_agrees;
+    if (options->schema) tell("{}\n", json_text(scene_schema(), 2));
+    if (options->keys) tell("{}", scene_reference());
+    if (!options->check.empty()) check_scene(options->check);
+  });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "benchmarks/cli/interrupt.h"
+#include "benchmarks/cli/scene_names.h"
+#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/figures/album.h"
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/manifest.h"
+#include "benchmarks/harness/progress.h"
+#include "benchmarks/harness/tell.h"
+#include "benchmarks/studies/scenes/simulate_report.h"
+#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "core/plain/counted.h"
+#include "core/plain/error.h"
+#include "core/scene/file/scene_file.h"
+#include "core/scene/output/atomic_file.h"
+#include "core/scene/output/scene_output.h"
+#include "core/scene/run/scene_run.h"
+#include "core/scene/run/scene_verdict.h"
+
+namespace dartboard {
+namespace {
+
+struct Options {
+  std::string scene, out;
+  bool json = false, quick = false, picture = false;
+  std::optional<std::uint64_t> steps, seed;
+
+  std::optional<std::uint64_t> most_steps() const {
+    if (steps) return steps;
+    return quick ? std::optional<std::uint64_t>(100) : std::nullopt;
+  }
+};
+
+class Watcher : public RunWatcher {
+ public:
+  Watcher(SceneOutput* output, Album* album, Progress& progress, std::uint64_t steps_per_report)
+      : output_(output), album_(album), progress_(progress), steps_per_report_(steps_per_report) {}
+  void frame(const Frame& frame) override {
+    if (output_ != nullptr) output_->write(frame);
+  }
+  void diagnostics(const Diagnostics& diagnostics) override {
+    if (output_ != nullptr) output_->write(diagnostics);
+  }
+  void probes(const ProbeRow& row) override {
+    if (output_ != nullptr) output_->write(row);
+  }
+  bool interrupts() override { return Interrupt::asked(); }
+  void stepped(const Simulation& simulation) override {
+    if (album_ != nullptr) album_->stepped(simulation);
+    if (simulation.steps_done() % steps_per_report_ == 0)
+      progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
+  }
+
+ private:
+  SceneOutput* output_;
+  Album* album_;
+  Progress& progress_;
+  std::uint64_t steps_per_report_;
+};
+
+/// What the run was made of, beside its results.
+nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const Outcome& outcome) {
+  RunFacts facts;
+  facts.command_line = {outcome.command_line};
+  if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
+  facts.input_files = {scene_file(options.scene)};
+  if (const auto* mesh = std::get_if<std::filesystem::path>(&scene.body.mesh)) facts.input_files.push_back(*mesh);
+  return begin_manifest(facts);
+}
+
+void simulate(const Options& options, Outcome& outcome) {
+  SceneFile scene = read_scene(scene_file(options.scene));
+  const bool other_cells = options.seed && reseed(scene, *options.seed);
+  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  Simulation simulation(scene);
+  simulation.watch_events(true);
+  // the folder comes last: a scene that is wrong leaves nothing behind
+  std::optional<SceneOutput> output;
+  nlohmann::json manifest;
+  const auto write_manifest = [&] {
+    if (output) write_whole(output->folder() / "manifest.json", json_text(manifest, 2) + "\n");
+  };
+  if (!options.out.empty()) {
+    output.emplace(options.out, scene.probes, simulation.dimension());
+    manifest = manifest_of(scene, options, outcome);
+    if (settled) manifest["settled"] = *settled;
+    write_manifest();
+  }
+
+  const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
+  const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
+  const double removed_at_start = simulation.body().removed_mass();
+  std::optional<Album> album;
+  if (options.picture) album.emplace(simulation, steps);
+  RunResult result;
+  // of the whole process: long factorisations have a thread of their own
+  const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
+  {
+    Progress progress("simulate", steps / steps_per_report, options.json);
+    Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
+    const Interrupt interrupt;
+    result = run_scene(simulation, scene.output, watcher, options.most_steps());
+  }
+  SimulationReport report{.scene = scene,
+                          .simulation = simulation,
+                          .result = result,
+                          .settled = settled,
+                          .expected = {},
+                          .unjudged = {},
+                          .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
+                          .cpu_s = static_cast<double>(process_cpu_ns() - cpu) * 1e-9,
+                          .folder = output ? output->folder().string() : "",
+                          .frames = output ? output->frame_count() : 0,
+                          .picture = "",
+                          .removed_at_start = removed_at_start};
+  if (result.interrupted)
+    report.unjudged =
+        fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
+                    counted(simulation.steps_done(), "step"), simulation.time());
+  else if (simulation.steps_done() < simulation.step_count() && !result.divergence)
+    report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
+  else if (other_cells)
+    report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
+  else if (!result.divergence)
+    report.expected = compare_with_expectation(scene, simulation, result);
+
+  outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
+  if (album) {
+    album->ended(simulation);
+    const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");
+    report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
+    picture_missing(outcome, trouble);
+  }
+  if (output) {
+    write_whole(output->folder() / "summary.json", json_text(to_json(report), 2) + "\n");
+    finish_manifest(manifest);
+    write_manifest();
+  }
+  if (options.json) {
+    tell("{}\n", json_text(to_json(report), 2));
+    if (outcome.exit_code == exit_io) tell(stderr, "{}\n", report.picture);
+  } else {
+    tell("{}", to_text(report));
+  }
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
+  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
+      ->required();
+  auto* out =
+      verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
+  verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
+  verb->add_option("--steps", options->steps, "stop after so many steps");
+  verb->add_flag("--quick", options->quick, "stop after 100 steps");
+  verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]");
+  verb->add_flag("--json", options->json, "print JSON");
+  verb->callback([options, &outcome] { simulate(*options, outcome); });
+}
+
+}  // namespace dartboard

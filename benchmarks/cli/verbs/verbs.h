@@ -1,0 +1,34 @@
+#pragma once
+// All verbs; each has a file of its own.
+
+#include <CLI/App.hpp>
+
+#include "benchmarks/cli/cli.h"
+
+namespace dartboard {
+
+// Each adds a verb whose callback does the work and leaves its exit code in `outcome`, which must outlive the parse.
+void add_reproduce(CLI::App& app, Outcome& outcome);
+void add_measure(CLI::App& app, Outcome& outcome);
+void add_validate(CLI::App& app, Outcome& outcome);
+void add_bench(CLI::App& app, Outcome& outcome);
+void add_simulate(CLI::App& app, Outcome& outcome);
+void add_scene(CLI::App& app, Outcome& outcome);
+void add_tradeoff(CLI::App& app, Outcome& outcome);
+void add_recommend(CLI::App& app, Outcome& outcome);
+void add_extremes(CLI::App& app, Outcome& outcome);
+void add_explain(CLI::App& app, Outcome& outcome);
+void add_explain_dt(CLI::App& app, Outcome& outcome);
+void add_gallery(CLI::App& app, Outcome& outcome);
+void add_mesh(CLI::App& app, Outcome& outcome);
+void add_list(CLI::App& app, Outcome& outcome);
+
+// The parts of `validate`, and of `bench`, which also give `app` the hidden verbs that their child processes run.
+void add_validate_conservation(CLI::App& validate, Outcome& outcome);
+void add_validate_order(CLI::App& validate, Outcome& outcome);
+void add_validate_solvers(CLI::App& validate, Outcome& outcome);
+void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome);
+void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome);
+void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome);
+
+}  // namespace dartboard

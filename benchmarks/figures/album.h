@@ -1,0 +1,35 @@
+#pragma once
+// The few pictures that are kept of a run.
+
+#include <cstdint>
+#include <vector>
+
+#include "benchmarks/figures/body_picture.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+
+/// The body at the start, after one and two thirds of the run, and at its end.
+class Album {
+ public:
+  Album(const Simulation& simulation, std::uint64_t steps) : steps_(steps) { take(simulation); }
+
+  void stepped(const Simulation& simulation) {
+    const std::uint64_t n = simulation.steps_done();
+    if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
+  }
+  /// The last good state of a run that ended before its time.
+  void ended(const Simulation& simulation) {
+    if (panels_.back().frame.time < simulation.time()) take(simulation);
+  }
+  const std::vector<BodyPanel>& panels() const { return panels_; }
+
+ private:
+  void take(const Simulation& simulation) {
+    panels_.push_back({simulation.frame(), simulation.body().vertices().point});
+  }
+  std::uint64_t steps_;
+  std::vector<BodyPanel> panels_;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,51 @@
+#pragma once
+// Pictures of a body as it moves: what a scene did, seen from the side, drawn by gnuplot.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scene/body/frame.h"
+
+namespace dartboard {
+
+/// A body at one time, and the mesh point that each of its vertices came from (none: put in by refinement).
+struct BodyPanel {
+  Frame frame;
+  std::vector<std::uint32_t> point;
+};
+
+/// A body at a few times, side by side.
+struct BodyStrip {
+  std::vector<BodyPanel> panels;
+  std::string title;
+};
+
+/// A facet of the surface as it is drawn: corners in the plane of the picture, and its colour.
+struct DrawnFacet {
+  std::vector<Eigen::Vector2d> corners;  // [m]; two of them: a line
+  double depth = 0.0;                    // of its middle, towards the viewer
+  std::uint32_t colour = 0;              // 0xrrggbb
+};
+
+/// What is seen of a body from the front, a little from the right and above, z upwards: its boundary, the farthest
+/// facet first. Each component has a colour of its own, and facets that were inside the body of `first` another one.
+std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first);
+
+/// Draw bodies side by side at one scale, each with its time; `name`.png, `name`.svg, and the data and script they are
+/// drawn from.
+///
+/// Where the body moves far beyond its size, each panel follows it.
+/// returns what went wrong, as `draw` does
+/// throws  IoError when the files cannot be written
+std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& title,
+                        const std::filesystem::path& folder, const std::string& name,
+                        const std::string& gnuplot = "gnuplot");
+
+inline std::string draw(const BodyStrip& strip, const std::filesystem::path& folder, const std::string& name) {
+  return draw_bodies(strip.panels, strip.title, folder, name);
+}
+
+}  // namespace dartboard

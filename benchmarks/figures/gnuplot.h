@@ -1,0 +1,55 @@
+#pragma once
+// gnuplot as a child process, and what scripts for it have in common.
+
+#include <filesystem>
+#include <string>
+
+#include "benchmarks/figures/plot.h"
+
+namespace dartboard {
+
+/// Text in a file of data, where gnuplot runs nothing but knows double quotes alone.
+std::string data_string(const std::string& text);
+
+/// A file in the folder that the script runs in, as a script names it; never a pipe, as a name that begins with "<" or
+/// "|" would be.
+std::string plot_source(const std::string& file);
+
+/// The title of a picture of that width [pixels] and font [points], as an expression of gnuplot: broken between words
+/// into at most `lines` lines, shortened with "..." where these do not hold it.
+std::string quoted_title(const std::string& text, int width, double font, int lines = 3);
+
+/// ... using 1:2 with ...: a series drawn from its data ("figure.dat" index 3), with its labels if it has some.
+std::string plot_element(const PlotSeries& series, const std::string& data);
+
+/// The data of all that one picture shows, in one file beside it: blocks, which gnuplot calls by their index.
+class DataBlocks {
+ public:
+  explicit DataBlocks(const std::string& name) : name_(name) {}
+  /// Another block under a comment: lines of numbers, without an empty one.
+  ///
+  /// returns what a script calls it by
+  std::string add(const std::string& what, const std::string& lines);
+  const std::string& text() const { return text_; }
+  std::string file() const { return name_ + ".dat"; }
+
+ private:
+  std::string name_, text_;
+  int count_ = 0;
+};
+
+/// throws  IoError if it cannot be written
+void write_plot_file(const std::filesystem::path& file, const std::string& text);
+
+/// Run the script "`name`.gnuplot" that lies in `folder`.
+///
+/// returns what went wrong, in a sentence; empty when all is well
+std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name);
+
+/// The commands, which plot, once for `name`.png and once for `name`.svg.
+std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height);
+/// "set terminal ..." for a PNG or an SVG of this size.
+std::string png_terminal(int width, int height);
+std::string svg_terminal(int width, int height);
+
+}  // namespace dartboard

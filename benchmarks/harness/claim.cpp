@@ -1,0 +1,136 @@
+#include "benchmarks/harness/claim.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace dartboard {
+
+std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds: return "holds";
+    case Verdict::falls_short: return "falls short";
+    case Verdict::does_not_carry_over: return "does not carry over";
+    case Verdict::not_tested: return "not tested";
+  }
+  return "unknown verdict";
+}
+
+void to_json(nlohmann::json& json, const Claim& claim) {
+  json = {{"id", claim.id},
+          {"claim", claim.text},
+          {"section", claim.section},
+          {"paper", claim.paper_value},
+          {"measured", claim.measured},
+          {"bound_or_interval", claim.bound_or_interval},
+          {"verdict", name(claim.verdict)}};
+  if (!claim.reason.empty()) json["reason"] = claim.reason;
+  if (claim.expected != Verdict::holds) json["expected"] = name(claim.expected);
+}
+
+bool Claim::surprises() const { return verdict != Verdict::not_tested && verdict != expected && reason.empty(); }
+
+namespace {
+
+bool is_number(const Figure& figure) {
+  return !std::isnan(figure.median) && !std::isnan(figure.interval.low) && !std::isnan(figure.interval.high);
+}
+
+}  // namespace
+
+Met at_most(const Figure& figure, double bound) {
+  if (!is_number(figure)) return Met::no;
+  return figure.median <= bound ? Met::yes : figure.interval.low <= bound ? Met::open : Met::no;
+}
+
+Met at_least(const Figure& figure, double bound) {
+  if (!is_number(figure)) return Met::no;
+  return figure.median >= bound ? Met::yes : figure.interval.high >= bound ? Met::open : Met::no;
+}
+
+void judge(Claim& claim, Met met) {
+  claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::not_tested;
+  if (met == Met::open) claim.reason = "the interval lies on both sides of the bound: this run cannot tell";
+}
+
+int exit_code(std::span<const Claim> claims) {
+  const bool disagrees = std::any_of(claims.begin(), claims.end(), [](const Claim& claim) {
+    return claim.verdict == Verdict::falls_short || claim.surprises();
+  });
+  return disagrees ? 1 : 0;
+}
+
+std::string in_words(std::span<const Claim> claims) {
+  const auto those = [&claims](auto&& is_meant, const char* one, const char* several) {
+    std::vector<std::string> ids;
+    for (const Claim& claim : claims)
+      if (is_meant(claim)) ids.push_back(claim.id);
+    return ids.empty() ? std::string()
+                       : fmt::format("{} {} ({})", ids.size(), ids.size() == 1 ? one : several, fmt::join(ids, ", "));
+  };
+  const auto of = [](Verdict verdict) { return [verdict](const Claim& claim) { return claim.verdict == verdict; }; };
+  const auto holding = std::count_if(claims.begin(), claims.end(), of(Verdict::holds));
+  std::string text = fmt::format("{} claim{} hold{}", holding, holding == 1 ? "" : "s", holding == 1 ? "s" : "");
+  for (const std::string& more :
+       {those(of(Verdict::falls_short), "falls short", "fall short"),
+        those(of(Verdict::does_not_carry_over), "of the paper's does not carry over to this machine",
+              "of the paper's do not carry over to this machine"),
+        those(of(Verdict::not_tested), "was not tested", "were not tested"),
+        those([](const Claim& claim) { return claim.verdict != Verdict::falls_short && claim.surprises(); },
+              "has another answer than the known one, and no reason is known",
+              "have another answer than the known one, and no reason is known")})
+    if (!more.empty()) text += "; " + more;
+  return text + ".";
+}
+
+std::string to_text(std::span<const Claim> claims) {
+  std::string text;
+  std::size_t width = 12;
+  for (const Claim& c : claims) width = std::max(width, name(c.verdict).size());
+  for (const Claim& c : claims) {
+    const bool of_paper = !c.section.empty();  // else a target of our own
+    text +=
+        fmt::format("{:<{}}  {}{}\n", name(c.verdict), width, c.text, of_paper ? " (section " + c.section + ")" : "");
+    std::string below;
+    const auto add = [&](std::string_view what, const std::string& value) {
+      if (!value.empty()) below += fmt::format("{}{}{}", below.empty() ? "" : "; ", what, value);
+    };
+    add(of_paper ? "paper: " : "target: ", c.paper_value);
+    add("here: ", c.measured);
+    add("", c.bound_or_interval);
+    add("", c.reason);
+    if (!below.empty()) text += fmt::format("{:<{}}  {}\n", "", width, below);
+  }
+  return text;
+}
+
+Table table_of(std::span<const Claim> claims) {
+  const bool reasons =
+      std::any_of(claims.begin(), claims.end(), [](const Claim& claim) { return !claim.reason.empty(); });
+  // without a section of the paper it is a target of our own
+  const auto of_paper = std::count_if(claims.begin(), claims.end(), [](const Claim& c) { return !c.section.empty(); });
+  const bool sections = of_paper > 0;
+  const std::string asserted = !sections ? "target" : of_paper == std::ssize(claims) ? "paper" : "paper, or target";
+  std::vector<Column> columns{{"claim"}};
+  if (sections) columns.push_back({"section"});
+  columns.insert(columns.end(),
+                 {{asserted, Align::right}, {"measured", Align::right}, {"interval or bound"}, {"verdict"}});
+  if (reasons) columns.push_back({"reason"});
+  Table table(std::move(columns));
+  for (const Claim& claim : claims) {
+    std::vector<std::string> row{claim.text};
+    if (sections) row.push_back(claim.section);
+    row.insert(row.end(),
+               {claim.paper_value, claim.measured, claim.bound_or_interval, std::string(name(claim.verdict))});
+    if (reasons) row.push_back(claim.reason);
+    table.add_row(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,67 @@
+#include "benchmarks/harness/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "benchmarks/harness/clock.h"
+#include "core/plain/escape.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::int64_t terminal_period_ns = 100'000'000;
+constexpr std::int64_t log_period_ns = 2'000'000'000;
+
+/// A terminal that can rewrite a line, which an editor's "dumb" one cannot.
+bool is_terminal() {
+  const char* kind = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+Progress::Progress(std::string label, std::size_t total, bool quiet)
+    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(is_terminal()) {}
+
+Progress::~Progress() {
+  if (line_open_) std::fputc('\n', stderr);
+}
+
+void Progress::advance(std::string_view detail) {
+  ++done_;
+  if (quiet_) return;
+  const std::int64_t now = steady_wall_ns();
+  if (now < next_print_ns_ && done_ != total_) return;
+  next_print_ns_ = now + (terminal_ ? terminal_period_ns : log_period_ns);
+  print(detail);
+}
+
+void Progress::print(std::string_view detail) {
+  std::string line =
+      terminal_text(fmt::format("{}: {}/{}{}{}", label_, done_, total_, detail.empty() ? "" : "  ", detail));
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", line);
+    return;
+  }
+  // a line that wraps could not be rewritten; bytes are at least as many as columns, so this may cut early, never late
+  if (line.size() >= terminal_width()) {
+    std::size_t end = terminal_width() - 1;
+    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
+    line.resize(end);
+  }
+  // back to the first column, then erase what is left of the line before
+  fmt::print(stderr, "\r{}\033[K", line);
+  std::fflush(stderr);
+  line_open_ = true;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,70 @@
+#include "benchmarks/harness/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+std::vector<double> sorted(std::span<const double> sample) {
+  if (sample.empty()) throw InputError("statistics of an empty sample");
+  std::vector<double> values(sample.begin(), sample.end());
+  if (std::any_of(values.begin(), values.end(), [](double x) { return std::isnan(x); }))
+    throw InputError(fmt::format("statistics of a sample of {} values, of which one is NaN", values.size()));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double quantile_of_sorted(std::span<const double> values, double p) {
+  const double position = p * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const double part = position - static_cast<double>(below);
+  // no interpolation at an order statistic: infinity times zero would be NaN
+  return part == 0.0 ? values[below] : std::lerp(values[below], values[below + 1], part);
+}
+
+}  // namespace
+
+double median(std::span<const double> sample) { return quantile(sample, 0.5); }
+
+double quantile(std::span<const double> sample, double p) {
+  if (!(p >= 0.0 && p <= 1.0)) throw InputError(fmt::format("quantile {} is not in 0..1", p));
+  return quantile_of_sorted(sorted(sample), p);
+}
+
+Interval median_interval(std::span<const double> sample, double confidence) {
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw InputError(fmt::format("confidence {} is not in ]0, 1[", confidence));
+  const auto values = sorted(sample);
+  const std::size_t n = values.size();
+  const boost::math::binomial below_median(static_cast<double>(n), 0.5);
+  const auto coverage_of = [&](std::size_t k) {
+    return 1.0 - 2.0 * boost::math::cdf(below_median, static_cast<double>(k - 1));
+  };
+  // move both ends inwards while the coverage allows it
+  std::size_t k = 1;
+  while (2 * (k + 1) <= n && coverage_of(k + 1) >= confidence) ++k;
+  return {values[k - 1], values[n - k], coverage_of(k), coverage_of(k) >= confidence};
+}
+
+std::string to_string(const Interval& interval) {
+  return fmt::format("[{:.3g}, {:.3g}] at {}{:.1f} %", interval.low, interval.high, interval.reached ? "" : "only ",
+                     100.0 * interval.coverage);
+}
+
+std::vector<bool> outliers(std::span<const double> sample, double threshold) {
+  const double middle = median(sample);
+  std::vector<double> deviation;
+  for (double x : sample) deviation.push_back(std::abs(x - middle));
+  const double scale = 1.4826 * median(deviation);
+  std::vector<bool> flags;
+  for (double d : deviation) flags.push_back(d > threshold * scale);
+  return flags;
+}
+
+}  // namespace dartboard

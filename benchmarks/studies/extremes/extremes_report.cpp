@@ -1,0 +1,241 @@
+#include "benchmarks/studies/extremes/extremes_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/plain/nan_maximum.h"
+#include "core/time/integrators.h"
+
+namespace dartboard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Claim claim(std::string id, std::string text, std::string target, std::string measured, bool holds,
+            std::string rests_on) {
+  return {.id = std::move(id),
+          .text = std::move(text),
+          .paper_value = std::move(target),
+          .measured = std::move(measured),
+          .bound_or_interval = std::move(rests_on),
+          .verdict = holds ? Verdict::holds : Verdict::falls_short};
+}
+
+/// The worst of the axis of offsets, of methods that solve equations and of those that do not: those stop where
+/// rounding leaves them of an equation, in each step.
+void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
+  constexpr double target = 30.0;
+  for (const bool implicit : {false, true}) {
+    double worst = 0.0;
+    std::size_t count = 0;
+    std::string who;
+    for (const Json& cell : results.cells) {
+      const auto name = cell.at("integrator").get<std::string>();
+      // explicit Euler, stable nowhere, makes rounding grow as it does everything
+      if (!cell.contains("offset_error") || name == "explicit-euler") continue;
+      if (make_integrator(name)->scheme().implicit != implicit) continue;
+      ++count;
+      const Json& found = cell.at("offset_error");
+      const double error = found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();
+      if (error < worst) continue;  // what is not a number is not less
+      worst = max_or_nan(worst, error);
+      who = fmt::format("{}, {} at D = {}", name, cell.at("scene").get<std::string>(),
+                        cell.at("value").get<std::string>());
+    }
+    if (count == 0) continue;
+    claims.push_back(claim(
+        implicit ? "offset-implicit" : "offset-explicit",
+        fmt::format("{} methods at D edge lengths from the origin against the same run there",
+                    implicit ? "implicit" : "explicit"),
+        fmt::format("<= {:g} eps D", target), fmt::format("{:.3g} eps D", worst), worst <= target,
+        fmt::format("{} runs of 100 steps{}; worst: {}", count, implicit ? "" : ", explicit Euler left out", who)));
+  }
+}
+
+void add_limit_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
+  if (results.limits.empty()) return;
+  for (const double tolerance : {1e-3, 5e-3}) {
+    double worst = 0.0;
+    std::size_t count = 0, held = 0;
+    for (const StabilityLimit& l : results.limits) {
+      if (l.tolerance != tolerance) continue;
+      ++count;
+      held += l.holds();
+      worst = max_or_nan(worst, std::abs(l.measured / l.theory - 1));
+    }
+    const bool meshes = tolerance > 4e-3;
+    claims.push_back(claim(meshes ? "limits-meshes" : "limits-closed-forms",
+                           meshes ? "longest stable steps on meshes, with omega_max by Lanczos, before and after cuts"
+                                  : "longest stable steps on the oscillator and the chain, five damping ratios",
+                           fmt::format("<= {:g} %", 100 * tolerance), fmt::format("{:.3f} %", 100 * worst),
+                           held == count && worst <= tolerance, fmt::format("{} of {} limits", held, count)));
+  }
+  double above = 0.0, below = 0.0;
+  bool proven = true;
+  for (const MeshBody& m : results.meshes) {
+    above = max_or_nan(above, m.omega / m.upper - 1);
+    below = max_or_nan(below, m.upper / m.omega - 1);
+    proven &= m.proven;
+  }
+  if (!results.meshes.empty())
+    claims.push_back(claim("estimate-meshes", "the stable-step estimate is never above the limit, at most 10 % below",
+                           "<= 10 %", fmt::format("{:.2f} %", 100 * below), above <= 0.0 && below <= 0.1 && proven,
+                           proven ? "omega_max proven by a Cholesky factor" : "omega_max not proven"));
+}
+
+}  // namespace
+
+// JSON has no infinity: numbers that may be none are text.
+Json to_json(const ExtremeCell& cell) {
+  Json json{{"axis", cell.axis},
+            {"scene", cell.scene},
+            {"integrator", cell.integrator},
+            {"value", cell.value},
+            {"outcome", to_string(cell.outcome)},
+            {"step", cell.step}};
+  if (!cell.diagnosis.ok()) {
+    json["code"] = to_string(cell.diagnosis.code);
+    if (cell.diagnosis.witness != Witness::none)
+      json[cell.diagnosis.witness == Witness::vertex ? "vertex" : "edge"] = cell.diagnosis.number;
+    json["quantity"] = cell.diagnosis.quantity;
+    json["found"] = fmt::format("{:.6g}", cell.diagnosis.value);
+    if (!names_a_quantity(cell.diagnosis)) json["nameless"] = true;
+  }
+  if (!cell.warnings.empty()) json["warnings"] = cell.warnings;
+  if (!cell.note.empty()) json["note"] = cell.note;
+  if (cell.refused) json["refused"] = true;
+  if (cell.offset_error)
+    json["offset_error"] = std::isfinite(*cell.offset_error) ? Json(*cell.offset_error) : Json("not finite");
+  return json;
+}
+
+std::vector<Json> forbidden_cells(const ExtremesResults& results) {
+  std::vector<Json> forbidden;
+  for (const Json& cell : results.cells)
+    if (cell.at("outcome") == "SILENT" || cell.at("outcome") == "CRASH") forbidden.push_back(cell);
+  return forbidden;
+}
+
+std::vector<Json> nameless_cells(const ExtremesResults& results) {
+  std::vector<Json> nameless;
+  for (const Json& cell : results.cells)
+    if (cell.at("outcome") == "DIAGNOSED" && cell.contains("nameless")) nameless.push_back(cell);
+  return nameless;
+}
+
+Json to_json(const ExtremesResults& results) {
+  Json json{{"cells", results.cells.size()}, {"forbidden", forbidden_cells(results).size()}, {"matrix", results.cells}};
+  json["limits"] = Json::array();
+  for (const StabilityLimit& l : results.limits)
+    json["limits"].push_back({{"body", l.body},
+                              {"integrator", l.integrator},
+                              {"zeta", l.zeta},
+                              {"theory", l.theory},
+                              {"measured", l.measured},
+                              {"holds", l.holds()}});
+  for (const StabilityMap& m : results.maps)
+    for (const auto& c : m.boundary)
+      json["boundary"].push_back(
+          {{"integrator", m.integrator}, {"zeta", c.zeta}, {"theory", c.theory}, {"measured", c.measured}});
+  for (const AmplificationPoint& p : results.amplification)
+    json["amplification"].push_back({{"integrator", p.integrator},
+                                     {"h_omega", p.theta},
+                                     {"amplitude", p.amplitude()},
+                                     {"phase", p.phase()},
+                                     {"damping_ratio", p.damping_ratio()},
+                                     {"deviation", p.deviation()},
+                                     {"tolerance", p.tolerance}});
+  for (const RoundingGrowth& g : results.rounding)
+    for (const auto& p : g.points)
+      json["rounding"].push_back({{"integrator", g.integrator}, {"steps", p.steps}, {"energy_error", p.error}});
+  for (const TinySteps& t : results.tiny)
+    json["tiny"].push_back({{"integrator", t.integrator},
+                            {"h", t.h},
+                            {"steps", t.steps},
+                            {"lost", t.lost},
+                            {"cannot_be_read", t.readable},
+                            {"lost_with_digits", t.lost_with_digits}});
+  for (const Detection& d : results.detections) {
+    Json one{{"body", d.body}, {"integrator", d.integrator}, {"factor", d.factor}, {"predicted", d.predicted}};
+    if (d.passed) one["passed"] = *d.passed;
+    if (d.detected) one["detected"] = *d.detected;
+    json["detection"].push_back(one);
+  }
+  json["claims"] = Json(nlohmann::json(claims_of(results)));
+  return json;
+}
+
+std::vector<Claim> claims_of(const ExtremesResults& results) {
+  std::vector<Claim> claims;
+  if (!results.cells.empty()) {
+    const std::size_t forbidden = forbidden_cells(results).size();
+    claims.push_back(claim("no-silent-run", "no run of the matrix is wrong without a word, or ends the process", "0",
+                           fmt::format("{}", forbidden), forbidden == 0, fmt::format("{} runs", results.cells.size())));
+    const std::vector<Json> nameless = nameless_cells(results);
+    std::string first;
+    if (!nameless.empty())
+      first = fmt::format("; {} {} {} with {}: {} {}", nameless[0].at("axis").get<std::string>(),
+                          nameless[0].at("scene").get<std::string>(), nameless[0].at("value").get<std::string>(),
+                          nameless[0].at("integrator").get<std::string>(),
+                          nameless[0].at("quantity").get<std::string>(), nameless[0].at("found").get<std::string>());
+    const auto diagnosed =
+        std::ranges::count_if(results.cells, [](const Json& c) { return c.at("outcome") == "DIAGNOSED"; });
+    claims.push_back(claim("diagnoses-name-a-quantity", "no diagnosis names a quantity that is no number", "0",
+                           fmt::format("{}", nameless.size()), nameless.empty(),
+                           fmt::format("{} diagnoses{}", diagnosed, first)));
+    add_offset_claims(results, claims);
+  }
+  add_limit_claims(results, claims);
+  if (!results.maps.empty()) {
+    double worst = 0.0;
+    std::size_t crossings = 0;
+    for (const StabilityMap& m : results.maps) {
+      worst = max_or_nan(worst, m.worst());
+      crossings += m.boundary.size();
+    }
+    claims.push_back(claim("map-boundaries", "boundaries of stability over step and damping ratio", "<= 0.1 %",
+                           fmt::format("{:.3f} %", 100 * worst), worst <= 1e-3, fmt::format("{} places", crossings)));
+  }
+  if (!results.amplification.empty()) {
+    double worst = 0.0;
+    std::size_t held = 0;
+    for (const AmplificationPoint& p : results.amplification) {
+      worst = max_or_nan(worst, p.deviation());
+      held += p.holds();
+    }
+    claims.push_back(claim("amplification", "amplitude and phase of a step against closed forms", "<= 1e-10",
+                           fmt::format("{:.1e}", worst), worst <= 1e-10 && held == results.amplification.size(),
+                           fmt::format("{} of {} within rounding", held, results.amplification.size())));
+  }
+  if (!results.detections.empty()) {
+    std::size_t predicted = 0, held = 0;
+    std::uint64_t above = 0;
+    for (const Detection& d : results.detections) {
+      predicted += d.predicted;
+      held += d.holds();
+      above = std::max(above, d.above);
+    }
+    claims.push_back(claim("unstable-steps",
+                           "unstable steps are predicted, and detected within 64 steps above the bound of the energy",
+                           "all; <= 64", fmt::format("{} of {}; {}", predicted, results.detections.size(), above),
+                           held == results.detections.size(), fmt::format("{} runs", results.detections.size())));
+  }
+  for (const RoundingGrowth& g : results.rounding)
+    claims.push_back(claim(
+        "rounding-" + g.integrator, fmt::format("rounding of the energy of {} grows like a random walk", g.integrator),
+        "0.5 +- 0.1", fmt::format("{:.3f}", g.exponent), std::abs(g.exponent - 0.5) <= 0.1,
+        fmt::format("{} starts, {:.0e} steps", g.starts, static_cast<double>(g.points.back().steps))));
+  if (!results.tiny.empty()) {
+    bool keeps = true;
+    for (const TinySteps& t : results.tiny) keeps &= t.keeps_all() || !t.integrator.ends_with("compensated");
+    claims.push_back(claim("tiny-steps", "a compensated state keeps what 10^6 steps down to 1e-18 s add up to",
+                           "what can be read", keeps ? "kept" : "lost", keeps, "table of tiny steps"));
+  }
+  return claims;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,46 @@
+#pragma once
+// What `extremes` found: tables, claims, JSON.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "benchmarks/harness/table.h"
+#include "validation/extremes/amplification_study.h"
+#include "validation/extremes/detection_study.h"
+#include "validation/extremes/energy_rounding.h"
+#include "validation/extremes/extremes.h"
+#include "validation/extremes/stability_limits.h"
+#include "validation/extremes/stability_map.h"
+
+namespace dartboard {
+
+/// Empty where a study was not asked for.
+struct ExtremesResults {
+  std::vector<nlohmann::ordered_json> cells;  // as they come from child processes
+  std::vector<StabilityLimit> limits;
+  std::vector<MeshBody> meshes;  // what the limits on meshes rest on
+  std::vector<StabilityMap> maps;
+  std::vector<AmplificationPoint> amplification;
+  std::vector<RoundingGrowth> rounding;
+  std::vector<TinySteps> tiny;
+  std::vector<Detection> detections;
+};
+
+nlohmann::ordered_json to_json(const ExtremeCell& cell);
+nlohmann::ordered_json to_json(const ExtremesResults& results);
+
+/// SILENT and CRASH.
+std::vector<nlohmann::ordered_json> forbidden_cells(const ExtremesResults& results);
+
+/// Diagnosed cells whose diagnosis names no quantity (`names_a_quantity`).
+std::vector<nlohmann::ordered_json> nameless_cells(const ExtremesResults& results);
+
+/// Targets of our own, of the studies that were made.
+std::vector<Claim> claims_of(const ExtremesResults& results);
+
+/// Of the studies that were made.
+std::vector<NamedTable> tables_of(const ExtremesResults& results);
+
+}  // namespace dartboard

@@ -1,0 +1,47 @@
+#pragma once
+// What `dartboard validate order` says: tables and claims.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "benchmarks/harness/table.h"
+#include "validation/order/convergence_order.h"
+#include "validation/order/cut_jump.h"
+#include "validation/order/discrete_exact.h"
+#include "validation/order/force_gradient.h"
+#include "validation/order/implicit_gains.h"
+
+namespace dartboard {
+
+/// The reference of a scene.
+struct OrderReference {
+  OrderCase which = OrderCase::undamped;
+  reference::CertifiedMotion certified;
+};
+
+/// What was measured.
+struct OrderResults {
+  std::vector<OrderReference> references;
+  std::vector<OrderStudy> studies;
+  std::vector<DiscreteExact> discrete;
+  std::vector<std::string> no_discrete;  // integrators that do not state their amplification
+  ForceGradient force;
+  std::vector<CutJump> jumps;
+  EnergyDrift drift;
+  KeptFactor factor;
+};
+
+std::vector<Claim> claims_of(const OrderResults& results);
+
+/// Whose agreement the references rest on: "by independent codes".
+std::string references_heading(const OrderResults& results);
+
+Table order_table(const OrderResults& results);
+Table oracle_table(const OrderResults& results);
+Table discrete_table(const OrderResults& results);
+
+nlohmann::ordered_json to_json(const OrderResults& results, const std::vector<Claim>& claims);
+
+}  // namespace dartboard

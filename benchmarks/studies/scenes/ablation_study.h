@@ -1,0 +1,61 @@
+#pragma once
+// What `bench ablation` measures: a scene with each feature switched on from a bare one and off from a full one, and
+// the bare scene beside loops with less and less around them.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "benchmarks/harness/paired.h"
+#include "core/scene/body/memory.h"
+#include "core/scene/file/scene_file.h"
+
+namespace dartboard {
+
+/// A scene, and which of its output happens: every tenth step.
+struct AblationVariant {
+  std::string name;  // "bare", "bare + damping", "full", "full - damping"
+  SceneFile scene;
+  bool frames = false, diagnostics = false;
+};
+
+/// What built objects report of parts that a bare scene does not ask for.
+std::size_t bytes_not_asked_for(const MemoryReport& report);
+/// Of damping: its part, and what the springs take beyond a rest length, a stiffness and two ends each.
+std::size_t bytes_of_damping(const MemoryReport& report, std::size_t springs);
+
+/// What is compared: `task` takes the time of `baseline` and that of the feature.
+struct AblationPair {
+  std::string feature;
+  std::string task, baseline;
+};
+
+/// The body of the paper's size: bare, full, and each feature on and off.
+std::vector<AblationVariant> ablation_variants();
+/// The feature of each pair is what the first has and the second has not.
+std::vector<AblationPair> switched_on();
+std::vector<AblationPair> switched_off();
+
+/// The bare scene, step by step less around it: "simulation" (Simulation::advance), "watched loop" (the integrator,
+/// then the detector and the speed check), "loop and detector", "loop" (the integrator on plain arrays, nothing else),
+/// "plain loop" (the same method written out for springs and masses alone: no damping, viscosity or fixed vertices
+/// anywhere in it, and no look at whether the state is finite).
+std::vector<AblationPair> staircase();
+
+/// Does what the task of a pair has more take at most half a percent of a step? Not tested where the interval lies on
+/// both sides of that with the median above, or where the baseline, which does less, is the slower one by more than its
+/// interval: it is no lower bound then, and the ratio says nothing.
+Verdict verdict_on_time(const Figure& task_over_baseline);
+
+struct AblationOptions {
+  int process = 0, rounds = 8, steps = 100;
+  std::uint64_t seed = 1;
+};
+
+/// Time all variants and loops in this process.
+///
+/// throws  SolverError if the loops of the staircase do not leave the same bits: nothing is timed then
+void study_ablation(const AblationOptions& options, const std::function<void(const Sample&)>& sink);
+
+}  // namespace dartboard

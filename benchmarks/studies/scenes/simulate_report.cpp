@@ -1,0 +1,135 @@
+#include "benchmarks/studies/scenes/simulate_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "benchmarks/harness/tell.h"
+#include "benchmarks/studies/scenes/simulation_json.h"
+#include "core/plain/counted.h"
+#include "core/scene/output/scene_output.h"
+#include "core/time/watch/preflight.h"
+
+namespace dartboard {
+namespace {
+
+std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("{:.2e}", drift); }
+
+}  // namespace
+
+Table summary_of(const SimulationReport& r) {
+  Table table({{"quantity", Align::left}, {"start", Align::right}, {"end", Align::right}});
+  const Diagnostics &first = r.result.first, &last = r.result.last;
+  const auto shown = [](double x) { return std::isfinite(x) ? fmt::format("{:.6g}", x) : "-"; };
+  const auto row = [&](const std::string& what, double start, double end) {
+    table.add_row({what, shown(start), shown(end)});
+  };
+  const auto counts = [&table](const char* what, std::size_t start, std::size_t end) {
+    table.add_row({what, fmt::format("{}", start), fmt::format("{}", end)});
+  };
+  row("time [s]", first.time, last.time);
+  counts("steps", 0, r.kept_step());
+  counts("operations", first.operations, last.operations);
+  counts("vertices", first.counts.vertices, last.counts.vertices);
+  counts("edges", first.counts.edges, last.counts.edges);
+  counts("faces", first.counts.faces, last.counts.faces);
+  counts("cells", first.counts.cells, last.counts.cells);
+  counts("components", first.counts.components, last.counts.components);
+  row("mass [kg]", first.mass, last.mass);
+  row("kinetic energy [J]", first.kinetic, last.kinetic);
+  row("elastic energy [J]", first.elastic, last.elastic);
+  row("gravitational energy [J]", first.gravitational, last.gravitational);
+  const int dimension = r.simulation.dimension();
+  row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
+  row(fmt::format("largest stress [{}]", stress_unit(dimension)), first.largest_stress, last.largest_stress);
+  return table;
+}
+
+std::string to_text(const SimulationReport& r) {
+  std::string said;
+  const auto say = [&said]<class... T>(fmt::format_string<T...> format, T&&... arguments) {
+    said += fmt::format(format, std::forward<T>(arguments)...);
+  };
+  say("{}\n{}, {}, h = {:.6g} s\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(), r.scene.integrator,
+      r.scene.step, to_text(summary_of(r)));
+  if (r.settled) {
+    say("{}\n", to_string(*r.settled));
+    for (const std::string& omission : r.settled->omissions) say("  {}\n", omission);
+  }
+  const auto steps = static_cast<double>(r.simulation.steps_done());
+  const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
+  say("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
+  if (r.simulation.body().removed_mass() > 0.0)
+    say("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
+  const EventJumps& jumps = r.simulation.jumps();
+  if (jumps.events > 0)
+    say("largest jump at {} that {}: mass {}, momentum {}, kinetic and elastic energy {} "
+        "(relative)\n",
+        counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
+        drift_text(jumps.momentum), drift_text(jumps.energy));
+  say("hash of the last state {:016x}\n", r.simulation.body().state_hash());
+  if (const auto& warning = r.simulation.step_warning())
+    say("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
+  if (const auto& warning = r.simulation.coordinate_warning()) say("warning: {}\n", to_string(*warning));
+  for (const StepResult& warning : r.simulation.warnings()) say("warning: {}\n", explained(warning));
+  for (const std::string& path : r.simulation.idle_events()) say("warning: the event at {} never did anything\n", path);
+  if (r.result.divergence)
+    say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
+        to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
+  if (!r.expected.empty()) {
+    Table table(
+        {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
+    for (const ExpectedRow& row : r.expected)
+      table.add_row({row.what, row.expected, row.actual, row.holds ? "yes" : "NO"});
+    say("\n{}", to_text(table));
+  }
+  if (!r.unjudged.empty()) say("\n{}\n", r.unjudged);
+  if (!r.folder.empty())
+    say("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
+        r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
+  if (!r.picture.empty()) say("{}\n", r.picture);
+  return said;
+}
+
+nlohmann::ordered_json to_json(const SimulationReport& r) {
+  nlohmann::ordered_json json{{"scene", r.scene.name},
+                              {"map", r.simulation.body().map_name()},
+                              {"integrator", r.scene.integrator},
+                              {"holds", r.holds()},
+                              {"steps", r.simulation.steps_done()},
+                              {"first", to_json(r.result.first)},
+                              {"last", to_json(r.result.last)},
+                              {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
+                              {"wall_s", r.wall_s},
+                              {"cpu_s", r.cpu_s},
+                              {"mass_drift", r.mass_drift()},
+                              {"jumps", to_json(r.simulation.jumps())}};
+  if (const auto& d = r.result.divergence)
+    json["divergence"] = {{"step", d->step},
+                          {"time", d->time},
+                          {"quantity", d->quantity},
+                          {"vertex", d->vertex},
+                          {"taken_back", d->taken_back},
+                          {"kept_step", r.kept_step()},
+                          {"kept_time", r.result.last.time},
+                          {"value", fmt::format("{:.17g}", d->value)}};
+  if (const auto& warning = r.simulation.step_warning())
+    json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
+  if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(explained(w));
+  json["idle_events"] = r.simulation.idle_events();
+  json["expected"] = nlohmann::ordered_json::array();
+  for (const ExpectedRow& row : r.expected)
+    json["expected"].push_back(
+        {{"what", row.what}, {"expected", row.expected}, {"actual", row.actual}, {"holds", row.holds}});
+  if (r.settled) json["settled"] = nlohmann::json(*r.settled);
+  if (!r.unjudged.empty()) json["unjudged"] = r.unjudged;
+  json["interrupted"] = r.result.interrupted;
+  if (!r.folder.empty()) json["folder"] = r.folder;
+  return json;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,55 @@
+#pragma once
+// What `dartboard simulate` says of a run.
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/table.h"
+#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "core/scene/run/scene_run.h"
+#include "core/scene/run/scene_verdict.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+
+/// Everything the summary says.
+struct SimulationReport {
+  const SceneFile& scene;
+  const Simulation& simulation;
+  const RunResult& result;
+  std::optional<SettledAccuracy> settled;  // where the scene asks for an accuracy
+  std::vector<ExpectedRow> expected;
+  std::string unjudged;  // why there is no verdict; empty where there is one
+  double wall_s, cpu_s;
+  std::string folder;
+  std::size_t frames;
+  std::string picture;  // what became of it
+
+  bool holds() const {
+    return !result.divergence &&
+           std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
+  }
+  /// The step that the last state is of: after a divergence the one that the body has gone back to.
+  std::uint64_t kept_step() const {
+    return simulation.steps_done() - (result.divergence ? result.divergence->taken_back : 0);
+  }
+  /// What became of the mass beyond what removals took, relative to the mass at the start.
+  double mass_drift() const {
+    const SimulatedBody& body = simulation.body();
+    return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
+  }
+  double removed_at_start = 0.0;
+};
+
+/// What there was at the start and at the end.
+Table summary_of(const SimulationReport& report);
+
+std::string to_text(const SimulationReport& report);
+
+nlohmann::ordered_json to_json(const SimulationReport& report);
+
+}  // namespace dartboard

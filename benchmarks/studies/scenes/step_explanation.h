@@ -1,0 +1,46 @@
+#pragma once
+// What limits the time step of a scene, and what a change of its body would buy.
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/scene/file/scene_file.h"
+#include "core/time/method/step_limit.h"
+#include "validation/scenes/spring_columns.h"
+
+namespace dartboard {
+
+/// A spring or a vertex and its share of the energy of the fastest oscillation.
+struct StepShare {
+  std::uint32_t number = 0;
+  double share = 0.0;
+};
+
+/// A change of the body, and the step [s] that it makes stable.
+struct StepRemedy {
+  std::string what;
+  double step = 0.0;
+};
+
+struct StepExplanation {
+  StableStep limits;
+  StepLimit limit;     // at the start: what the simulation goes by
+  double quick = 0.0;  // [s] stable in any state, by Gershgorin's bound
+  // the largest first, at most five of each; none where nothing oscillates
+  std::vector<StepShare> springs, vertices;
+  std::vector<StepRemedy> remedies;
+  SpringColumns body;  // at the start
+};
+
+/// throws  as the constructor of Simulation; a step that the scene refuses is explained like any other
+StepExplanation explain_step(SceneFile scene);
+
+/// For the terminal.
+std::string to_text(const StepExplanation& explanation, const SceneFile& scene);
+
+/// JSON has no infinity: a step without a limit is null.
+nlohmann::ordered_json to_json(const StepExplanation& explanation, const SceneFile& scene);
+
+}  // namespace dartboard

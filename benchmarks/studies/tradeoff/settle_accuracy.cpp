@@ -1,0 +1,114 @@
+#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/plain/counted.h"
+#include "core/plain/error.h"
+#include "core/scene/file/step_times.h"
+#include "core/time/integrators.h"
+#include "validation/recommend/recommend.h"
+#include "validation/scenes/scene_of_file.h"
+
+namespace dartboard {
+namespace {
+
+/// Above its first limit a method may be stable again where damping helps, but not for long where events change what is
+/// damped: there a step keeps below that limit by a tenth. No bound for scenes without events.
+double longest_undamped_step(const SceneFile& scene, const SceneFeatures& features) {
+  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
+  double longest = std::numeric_limits<double>::infinity();
+  if (scene.events.empty() || scheme.implicit || !(scheme.imaginary_limit > 0.0)) return longest;
+  for (const StableStep& step : features.limits) longest = std::min(longest, 0.9 * scheme.imaginary_limit / step.upper);
+  return longest;
+}
+
+}  // namespace
+
+std::string to_string(const SettledAccuracy& s) {
+  return fmt::format(
+      "for an accuracy of {:.3g} edges: {}{} with h = {:.6g} s; expected error {:.1e} edges{}, expected time {:.3g} s; "
+      "the choice took {:.3g} s\n  in place of /accuracy, these settle it for good: \"integrator\": \"{}\", \"step\": "
+      "{}{}",
+      s.accuracy, s.integrator, s.integrator_named ? " (named by the scene)" : "", s.step, s.predicted_error,
+      s.omissions.empty() ? "" : fmt::format(", {} aside", counted(s.omissions.size(), "thing")), s.predicted_s,
+      s.pilot_s, s.integrator, nlohmann::json(s.step).dump(),
+      s.untried.empty() ? ""
+                        : fmt::format("\n  not tried for want of time, and another run may choose one of them: {}",
+                                      fmt::join(s.untried, "; ")));
+}
+
+void to_json(nlohmann::json& json, const SettledAccuracy& s) {
+  json = {{"accuracy", s.accuracy},
+          {"integrator", s.integrator},
+          {"integrator_named", s.integrator_named},
+          {"step", s.step},
+          {"recommended_step", s.recommended_step},
+          {"predicted_error", s.predicted_error},
+          {"predicted_s", s.predicted_s},
+          {"pilot_s", s.pilot_s},
+          {"omissions", s.omissions},
+          {"untried", s.untried}};
+}
+
+double step_fitting_times(const SceneFile& scene, double largest) {
+  std::vector<double> times;
+  for (const SceneEvent& event : scene.events) times.push_back(event.from);
+  for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time, scene.output.probe_time})
+    if (every && *every < scene.duration) times.push_back(*every);
+  const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));
+  // a quarter more steps, or few enough to cost nothing
+  const double most = std::max(1.25 * least, 128.0);
+  for (double n = least; n <= std::min(most, least + 1e5); ++n)
+    if (std::ranges::all_of(times, [&](double t) { return step_at(t, scene.duration / n).has_value(); }))
+      return scene.duration / n;
+  return scene.duration / least;
+}
+
+std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock) {
+  if (!scene.accuracy) return {};
+  SettledAccuracy settled;
+  settled.accuracy = *scene.accuracy;
+  settled.integrator_named = !scene.integrator.empty();
+  if (scene.duration > 0.0) {
+    const TradeoffScene studied = scene_of_file(scene);
+    RecommendOptions options;
+    options.adaptive = false;  // a simulation has one step throughout
+    options.only = scene.integrator;
+    const Recommendation r = recommend(studied, *scene.accuracy, clock, options);
+    const Candidate* pick = r.pick();
+    if (pick == nullptr && std::isfinite(r.best_error))
+      throw InputError(
+          fmt::format("{}: /accuracy: is {} mean edge lengths, which cannot be met in double precision; expected a "
+                      "larger one: about {:.1e} is the best, with {}",
+                      scene.file, *scene.accuracy, r.best_error, r.best_error_by));
+    if (pick == nullptr)
+      throw InputError(
+          fmt::format("{}: /accuracy: is {} mean edge lengths, and no step{} was found to meet it; "
+                      "expected a larger one, or 'step' in its place",
+                      scene.file, *scene.accuracy, settled.integrator_named ? " of " + scene.integrator : ""));
+    scene.integrator = pick->contender;
+    scene.step = step_fitting_times(scene, std::min(pick->h, longest_undamped_step(scene, r.features)));
+    settled.recommended_step = pick->h;
+    settled.predicted_error = pick->error_at(scene.step);
+    settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);
+    settled.pilot_s = r.pilot_s;
+    settled.omissions = studied.omissions;
+    settled.untried = r.untried();
+  } else {
+    // nothing moves: any will do
+    scene.step = 1.0;
+    if (scene.integrator.empty()) scene.integrator = "rk4";
+  }
+  settled.integrator = scene.integrator;
+  settled.step = scene.step;
+  scene.output = scene.output.in_steps_of(scene.step);
+  return settled;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,27 @@
+#pragma once
+// The force of one spring (section 4.1), written once for every walk and every integrator.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <type_traits>
+
+#include "core/forces/springs.h"
+
+namespace dartboard {
+
+/// Force [N] that a spring exerts on its first end; the second end gets the opposite.
+///
+/// k (l - L) + c (dv . u) along u, the direction from the first end to the second; zero for zero length, where there
+/// is no direction. Exchanging the ends changes the sign of every intermediate exactly, so either end may come first.
+template <class SomeSpring = Spring>  // or UndampedSpring
+Eigen::Vector3d spring_force(const SomeSpring& spring, const Eigen::Vector3d& dx,
+                             [[maybe_unused]] const Eigen::Vector3d& dv) {
+  const double length = std::sqrt(dx.squaredNorm());
+  if (length == 0.0) return Eigen::Vector3d::Zero();
+  const double inverse = 1.0 / length;
+  double tension = spring.stiffness * (length - spring.rest_length);
+  if constexpr (std::is_same_v<SomeSpring, Spring>) tension += spring.damping * (dv.dot(dx) * inverse);
+  return (tension * inverse) * dx;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,141 @@
+#include "core/mechanics/fracture/seam.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+
+#include "core/plain/error.h"
+#include "core/topology/cells.h"
+
+namespace dartboard {
+namespace {
+
+template <class Map>
+using Body = MassSpringBody<Map, Held::by_every_dart>;
+using Numbers = boost::container::small_vector<std::uint32_t, 48>;
+
+// f(lowest dart) for what two cells share: interior faces of a solid, interior edges of a surface.
+template <class Map, class F>
+void for_each_interior_facet(const Map& map, F&& f) {
+  constexpr int n = Map::dimension;
+  for_each_cell<n - 1>(map, [&](Cell<n - 1> facet) {
+    if (!map.template is_free<n>(facet.dart)) f(facet.dart);
+  });
+}
+
+/// The numbers of the vertices of a cell, ascending: the order of the walk leaves no trace.
+template <int i, class Map>
+Numbers vertices_of(const Body<Map>& body, Cell<i> cell) {
+  Numbers numbers;
+  for_each_dart_of(body.map, cell, [&body, &numbers](Dart d) { numbers.push_back(body.vertex(body.map, d)); });
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+/// The mean of the vertices' positions [m].
+template <class Map>
+Eigen::Vector3d middle(const Body<Map>& body, Dart cell) {
+  const Numbers nodes = vertices_of(body, Cell<Map::dimension>{cell});
+  Eigen::Vector3d sum(0, 0, 0);
+  for (const std::uint32_t k : nodes) sum += body.vertices.position[k];
+  return sum / static_cast<double>(nodes.size());
+}
+
+template <class Map>
+std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+  constexpr int n = Map::dimension;
+  if (!point.allFinite() || !normal.allFinite() || normal.isZero(0.0))
+    throw InputError(
+        fmt::format("a plane through ({}, {}, {}) with normal ({}, {}, {}), expected finite numbers and a "
+                    "normal that is not zero",
+                    point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()));
+  std::vector<bool> in_front(body.cell_dart.size());
+  for (std::size_t c = 0; c < in_front.size(); ++c)
+    in_front[c] = (middle(body, body.cell_dart[c]) - point).dot(normal) >= 0.0;
+  std::vector<Dart> seam;
+  for_each_interior_facet(body.map, [&](Dart d) {
+    const Dart opposite = body.map.template alpha<n>(d);
+    if (in_front[body.cell(body.map, d)] != in_front[body.cell(body.map, opposite)]) seam.push_back(d);
+  });
+  return seam;
+}
+
+// Call f(choice) for every way to choose N of the ascending numbers, each choice ascending.
+template <std::size_t N, class F>
+void for_each_choice(const Numbers& numbers, F&& f, std::array<std::uint32_t, N> choice = {}, std::size_t chosen = 0,
+                     std::size_t from = 0) {
+  if (chosen == N) return f(choice);
+  for (std::size_t k = from; k < numbers.size(); ++k) {
+    choice[chosen] = numbers[k];
+    for_each_choice<N>(numbers, f, choice, chosen + 1, k + 1);
+  }
+}
+
+template <std::size_t N, class Map>
+std::vector<Dart> facets_of_points(const Body<Map>& body, std::span<const std::array<std::uint32_t, N>> wanted) {
+  constexpr int n = Map::dimension;
+  std::vector<std::array<std::uint32_t, N>> sorted(wanted.begin(), wanted.end());
+  for (auto& points : sorted) std::sort(points.begin(), points.end());
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+
+  std::vector<bool> found(sorted.size(), false);
+  std::vector<Dart> seam;
+  for_each_interior_facet(body.map, [&](Dart d) {
+    Numbers points = vertices_of(body, Cell<n - 1>{d});
+    for (std::uint32_t& p : points) p = body.vertices.point[p];
+    points.erase(std::remove(points.begin(), points.end(), no_point), points.end());  // nobody can mean these
+    std::sort(points.begin(), points.end());
+    bool wanted_here = false;
+    for_each_choice<N>(points, [&](const std::array<std::uint32_t, N>& choice) {
+      const auto at = std::lower_bound(sorted.begin(), sorted.end(), choice);
+      if (at == sorted.end() || *at != choice) return;
+      found[static_cast<std::size_t>(at - sorted.begin())] = true;
+      wanted_here = true;
+    });
+    if (wanted_here) seam.push_back(d);
+  });
+  if (const auto missing = std::find(found.begin(), found.end(), false); missing != found.end())
+    throw InputError(fmt::format("a seam names the points {}, expected those of an interior {}",
+                                 fmt::join(sorted[static_cast<std::size_t>(missing - found.begin())], ", "),
+                                 n == 3 ? "face" : "edge"));
+  return seam;
+}
+
+}  // namespace
+
+template <class Map>
+FaceSet::FaceSet(const Map& map, std::span<const Dart> faces) : in_(map.template slot_count<2>(), false) {
+  for (const Dart face : faces)
+    for_each_dart_of(map, Face{face}, [this](Dart d) { in_[Map::template slot<2>(d)] = true; });
+}
+
+template <class Map>
+std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal) {
+  return facets_on_plane(body, point, normal);
+}
+
+template <class Map>
+std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>& body,
+                                  std::span<const std::array<std::uint32_t, 3>> triples) {
+  return facets_of_points<3>(body, triples);
+}
+
+std::vector<Dart> edges_on_plane(const MassSpringBody<Map2, Held::by_every_dart>& body, const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal) {
+  return facets_on_plane(body, point, normal);
+}
+
+std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart>& body,
+                                  std::span<const std::array<std::uint32_t, 2>> pairs) {
+  return facets_of_points<2>(body, pairs);
+}
+
+DARTBOARD_SEAMS(, Map3)
+DARTBOARD_SEAMS(, TetMap)
+
+}  // namespace dartboard

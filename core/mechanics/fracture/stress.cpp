@@ -1,0 +1,88 @@
+#include "core/mechanics/fracture/stress.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/container/small_vector.hpp>
+#include <limits>
+
+#include "core/plain/error.h"
+#include "core/topology/cells.h"
+
+namespace dartboard {
+namespace {
+
+// The lower triangle suffices until the sum is complete.
+void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
+  for (int j = 0; j < 3; ++j)
+    for (int i = j; i < 3; ++i) sum(i, j) += term(i, j);
+}
+
+void finish(Eigen::Matrix3d& sum, double mass, double density) {
+  const double volume = mass / density;
+  for (int j = 0; j < 3; ++j)
+    for (int i = j; i < 3; ++i) sum(j, i) = sum(i, j) = sum(i, j) / volume;
+}
+
+}  // namespace
+
+template <class Map>
+Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
+  const VertexColumns& v = body.vertices;
+  struct Incident {
+    std::uint32_t edge, other_end;
+  };
+  boost::container::small_vector<Incident, 64> around;
+  for (const Edge e : incident_cells<1>(body.map, Vertex{v.dart[k]}))
+    around.push_back({body.edge(body.map, e.dart), body.vertex(body.map, body.map.template alpha<0>(e.dart))});
+  std::sort(around.begin(), around.end(), [](const Incident& a, const Incident& b) { return a.edge < b.edge; });
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const auto& [edge, other_end] : around)
+    add_lower(sum, spring_virial(body.springs[edge], v.position[other_end] - v.position[k]));
+  finish(sum, v.mass[k], body.material.density);
+  return sum;
+}
+
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
+                     std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
+                     std::vector<Eigen::Matrix3d>& stress) {
+  stress.assign(mass.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t e = 0; e < springs.size(); ++e) {
+    const auto [a, b] = ends[e];
+    const Eigen::Matrix3d virial = spring_virial(springs[e], position[b] - position[a]);
+    add_lower(stress[a], virial);
+    add_lower(stress[b], virial);
+  }
+  for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
+}
+
+StressError::StressError(std::uint32_t which)
+    : SolverError(fmt::format("the stress of vertex {} is not finite", which)), vertex(which) {}
+
+PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
+  if (!stress.allFinite()) throw SolverError("the principal directions of a stress that is not finite");
+  // The iterative solver: the closed form loses half the digits where two eigenvalues are close.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(stress);
+  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalues of a stress were not found");
+  Eigen::Vector3d direction = solver.eigenvectors().col(2).normalized();
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  if (direction[largest] < 0.0) direction = -direction;
+  return {solver.eigenvalues()[2], direction};
+}
+
+double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses) {
+  double largest = stresses.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
+  for (const Eigen::Matrix3d& sigma : stresses) {
+    if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, principal_stress(sigma).value);
+  }
+  return largest;
+}
+
+template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);
+template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map3, Held::by_every_dart>&, std::uint32_t);
+template Eigen::Matrix3d vertex_stress(const MassSpringBody<TetMap, Held::by_every_dart>&, std::uint32_t);
+
+}  // namespace dartboard

@@ -1,0 +1,158 @@
+#include "core/meshes/formats/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/meshes/text/text_scanner.h"
+#include "core/plain/cell_limits.h"
+#include "core/plain/counted.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t narrow_line(std::size_t line) { return static_cast<std::uint32_t>(std::min<std::size_t>(line, none)); }
+
+}  // namespace
+
+MeshBuilder::MeshBuilder(std::string point_file, std::string cell_file)
+    : point_file_(std::move(point_file)), cell_file_(std::move(cell_file)) {}
+
+void MeshBuilder::reserve_points(std::size_t count) {
+  point_numbers_.reserve(point_numbers_.size() + count);
+  points_.reserve(points_.size() + count);
+  point_lines_.reserve(point_lines_.size() + count);
+}
+
+void MeshBuilder::add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line) {
+  if (points_.size() == none) fail_at(point_file_, line, "found 2^32 points", "fewer: points are numbered in 32 bits");
+  point_numbers_.push_back(number);
+  points_.push_back(x);
+  point_lines_.push_back(narrow_line(line));
+}
+
+void MeshBuilder::add_cell(CellKind kind, std::span<const std::uint64_t> points, std::size_t line) {
+  if (cell_points_.size() + points.size() > none)
+    fail_at(cell_file_, line, "found cells with 2^32 nodes altogether", "fewer: nodes are counted in 32 bits");
+  kinds_.push_back(kind);
+  cell_points_.insert(cell_points_.end(), points.begin(), points.end());
+  all_cell_lines_.push_back(narrow_line(line));
+}
+
+void MeshBuilder::add_higher_order(std::string_view name, int dimension, std::size_t line, std::uint64_t count) {
+  const auto at = higher_order_.find(name);
+  if (at == higher_order_.end())
+    higher_order_.emplace(std::string(name), HigherOrder{dimension, line, count});
+  else
+    at->second.count += count;
+}
+
+/// The points in ascending order of their numbers; empty when they are numbered one after the other already.
+std::vector<std::uint32_t> MeshBuilder::number_points() {
+  const auto jump = std::adjacent_find(point_numbers_.begin(), point_numbers_.end(),
+                                       [](std::uint64_t a, std::uint64_t b) { return b != a + 1; });
+  if (jump == point_numbers_.end()) return {};
+  std::vector<std::uint32_t> order(point_numbers_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return point_numbers_[a] < point_numbers_[b]; });
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (point_numbers_[order[k]] == point_numbers_[order[k - 1]])
+      fail_at(point_file_, point_lines_[order[k]],
+              fmt::format("point {} occurs already in line {}", point_numbers_[order[k]], point_lines_[order[k - 1]]),
+              "every point number once");
+  return order;
+}
+
+std::uint32_t MeshBuilder::find_point(std::uint64_t number, std::span<const std::uint32_t> by_number) const {
+  if (by_number.empty()) {
+    if (points_.empty() || number < point_numbers_.front() || number > point_numbers_.back()) return none;
+    return static_cast<std::uint32_t>(number - point_numbers_.front());
+  }
+  const auto at = std::lower_bound(by_number.begin(), by_number.end(), number,
+                                   [&](std::uint32_t p, std::uint64_t n) { return point_numbers_[p] < n; });
+  return at != by_number.end() && point_numbers_[*at] == number ? *at : none;
+}
+
+void MeshBuilder::check_order(int dimension) const {
+  for (const auto& [element, found] : higher_order_)
+    if (found.dimension >= dimension)
+      fail_at(cell_file_, found.line, fmt::format("found a {}", element),
+              "elements of first order, with straight edges");
+}
+
+std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {
+  std::array<std::size_t, 2> polygons{};  // triangles, quadrilaterals
+  if (dimension == 3)
+    for (CellKind kind : kinds_)
+      if (dartboard::dimension(kind) == 2) ++polygons[kind == CellKind::triangle ? 0 : 1];
+  std::vector<std::string> parts;
+  if (polygons[0] != 0) parts.push_back(counted(polygons[0], name(CellKind::triangle)));
+  if (polygons[1] != 0) parts.push_back(counted(polygons[1], name(CellKind::quadrilateral)));
+  for (const auto& [element, found] : higher_order_) parts.push_back(counted(found.count, element));
+  if (skipped_[1] != 0) parts.push_back(counted(skipped_[1], "edge"));
+  if (skipped_[0] != 0) parts.push_back(counted(skipped_[0], "point element"));
+  if (parts.empty()) return "";
+  return fmt::format("skipped {}: the body is made of its {}", fmt::join(parts, ", "),
+                     counted(kept, dimension == 3 ? "volume" : "polygon"));
+}
+
+LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
+  int dimension = 0;
+  for (CellKind kind : kinds_) dimension = std::max(dimension, dartboard::dimension(kind));
+  check_order(std::max(dimension, 2));
+  if (dimension == 0)
+    fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
+  CountsByKind counts{};
+  for (CellKind kind : kinds_)
+    if (dartboard::dimension(kind) == dimension) ++counts[static_cast<std::size_t>(kind)];
+  if (const std::string beyond = beyond_a_map(counts); !beyond.empty())
+    fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
+  const auto by_number = number_points();
+
+  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}, .place_of_point = {}};
+  Mesh& mesh = loaded.mesh;
+  std::vector<bool> used(points_.size(), false);
+  std::vector<std::uint32_t> cell;
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < kinds_.size(); ++c) {
+    const auto numbers = std::span(cell_points_).subspan(first, static_cast<std::size_t>(node_count(kinds_[c])));
+    first += numbers.size();
+    if (dartboard::dimension(kinds_[c]) != dimension) continue;
+    cell.clear();
+    for (std::uint64_t number : numbers) {
+      const std::uint32_t point = find_point(number, by_number);
+      if (point == none)
+        fail_at(cell_file_, all_cell_lines_[c], fmt::format("a {} has the point {}", name(kinds_[c]), number),
+                fmt::format("one of the {} point numbers in {}", points_.size(), point_file_));
+      used[point] = true;
+      cell.push_back(point);
+    }
+    mesh.add_cell(kinds_[c], cell);
+    cell_lines_.push_back(all_cell_lines_[c]);
+  }
+  if (auto notice = skipped_notice(dimension, mesh.cell_count()); !notice.empty())
+    loaded.notices.push_back(std::move(notice));
+
+  // keep the points that cells use, in the order of the file
+  std::vector<std::uint32_t> kept(points_.size(), none);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (!used[p]) continue;
+    kept[p] = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(points_[p]);
+  }
+  for (auto& node : mesh.nodes) node = kept[node];
+  if (const std::size_t dropped = points_.size() - mesh.points.size(); dropped != 0) {
+    loaded.notices.push_back(
+        fmt::format("dropped {} that {} to no cell", counted(dropped, "point"), dropped == 1 ? "belongs" : "belong"));
+    loaded.place_of_point = std::move(kept);
+  }
+  return loaded;
+}
+
+}  // namespace dartboard

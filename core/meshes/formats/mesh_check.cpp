@@ -1,0 +1,244 @@
+#include "core/meshes/formats/mesh_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "core/meshes/text/text_scanner.h"
+
+namespace dartboard {
+namespace {
+
+/// A mesh under examination, and how to talk about its cells.
+struct Examined {
+  Mesh& mesh;
+  const std::string& file;
+  std::span<const std::uint32_t> lines;
+
+  std::size_t line(std::size_t c) const { return c < lines.size() ? lines[c] : 0; }
+  std::string cell(std::size_t c) const { return fmt::format("cell {} ({})", c, name(mesh.kinds[c])); }
+  [[noreturn]] void fail(std::size_t c, const std::string& found, std::string_view expected) const {
+    fail_at(file, line(c), cell(c) + " " + found, expected);
+  }
+};
+
+// --- indices
+
+void check_layout(const Examined& e) {
+  const Mesh& mesh = e.mesh;
+  if (mesh.cell_count() == 0) fail_at(e.file, 0, "the mesh has no cells", "at least one");
+  bool consistent = mesh.first.size() == mesh.cell_count() + 1 && mesh.first.front() == 0;
+  for (std::size_t c = 0; consistent && c < mesh.cell_count(); ++c)
+    consistent = mesh.first[c + 1] == mesh.first[c] + static_cast<std::uint32_t>(node_count(mesh.kinds[c]));
+  if (!consistent || mesh.first.back() != mesh.nodes.size())
+    fail_at(e.file, 0, "the cells do not lie back to back", "as many nodes for every cell as its kind has");
+  for (std::size_t c = 1; c < mesh.cell_count(); ++c)
+    if (dimension(mesh.kinds[c]) != dimension(mesh.kinds[0]))
+      e.fail(c, "occurs next to " + e.cell(0), "either polygons or volumes, not both");
+}
+
+void check_points(const Examined& e) {
+  for (std::size_t p = 0; p < e.mesh.points.size(); ++p)
+    if (!e.mesh.points[p].allFinite())
+      fail_at(e.file, 0, fmt::format("point {} has a coordinate that is not finite", p), "finite coordinates");
+}
+
+void check_nodes(const Examined& e) {
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
+    const auto nodes = e.mesh.cell(c);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k] >= e.mesh.points.size())
+        e.fail(c, fmt::format("has the point {}", nodes[k]), fmt::format("less than {}", e.mesh.points.size()));
+      if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(k), nodes[k]) !=
+          nodes.begin() + static_cast<std::ptrdiff_t>(k))
+        e.fail(c, fmt::format("has the point {} twice", nodes[k]), "different points at its nodes");
+    }
+  }
+}
+
+// --- shared cells, faces and edges: sets of up to N points, sorted so that equal ones become neighbours
+
+template <std::size_t N>
+struct Key {
+  std::array<std::uint32_t, N> points;  // ascending, filled up with the largest number
+  std::uint32_t cell;
+  auto operator<=>(const Key&) const = default;
+};
+
+template <std::size_t N>
+void append_key(std::vector<Key<N>>& keys, const auto& points, std::size_t cell) {
+  Key<N> key{.points = {}, .cell = static_cast<std::uint32_t>(cell)};
+  key.points.fill(std::numeric_limits<std::uint32_t>::max());
+  std::copy(points.begin(), points.end(), key.points.begin());
+  std::sort(key.points.begin(), key.points.end());
+  keys.push_back(key);
+}
+
+/// The first `count` neighbours with the same points, or the end.
+template <std::size_t N>
+auto find_repeated(std::vector<Key<N>>& keys, std::size_t count) {
+  std::sort(keys.begin(), keys.end());
+  auto at = keys.begin();
+  for (; static_cast<std::size_t>(keys.end() - at) >= count; ++at)
+    if (at->points == (at + static_cast<std::ptrdiff_t>(count) - 1)->points) return at;
+  return keys.end();
+}
+
+void check_repeated_cells(const Examined& e) {
+  std::vector<Key<8>> keys;
+  keys.reserve(e.mesh.cell_count());
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) append_key(keys, e.mesh.cell(c), c);
+  const auto at = find_repeated(keys, 2);
+  if (at != keys.end())
+    e.fail((at + 1)->cell, fmt::format("has the same points as {}", e.cell(at->cell)), "every cell once");
+}
+
+template <std::size_t N>
+void refuse_third(const Examined& e, std::vector<Key<N>>& keys, std::string_view part, std::string_view whole) {
+  const auto at = find_repeated(keys, 3);
+  if (at == keys.end()) return;
+  std::vector<std::uint32_t> points(at->points.begin(), at->points.end());
+  std::erase(points, std::numeric_limits<std::uint32_t>::max());
+  e.fail((at + 2)->cell,
+         fmt::format("shares the {} of points {} with {} and {}", part, fmt::join(points, ", "), e.cell(at->cell),
+                     e.cell((at + 1)->cell)),
+         fmt::format("at most two {} at every {}", whole, part));
+}
+
+void check_faces(const Examined& e) {
+  std::vector<Key<4>> keys;
+  keys.reserve(e.mesh.nodes.size());
+  std::vector<std::uint32_t> points;
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c)
+    for (const auto& face : faces_of(e.mesh.kinds[c])) {
+      points.clear();
+      for (int k : face) points.push_back(e.mesh.cell(c)[static_cast<std::size_t>(k)]);
+      append_key(keys, points, c);
+    }
+  refuse_third(e, keys, "face", "volumes");
+}
+
+void check_edges(const Examined& e) {
+  std::vector<Key<2>> keys;
+  keys.reserve(e.mesh.nodes.size());
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
+    const auto nodes = e.mesh.cell(c);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      append_key(keys, std::array{nodes[k], nodes[(k + 1) % nodes.size()]}, c);
+  }
+  refuse_third(e, keys, "edge", "polygons");
+}
+
+// --- geometry
+
+double longest_edge(const Mesh& mesh, std::size_t c) {
+  double longest = 0.0;
+  const auto nodes = mesh.cell(c);
+  const auto p = [&](int k) -> const Eigen::Vector3d& { return mesh.points[nodes[static_cast<std::size_t>(k)]]; };
+  for (const auto& face : faces_of(mesh.kinds[c]))
+    for (std::size_t k = 0; k < face.size(); ++k)
+      longest = std::max(longest, (p(face[(k + 1) % face.size()]) - p(face[k])).norm());
+  return longest;
+}
+
+/// The order of the nodes in the mirror image of a cell, which has the same faces.
+std::span<const int> mirrored(CellKind kind) {
+  static constexpr std::array<int, 4> tetrahedron{0, 2, 1, 3};
+  static constexpr std::array<int, 5> pyramid{0, 3, 2, 1, 4};
+  static constexpr std::array<int, 6> prism{0, 2, 1, 3, 5, 4};
+  static constexpr std::array<int, 8> hexahedron{0, 3, 2, 1, 4, 7, 6, 5};
+  switch (kind) {
+    case CellKind::tetrahedron: return tetrahedron;
+    case CellKind::pyramid: return pyramid;
+    case CellKind::prism: return prism;
+    case CellKind::hexahedron: return hexahedron;
+    case CellKind::triangle:
+    case CellKind::quadrilateral: break;
+  }
+  return {};
+}
+
+void mirror(Mesh& mesh, std::size_t c) {
+  std::array<std::uint32_t, 8> before{};
+  const auto nodes = std::span(mesh.nodes).subspan(mesh.first[c], mesh.cell(c).size());
+  std::copy(nodes.begin(), nodes.end(), before.begin());
+  const auto order = mirrored(mesh.kinds[c]);
+  for (std::size_t k = 0; k < order.size(); ++k) nodes[k] = before[static_cast<std::size_t>(order[k])];
+}
+
+/// The measure of a cell, refused when it is zero.
+///
+/// A measure of at most 1e-14 L^d, L the longest edge, cannot be told from rounding. It is a sum of up to 24
+/// determinants over 6 with rows no longer than L, and for a hexahedron one of L / 2. The moduli of the terms of a
+/// determinant add up to at most 1.2 L^3 (the largest permanent of such rows), each off by some 13 u from centroids,
+/// differences and products, u = 1.1e-16; the outer sum adds 24 u of its parts. Together that is less than
+/// 90 u L^3 = 1e-14 L^3. Slivers that can still be simulated lie far above.
+double solid_measure(const Examined& e, std::size_t c) {
+  const double longest = longest_edge(e.mesh, c);
+  const double unit = std::pow(longest, dimension(e.mesh.kinds[c]));
+  const double measure = signed_measure(e.mesh, c);
+  if (!std::isfinite(unit) || !std::isfinite(measure))
+    e.fail(c, fmt::format("has edges of up to {:.3g}, too long to measure it", longest), "a body of finite size");
+  // "not greater" also refuses the cell whose measure underflows
+  if (!(std::abs(measure) > 1e-14 * unit) || !(unit >= std::numeric_limits<double>::min()))
+    e.fail(c, fmt::format("has the measure {:.3g} with edges of up to {:.3g}", measure, longest),
+           dimension(e.mesh.kinds[c]) == 3 ? "a volume that is not zero" : "an area that is not zero");
+  return measure;
+}
+
+void repair_orientation(Examined& e, std::vector<std::string>& notices) {
+  std::size_t inverted = 0, first = 0;
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
+    if (solid_measure(e, c) > 0.0) continue;
+    mirror(e.mesh, c);
+    if (const double measure = signed_measure(e.mesh, c); !(measure > 0.0))
+      e.fail(c, fmt::format("has the volume {:.3g} in either order of its nodes", measure), "a positive volume");
+    if (inverted++ == 0) first = c;
+  }
+  if (inverted == 0) return;
+  const std::string place = e.line(first) == 0 ? "" : fmt::format(" in line {}", e.line(first));
+  notices.push_back(fmt::format("reordered the nodes of {} inverted cell{}, the first of them {}{}", inverted,
+                                inverted == 1 ? "" : "s", e.cell(first), place));
+}
+
+void note_coinciding_points(const Mesh& mesh, std::vector<std::string>& notices) {
+  std::vector<std::uint32_t> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto xyz = [&](std::uint32_t p) { return std::array{mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]}; };
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return xyz(a) < xyz(b); });
+  std::size_t coinciding = 0;
+  std::uint32_t a = 0, b = 0;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (xyz(order[k]) != xyz(order[k - 1])) continue;
+    if (coinciding++ == 0) a = order[k - 1], b = order[k];
+  }
+  if (coinciding != 0)
+    notices.push_back(fmt::format("{} point{} with another one, as in a torn body; for example points {} and {}",
+                                  coinciding, coinciding == 1 ? " coincides" : "s coincide", a, b));
+}
+
+}  // namespace
+
+void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines) {
+  Examined e{loaded.mesh, file, cell_lines};
+  check_layout(e);
+  check_points(e);
+  check_nodes(e);
+  check_repeated_cells(e);
+  if (loaded.mesh.dimension() == 3) {
+    check_faces(e);
+    repair_orientation(e, loaded.notices);
+  } else {
+    check_edges(e);
+    for (std::size_t c = 0; c < loaded.mesh.cell_count(); ++c) solid_measure(e, c);
+  }
+  note_coinciding_points(loaded.mesh, loaded.notices);
+}
+
+}  // namespace dartboard

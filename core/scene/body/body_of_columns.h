@@ -1,0 +1,63 @@
+#pragma once
+// A simulated body whose topology never changes: columns and arrays, and no dart once it is built.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/plain/mesh.h"
+#include "core/scene/body/simulated_body.h"
+#include "core/views/spring_ends.h"
+
+namespace dartboard {
+
+/// What a scene without events needs of a body. It is built on a map, so its numbers are those of a body on a map and
+/// it moves with the same bits; the map and all that was held by darts is then let go.
+class BodyOfColumns final : public SimulatedBody {
+ public:
+  /// Of a mesh without cells, a chain: each link from a point to the next is a spring of the material's stiffness and
+  /// damping, and gives half its mass, density times length, to each of its ends.
+  ///
+  /// throws  InputError as build_body does; for a link whose length or mass is not a number above 0, and for a velocity
+  ///         that is not finite
+  explicit BodyOfColumns(const Problem& problem) : BodyOfColumns(problem, body_needs(problem, false)) {}
+  BodyOfColumns(const Problem& problem, const BodyNeeds& needs);
+
+  std::string map_name() const override { return "no map"; }
+  const VertexColumns& vertices() const override { return vertices_; }
+  SpringSystem system() const override;
+  Motion motion() override { return {vertices_.position, vertices_.velocity}; }
+  /// throws  InputError: nothing can happen to this body
+  std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override;
+
+  double mass() const override;
+  double removed_mass() const override { return 0.0; }
+  CellCounts counts() const override { return counts_; }
+  double boundary() const override;
+  double largest_stress() const override;
+  Frame frame() const override;
+  std::uint64_t state_hash() const override;
+  std::string violation() const override { return {}; }
+  MemoryReport memory() const override;
+
+ private:
+  void link(const Problem& problem, const BodyNeeds& needs);
+  double largest_tension() const;  // [N] of the links of a chain; 0 where none is stretched
+  template <class Map>
+  void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
+
+  VertexColumns vertices_;  // without darts and forces; viscosity and fixed only where there is some
+  Springs springs_;
+  std::vector<SpringEnds> ends_;
+  Eigen::Vector3d gravity_{0, 0, 0};
+  double density_ = 0.0;
+
+  // for frames and diagnostics: the cells and the boundary by vertex numbers
+  CellCounts counts_;
+  Mesh cells_;                                              // its points are not used
+  std::vector<double> cell_mass_;                           // of a chain, by link
+  std::vector<std::uint32_t> component_;                    // by cell
+  std::vector<std::uint32_t> facet_first_{0}, facet_node_;  // corners of the facets of the boundary
+};
+
+}  // namespace dartboard

@@ -1,0 +1,202 @@
+#pragma once
+// A simulated body on a map of type Map: embeddings, views and columns that follow its events.
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+#include "core/mechanics/fracture/stress.h"
+#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/refine.h"
+#include "core/plain/bytes.h"
+#include "core/scene/body/cell_nodes.h"
+#include "core/scene/body/scene_events.h"
+#include "core/scene/body/simulated_body.h"
+#include "core/topology/check.h"
+#include "core/views/component_labels.h"
+#include "core/views/spring_ends.h"
+
+namespace dartboard {
+
+template <class Map>
+class BodyOnMap final : public SimulatedBody {
+ public:
+  using Body = MassSpringBody<Map, Held::by_every_dart>;
+  static constexpr int n = Map::dimension;
+
+  explicit BodyOnMap(const Problem& problem) : body_(build_body<Map, Held::by_every_dart>(problem)) {
+    ends_.rebuild(body_);
+    components_.rebuild(body_);
+    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
+    // forces are for walks; integrators over arrays keep their own
+    body_.vertices.force.clear();
+    if (problem.fixed.empty()) body_.vertices.fixed.clear();
+    fit_columns();
+  }
+
+  // ---- for events
+
+  Body& body() { return body_; }
+  const Body& body() const { return body_; }
+  std::span<const SpringEnds> ends() const { return ends_.ends; }
+  std::span<const std::uint32_t> mesh_cell() const { return mesh_cell_; }
+
+  /// Let embeddings and views follow a change of the map.
+  void follow(const TopologyChange& change) {
+    const ChangedEmbeddings changed = adapt(body_, change);
+    for (const auto [from, to] : changed.moved_vertices)
+      for (std::uint32_t& vertex : tracked_) vertex = vertex == to ? no_vertex : vertex == from ? to : vertex;
+    for (const auto [from, to] : changed.moved_cells) {
+      mesh_cell_[to] = mesh_cell_[from];
+      mesh_cell_.pop_back();
+    }
+    ends_.apply(body_, changed);
+    components_.apply(body_, change, changed);
+  }
+  /// The same for a subdivision of tetrahedra.
+  void follow(const Subdivision& subdivision, double bracing) requires(n == 3) {
+    const ChangedEmbeddings changed = adapt(body_, subdivision, bracing);
+    mesh_cell_.resize(changed.cell_count);
+    const auto cell_of = [this](const Subdivision::Child& child) { return body_.cell(body_.map, child.darts[0]); };
+    for (const auto& child : subdivision.children) {  // the first child of a parent keeps its number
+      const auto first = child.parent * static_cast<std::size_t>(subdivision.cell_vertices);
+      mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
+    }
+    ends_.apply(body_, changed);
+    components_.apply(body_, {}, changed);
+  }
+  void count_removed(double mass) { removed_mass_ += mass; }
+
+  // ---- SimulatedBody
+
+  std::string map_name() const override {
+    return n == 2 ? "2-g-map" : Map::tetrahedral ? "tetrahedral 3-g-map" : "3-g-map";
+  }
+  const VertexColumns& vertices() const override { return body_.vertices; }
+  SpringSystem system() const override {
+    const VertexColumns& v = body_.vertices;
+    return {.ends = ends_.ends,
+            .springs = body_.springs,
+            .mass = v.mass,
+            .inverse_mass = v.inverse_mass,
+            .viscosity = v.viscosity,
+            .fixed = v.fixed,
+            .gravity = body_.surroundings.gravity};
+  }
+  Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
+  std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override { return make_event_ready(*this, event); }
+
+  double mass() const override {
+    double sum = 0.0;
+    for (const double m : body_.cell_mass) sum += m;
+    return sum;
+  }
+  double removed_mass() const override { return removed_mass_; }
+
+  CellCounts counts() const override {
+    return {.vertices = body_.vertices.size(),
+            .edges = body_.springs.size(),
+            .faces = n == 3 ? body_.face_dart.size() : body_.cell_dart.size(),
+            .cells = body_.cell_dart.size(),
+            .components = components_.count()};
+  }
+
+  double boundary() const override {
+    double sum = 0.0;
+    const auto position = [this](Dart d) -> const Eigen::Vector3d& {
+      return body_.vertices.position[body_.vertex(body_.map, d)];
+    };
+    for (const Dart d : n == 3 ? body_.face_dart : body_.edge_dart) {
+      if (!body_.map.template is_free<n>(d)) continue;
+      if constexpr (n == 2) {
+        sum += (position(body_.map.template alpha<0>(d)) - position(d)).norm();
+      } else {
+        const auto around = detail::around_face(body_.map, d);
+        Eigen::Vector3d twice(0, 0, 0);
+        for (std::size_t k = 1; k + 1 < around.size(); ++k)
+          twice += (position(around[k]) - position(d)).cross(position(around[k + 1]) - position(d));
+        sum += 0.5 * twice.norm();
+      }
+    }
+    return sum;
+  }
+
+  double largest_stress() const override {
+    const VertexColumns& v = body_.vertices;
+    std::vector<Eigen::Matrix3d> stress;
+    vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress);
+    return largest_principal_stress(stress);
+  }
+
+  Frame frame() const override {
+    Frame frame;
+    const VertexColumns& v = body_.vertices;
+    frame.mesh.points = v.position;
+    frame.velocity = v.velocity;
+    frame.mass = v.mass;
+    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) {
+      add_cell_of(body_, c, frame.mesh);
+      frame.mesh_cell.push_back(mesh_cell_[c]);
+      frame.component.push_back(components_.label(c));
+    }
+    return frame;
+  }
+
+  std::uint64_t state_hash() const override { return body_.state_hash(); }
+  std::string violation() const override { return check(body_.map); }
+
+  MemoryReport memory() const override {
+    const VertexColumns& v = body_.vertices;
+    const Map& map = body_.map;
+    // every live slot has its alphas and a generation, every dead one a place on a list
+    const std::size_t slots = Map::tetrahedral ? map.capacity() / 24 : map.capacity();
+    const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
+    const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
+    return {{Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
+            {Part::marks, mark_bytes()},
+            {Part::embeddings, body_.embedding_bytes()},
+            {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
+            {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
+                              bytes_of(body_.edge_share)},
+            {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
+                                   (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
+            {Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force)},
+            {Part::viscosity, bytes_of(v.viscosity)},
+            {Part::fixed, bytes_of(v.fixed)},
+            {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
+            {Part::damping, body_.springs.damping_bytes()}};
+  }
+
+ private:
+  /// Columns that grew by doubling give back what they do not use.
+  void fit_columns() {
+    const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
+    VertexColumns& v = body_.vertices;
+    fit(v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point, v.dart);
+    fit(body_.springs, body_.edge_dart, body_.face_dart, body_.cell_mass, body_.node_share, body_.cell_dart);
+    fit(body_.cell_inside_out, mesh_cell_);
+  }
+
+  /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is
+  /// a new one, without a stamp.
+  std::size_t mark_bytes() const {
+    std::size_t bytes = 0;
+    std::vector<MarkPool::Stamps*> taken;
+    do {
+      taken.push_back(&body_.map.marks().take(0));
+      bytes += bytes_of(taken.back()->stamp);
+    } while (!taken.back()->stamp.empty());
+    for (MarkPool::Stamps* stamps : taken) stamps->in_use = false;
+    return bytes;
+  }
+
+  Body body_;
+  SpringEndsView ends_;
+  ComponentLabels components_;
+  std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
+  double removed_mass_ = 0.0;             // [kg]
+};
+
+}  // namespace dartboard

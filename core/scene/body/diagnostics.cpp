@@ -1,0 +1,43 @@
+#include "core/scene/body/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dartboard {
+
+std::string_view boundary_unit(int dimension) { return dimension == 3 ? "m^2" : "m"; }
+std::string_view stress_unit(int dimension) { return dimension == 3 ? "Pa" : dimension == 2 ? "N/m" : "N"; }
+
+std::string diagnostics_header(int dimension) {
+  return fmt::format(
+      "time [s],kinetic [J],elastic [J],gravitational [J],momentum x [kg m/s],momentum y [kg m/s],momentum z [kg m/s],"
+      "angular momentum x [kg m^2/s],angular momentum y [kg m^2/s],angular momentum z [kg m^2/s],mass [kg],"
+      "vertices,edges,faces,cells,components,boundary [{}],largest stress [{}],operations\n",
+      boundary_unit(dimension), stress_unit(dimension));
+}
+
+bool is_finite(const Diagnostics& d) {
+  const double numbers[] = {d.time, d.kinetic, d.elastic, d.gravitational, d.mass, d.boundary, d.largest_stress};
+  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }) && d.momentum.allFinite() &&
+         d.angular_momentum.allFinite();
+}
+
+std::string diagnostics_row(const Diagnostics& d) {
+  std::string row;
+  const auto add = [&row](double value) {
+    if (std::isfinite(value)) fmt::format_to(std::back_inserter(row), "{:.17g}", value);
+    row += ',';
+  };
+  for (const double value : {d.time, d.kinetic, d.elastic, d.gravitational, d.momentum[0], d.momentum[1], d.momentum[2],
+                             d.angular_momentum[0], d.angular_momentum[1], d.angular_momentum[2], d.mass})
+    add(value);
+  const CellCounts& n = d.counts;
+  fmt::format_to(std::back_inserter(row), "{},{},{},{},{},", n.vertices, n.edges, n.faces, n.cells, n.components);
+  add(d.boundary);
+  add(d.largest_stress);
+  return row + fmt::format("{}\n", d.operations);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,34 @@
+#include "core/scene/body/memory.h"
+
+namespace dartboard {
+
+std::string_view name(Part part) {
+  switch (part) {
+    case Part::map: return "map";
+    case Part::marks: return "marks";
+    case Part::embeddings: return "embeddings";
+    case Part::cell_darts: return "darts of cells";
+    case Part::cells: return "cells";
+    case Part::components: return "components";
+    case Part::vertices: return "vertices";
+    case Part::viscosity: return "viscosity";
+    case Part::fixed: return "fixed vertices";
+    case Part::driven: return "driven vertices";
+    case Part::springs: return "springs";
+    case Part::damping: return "damping";
+    case Part::gravity: return "gravity";
+    case Part::integrator: return "integrator";
+    case Part::solver: return "matrices and factor";
+    case Part::detector: return "divergence detector";
+    case Part::speed_check: return "speed check";
+    case Part::event: return "event";
+    case Part::step_check: return "stable step";
+    case Part::output_cells: return "cells for output";
+    case Part::frames: return "frames";
+    case Part::probes: return "probes";
+    case Part::diagnostics: return "diagnostics";
+  }
+  return "?";
+}
+
+}  // namespace dartboard

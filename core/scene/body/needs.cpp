@@ -1,0 +1,47 @@
+#include "core/scene/body/needs.h"
+
+#include <algorithm>
+
+#include "core/time/integrators.h"
+
+namespace dartboard {
+
+Storage storage_of(const Mesh& mesh) {
+  if (mesh.cell_count() == 0 && !mesh.points.empty()) return Storage::links;
+  if (mesh.dimension() == 2) return Storage::surface;
+  return std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; })
+             ? Storage::tetrahedra
+             : Storage::any_cells;
+}
+
+std::string_view map_name(Storage storage) {
+  switch (storage) {
+    case Storage::links: return "no map";
+    case Storage::surface: return "2-g-map";
+    case Storage::tetrahedra: return "tetrahedral 3-g-map";
+    case Storage::any_cells: break;
+  }
+  return "3-g-map";
+}
+
+BodyNeeds body_needs(const Problem& problem, bool topology_changes) {
+  return {.storage = storage_of(problem.mesh),
+          .topology_changes = topology_changes,
+          .viscosity = problem.material.viscosity != 0.0,
+          .fixed = !problem.fixed.empty()};
+}
+
+Needs needs_of(const SceneFile& scene, const Problem& problem) {
+  const auto some = [&scene]<class Kind>(const Kind*) {
+    return std::ranges::any_of(scene.events,
+                               [](const SceneEvent& event) { return std::holds_alternative<Kind>(event.action); });
+  };
+  return {.body = body_needs(problem, !scene.events.empty()),
+          .damping = problem.material.damping != 0.0,
+          .gravity = !problem.surroundings.gravity.isZero(0.0),
+          .solver = make_integrator(scene.integrator)->scheme().implicit,
+          .refinement = some(static_cast<const Refine*>(nullptr)),
+          .stress_watch = some(static_cast<const TearWhereStressed*>(nullptr))};
+}
+
+}  // namespace dartboard

@@ -1,0 +1,367 @@
+#include "core/scene/body/scene_events.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <unordered_set>
+#include <utility>
+
+#include "core/mechanics/fracture/seam.h"
+#include "core/mechanics/fracture/tearing.h"
+#include "core/operations/dissociate_all.h"
+#include "core/operations/remove_face.h"
+#include "core/operations/remove_volume.h"
+#include "core/operations/tear_fan.h"
+#include "core/plain/bytes.h"
+#include "core/plain/error.h"
+#include "core/scene/body/body_on_map.h"
+
+namespace dartboard {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, std::string_view found, std::string_view expected) {
+  throw InputError(fmt::format("{}: {}; expected {}", path, found, expected));
+}
+
+/// Dissociated facets of a change: faces of a solid, edges of a surface.
+template <class Map>
+std::size_t facets(const TopologyChange& change) {
+  return Map::dimension == 3 ? change.faces.size() : change.edges.size();
+}
+
+template <class Map>
+std::size_t follow_dissociation(BodyOnMap<Map>& on, const TopologyChange& change) {
+  if (change.empty()) return 0;
+  on.follow(change);
+  return facets<Map>(change);
+}
+
+// ---- dissociate
+
+template <class Map>
+class ReadyFaces : public ReadyEvent {
+ public:
+  ReadyFaces(BodyOnMap<Map>& on, const std::vector<std::vector<std::uint32_t>>& faces, const std::string& path)
+      : on_(on) {
+    constexpr std::size_t points = Map::dimension;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      if (faces[k].size() != points)
+        fail(fmt::format("{}/{}", path, k), fmt::format("has {} points", faces[k].size()),
+             Map::dimension == 3 ? "three points of a face" : "the two ends of an edge");
+      std::array<std::uint32_t, points> one{};
+      std::copy(faces[k].begin(), faces[k].end(), one.begin());
+      try {
+        for (const Dart d : find(one)) found_.push_back(on.body().map.id(d));
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}/{}: {}", path, k, error.what()));
+      }
+    }
+  }
+  std::size_t apply() override {
+    const Map& map = on_.body().map;
+    std::vector<Dart> live;  // a face of a removed cell is on the boundary already: nothing to separate
+    for (const DartId id : found_)
+      if (map.is_live(id.dart) && map.id(id.dart) == id) live.push_back(id.dart);
+    return follow_dissociation(on_, dissociate_all(on_.body().map, live));
+  }
+  std::size_t bytes() const override { return bytes_of(found_); }
+
+ private:
+  std::vector<Dart> find(const std::array<std::uint32_t, Map::dimension>& points) const {
+    if constexpr (Map::dimension == 3)
+      return faces_of_points(on_.body(), std::span(&points, 1));
+    else
+      return edges_of_points(on_.body(), std::span(&points, 1));
+  }
+
+  BodyOnMap<Map>& on_;
+  std::vector<DartId> found_;
+};
+
+template <class Map>
+std::vector<Dart> seam_on(const BodyOnMap<Map>& on, const PlaneSelection& plane) {
+  if constexpr (Map::dimension == 3)
+    return faces_on_plane(on.body(), plane.point, plane.normal);
+  else
+    return edges_on_plane(on.body(), plane.point, plane.normal);
+}
+
+template <class Map>
+class ReadyPlane : public ReadyEvent {
+ public:
+  ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane) : on_(on), plane_(plane) {}
+  std::size_t apply() override {
+    const std::vector<Dart> seam = seam_on(on_, plane_);
+    return follow_dissociation(on_, dissociate_all(on_.body().map, seam));
+  }
+
+ private:
+  BodyOnMap<Map>& on_;
+  PlaneSelection plane_;
+};
+
+// ---- remove
+
+/// The mean of the positions of the vertices of cell k [m].
+template <class Map>
+Eigen::Vector3d centroid(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
+  Eigen::Vector3d sum(0, 0, 0);
+  double count = 0.0;
+  for (const Vertex v : incident_cells<0>(body.map, Cell<Map::dimension>{body.cell_dart[k]})) {
+    sum += body.vertices.position[body.vertex(body.map, v.dart)];
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+/// Finds the cells of a selection, each time it is asked, by their numbers now.
+template <class Map>
+class CellChooser {
+ public:
+  CellChooser(const BodyOnMap<Map>& on, const CellSelection& selection, const std::string& path)
+      : on_(on), selection_(selection) {
+    if (const auto* random = std::get_if<RandomSelection>(&selection)) random_.emplace(random->seed);
+    if (const auto* by_id = std::get_if<IdSelection>(&selection)) {
+      for (std::size_t k = 0; k < by_id->ids.size(); ++k)
+        if (by_id->ids[k] >= on.mesh_cell().size())
+          fail(fmt::format("{}/ids/{}", path, k), fmt::format("is {}", by_id->ids[k]),
+               fmt::format("a cell of the mesh, less than {}", on.mesh_cell().size()));
+      ids_.insert(by_id->ids.begin(), by_id->ids.end());
+    }
+  }
+
+  /// Ascending.
+  std::vector<std::uint32_t> choose() {
+    const auto count = static_cast<std::uint32_t>(on_.body().cell_dart.size());
+    if (random_) return draw(count, std::get<RandomSelection>(selection_).count);
+    std::vector<std::uint32_t> cells;
+    for (std::uint32_t k = 0; k < count; ++k)
+      if (is_chosen(k)) cells.push_back(k);
+    return cells;
+  }
+
+  std::size_t bytes() const {
+    const auto* by_id = std::get_if<IdSelection>(&selection_);
+    return by_id == nullptr ? 0 : bytes_of(by_id->ids) + ids_.size() * sizeof(std::uint32_t);
+  }
+
+ private:
+  bool is_chosen(std::uint32_t k) const {
+    if (!ids_.empty()) return ids_.contains(on_.mesh_cell()[k]);
+    return std::visit(
+        [&](const auto& region) {
+          if constexpr (requires { contains(region, Eigen::Vector3d()); })
+            return contains(region, centroid(on_.body(), k));
+          else
+            return false;
+        },
+        selection_);
+  }
+
+  /// The first places of a shuffle of 0 .. count - 1 (Fisher and Yates).
+  std::vector<std::uint32_t> draw(std::uint32_t count, std::uint32_t wanted) {
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const std::uint32_t size = std::min(count, wanted);
+    for (std::uint32_t k = 0; k < size; ++k) std::swap(numbers[k], numbers[k + random_->below(count - k)]);
+    numbers.resize(size);
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  }
+
+  const BodyOnMap<Map>& on_;
+  CellSelection selection_;
+  std::unordered_set<std::uint32_t> ids_;  // of the mesh; empty for a selection by place
+  std::optional<SplitMix64> random_;
+};
+
+template <class Map>
+class ReadyRemoval : public ReadyEvent {
+ public:
+  ReadyRemoval(BodyOnMap<Map>& on, const CellSelection& selection, const std::string& path)
+      : on_(on), chooser_(on, selection, path) {}
+
+  std::size_t apply() override {
+    auto& body = on_.body();
+    const std::vector<std::uint32_t> cells = chooser_.choose();
+    if (cells.empty()) return 0;
+    // darts and not numbers: these change when the body follows
+    std::vector<Dart> darts;
+    double mass = 0.0;
+    for (const std::uint32_t k : cells) {
+      darts.push_back(body.cell_dart[k]);
+      mass += body.cell_mass[k];
+    }
+    TopologyChange change;
+    for (const Dart d : darts) {
+      if constexpr (Map::dimension == 3)
+        change.append(remove_volume(body.map, d));
+      else
+        change.append(remove_face(body.map, d));
+    }
+    on_.follow(change);
+    on_.count_removed(mass);
+    return cells.size();
+  }
+  std::size_t bytes() const override { return chooser_.bytes(); }
+
+ private:
+  BodyOnMap<Map>& on_;
+  CellChooser<Map> chooser_;
+};
+
+// ---- refine; of tetrahedra only
+
+template <class Map>
+class ReadyRefinement : public ReadyEvent {
+ public:
+  ReadyRefinement(BodyOnMap<Map>& on, const Refine& refine, const std::string& path)
+      : on_(on), refine_(refine), chooser_(on, refine.cells, path + "/cells") {}
+
+  std::size_t apply() override {
+    auto& body = on_.body();
+    std::vector<DartId> chosen;
+    for (const std::uint32_t k : chooser_.choose()) chosen.push_back(body.map.id(body.cell_dart[k]));
+    std::size_t count = 0;
+    for (const DartId id : chosen) {
+      if (!body.map.is_live(id.dart) || body.map.id(id.dart) != id) continue;  // subdivided with a neighbour
+      const Subdivision subdivision =
+          refine_.at_centre ? subdivide(body.map, Volume{id.dart}) : subdivide(body.map, longest_edge(id.dart));
+      on_.follow(subdivision, refine_.bracing);
+      ++count;
+    }
+    return count;
+  }
+  std::size_t bytes() const override { return chooser_.bytes(); }
+
+ private:
+  /// At rest; of equal ones, the edge with the lowest number.
+  Edge longest_edge(Dart cell) const {
+    const auto& body = on_.body();
+    Edge best{cell};
+    for (const Edge e : incident_cells<1>(body.map, Volume{cell})) {
+      const std::uint32_t k = body.edge(body.map, e.dart), longest = body.edge(body.map, best.dart);
+      const double excess = body.springs[k].rest_length - body.springs[longest].rest_length;
+      if (excess > 0.0 || (excess == 0.0 && k < longest)) best = e;
+    }
+    return best;
+  }
+
+  BodyOnMap<Map>& on_;
+  Refine refine_;
+  CellChooser<Map> chooser_;
+};
+
+// ---- tear; of solids only
+
+template <class Map>
+class ReadyTear : public ReadyEvent {
+ public:
+  ReadyTear(BodyOnMap<Map>& on, const Tear& tear, const std::string& path) : on_(on), tear_(tear) {
+    const auto* point = std::get_if<std::uint32_t>(&tear.vertex);
+    if (point != nullptr && *point >= on.body().vertices.size())  // one vertex for each point at the start
+      fail(path + "/vertex", fmt::format("is {}", *point),
+           fmt::format("a point of the mesh, less than {}", on.body().vertices.size()));
+  }
+
+  std::size_t apply() override {
+    auto& body = on_.body();
+    const auto vertex = chosen();
+    if (!vertex) return 0;
+    const Dart start = starting_face(body, *vertex, tear_.direction);
+    if (start == no_dart) return 0;  // a vertex of a single cell
+    return follow_dissociation(on_, tear_fan(body.map, start));
+  }
+
+ private:
+  // The lowest of several: parts of one point, or vertices as near as each other.
+  std::optional<std::uint32_t> chosen() const {
+    const VertexColumns& v = on_.body().vertices;
+    std::optional<std::uint32_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = 0; k < v.size(); ++k) {
+      double far = 0.0;
+      if (const auto* point = std::get_if<std::uint32_t>(&tear_.vertex)) {
+        if (v.point[k] != *point) continue;
+      } else {
+        far = (v.position[k] - std::get<Eigen::Vector3d>(tear_.vertex)).squaredNorm();
+      }
+      if (far < least) {
+        best = k;
+        least = far;
+      }
+    }
+    return best;
+  }
+
+  BodyOnMap<Map>& on_;
+  Tear tear_;
+};
+
+template <class Map>
+class ReadyStress : public ReadyEvent {
+ public:
+  ReadyStress(BodyOnMap<Map>& on, const TearWhereStressed& tear, const std::string& path)
+      : on_(on), rule_{tear.threshold} {
+    if (tear.most_per_step) rule_.most_per_step = *tear.most_per_step;
+    if (!tear.seam) return;
+    const std::vector<Dart> faces = seam_on(on, *tear.seam);
+    if (faces.empty()) fail(path + "/plane", "has no two cells on different sides", "a seam through the body at rest");
+    filter_ = [&map = on.body().map, seam = FaceSet(on.body().map, faces)](Dart d) { return seam.contains(map, d); };
+  }
+  std::size_t apply() override {
+    return tear_where_stressed(
+               on_.body(), on_.ends(), rule_, filter_, [this](const TopologyChange& change) { on_.follow(change); },
+               stress_)
+        .faces;
+  }
+  // of a seam, a bit for each face slot of a cell
+  std::size_t bytes() const override {
+    return bytes_of(stress_) + (filter_ ? (on_.body().map.template slot_count<2>() + 7) / 8 : 0);
+  }
+
+ private:
+  BodyOnMap<Map>& on_;
+  TearRule rule_;
+  FaceFilter filter_;
+  std::vector<Eigen::Matrix3d> stress_;
+};
+
+}  // namespace
+
+template <class Map>
+std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& on, const SceneEvent& event) {
+  if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
+    if (const auto* plane = std::get_if<PlaneSelection>(&dissociate->faces))
+      return std::make_unique<ReadyPlane<Map>>(on, *plane);
+    return std::make_unique<ReadyFaces<Map>>(on, std::get<0>(dissociate->faces), event.path + "/dissociate/points");
+  }
+  if (const auto* remove = std::get_if<Remove>(&event.action))
+    return std::make_unique<ReadyRemoval<Map>>(on, remove->cells, event.path + "/remove");
+  if (const auto* refine = std::get_if<Refine>(&event.action)) {
+    if constexpr (Map::tetrahedral)
+      return std::make_unique<ReadyRefinement<Map>>(on, *refine, event.path + "/refine");
+    else
+      fail(event.path + "/refine", "subdivides tetrahedra, and the body has other cells", "a body of tetrahedra alone");
+  }
+  if constexpr (Map::dimension == 3) {
+    if (const auto* tear = std::get_if<Tear>(&event.action))
+      return std::make_unique<ReadyTear<Map>>(on, *tear, event.path + "/tear");
+    return std::make_unique<ReadyStress<Map>>(on, std::get<TearWhereStressed>(event.action),
+                                              event.path + "/tear_where_stressed");
+  } else {
+    const bool by_stress = std::holds_alternative<TearWhereStressed>(event.action);
+    fail(event.path + (by_stress ? "/tear_where_stressed" : "/tear"), "tears fans of faces, and the body is a surface",
+         "'dissociate' or 'remove'");
+  }
+}
+
+template std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map2>&, const SceneEvent&);
+template std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map3>&, const SceneEvent&);
+template std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<TetMap>&, const SceneEvent&);
+
+}  // namespace dartboard

@@ -1,0 +1,85 @@
+#pragma once
+// A body that moves and changes, whatever map it is on: the one place where scenes do not know the type of the map.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+#include "core/plain/problem.h"
+#include "core/plain/random.h"
+#include "core/scene/body/diagnostics.h"
+#include "core/scene/body/frame.h"
+#include "core/scene/body/memory.h"
+#include "core/scene/body/needs.h"
+#include "core/scene/file/scene_file.h"
+#include "core/time/method/integrator.h"
+
+namespace dartboard {
+
+/// An event made ready for one body: what it names has been looked up once, at the start.
+class ReadyEvent {
+ public:
+  virtual ~ReadyEvent() = default;
+  /// Apply it to the body it was made for.
+  ///
+  /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
+  /// throws   StressError if a stress is not finite
+  virtual std::size_t apply() = 0;
+  /// Memory that it keeps (core/scene/body/memory.h).
+  virtual std::size_t bytes() const { return 0; }
+};
+
+class SimulatedBody {
+ public:
+  virtual ~SimulatedBody() = default;
+
+  /// "tetrahedral 3-g-map", "3-g-map", "2-g-map"
+  virtual std::string map_name() const = 0;
+  virtual const VertexColumns& vertices() const = 0;
+  /// Springs and what acts on vertices; valid until the next event.
+  virtual SpringSystem system() const = 0;
+  /// Positions and velocities; valid until the next event.
+  virtual Motion motion() = 0;
+
+  /// Follow a vertex from now on, wherever its number goes: `tracked` has one more. None of it changes the body.
+  void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
+  /// The numbers now of the vertices tracked; `no_vertex` for those removed.
+  std::span<const std::uint32_t> tracked() const { return tracked_; }
+  static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
+
+  /// throws  InputError "/events/3/...: ..." if it cannot happen to this body
+  virtual std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) = 0;
+
+  /// Mass of all cells [kg], summed by their numbers.
+  virtual double mass() const = 0;
+  virtual double removed_mass() const = 0;
+  virtual CellCounts counts() const = 0;
+  /// [m^2] area of the faces with one volume; of a surface [m] length of the edges with one face.
+  virtual double boundary() const = 0;
+  /// [Pa] Largest principal stress of a vertex; infinite where a stress is not finite; 0 for an empty body.
+  virtual double largest_stress() const = 0;
+  virtual Frame frame() const = 0;
+  /// Of positions and velocities, in the order of the embeddings' numbers.
+  virtual std::uint64_t state_hash() const = 0;
+  /// The first condition of a generalized map that does not hold; empty for a valid one.
+  virtual std::string violation() const = 0;
+  /// What its parts take now.
+  virtual MemoryReport memory() const = 0;
+
+ protected:
+  std::vector<std::uint32_t> tracked_;
+};
+
+/// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
+/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not, or of a chain:
+/// columns, and no map.
+///
+/// throws  InputError as build_body does
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes);
+
+}  // namespace dartboard

@@ -1,0 +1,18 @@
+#pragma once
+// Which key of a scene to blame where the numbers of its first state are too large, or too small, for a double.
+
+#include <string>
+
+#include "core/plain/mesh.h"
+#include "core/scene/file/scene_file.h"
+
+namespace dartboard {
+
+/// The key whose value is the most orders of magnitude away from 1, in words:
+/// "/material/stiffness: is 1e+308, and energies or forces at the start are not finite; expected a smaller value".
+std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
+
+/// "/body/generate/box/spacing: is 1e+300" where lengths are so far from 1 that their cubes are no numbers; else empty.
+std::string size_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
+
+}  // namespace dartboard

@@ -1,0 +1,386 @@
+#include "core/scene/file/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/plain/cell_limits.h"
+#include "core/plain/error.h"
+#include "core/scene/file/point_numbers.h"
+#include "core/scene/file/scene_check.h"
+#include "core/scene/file/step_times.h"
+#include "core/scene/file/strict_json.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// A number of steps above this is a mistake in a unit; it also keeps step numbers exact in a double.
+constexpr double most_steps = 1e12;
+
+/// Makes structs of JSON that has been held against the table of keys: types are right and defaults are there.
+class Reader {
+ public:
+  Reader(std::string_view name, fs::path folder) : name_(name), folder_(std::move(folder)) {}
+
+  SceneFile scene(const Json& json) const {
+    SceneFile scene;
+    scene.file = name_;
+    scene.name = json.at("name").get<std::string>();
+    scene.about = json.at("about").get<std::string>();
+    scene.duration = json.at("duration");
+    if (json.contains("accuracy")) scene.accuracy = json.at("accuracy").get<double>();
+    if (json.contains("step")) scene.step = json.at("step");
+    if (!scene.accuracy && scene.duration / scene.step > most_steps)
+      fail("/duration", fmt::format("is {} s, {:.3g} steps", scene.duration, scene.duration / scene.step),
+           fmt::format("at most {:.0e} steps", most_steps));
+    scene.body = body(json.at("body"));
+    const Json& material = json.at("material");
+    scene.material = {.density = material.at("density"),
+                      .stiffness = material.at("stiffness"),
+                      .damping = material.at("damping"),
+                      .viscosity = material.at("viscosity")};
+    scene.gravity = point(json.at("gravity"));
+    scene.initial_velocity = velocity(json.at("initial_velocity"));
+    for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
+      scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
+    for (std::size_t k = 0; k < json.at("driven").size(); ++k)
+      scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
+    scene.integrator = json.value("integrator", scene.accuracy ? "" : standard_integrator);
+    const Json& unstable = json.at("unstable_step");
+    scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
+                          : unstable == "substep" ? UnstableStep::substep
+                                                  : UnstableStep::warn;
+    for (std::size_t k = 0; k < json.at("events").size(); ++k)
+      scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
+    require_consistent(scene);
+    const Json& output = json.at("output");
+    const auto take = [&output](const char* key, auto& into) {
+      if (output.contains(key)) into = output.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
+    };
+    take("frames_every", scene.output.frame_time);
+    take("frames_every_steps", scene.output.frame_steps);
+    take("diagnostics_every", scene.output.diagnostic_time);
+    take("diagnostics_every_steps", scene.output.diagnostic_steps);
+    take("probes_every", scene.output.probe_time);
+    take("probes_every_steps", scene.output.probe_steps);
+    for (std::size_t k = 0; k < output.at("probes").size(); ++k)
+      scene.probes.push_back(probe(output.at("probes")[k], fmt::format("/output/probes/{}", k), scene.probes));
+    if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
+    scene.expect = expectation(json.at("expect"), scene);
+    return scene;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& path, std::string_view found, std::string_view expected) const {
+    throw InputError(fmt::format("{}: {}: {}; expected {}", name_, path, found, expected));
+  }
+
+  static Eigen::Vector3d point(const Json& json) {
+    return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+  }
+
+  // What a map keeps is numbered in 32 bits.
+  void require_room(const Json& cells, const std::string& path, std::uint64_t most) const {
+    double count = 1.0;
+    for (const Json& along : cells) count *= along.get<double>();
+    if (count > static_cast<double>(most))
+      fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {} in all", most));
+  }
+
+  BodySource body(const Json& json) const {
+    BodySource source{{}, json.at("scale"), point(json.at("translate"))};
+    if (json.contains("mesh")) {
+      source.mesh = folder_ / json.at("mesh").get<std::string>();
+      return source;
+    }
+    const Json& generate = json.at("generate");
+    if (generate.contains("box")) {
+      const Json& box = generate.at("box");
+      source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
+      // six tetrahedra to a cube; of mixed cells at most as many darts as seven pyramids have (mixed_box)
+      const std::uint64_t most = box.at("kind") == "tetrahedra"  ? most_tetrahedra / 6
+                                 : box.at("kind") == "hexahedra" ? most_darts(3) / darts_of(CellKind::hexahedron)
+                                                                 : most_darts(3) / (7 * darts_of(CellKind::pyramid));
+      require_room(box.at("cells"), "/body/generate/box/cells", most);
+      if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
+        fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
+    } else if (generate.contains("sheet")) {
+      const Json& sheet = generate.at("sheet");
+      source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
+      const std::uint64_t darts =
+          sheet.at("kind") == "triangles" ? 2 * darts_of(CellKind::triangle) : darts_of(CellKind::quadrilateral);
+      require_room(sheet.at("cells"), "/body/generate/sheet/cells", most_darts(2) / darts);
+    } else if (generate.contains("ball")) {
+      source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
+    } else {
+      source.mesh = ChainMesh{generate.at("chain").at("links"), generate.at("chain").at("spacing")};
+    }
+    return source;
+  }
+
+  static InitialVelocity velocity(const Json& json) {
+    if (json.is_array()) return {.constant = point(json)};
+    InitialVelocity v{.constant = point(json.at("constant")), .centre = point(json.at("centre"))};
+    for (int r = 0; r < 3; ++r) v.linear.row(r) = point(json.at("linear")[static_cast<std::size_t>(r)]);
+    return v;
+  }
+
+  /// Of length 1, whatever length it is given with.
+  Eigen::Vector3d direction(const Json& json, const std::string& path) const {
+    Eigen::Vector3d d = point(json);
+    const double largest = d.lpNorm<Eigen::Infinity>();
+    if (largest == 0.0) fail(path, "is " + shown(json), "a direction, of a length other than 0");
+    // the square of a length must not overflow, nor lose digits; others keep their bits
+    if (largest > 1e150 || largest < 1e-140) d /= largest;
+    return d / d.norm();
+  }
+
+  PlaneSelection plane(const Json& json, const std::string& path) const {
+    PlaneSelection plane{point(json.at("point")), direction(json.at("normal"), path + "/normal")};
+    return plane;
+  }
+
+  template <class Selection>
+  std::optional<Selection> region(const Json& json, const std::string& path) const {
+    if (json.contains("ids")) return IdSelection{json.at("ids").get<std::vector<std::uint32_t>>()};
+    if (json.contains("plane")) return plane(json.at("plane"), path + "/plane");
+    if (json.contains("sphere"))
+      return SphereSelection{point(json.at("sphere").at("centre")), json.at("sphere").at("radius")};
+    if (!json.contains("box")) return {};
+    const BoxSelection box{point(json.at("box").at("min")), point(json.at("box").at("max"))};
+    for (int k = 0; k < 3; ++k)
+      if (box.min[k] > box.max[k])
+        fail(path + "/box", fmt::format("has a min[{}] of {} and a max[{}] of {}", k, box.min[k], k, box.max[k]),
+             "no min above its max");
+    return box;
+  }
+
+  CellSelection cells(const Json& json, const std::string& path) const {
+    if (const auto selection = region<CellSelection>(json, path)) return *selection;
+    return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
+  }
+
+  SceneDrive drive(const Json& json, const std::string& path, const SceneFile& scene) const {
+    SceneDrive drive{
+        region<VertexSelection>(json, path).value(), velocity(json.at("velocity")), json.at("from"), {}, {}, path};
+    if (json.contains("reverse_every")) drive.reverse_every = json.at("reverse_every").get<double>();
+    if (drive.from >= scene.duration)
+      fail(path + "/from", fmt::format("is {} s", drive.from),
+           fmt::format("a time before the duration of {} s", scene.duration));
+    const double until = json.value("until", scene.duration);
+    if (json.contains("until") && until <= scene.duration) drive.until = until;
+    if (until <= drive.from ||
+        (drive.until && !scene.accuracy && step_of_time(until, scene.step) == step_of_time(drive.from, scene.step)))
+      fail(path + "/until", fmt::format("leaves the time from {} to {} s", drive.from, until), "at least one step");
+    return drive;
+  }
+
+  Probe probe(const Json& json, const std::string& path, const std::vector<Probe>& others) const {
+    Probe probe{json.at("name").get<std::string>(), {}, path};
+    for (const Probe& other : others)
+      if (other.name == probe.name)
+        fail(path + "/name", fmt::format("is {}, like {}/name", shown(json.at("name")), other.path),
+             "a name of its own");
+    if (probe.name.empty()) fail(path + "/name", "is empty", "a name");
+    if (json.contains("vertex"))
+      probe.vertex = json.at("vertex").get<std::uint32_t>();
+    else
+      probe.vertex = point(json.at("near"));
+    return probe;
+  }
+
+  SceneEvent event(const Json& json, const std::string& path, const SceneFile& scene) const {
+    SceneEvent event;
+    event.path = path;
+    const bool by_stress = json.contains("tear_where_stressed");
+    if (json.contains("at")) {
+      event.from = event.until = json.at("at");
+    } else {
+      event.from = json.at("from");
+      event.until = json.value("until", scene.duration);
+      if (json.contains("every")) event.every = json.at("every").get<double>();
+      if (!event.every && !by_stress && !json.contains("until"))
+        fail(path, "has no time", "'at', or 'every', 'from' and 'until'");
+      if (event.until < event.from)
+        fail(path + "/until", fmt::format("is {} s", event.until),
+             fmt::format("no time before that of 'from', {} s", event.from));
+    }
+    if (event.from > scene.duration)
+      fail(path + (json.contains("at") ? "/at" : "/from"), fmt::format("is {} s", event.from),
+           fmt::format("a time within the duration of {} s", scene.duration));
+    event.until = std::min(event.until, scene.duration);
+    event.action = action(json, path);
+    return event;
+  }
+
+  Action action(const Json& json, const std::string& path) const {
+    if (json.contains("remove")) return Remove{cells(json.at("remove"), path + "/remove")};
+    if (json.contains("dissociate")) {
+      const Json& faces = json.at("dissociate");
+      if (faces.contains("plane")) return Dissociate{plane(faces.at("plane"), path + "/dissociate/plane")};
+      return Dissociate{faces.at("points").get<std::vector<std::vector<std::uint32_t>>>()};
+    }
+    if (json.contains("tear")) {
+      const Json& tear = json.at("tear");
+      const Eigen::Vector3d toward = direction(tear.at("direction"), path + "/tear/direction");
+      if (tear.contains("vertex")) return Tear{tear.at("vertex").get<std::uint32_t>(), toward};
+      return Tear{point(tear.at("near")), toward};
+    }
+    if (json.contains("refine")) {
+      const Json& refine = json.at("refine");
+      return Refine{cells(refine.at("cells"), path + "/refine/cells"), refine.at("at") == "centre",
+                    refine.at("bracing")};
+    }
+    const Json& stress = json.at("tear_where_stressed");
+    TearWhereStressed tear{stress.at("threshold"), {}, {}};
+    if (stress.contains("most_per_step")) tear.most_per_step = stress.at("most_per_step").get<std::size_t>();
+    if (stress.contains("plane")) tear.seam = plane(stress.at("plane"), path + "/tear_where_stressed/plane");
+    return tear;
+  }
+
+  static std::string_view key_of(const Action& action) {
+    constexpr std::string_view keys[] = {"dissociate", "remove", "tear", "tear_where_stressed", "refine"};
+    return keys[action.index()];
+  }
+
+  // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex between driven ones would
+  // have no path of its own.
+  void require_consistent(const SceneFile& scene) const {
+    if (scene.accuracy) {
+      // a step is found by comparison with references, which know neither
+      const char* unknown = scene.is_chain() ? "/body/generate/chain" : scene.driven.empty() ? nullptr : "/driven";
+      if (unknown != nullptr) fail("/accuracy", fmt::format("stands beside {}", unknown), "'step' in its place");
+      if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
+        fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
+    }
+    const SceneEvent *seam = nullptr, *refinement = nullptr;
+    for (const SceneEvent& event : scene.events) {
+      if (scene.is_chain())
+        fail(fmt::format("{}/{}", event.path, key_of(event.action)), "is meant for cells, and a chain has none",
+             "no events");
+      const auto* stress = std::get_if<TearWhereStressed>(&event.action);
+      if (stress != nullptr && stress->seam) seam = &event;
+      if (std::holds_alternative<Refine>(event.action)) refinement = &event;
+    }
+    if (seam != nullptr && refinement != nullptr)
+      fail(refinement->path + "/refine", fmt::format("stands beside {}/tear_where_stressed/plane", seam->path),
+           "no refinement where a seam is given");
+    if (refinement != nullptr && !scene.driven.empty())
+      fail(refinement->path + "/refine", "stands beside /driven", "no refinement where vertices are driven");
+  }
+
+  ExpectedPlace place(const Json& json, const std::string& path, const std::vector<Probe>& probes) const {
+    const auto name = json.at("probe").get<std::string>();
+    for (std::size_t k = 0; k < probes.size(); ++k)
+      if (probes[k].name == name) return {k, point(json.at("position")), json.at("within")};
+    fail(path + "/probe", "is " + shown(json.at("probe")), "the name of one of /output/probes");
+  }
+
+  Expectation expectation(const Json& json, const SceneFile& scene) const {
+    Expectation e;
+    for (std::size_t k = 0; k < json.at("places").size(); ++k)
+      e.places.push_back(place(json.at("places")[k], fmt::format("/expect/places/{}", k), scene.probes));
+    const auto take = [&json](const char* key, auto& into) {
+      if (json.contains(key)) into = json.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
+    };
+    take("vertices", e.vertices);
+    take("edges", e.edges);
+    take("faces", e.faces);
+    take("cells", e.cells);
+    take("components", e.components);
+    take("components_at_least", e.components_at_least);
+    take("operations", e.operations);
+    take("mass", e.mass);
+    take("kinetic_at_most", e.kinetic_at_most);
+    take("energy_drift_at_most", e.energy_drift_at_most);
+    if (e.energy_drift_at_most) {
+      const char* taker = scene.material.damping > 0.0     ? "/material/damping"
+                          : scene.material.viscosity > 0.0 ? "/material/viscosity"
+                          : !scene.driven.empty()          ? "/driven"
+                          : !scene.events.empty()          ? "/events"
+                                                           : nullptr;
+      if (taker != nullptr)
+        fail("/expect/energy_drift_at_most", fmt::format("stands beside {}, which changes the energy", taker),
+             "damping and viscosity of 0, and no driven vertices or events");
+    }
+    if (json.contains("hash")) {
+      const auto digits = json.at("hash").get<std::string>();
+      std::uint64_t value = 0;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+      if (digits.size() != 16 || error != std::errc() || end != digits.data() + digits.size())
+        fail("/expect/hash", "is " + shown(json.at("hash")), "16 hexadecimal digits");
+      e.hash = value;
+    }
+    return e;
+  }
+
+  std::string name_;
+  fs::path folder_;
+};
+
+}  // namespace
+
+OutputPlan OutputPlan::in_steps_of(double step) const {
+  const auto steps = [step](const std::optional<std::uint64_t>& given, const std::optional<double>& time) {
+    if (given || !time) return given;
+    // far beyond the end of any run, and a number of steps must fit
+    const double in_reach = std::min(*time, 2.0 * most_steps * step);
+    return std::optional(std::max<std::uint64_t>(1, step_of_time(in_reach, step)));
+  };
+  return {.frame_steps = steps(frame_steps, frame_time),
+          .diagnostic_steps = steps(diagnostic_steps, diagnostic_time),
+          .probe_steps = steps(probe_steps, probe_time),
+          .frame_time = {},
+          .diagnostic_time = {},
+          .probe_time = {}};
+}
+
+bool Expectation::empty() const {
+  return !vertices && !edges && !faces && !cells && !components && !components_at_least && !operations && !mass &&
+         !kinetic_at_most && !energy_drift_at_most && places.empty() && !hash;
+}
+
+SceneFile parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
+  const Json complete = check_and_complete(parse_strict_json(text, name), Shape::scene, name);
+  return Reader(name, folder).scene(complete);
+}
+
+SceneFile read_scene(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw IoError(fmt::format("{}: there is no such file; expected a scene", path.string()));
+  if (fs::is_directory(path, error)) throw IoError(fmt::format("{}: is a folder; expected a scene", path.string()));
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw IoError(fmt::format("{}: cannot be read; expected a scene", path.string()));
+  SceneFile scene = parse_scene(text.str(), path.string(), path.parent_path());
+  number_points_as_kept(scene);
+  return scene;
+}
+
+bool reseed(SceneFile& scene, std::uint64_t seed) {
+  bool changed = false;
+  const auto reseed_cells = [seed, &changed](CellSelection& cells) {
+    if (auto* random = std::get_if<RandomSelection>(&cells)) {
+      random->seed += seed;
+      changed = changed || seed != 0;
+    }
+  };
+  for (SceneEvent& event : scene.events) {
+    if (auto* remove = std::get_if<Remove>(&event.action)) reseed_cells(remove->cells);
+    if (auto* refine = std::get_if<Refine>(&event.action)) reseed_cells(refine->cells);
+  }
+  return changed;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,368 @@
+#include "core/scene/file/scene_keys.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/time/integrators.h"
+
+namespace dartboard {
+namespace {
+
+constexpr Range positive{.least = 0.0, .above = true};
+constexpr Range not_negative{.least = 0.0};
+constexpr Range number{.least = 0.0, .most = 4294967294.0};  // of a point, cell or dart; 2^32 - 1 means none
+constexpr Range exact_integer{.least = 0.0,
+                              .most = 9007199254740991.0};  // 2^53 - 1: every reader of JSON has it exactly
+constexpr Range count_from_1{.least = 1.0, .most = 4294967294.0};
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const IntegratorEntry& entry : integrators()) names.emplace_back(entry.name);
+  return names;
+}
+
+std::vector<SceneKey> make_keys() {
+  using enum Shape;
+  using enum ValueType;
+  // a row of the table in one or two lines
+  // clang-format off
+  return {
+      // ---- the scene
+      {.shape = scene, .name = "name", .type = text, .required = true, .help = "what the scene is called"},
+      {.shape = scene, .name = "about", .type = text, .standard = "\"\"", .help = "a sentence for readers"},
+      {.shape = scene, .name = "body", .type = object, .of = body, .required = true, .help = "the body at rest"},
+      {.shape = scene, .name = "material", .type = object, .of = material, .standard = "{}",
+       .help = "what the body is made of"},
+      {.shape = scene, .name = "gravity", .type = point, .unit = "m/s^2", .standard = "[0, 0, -9.81]",
+       .help = "acceleration of gravity"},
+      {.shape = scene, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
+       .standard = "[0, 0, 0]", .help = "velocity at the start, one for all vertices or linear in their place; not above "
+                                        "that of light"},
+      {.shape = scene, .name = "fixed", .type = objects, .of = vertex_selection, .standard = "[]",
+       .help = "vertices held still, by where they are at rest: those in any of the selections"},
+      {.shape = scene, .name = "driven", .type = objects, .of = driven, .standard = "[]",
+       .help = "vertices that are moved along, whatever acts on them"},
+      {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
+      {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
+       .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
+               "none is named; not for a chain, nor with driven vertices. The choice rests on timings: it may differ from "
+               "machine to machine and from run to run, and the hash with it; 'simulate' prints the 'integrator' and "
+               "'step' that settle it"},
+      {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
+       .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
+      {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
+       .help = "how the equations of motion are integrated; left out, 'rk4', or with an accuracy the cheapest that is "
+               "expected to meet it"},
+      {.shape = scene, .name = "unstable_step", .type = choice, .choices = {"warn", "refuse", "substep"},
+       .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
+                                       "each event: say so, refuse the scene (after an event: stop), or divide it"},
+      {.shape = scene, .name = "events", .type = objects, .of = event, .standard = "[]",
+       .help = "what happens to the body; those due at one time happen in this order"},
+      {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},
+      {.shape = scene, .name = "expect", .type = object, .of = expect, .standard = "{}",
+       .help = "what must be true at the end, so that the scene is its own test"},
+
+      // ---- the body
+      {.shape = body, .name = "mesh", .type = text, .help = "mesh file, relative to the scene file"},
+      {.shape = body, .name = "generate", .type = object, .of = generate, .help = "a mesh made on the spot"},
+      {.shape = body, .name = "scale", .type = real, .range = positive, .standard = "1",
+       .help = "factor on all coordinates, applied first"},
+      {.shape = body, .name = "translate", .type = point, .unit = "m", .standard = "[0, 0, 0]",
+       .help = "added to all points, after scaling"},
+      {.shape = generate, .name = "box", .type = object, .of = box_mesh, .help = "a box with a corner at the origin"},
+      {.shape = generate, .name = "sheet", .type = object, .of = sheet_mesh,
+       .help = "a rectangle in the plane z = 0 with a corner at the origin"},
+      {.shape = generate, .name = "ball", .type = object, .of = ball_mesh,
+       .help = "a ball of tetrahedra around the origin"},
+      {.shape = generate, .name = "chain", .type = object, .of = chain_mesh,
+       .help = "a row of point masses and springs along x from the origin"},
+      {.shape = box_mesh, .name = "cells", .type = integer_triple, .range = {1, 10000}, .required = true,
+       .help = "cubes along x, y and z"},
+      {.shape = box_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "edge of a cube"},
+      {.shape = box_mesh, .name = "kind", .type = choice, .choices = {"tetrahedra", "hexahedra", "mixed"},
+       .standard = "\"tetrahedra\"", .help = "six tetrahedra per cube, one hexahedron, or all kinds of cell"},
+      {.shape = box_mesh, .name = "jitter", .type = real, .range = {0.0, 0.5}, .standard = "0",
+       .help = "random moves of the inner points, in spacings; for tetrahedra only"},
+      {.shape = box_mesh, .name = "seed", .type = integer, .range = exact_integer, .standard = "0",
+       .help = "of the random moves"},
+      {.shape = sheet_mesh, .name = "cells", .type = integer_pair, .range = {1, 100000}, .required = true,
+       .help = "squares along x and y"},
+      {.shape = sheet_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "edge of a square"},
+      {.shape = sheet_mesh, .name = "kind", .type = choice, .choices = {"triangles", "quadrilaterals"},
+       .standard = "\"triangles\"", .help = "two triangles per square, or one quadrilateral"},
+      {.shape = ball_mesh, .name = "layers", .type = integer, .range = {1, 256}, .required = true,
+       .help = "of tetrahedra from the centre to the surface: 8 layers^3 of them in all; a map has room for 2^27"},
+      {.shape = ball_mesh, .name = "radius", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "of the ball; the points of its surface lie on it"},
+      {.shape = chain_mesh, .name = "links", .type = integer, .range = {1, 1000000}, .required = true,
+       .help = "springs; there is one point mass more"},
+      {.shape = chain_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "length of a link at rest"},
+
+      // ---- what it is made of and how it moves
+      {.shape = material, .name = "density", .type = real, .unit = "kg/m^3", .range = positive, .standard = "1000",
+       .help = "mass per volume; of a surface, per area [kg/m^2]; of a chain, per length [kg/m], half of a link's at each "
+               "end"},
+      {.shape = material, .name = "stiffness", .type = real, .unit = "N/m", .range = not_negative, .standard = "50",
+       .help = "of the spring that a cell contributes to each of its edges; of a chain, of a link"},
+      {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
+       .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
+      {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
+       .help = "ambient drag over mass and velocity"},
+      {.shape = velocity, .name = "constant", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
+       .help = "velocity at the centre"},
+      {.shape = velocity, .name = "linear", .type = matrix, .unit = "1/s",
+       .standard = "[[0, 0, 0], [0, 0, 0], [0, 0, 0]]", .help = "velocity gradient, row by row: a spin, a stretch"},
+      {.shape = velocity, .name = "centre", .type = point, .unit = "m", .standard = "[0, 0, 0]",
+       .help = "where the linear part is zero"},
+
+      // ---- selections
+      {.shape = vertex_selection, .name = "ids", .type = integers, .range = number,
+       .help = "these points of the mesh, counted from 0 in the order of the file"},
+      {.shape = vertex_selection, .name = "box", .type = object, .of = box, .help = "the vertices in a box"},
+      {.shape = vertex_selection, .name = "plane", .type = object, .of = plane,
+       .help = "the vertices on a plane or on the side that its normal points to"},
+      {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
+      {.shape = driven, .name = "ids", .type = integers, .range = number,
+       .help = "these points of the mesh, counted from 0 in the order of the file"},
+      {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
+      {.shape = driven, .name = "plane", .type = object, .of = plane,
+       .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
+      {.shape = driven, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere at rest"},
+      {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
+       .help = "that they keep, one for all or linear in their place at rest"},
+      {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
+       .help = "time they start at; they are held still before"},
+      {.shape = driven, .name = "until", .type = real, .unit = "s", .range = positive,
+       .help = "time they stop at, and are held still from; left out, they move to the end"},
+      {.shape = driven, .name = "reverse_every", .type = real, .unit = "s", .range = positive,
+       .help = "time after which they turn round, again and again; left out, never"},
+      {.shape = cell_selection, .name = "ids", .type = integers, .range = number,
+       .help = "these cells of the mesh, counted from 0 in the order of the file, as far as they are still there"},
+      {.shape = cell_selection, .name = "box", .type = object, .of = box,
+       .help = "the cells with their centroid in a box, where they are at that time"},
+      {.shape = cell_selection, .name = "plane", .type = object, .of = plane,
+       .help = "the cells with their centroid on a plane or on the side that its normal points to"},
+      {.shape = cell_selection, .name = "sphere", .type = object, .of = sphere,
+       .help = "the cells with their centroid in a sphere"},
+      {.shape = cell_selection, .name = "random", .type = object, .of = random, .help = "cells drawn at random"},
+      {.shape = box, .name = "min", .type = point, .unit = "m", .required = true, .help = "the lowest corner"},
+      {.shape = box, .name = "max", .type = point, .unit = "m", .required = true, .help = "the highest corner"},
+      {.shape = plane, .name = "point", .type = point, .unit = "m", .required = true, .help = "a point on it"},
+      {.shape = plane, .name = "normal", .type = point, .required = true,
+       .help = "perpendicular to it; of any length but 0"},
+      {.shape = sphere, .name = "centre", .type = point, .unit = "m", .required = true, .help = "its centre"},
+      {.shape = sphere, .name = "radius", .type = real, .unit = "m", .range = not_negative, .required = true,
+       .help = "its radius"},
+      {.shape = random, .name = "count", .type = integer, .range = count_from_1, .required = true,
+       .help = "how many; all when fewer remain"},
+      {.shape = random, .name = "seed", .type = integer, .range = exact_integer, .standard = "1",
+       .help = "of the random numbers; each time an event repeats it draws further numbers"},
+
+      // ---- events
+      {.shape = event, .name = "at", .type = real, .unit = "s", .range = not_negative,
+       .help = "happens once, at the first multiple of the step that is not before this time"},
+      {.shape = event, .name = "every", .type = real, .unit = "s", .range = positive,
+       .help = "happens again and again; left out, or not above the step, at every step"},
+      {.shape = event, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
+       .help = "the first time of those that repeat"},
+      {.shape = event, .name = "until", .type = real, .unit = "s", .range = not_negative,
+       .help = "no later than this; left out, the duration"},
+      {.shape = event, .name = "dissociate", .type = object, .of = dissociate,
+       .help = "separate the two cells on either side of faces (of edges, in a surface)"},
+      {.shape = event, .name = "remove", .type = object, .of = cell_selection, .help = "remove cells"},
+      {.shape = event, .name = "tear", .type = object, .of = tear, .help = "tear a fan of faces around one vertex"},
+      {.shape = event, .name = "tear_where_stressed", .type = object, .of = stress,
+       .help = "tear wherever the stress is too large"},
+      {.shape = event, .name = "refine", .type = object, .of = refine, .help = "subdivide tetrahedra"},
+      {.shape = dissociate, .name = "points", .type = integer_lists, .range = number,
+       .help = "faces, each by three of its points in the mesh, counted from 0 in the order of the file; in a surface "
+               "edges, each by its two ends"},
+      {.shape = dissociate, .name = "plane", .type = object, .of = plane,
+       .help = "the faces between cells whose centroids are on different sides of a plane at that time"},
+      {.shape = tear, .name = "vertex", .type = integer, .range = number,
+       .help = "at this point of the mesh, counted from 0 in the order of the file"},
+      {.shape = tear, .name = "near", .type = point, .unit = "m", .help = "at the vertex nearest to this place"},
+      {.shape = tear, .name = "direction", .type = point, .required = true,
+       .help = "of the stress: the fan starts with the face whose normal is nearest to it"},
+      {.shape = stress, .name = "threshold", .type = real, .unit = "Pa", .range = positive, .required = true,
+       .help = "the largest principal stress that holds"},
+      {.shape = stress, .name = "plane", .type = object, .of = plane,
+       .help = "only along this seam: the faces between cells whose centroids are on different sides of it at rest"},
+      {.shape = stress, .name = "most_per_step", .type = integer, .range = count_from_1,
+       .help = "vertices torn at one step boundary; left out, all that are above the threshold"},
+      {.shape = refine, .name = "cells", .type = object, .of = cell_selection, .required = true,
+       .help = "the tetrahedra to subdivide"},
+      {.shape = refine, .name = "at", .type = choice, .choices = {"longest edge", "centre"},
+       .standard = "\"longest edge\"",
+       .help = "where each gets a vertex; in an edge, all tetrahedra around it are subdivided"},
+      {.shape = refine, .name = "bracing", .type = real, .range = not_negative, .standard = "0.5",
+       .help = "stiffness of the springs from the vertex to those across, over the material's"},
+
+      // ---- output and expectations
+      {.shape = output, .name = "frames_every", .type = real, .unit = "s", .range = positive,
+       .help = "time between frames; the first and the last state are always written"},
+      {.shape = output, .name = "frames_every_steps", .type = integer, .range = count_from_1,
+       .help = "steps between frames"},
+      {.shape = output, .name = "diagnostics_every", .type = real, .unit = "s", .range = positive,
+       .help = "time between rows of diagnostics; the first and the last state always get one"},
+      {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
+       .help = "steps between rows of diagnostics"},
+      {.shape = output, .name = "probes", .type = objects, .of = probe, .standard = "[]",
+       .help = "vertices whose motion is recorded in probes.csv"},
+      {.shape = output, .name = "probes_every", .type = real, .unit = "s", .range = positive,
+       .help = "time between rows of probes; left out, that of the diagnostics"},
+      {.shape = output, .name = "probes_every_steps", .type = integer, .range = count_from_1,
+       .help = "steps between rows of probes"},
+      {.shape = probe, .name = "name", .type = text, .required = true, .help = "heads its columns; no two the same"},
+      {.shape = probe, .name = "vertex", .type = integer, .range = number,
+       .help = "this point of the mesh, counted from 0 in the order of the file"},
+      {.shape = probe, .name = "near", .type = point, .unit = "m",
+       .help = "the vertex nearest to it at rest, no farther away than the body is large"},
+      {.shape = expect, .name = "vertices", .type = integer, .range = number, .help = "vertices"},
+      {.shape = expect, .name = "edges", .type = integer, .range = number, .help = "edges"},
+      {.shape = expect, .name = "faces", .type = integer, .range = number, .help = "faces"},
+      {.shape = expect, .name = "cells", .type = integer, .range = number, .help = "volumes; of a surface, faces"},
+      {.shape = expect, .name = "components", .type = integer, .range = number, .help = "connected components"},
+      {.shape = expect, .name = "components_at_least", .type = integer, .range = number,
+       .help = "no fewer connected components"},
+      {.shape = expect, .name = "operations", .type = integer, .range = number,
+       .help = "faces dissociated, cells removed, vertices put in by refinement"},
+      {.shape = expect, .name = "mass", .type = real, .unit = "kg", .range = not_negative,
+       .help = "total mass, to 12 digits"},
+      {.shape = expect, .name = "kinetic_at_most", .type = real, .unit = "J", .range = not_negative,
+       .help = "kinetic energy: the motion has come to rest"},
+      {.shape = expect, .name = "energy_drift_at_most", .type = real, .range = not_negative,
+       .help = "largest change of the total energy in any row of the diagnostics, over the largest sum of kinetic and "
+               "elastic energy; only where nothing takes or supplies energy: no damping, viscosity, driven vertices or "
+               "events"},
+      {.shape = expect, .name = "places", .type = objects, .of = expected_place, .standard = "[]",
+       .help = "where probes are"},
+      {.shape = expect, .name = "hash", .type = text,
+       .help = "of positions and velocities, 16 hexadecimal digits: equal bits only"},
+      {.shape = expected_place, .name = "probe", .type = text, .required = true, .help = "the name of a probe"},
+      {.shape = expected_place, .name = "position", .type = point, .unit = "m", .required = true, .help = "its place"},
+      {.shape = expected_place, .name = "within", .type = real, .unit = "m", .range = not_negative, .required = true,
+       .help = "distance from there that is allowed"},
+  };
+  // clang-format on
+}
+
+std::string real_text(double value) { return fmt::format("{}", value); }
+
+std::string range_text(const Range& range) {
+  std::string words;
+  if (std::isfinite(range.least)) words += fmt::format(" {} {}", range.above ? ">" : ">=", real_text(range.least));
+  if (std::isfinite(range.most)) words += fmt::format("{} <= {}", words.empty() ? "" : " and", real_text(range.most));
+  return words;
+}
+
+}  // namespace
+
+std::span<const ShapeHelp> scene_shapes() {
+  static constexpr ShapeHelp shapes[] = {
+      {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
+      {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
+      {Shape::generate, "generate", "A mesh made on the spot."},
+      {Shape::box_mesh, "box_mesh", "A box of cubes."},
+      {Shape::sheet_mesh, "sheet_mesh", "A rectangle of squares."},
+      {Shape::ball_mesh, "ball_mesh",
+       "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
+      {Shape::chain_mesh, "chain_mesh",
+       "A chain has links and no cells, so nothing can happen to it but motion: no events. Its largest stress is the "
+       "largest tension [N]."},
+      {Shape::material, "material", "A homogeneous mass/spring material."},
+      {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
+      {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
+      {Shape::driven, "driven",
+       "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are "
+       "never "
+       "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
+       "work, so energy and momentum of the body change."},
+      {Shape::cell_selection, "cell_selection", "Some of the cells: volumes, or the faces of a surface."},
+      {Shape::box, "box", "A box with faces across the axes, its surface included."},
+      {Shape::plane, "plane", "A plane; its positive side is where the normal points to."},
+      {Shape::sphere, "sphere", "A ball, its surface included."},
+      {Shape::random, "random", "A number of cells, each subset of that size as likely."},
+      {Shape::event, "event",
+       "What happens, and when. An event is applied between two steps: at time t, at the first multiple n * step that "
+       "is "
+       "not before t. A t within 4 units of rounding of a multiple counts as that multiple."},
+      {Shape::dissociate, "dissociate", "Which faces come apart."},
+      {Shape::tear, "tear", "Which fan is torn."},
+      {Shape::stress, "stress", "Where stress tears."},
+      {Shape::refine, "refine",
+       "Which tetrahedra become smaller ones. Mass and momentum stay; a bracing above 0 makes the body a little "
+       "stiffer, "
+       "and without it a vertex at a centre moves freely."},
+      {Shape::output, "output", "What is recorded. None of it changes a bit of the trajectory."},
+      {Shape::probe, "probe",
+       "One vertex, wherever it goes: its position and velocity. Of a vertex that comes apart it follows the part that "
+       "keeps its number; once that is removed, the fields are empty."},
+      {Shape::expect, "expect", "What must be true at the end."},
+      {Shape::expected_place, "expected_place", "Where a probe is at the end."},
+  };
+  return shapes;
+}
+
+const ShapeHelp& help_of(Shape shape) { return scene_shapes()[static_cast<std::size_t>(shape)]; }
+
+std::span<const SceneKey> scene_keys() {
+  static const std::vector<SceneKey> keys = make_keys();
+  return keys;
+}
+
+std::span<const SceneRule> scene_rules() {
+  using enum SceneRule::Kind;
+  static const std::vector<SceneRule> rules{
+      {exactly_one, Shape::scene, {"step", "accuracy"}},
+      {exactly_one, Shape::body, {"mesh", "generate"}},
+      {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
+      {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},
+      {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
+      {exactly_one, Shape::probe, {"vertex", "near"}},
+      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "random"}},
+      {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine"}},
+      {excludes, Shape::event, {"at", "every", "from", "until"}},
+      {exactly_one, Shape::dissociate, {"points", "plane"}},
+      {exactly_one, Shape::tear, {"vertex", "near"}},
+      {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
+      {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},
+      {at_most_one, Shape::output, {"probes_every", "probes_every_steps"}},
+      {at_most_one, Shape::expect, {"components", "components_at_least"}},
+  };
+  return rules;
+}
+
+std::string quoted_list(const std::vector<std::string>& words, std::string_view between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : std::string(between)) + "'" + word + "'";
+  return text;
+}
+
+std::string expectation(const SceneKey& key) {
+  const std::string range = range_text(key.range);
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+  const auto object = [&key] { return fmt::format("an object ({})", help_of(key.of).name); };
+  switch (key.type) {
+    case ValueType::text: return "a text";
+    case ValueType::choice: return "one of " + quoted_list(key.choices, ", ");
+    case ValueType::integer: return "an integer" + range + unit;
+    case ValueType::integers: return "a list of integers" + range + ", at least one";
+    case ValueType::real: return "a number" + range + unit;
+    case ValueType::point: return "a list of three numbers" + range + unit;
+    case ValueType::matrix: return "three lists of three numbers" + range + unit;
+    case ValueType::object: return object();
+    case ValueType::objects: return fmt::format("a list of objects ({})", help_of(key.of).name);
+    case ValueType::point_or_object: return "a list of three numbers" + range + unit + " or " + object();
+    case ValueType::integer_pair: return "a list of two integers" + range;
+    case ValueType::integer_triple: return "a list of three integers" + range;
+    case ValueType::integer_lists: break;
+  }
+  return "a list, not empty, of lists of two or three integers" + range;
+}
+
+}  // namespace dartboard

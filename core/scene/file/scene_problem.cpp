@@ -1,0 +1,91 @@
+#include "core/scene/file/scene_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "core/meshes/generators/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Errors of a mesh name the key that asked for it.
+Mesh generate(const BoxMesh& box) {
+  const auto [nx, ny, nz] = box.cells;
+  if (box.kind == "hexahedra") return hexahedron_box(nx, ny, nz, box.spacing);
+  if (box.kind == "mixed") return mixed_box(nx, ny, nz, box.spacing);
+  return kuhn_box(nx, ny, nz, box.spacing, box.jitter, box.seed);
+}
+Mesh generate(const SheetMesh& sheet) {
+  const auto [nx, ny] = sheet.cells;
+  return sheet.kind == "triangles" ? triangle_sheet(nx, ny, sheet.spacing) : quad_sheet(nx, ny, sheet.spacing);
+}
+Mesh generate(const BallMesh& ball) { return tetrahedron_ball(ball.layers, ball.radius); }
+Mesh generate(const ChainMesh& chain) {
+  Mesh mesh;
+  for (int k = 0; k <= chain.links; ++k) mesh.points.emplace_back(k * chain.spacing, 0, 0);
+  return mesh;
+}
+Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
+
+/// Nothing moves faster.
+void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v) {
+  const double speed = v.stableNorm();
+  if (speed <= speed_of_light) return;
+  const std::string shown = std::isfinite(speed) ? fmt::format("{:.6g} m/s", speed) : "not finite";
+  throw InputError(fmt::format("{}: is {} somewhere in the body; expected at most {:.0f} m/s, the speed of light", path,
+                               shown, speed_of_light));
+}
+
+}  // namespace
+
+Mesh make_mesh(const SceneFile& scene) {
+  Mesh mesh;
+  const bool from_file = std::holds_alternative<fs::path>(scene.body.mesh);
+  try {
+    mesh = std::visit([](const auto& source) { return generate(source); }, scene.body.mesh);
+  } catch (const IoError& problem) {
+    throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: /body/{}: {}", scene.file, from_file ? "mesh" : "generate", problem.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body/{}: there is not enough memory for so many cells; expected fewer",
+                                 scene.file, from_file ? "mesh" : "generate"));
+  }
+  for (Eigen::Vector3d& x : mesh.points) x = scene.body.scale * x + scene.body.translate;
+  return mesh;
+}
+
+Problem make_problem(const SceneFile& scene) {
+  Problem problem;
+  problem.mesh = make_mesh(scene);
+  problem.material = scene.material;
+  problem.surroundings.gravity = scene.gravity;
+  problem.h = scene.step;
+  try {
+    problem.fixed = select_points(scene.fixed, problem.mesh.points);
+    for (const SceneDrive& drive : scene.driven) {
+      const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
+      for (const std::uint32_t p : driven)
+        require_slower_than_light(drive.path + "/velocity", drive.velocity.at(problem.mesh.points[p]));
+      problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
+    }
+    std::sort(problem.fixed.begin(), problem.fixed.end());
+    problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
+    for (const Eigen::Vector3d& x : problem.mesh.points) {
+      problem.initial_velocity.push_back(scene.initial_velocity.at(x));
+      require_slower_than_light("/initial_velocity", problem.initial_velocity.back());
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", scene.file, error.what()));
+  }
+  return problem;
+}
+
+}  // namespace dartboard

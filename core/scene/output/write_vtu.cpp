@@ -1,0 +1,128 @@
+#include "core/scene/output/write_vtu.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/meshes/text/base64.h"
+#include "core/plain/error.h"
+#include "core/scene/output/atomic_file.h"
+
+namespace dartboard {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
+static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+
+struct VtkCell {
+  std::uint8_t type;
+  std::array<std::size_t, 8> order;  // which node of ours each point of VTK's is
+};
+
+VtkCell vtk_cell(CellKind kind) {
+  switch (kind) {
+    case CellKind::triangle: return {5, {0, 1, 2}};
+    case CellKind::quadrilateral: return {9, {0, 1, 2, 3}};
+    case CellKind::tetrahedron: return {10, {0, 1, 2, 3}};
+    case CellKind::pyramid: return {14, {0, 1, 2, 3, 4}};
+    case CellKind::prism: return {13, {0, 2, 1, 3, 5, 4}};  // VTK's are mirrored (vtk_cells.cpp)
+    case CellKind::hexahedron: break;
+  }
+  return {12, {0, 1, 2, 3, 4, 5, 6, 7}};
+}
+
+template <class T>
+constexpr const char* vtk_type();
+template <>
+constexpr const char* vtk_type<double>() {
+  return "Float64";
+}
+template <>
+constexpr const char* vtk_type<std::int64_t>() {
+  return "Int64";
+}
+template <>
+constexpr const char* vtk_type<std::uint8_t>() {
+  return "UInt8";
+}
+
+template <class T>
+void append_array(std::string& out, const char* name, const T* data, std::size_t size, int components = 1) {
+  const std::uint64_t length = size * sizeof(T);
+  std::string bytes(reinterpret_cast<const char*>(&length), sizeof length);
+  if (length > 0) bytes.append(reinterpret_cast<const char*>(data), length);
+  fmt::format_to(
+      std::back_inserter(out),
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+      vtk_type<T>(), name, components, encode_base64(bytes));
+}
+template <class T>
+void append_array(std::string& out, const char* name, const std::vector<T>& values) {
+  append_array(out, name, values.data(), values.size());
+}
+void append_array(std::string& out, const char* name, const std::vector<Eigen::Vector3d>& values) {
+  append_array(out, name, values.empty() ? nullptr : values[0].data(), 3 * values.size(), 3);
+}
+
+}  // namespace
+
+std::string to_vtu(const Frame& frame) {
+  const Mesh& mesh = frame.mesh;
+  const std::size_t points = mesh.points.size(), cells = mesh.cell_count();
+  if (frame.velocity.size() != points || frame.mass.size() != points || frame.mesh_cell.size() != cells ||
+      frame.component.size() != cells)
+    throw InputError(fmt::format("a frame of {} points and {} cells with columns of other lengths", points, cells));
+
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+  for (std::size_t c = 0; c < cells; ++c) {
+    const VtkCell cell = vtk_cell(mesh.kinds[c]);
+    const auto nodes = mesh.cell(c);
+    for (std::size_t k = 0; k < nodes.size(); ++k) connectivity.push_back(nodes[cell.order[k]]);
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(cell.type);
+  }
+  std::vector<std::int64_t> mesh_cell(frame.mesh_cell.begin(), frame.mesh_cell.end());
+  std::vector<std::int64_t> component(frame.component.begin(), frame.component.end());
+  for (const auto& link : frame.links) {
+    connectivity.insert(connectivity.end(), link.begin(), link.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(3);  // a line
+    mesh_cell.push_back(static_cast<std::int64_t>(mesh_cell.size()));
+    component.push_back(0);
+  }
+
+  std::string out =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <UnstructuredGrid>\n"
+      "    <FieldData>\n";
+  append_array(out, "TimeValue", &frame.time, 1);
+  // a field is an array of tuples of its own
+  const auto field = out.find("NumberOfComponents=\"1\"");
+  out.replace(field, std::string_view("NumberOfComponents=\"1\"").size(), "NumberOfTuples=\"1\"");
+  fmt::format_to(std::back_inserter(out),
+                 "    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n", points,
+                 types.size());
+  append_array(out, "Points", mesh.points);
+  out += "      </Points>\n      <Cells>\n";
+  append_array(out, "connectivity", connectivity);
+  append_array(out, "offsets", offsets);
+  append_array(out, "types", types);
+  out += "      </Cells>\n      <PointData Vectors=\"velocity\" Scalars=\"mass\">\n";
+  append_array(out, "velocity", frame.velocity);
+  append_array(out, "mass", frame.mass);
+  out += "      </PointData>\n      <CellData Scalars=\"component\">\n";
+  append_array(out, "mesh_cell", mesh_cell);
+  append_array(out, "component", component);
+  out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
+  return out;
+}
+
+void write_vtu(const std::filesystem::path& path, const Frame& frame) { write_whole(path, to_vtu(frame)); }
+
+}  // namespace dartboard

@@ -1,0 +1,21 @@
+#pragma once
+// Frames as VTK XML unstructured grids, which ParaView and meshio read.
+
+#include <filesystem>
+#include <string>
+
+#include "core/scene/body/frame.h"
+
+namespace dartboard {
+
+/// The text of a .vtu file: arrays inline in base64 after a length of 64 bits, little-endian.
+///
+/// Point data: velocity [m/s], mass [kg]. Cell data: mesh_cell, the cell's number in the mesh that the body came from,
+/// and component. Positions and values keep their bits.
+/// throws  InputError if the columns of the frame are not as long as its points and cells
+std::string to_vtu(const Frame& frame);
+
+/// throws  IoError if the file cannot be written; as to_vtu
+void write_vtu(const std::filesystem::path& path, const Frame& frame);
+
+}  // namespace dartboard

@@ -1,0 +1,151 @@
+#include "core/scene/plan/mesh_tally.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace dartboard {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Numbers tuples of points by when they are met first: a chain for each smallest point.
+template <std::size_t n>
+class FirstMet {
+ public:
+  using Key = std::array<std::uint32_t, n>;
+  explicit FirstMet(std::size_t points) : head_(points, none) {}
+
+  /// The number of the tuple, and whether it is new.
+  std::pair<std::uint32_t, bool> number(Key key) {
+    std::sort(key.begin(), key.end());
+    for (std::uint32_t k = head_[key[0]]; k != none; k = met_[k].next)
+      if (met_[k].key == key) return {k, false};
+    met_.push_back({key, head_[key[0]]});
+    head_[key[0]] = static_cast<std::uint32_t>(met_.size() - 1);
+    return {head_[key[0]], true};
+  }
+
+ private:
+  struct Met {
+    Key key;
+    std::uint32_t next;
+  };
+  std::vector<std::uint32_t> head_;
+  std::vector<Met> met_;
+};
+
+/// Sets of cells that hang together by facets.
+class Together {
+ public:
+  explicit Together(std::size_t cells) : above_(cells), sets_(cells) { std::iota(above_.begin(), above_.end(), 0u); }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return;
+    above_[a] = b;
+    --sets_;
+  }
+  std::size_t sets() const { return sets_; }
+
+ private:
+  std::uint32_t find(std::uint32_t c) {
+    while (above_[c] != c) c = above_[c] = above_[above_[c]];
+    return c;
+  }
+  std::vector<std::uint32_t> above_;
+  std::size_t sets_;
+};
+
+MeshTally tally_of_chain(const Mesh& mesh) {
+  MeshTally t;
+  t.vertices = mesh.points.size();
+  t.edges = t.vertices - 1;
+  t.components = 1;
+  t.point.resize(t.vertices);
+  std::iota(t.point.begin(), t.point.end(), 0u);
+  for (std::uint32_t k = 0; k < t.edges; ++k) t.ends.push_back({k, k + 1});
+  t.cells_of_edge.assign(t.edges, 1);  // a link is a cell of its own
+  t.edge_on_boundary.assign(t.edges, 0);
+  return t;
+}
+
+}  // namespace
+
+MeshTally tally_of(const Mesh& mesh) {
+  if (mesh.cell_count() == 0 && !mesh.points.empty()) return tally_of_chain(mesh);
+  MeshTally t;
+  t.cells = mesh.cell_count();
+  std::vector<std::uint32_t> vertex_of(mesh.points.size(), none), last_cell;  // last_cell: by edge
+  FirstMet<2> edges(mesh.points.size());
+  FirstMet<4> faces(mesh.points.size());
+  Together together(t.cells);
+  const bool solid = t.cells > 0 && dimension(mesh.kinds[0]) == 3;
+
+  struct Facet {
+    std::uint32_t cell, cells, corners;
+  };
+  std::vector<Facet> facets;               // by face of a solid, edge of a surface
+  std::vector<std::uint32_t> facet_edges;  // of each face of a solid the edges, 4 places each
+  const auto meet_facet = [&t, &facets, &together](std::uint32_t number, std::uint32_t cell, std::size_t corners) {
+    if (number == facets.size()) {
+      facets.push_back({cell, 1, static_cast<std::uint32_t>(corners)});
+    } else {
+      ++facets[number].cells;
+      together.join(facets[number].cell, cell);
+      t.cells_of_facet.push_back({facets[number].cell, cell});
+    }
+  };
+
+  for (std::uint32_t c = 0; c < t.cells; ++c) {
+    const auto node = mesh.cell(c);
+    for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
+      const std::size_t corners = cycle.size();
+      std::array<std::uint32_t, 4> face{none, none, none, none}, around{none, none, none, none};
+      for (std::size_t k = 0; k < corners; ++k) {
+        const std::uint32_t a = node[static_cast<std::size_t>(cycle[k])],
+                            b = node[static_cast<std::size_t>(cycle[(k + 1) % corners])];
+        face[k] = a;
+        for (const std::uint32_t p : {a, b})
+          if (vertex_of[p] == none) {
+            vertex_of[p] = static_cast<std::uint32_t>(t.point.size());
+            t.point.push_back(p);
+          }
+        const auto [edge, is_new] = edges.number({a, b});
+        if (is_new) {
+          t.ends.push_back({vertex_of[a], vertex_of[b]});
+          t.cells_of_edge.push_back(0);
+          last_cell.push_back(none);
+        }
+        if (last_cell[edge] != c) ++t.cells_of_edge[edge];
+        last_cell[edge] = c;
+        around[k] = edge;
+        if (!solid) meet_facet(edge, c, 2);
+      }
+      t.darts += 2 * corners;
+      if (!solid) continue;
+      const auto [number, is_new] = faces.number(face);
+      meet_facet(number, c, corners);
+      if (is_new) facet_edges.insert(facet_edges.end(), around.begin(), around.end());
+    }
+  }
+  t.vertices = t.point.size();
+  t.edges = t.ends.size();
+  t.faces = solid ? facets.size() : t.cells;
+  t.components = together.sets();
+  t.edge_on_boundary.assign(t.edges, 0);
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    if (facets[f].cells != 1) continue;
+    ++t.boundary_facets;
+    t.boundary_corners += facets[f].corners;
+    const std::span<const std::uint32_t> around =
+        solid ? std::span(facet_edges).subspan(4 * f, facets[f].corners) : std::span<const std::uint32_t>();
+    for (const std::uint32_t edge : around) t.edge_on_boundary[edge] = 1;
+    if (!solid) t.edge_on_boundary[f] = 1;
+  }
+  return t;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,66 @@
+#pragma once
+// The plan of a scene before anything runs: what will be there, which key asked for it, what it takes, and what no key
+// needs.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/body/memory.h"
+#include "core/scene/body/needs.h"
+#include "core/scene/plan/mesh_tally.h"
+#include "core/scene/plan/system_arrays.h"
+
+namespace dartboard {
+
+/// One thing that will be there.
+struct PlanItem {
+  Part part;
+  std::string what;       // "48 bytes of mass, position ... by vertex"
+  std::string why;        // "/material/damping: 0.05"
+  std::size_t bytes = 0;  // as Part says; exact
+  double ns = 0.0;        // per step, averaged over the run; an estimate (unit_costs.h)
+  double ns_below = 0.0;  // where it was too little to be measured: it is less than this, and ns is 0
+  std::size_t event = 0;  // of Part::event: which one
+};
+
+/// One thing that will not, because no key needs it.
+struct LeftOut {
+  std::string what, why;
+};
+
+/// How often an event will happen, and what it does to the body as far as its key says: cells drawn or in a region at
+/// rest, faces named or across a plane at rest. What stress tears is not known.
+struct EventForecast {
+  std::uint64_t times = 0;
+  double operations = 0.0;       // in all
+  double with_operations = 0.0;  // times that do something
+};
+
+/// Sizes of the body over those at the start, averaged over the steps of the run.
+struct MeanSizes {
+  double springs = 1.0, vertices = 1.0, cells = 1.0;
+};
+
+struct ScenePlan {
+  std::string map;  // "tetrahedral 3-g-map"; "no map"
+  Needs needs;
+  MeshTally counts;
+  std::uint64_t steps = 0;
+  std::vector<EventForecast> events;
+  MeanSizes mean;
+  std::size_t driven_springs = 0;  // at driven vertices that move at the start
+  std::vector<PlanItem> items;
+  std::vector<LeftOut> left_out;
+
+  std::size_t bytes() const;
+  double ns() const;
+};
+
+/// Everything but the times.
+///
+/// throws  InputError as make_problem does
+/// cost    a pass over the mesh; of an implicit integrator, ordering and analysing its matrix
+ScenePlan plan_scene(const SceneFile& scene, const Problem& problem);
+
+}  // namespace dartboard

@@ -1,0 +1,91 @@
+#include "core/scene/run/driven_vertices.h"
+
+#include <fmt/format.h>
+
+#include "core/plain/bytes.h"
+#include "core/plain/error.h"
+#include "core/scene/file/step_times.h"
+
+namespace dartboard {
+
+DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Vector3d> rest, double step) {
+  for (const SceneDrive& from : scene.driven) {
+    Drive drive;
+    drive.points = select_points(from.vertices, rest, from.path);
+    require_some(drive.points, from.path);
+    for (const std::uint32_t p : drive.points) drive.velocity.push_back(from.velocity.at(rest[p]));
+    drive.first = step_of_time(from.from, step);
+    drive.last = from.until ? step_of_time(*from.until, step) : EventClock::never;
+    if (from.reverse_every) {
+      drive.turn.emplace(from.from, from.until.value_or(scene.duration), from.reverse_every, step);
+      drive.turn->advance();  // the first time is the start
+    }
+    drives_.push_back(std::move(drive));
+  }
+  if (drives_.empty()) return;
+  require_apart(scene, rest);
+  place_.assign(rest.size(), none);
+  for (const Drive& drive : drives_)
+    for (const std::uint32_t p : drive.points)
+      if (place_[p] == none) {
+        place_[p] = static_cast<std::uint32_t>(now_.size());
+        now_.emplace_back(0, 0, 0);
+      }
+}
+
+void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const {
+  std::vector<bool> fixed(rest.size(), false);
+  for (const std::uint32_t p : select_points(scene.fixed, rest, "/fixed")) fixed[p] = true;
+  std::vector<std::vector<std::size_t>> met(rest.size());  // the drives of each point
+  for (std::size_t d = 0; d < drives_.size(); ++d)
+    for (const std::uint32_t p : drives_[d].points) {
+      if (fixed[p])
+        throw InputError(fmt::format("{}: drives point {}, and /fixed holds it still; expected one of them",
+                                     scene.driven[d].path, p));
+      for (const std::size_t other : met[p])
+        if (drives_[d].first < drives_[other].last && drives_[other].first < drives_[d].last)
+          throw InputError(fmt::format(
+              "{}: drives point {} from {:.6g} to {:.6g} s, and {} from {:.6g} to {:.6g} s; expected one at a time",
+              scene.driven[d].path, p, scene.driven[d].from, scene.driven[d].until.value_or(scene.duration),
+              scene.driven[other].path, scene.driven[other].from, scene.driven[other].until.value_or(scene.duration)));
+      met[p].push_back(d);
+    }
+}
+
+bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
+                           std::span<Eigen::Vector3d> velocity) {
+  bool changed = false;
+  const auto set = [this, &changed](Drive& drive, double sign) {
+    if (sign == drive.sign) return;
+    drive.sign = sign;
+    changed = true;
+    for (std::size_t k = 0; k < drive.points.size(); ++k) {
+      Eigen::Vector3d& v = now_[place_[drive.points[k]]];
+      v.setZero();
+      if (sign != 0.0) v = sign * drive.velocity[k];
+    }
+  };
+  // one may end where another takes over
+  for (Drive& drive : drives_)
+    if (n >= drive.last) set(drive, 0.0);
+  for (Drive& drive : drives_) {
+    if (n < drive.first || n >= drive.last) continue;
+    double sign = drive.sign == 0.0 ? 1.0 : drive.sign;
+    for (; drive.turn && drive.turn->next() <= n; drive.turn->advance()) sign = -sign;
+    set(drive, sign);
+  }
+  if (!changed) return false;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    const std::uint32_t p = point_of_vertex[k];
+    if (p != no_point && place_[p] != none) velocity[k] = now_[place_[p]];
+  }
+  return true;
+}
+
+std::size_t DrivenVertices::bytes() const {
+  std::size_t sum = bytes_of(place_, now_);
+  for (const Drive& drive : drives_) sum += bytes_of(drive.points, drive.velocity);
+  return sum;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,57 @@
+#pragma once
+// The vertices that a scene moves along a path of its own: which of them gets what velocity, and when.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+#include "core/scene/file/scene_file.h"
+#include "core/scene/run/event_clock.h"
+#include "core/time/system/spring_system.h"
+
+namespace dartboard {
+
+/// Gives driven vertices their velocities at step boundaries. Integrators keep the velocity of a fixed vertex, so it
+/// moves along straight lines in between, whatever acts on it.
+///
+/// Vertices are known by the mesh point they came from. Their numbers may change, and all parts of one that came apart
+/// are driven.
+class DrivenVertices {
+ public:
+  DrivenVertices() = default;
+  /// throws  InputError "/driven/0...: ..." for a drive of no vertex, of a fixed one, or of one that another drive
+  /// moves
+  ///         at that time
+  DrivenVertices(const SceneFile& scene, std::span<const Eigen::Vector3d> rest, double step);
+
+  /// Set the velocities that are due after n steps.
+  ///
+  /// pre      called for n = 0, 1, 2 ... in turn
+  /// returns  whether any has changed since the last call
+  /// cost     O(drives), and O(vertices) where one starts, turns or ends
+  bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity);
+
+  /// Vertices of the mesh that some drive moves.
+  std::size_t size() const { return now_.size(); }
+  std::size_t bytes() const;
+
+ private:
+  struct Drive {
+    std::vector<std::uint32_t> points;  // of the mesh
+    std::vector<Eigen::Vector3d> velocity;
+    std::uint64_t first, last;       // steps that it starts and ends after
+    std::optional<EventClock> turn;  // the boundaries where it is reversed
+    double sign = 0.0;               // of the velocity now; 0 for none
+  };
+  void require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const;
+
+  std::vector<Drive> drives_;
+  std::vector<std::uint32_t> place_;  // by mesh point: in now_, or `none`
+  std::vector<Eigen::Vector3d> now_;  // [m/s] of each driven point
+  static constexpr std::uint32_t none = no_point;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,48 @@
+#pragma once
+// When an event is due, in steps.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/scene/file/step_times.h"
+
+namespace dartboard {
+
+/// The step boundaries at which an event happens: those of the times from, from + every, from + 2 every .. until, or
+/// without `every`, or where it is no longer than the step, all boundaries in between. Times between two boundaries
+/// belong to the later one.
+class EventClock {
+ public:
+  /// pre  0 <= from <= until; every > 0
+  EventClock(double from, double until, std::optional<double> every, double step)
+      : from_(from), until_(until), step_(step), next_(step_of_time(from, step)) {
+    if (every && *every > step) every_ = every;
+  }
+
+  /// The next step boundary; `never` after the last.
+  std::uint64_t next() const { return next_; }
+  /// To the boundary after `next`.
+  void advance() {
+    if (!every_) {
+      next_ = next_ < step_until(until_, step_) ? next_ + 1 : never;
+      return;
+    }
+    // a product, not a sum, so that no rounding gathers
+    const double time = from_ + static_cast<double>(++count_) * *every_;
+    next_ = time > until_ && !is_rounding_of_end(time) ? never : step_of_time(time, step_);
+  }
+
+  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+
+ private:
+  // 4 units of rounding: of `every`, `until`, the product and the sum
+  bool is_rounding_of_end(double time) const { return time - until_ <= 0x1p-51 * until_; }
+
+  double from_, until_;
+  std::optional<double> every_;
+  double step_;
+  std::uint64_t next_, count_ = 0;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,34 @@
+#include "core/scene/run/event_jumps.h"
+
+#include <cmath>
+
+#include "core/plain/nan_maximum.h"
+#include "core/time/system/energy.h"
+
+namespace dartboard {
+
+KeptSums kept_sums(const SimulatedBody& body) {
+  const SpringSystem system = body.system();
+  const VertexColumns& v = body.vertices();
+  double size = 0.0;
+  for (std::size_t k = 0; k < v.size(); ++k) size += v.mass[k] * v.velocity[k].norm();
+  return {body.mass(), kinetic_energy(system, v.velocity) + elastic_energy(system, v.position),
+          linear_momentum(system, v.velocity), size};
+}
+
+void EventJumps::add(const KeptSums& before, const KeptSums& after) {
+  const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
+  ++events;
+  mass = max_or_nan(mass, relative(after.mass - before.mass, before.mass));
+  momentum = max_or_nan(momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
+  energy = max_or_nan(energy, relative(after.energy - before.energy, before.energy));
+}
+
+std::size_t apply_watched(ReadyEvent& event, const SimulatedBody& body, EventJumps& jumps) {
+  const KeptSums before = kept_sums(body);
+  const std::size_t made = event.apply();
+  if (made > 0) jumps.add(before, kept_sums(body));
+  return made;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,36 @@
+#pragma once
+// What an event that only dissociates must not change, measured on both sides of it.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/scene/body/simulated_body.h"
+
+namespace dartboard {
+
+/// Sums over a body that no dissociation changes.
+struct KeptSums {
+  double mass, energy;       // [kg] of all cells; [J] kinetic and elastic
+  Eigen::Vector3d momentum;  // [kg m/s]
+  double size_of_momentum;   // [kg m/s] the sum of m |v|
+};
+KeptSums kept_sums(const SimulatedBody& body);
+
+/// How much dissociations changed what they must not change: the largest over all events that only dissociate.
+struct EventJumps {
+  std::uint64_t events = 0;  // that dissociated
+  double mass = 0.0;         // relative to the mass before
+  double momentum = 0.0;     // relative to the sum of m |v| before
+  double energy = 0.0;       // kinetic and elastic, relative to their sum before
+
+  /// Another event. What is no number stays.
+  void add(const KeptSums& before, const KeptSums& after);
+};
+
+/// Apply an event to its body, and add what changed where it did anything.
+///
+/// returns  operations, as ReadyEvent::apply
+std::size_t apply_watched(ReadyEvent& event, const SimulatedBody& body, EventJumps& jumps);
+
+}  // namespace dartboard

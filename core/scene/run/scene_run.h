@@ -1,0 +1,40 @@
+#pragma once
+// The loop of a simulation from start to end, with somebody to watch it.
+
+#include <functional>
+#include <optional>
+
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+
+/// What a run hands out. Nothing here can change the motion.
+class RunWatcher {
+ public:
+  virtual ~RunWatcher() = default;
+  virtual void frame(const Frame&) {}
+  virtual void diagnostics(const Diagnostics&) {}
+  virtual void probes(const ProbeRow&) {}
+  virtual void stepped(const Simulation&) {}
+  /// Asked after every step: must the run end here?
+  virtual bool interrupts() { return false; }
+};
+
+struct RunResult {
+  std::optional<Divergence> divergence;
+  bool interrupted = false;
+  Diagnostics first, last;  // of those handed out; after a divergence the last of the state that is kept
+  // largest change of the total energy in any of them, over the largest sum of kinetic and elastic energy
+  double energy_drift = 0.0;
+};
+
+/// What became of the mass beyond what removals took, relative to the mass at the start; 0 where there was none.
+double mass_unaccounted_for(double start, double removed, double end);
+
+/// Run to the end, to `most_steps`, until the watcher interrupts it or a StopRequest (stop_request.h) a step, or until
+/// the motion diverges. The first state is always handed out, and the last if it is good: what was handed out last
+/// before a divergence stays.
+RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
+                    std::optional<std::uint64_t> most_steps = {});
+
+}  // namespace dartboard

@@ -1,0 +1,64 @@
+#include "core/scene/run/scene_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/time/system/energy.h"
+
+namespace dartboard {
+
+std::vector<ExpectedRow> compare_with_expectation(const SceneFile& scene, const Simulation& simulation,
+                                                  const RunResult& result) {
+  const Expectation& expect = scene.expect;
+  std::vector<ExpectedRow> rows;
+  const CellCounts counts = simulation.body().counts();
+  const auto count = [&rows](const char* what, const std::optional<std::uint64_t>& expected, std::size_t actual) {
+    if (expected) rows.push_back({what, fmt::format("{}", *expected), fmt::format("{}", actual), *expected == actual});
+  };
+  count("vertices", expect.vertices, counts.vertices);
+  count("edges", expect.edges, counts.edges);
+  count("faces", expect.faces, counts.faces);
+  count("cells", expect.cells, counts.cells);
+  count("components", expect.components, counts.components);
+  if (expect.components_at_least)
+    rows.push_back({"components", fmt::format("at least {}", *expect.components_at_least),
+                    fmt::format("{}", counts.components), counts.components >= *expect.components_at_least});
+  count("operations", expect.operations, simulation.operations());
+  if (expect.mass) {
+    const double mass = simulation.body().mass();
+    const double tolerance =
+        5e-12 + static_cast<double>(std::max(counts.cells, scene.is_chain() ? counts.edges : 0)) * 0x1p-52;
+    rows.push_back({"mass [kg]", fmt::format("{:.13g}", *expect.mass), fmt::format("{:.13g}", mass),
+                    std::abs(mass - *expect.mass) <= tolerance * *expect.mass});
+  }
+  const auto at_most = [&rows](const char* what, const std::optional<double>& limit, double actual) {
+    if (limit)
+      rows.push_back({what, fmt::format("at most {:.6g}", *limit), fmt::format("{:.6g}", actual), actual <= *limit});
+  };
+  if (expect.kinetic_at_most)
+    at_most("kinetic energy [J]", expect.kinetic_at_most,
+            kinetic_energy(simulation.body().system(), simulation.body().vertices().velocity));
+  at_most("energy drift", expect.energy_drift_at_most, result.energy_drift);
+  const auto place_text = [](const Eigen::Vector3d& x) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+  };
+  if (!expect.places.empty()) {
+    const ProbeRow now = simulation.probes();
+    for (const ExpectedPlace& place : expect.places) {
+      const auto& found = now.probes.at(place.probe);
+      rows.push_back({fmt::format("place of {} [m]", scene.probes.at(place.probe).name),
+                      fmt::format("{} within {:.6g}", place_text(place.position), place.within),
+                      found ? place_text(found->position) : "removed",
+                      found && (found->position - place.position).norm() <= place.within});
+    }
+  }
+  if (expect.hash) {
+    const std::uint64_t hash = simulation.body().state_hash();
+    rows.push_back({"hash", fmt::format("{:016x}", *expect.hash), fmt::format("{:016x}", hash), hash == *expect.hash});
+  }
+  return rows;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,319 @@
+#include "core/scene/run/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <tuple>
+
+#include "core/mechanics/fracture/stress.h"
+#include "core/plain/counted.h"
+#include "core/plain/error.h"
+#include "core/scene/file/beyond_numbers.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/time/integrators.h"
+#include "core/time/system/energy.h"
+#include "core/time/watch/preflight.h"
+
+namespace dartboard {
+namespace {
+
+// A step divided into more parts than this is a mistake in a unit.
+constexpr double most_parts = 1e6;
+
+double settled_step(const SceneFile& scene) {
+  if (scene.accuracy && (!(scene.step > 0.0) || scene.integrator.empty()))
+    throw InputError(fmt::format(
+        "{}: /accuracy: is {} mean edge lengths, and no {} has been chosen for it; expected 'step' in its place",
+        scene.file, *scene.accuracy, scene.step > 0.0 ? "integrator" : "step"));
+  return scene.step;
+}
+
+/// The key that a body cannot be made for: with its default in its place there would be one.
+std::string key_without_body(const SceneFile& scene, const Problem& problem) {
+  SceneFile unmoved = scene, unscaled = scene, ordinary = scene;
+  unmoved.body.translate.setZero();
+  unscaled.body.scale = 1.0;
+  ordinary.material.density = Material{}.density;
+  const Eigen::Vector3d& t = scene.body.translate;
+  const std::tuple<bool, std::string, const SceneFile&> others[] = {
+      {!t.isZero(0.0), fmt::format("/body/translate: is [{}, {}, {}]", t.x(), t.y(), t.z()), unmoved},
+      {scene.body.scale != 1.0, fmt::format("/body/scale: is {}", scene.body.scale), unscaled},
+      {scene.material.density != ordinary.material.density,
+       fmt::format("/material/density: is {}", scene.material.density), ordinary}};
+  for (const auto& [differs, key, other] : others) {
+    if (!differs) continue;
+    try {
+      Problem changed = problem;
+      changed.mesh = make_mesh(other);
+      changed.material = other.material;
+      make_simulated_body(changed, needs_of(other, changed).body);
+      return key;
+    } catch (const InputError&) {
+    }
+  }
+  const std::string size = size_beyond_numbers(scene, problem.mesh);
+  return size.empty() ? "/body" : size;
+}
+
+}  // namespace
+
+bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed) {
+  return sum_of_squares(velocity) <= speed * speed;
+}
+
+std::string to_string(const StepWarning& w, double step, std::string_view integrator) {
+  std::string text =
+      fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
+                  w.step == 0 ? "at the start" : "after " + counted(w.step, "step"), step, integrator, w.stable);
+  if (w.parts > 1) text += fmt::format(", so each is taken in {} parts", w.parts);
+  return text;
+}
+
+std::string to_string(const Divergence& d) {
+  if (d.predicted)
+    return fmt::format("stopped before step {}, t = {:.6g} s: {}; at most {:.6g} s is stable", d.step, d.time,
+                       d.quantity, d.value);
+  return fmt::format("diverged at step {}, t = {:.6g} s: {} of vertex {} is {:.6g}", d.step, d.time, d.quantity,
+                     d.vertex, d.value);
+}
+
+Simulation::Simulation(const SceneFile& scene)
+    : step_(settled_step(scene)),
+      step_count_(step_of_time(scene.duration, step_)),
+      horizon_(horizon_of(scene.duration)),
+      unstable_step_(scene.unstable_step) {
+  const Problem problem = make_problem(scene);
+  dimension_ = problem.mesh.dimension();
+  try {
+    body_ = make_simulated_body(problem, needs_of(scene, problem).body);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}: {}", scene.file, key_without_body(scene, problem), error.what()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: /body: there is not enough memory for {}; expected fewer", scene.file,
+                                 counted(problem.mesh.cell_count(), "cell")));
+  }
+  try {
+    driven_ = DrivenVertices(scene, problem.mesh.points, step_);
+    track_probes(scene.probes, *body_);
+    integrator_ = make_integrator(scene.integrator);
+    if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
+    for (const SceneEvent& event : scene.events)
+      events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
+                         !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action),
+                         event.path});
+    happen();
+    drive();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", scene.file, error.what()));
+  }
+  look_at_step();
+  if (const auto refusal = refused())
+    throw InputError(fmt::format("{}: {}: {}; expected {}, or another 'unstable_step'", scene.file,
+                                 scene.accuracy ? "/accuracy" : "/step", refusal->quantity,
+                                 scene.accuracy ? fmt::format("'step' in its place, at most {:.6g} s", refusal->value)
+                                                : fmt::format("at most {:.6g} s", refusal->value)));
+  look_before_run();
+  start_ = detector_.start(body_->system(), body_->motion(), step_);
+  if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
+}
+
+Simulation::~Simulation() = default;
+
+std::optional<Divergence> Simulation::advance() {
+  if (auto refusal = refused()) return refusal;
+  StepResult result = start_;
+  for (std::uint64_t part = 0; part < parts_ && result.ok(); ++part)
+    result = integrator_->step(body_->system(), body_->motion(), step_ / static_cast<double>(parts_));
+  ++done_;
+  const std::uint64_t checks = detector_.checks();
+  if (result.ok()) {
+    watched_ = done_;
+    result = detector_.after_step(body_->system(), body_->motion());
+  }
+  if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
+  if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
+  // what is too fast for physics is as finite as ever: it is looked for where energy is
+  if (detector_.checks() != checks)
+    if (auto found = diverged()) {
+      found->taken_back = go_back();
+      return found;
+    }
+  if (done_ == step_count_) look_at_coordinates();
+  const std::size_t operations = operations_;
+  try {
+    happen();
+    if (drive() || operations_ != operations) {
+      look_at_step();
+      start_ = detector_.system_changed(body_->system(), body_->motion());
+    }
+  } catch (const SolverError& error) {
+    const auto* stress = dynamic_cast<const StressError*>(&error);
+    Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
+    // what events of this step have changed is not what the state kept was of
+    if (operations_ == operations) d.taken_back = go_back();
+    return d;
+  }
+  // no other step will look at what events leave at the end
+  if (done_ == step_count_) return start_failure();
+  return {};
+}
+
+std::optional<Divergence> Simulation::start_failure() {
+  if (start_.ok()) return {};
+  return failure(detector_.with_witness(start_, body_->system(), body_->motion()));
+}
+
+// What the close look needs is let go: it is taken at the start and after events only.
+StableStep Simulation::look_closely() const {
+  return StableStepEstimate().refresh(body_->system(), body_->vertices().position);
+}
+
+StepLimit Simulation::step_limit() const { return look_closely().limit(integrator_->scheme(), horizon_); }
+
+void Simulation::look_at_step() {
+  const Scheme& scheme = integrator_->scheme();
+  limits_ = quick_stable_step(body_->system());
+  too_long_ = false;
+  parts_ = 1;
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  limits_ = look_closely();
+  if (limits_.is_stable(scheme, step_, horizon_)) return;
+  stable_ = limits_.safe_step(scheme, horizon_);
+  too_long_ = true;
+  if (unstable_step_ == UnstableStep::substep) {
+    parts_wanted_ = std::ceil(step_ / stable_);
+    too_long_ = !(parts_wanted_ <= most_parts);
+    if (!too_long_) parts_ = static_cast<std::uint64_t>(parts_wanted_);
+  }
+  if (!warning_) warning_ = StepWarning{done_, stable_, parts_};
+}
+
+// Steps too long and coordinates too large have warnings of their own, which a run may add to.
+void Simulation::look_before_run() {
+  const Preflight found = check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
+                                           step_ / static_cast<double>(parts_), limits_, horizon_);
+  if (found.warns_of(StepCode::coordinate_precision)) look_at_coordinates();
+  warnings_ = found.warnings;
+  std::erase_if(warnings_, [](const StepResult& w) {
+    return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision;
+  });
+}
+
+void Simulation::look_at_coordinates() {
+  if (!coarse_) coarse_ = find_coarse_coordinate(body_->system(), body_->vertices().position);
+}
+
+// A step that cannot be divided is refused too.
+std::optional<Divergence> Simulation::refused() const {
+  if (!too_long_ || unstable_step_ == UnstableStep::warn) return {};
+  Divergence d;
+  d.step = done_ + 1;
+  d.time = time();
+  d.quantity = fmt::format("a step of {:.6g} s is too long for {}", step_, integrator_->scheme().name);
+  if (unstable_step_ == UnstableStep::substep)
+    d.quantity += fmt::format(" and would be divided into {:.3g} parts, more than {:.0f}", parts_wanted_, most_parts);
+  d.value = stable_;
+  d.predicted = true;
+  return d;
+}
+
+Divergence Simulation::failure(const StepResult& result) {
+  Divergence d = failure(fmt::format("{} ({})", result.quantity, to_string(result.code)), result.number, result.value);
+  d.taken_back = go_back();
+  return d;
+}
+
+// To the state kept last; a step that the integrator could not take is one that the detector has not seen.
+std::uint64_t Simulation::go_back() { return done_ - watched_ + detector_.restore(body_->motion()); }
+
+// An event may throw: what those before it have done counts, and the integrator has to know.
+void Simulation::happen() {
+  for (Scheduled& scheduled : events_) {
+    if (scheduled.clock.next() > done_) continue;
+    while (scheduled.clock.next() <= done_) scheduled.clock.advance();
+    const std::size_t made =
+        watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
+    scheduled.was_due = true;
+    scheduled.operations += made;
+    operations_ += made;
+    if (made > 0) integrator_->restart();
+  }
+}
+
+std::vector<std::string> Simulation::idle_events() const {
+  std::vector<std::string> paths;
+  for (const Scheduled& scheduled : events_)
+    if (scheduled.was_due && scheduled.operations == 0) paths.push_back(scheduled.path);
+  return paths;
+}
+
+bool Simulation::drive() {
+  const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
+  if (changed) integrator_->restart();
+  return changed;
+}
+
+std::optional<Divergence> Simulation::diverged() const {
+  const VertexColumns& v = body_->vertices();
+  if (all_slower(v.velocity, speed_of_light)) return {};
+  for (std::uint32_t k = 0; k < v.size(); ++k) {
+    // a comparison that a number that is not finite fails
+    if (v.velocity[k].squaredNorm() <= speed_of_light * speed_of_light) continue;
+    for (int i = 0; i < 3; ++i)
+      if (!std::isfinite(v.velocity[k][i])) return failure("velocity", k, v.velocity[k][i]);
+    return failure("speed", k, v.velocity[k].stableNorm());
+  }
+  return {};
+}
+
+Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
+  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
+}
+
+Diagnostics Simulation::diagnostics() const {
+  const SpringSystem system = body_->system();
+  const VertexColumns& v = body_->vertices();
+  Diagnostics d;
+  d.time = time();
+  d.kinetic = kinetic_energy(system, v.velocity);
+  d.elastic = elastic_energy(system, v.position);
+  d.gravitational = gravity_energy(system, v.position);
+  d.momentum = linear_momentum(system, v.velocity);
+  d.angular_momentum = angular_momentum(system, v.position, v.velocity);
+  d.mass = body_->mass();
+  d.counts = body_->counts();
+  d.boundary = body_->boundary();
+  d.largest_stress = body_->largest_stress();
+  d.operations = operations_;
+  return d;
+}
+
+MemoryReport Simulation::memory() const {
+  MemoryReport report = body_->memory();
+  report.push_back({Part::integrator, integrator_->bytes() - integrator_->solver_bytes()});
+  report.push_back({Part::solver, integrator_->solver_bytes()});
+  report.push_back({Part::detector, detector_.bytes()});
+  report.push_back({Part::driven, driven_.bytes() + detector_.driven_bytes()});
+  report.push_back({Part::probes, body_->tracked().size_bytes()});
+  for (std::size_t k = 0; k < events_.size(); ++k) report.push_back({Part::event, events_[k].event->bytes(), k});
+  return report;
+}
+
+ProbeRow Simulation::probes() const {
+  const VertexColumns& v = body_->vertices();
+  ProbeRow row{time(), {}};
+  for (const std::uint32_t k : body_->tracked())
+    row.probes.push_back(k == SimulatedBody::no_vertex ? std::nullopt
+                                                       : std::optional(VertexMotion{v.position[k], v.velocity[k]}));
+  return row;
+}
+
+Frame Simulation::frame() const {
+  Frame frame = body_->frame();
+  frame.time = time();
+  return frame;
+}
+
+}  // namespace dartboard

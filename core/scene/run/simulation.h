@@ -1,0 +1,160 @@
+#pragma once
+// A scene that runs: body, integrator and events, one step at a time.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scene/body/diagnostics.h"
+#include "core/scene/body/frame.h"
+#include "core/scene/body/simulated_body.h"
+#include "core/scene/file/scene_file.h"
+#include "core/scene/run/driven_vertices.h"
+#include "core/scene/run/event_clock.h"
+#include "core/scene/run/event_jumps.h"
+#include "core/scene/run/probes.h"
+#include "core/time/method/integrator.h"
+#include "core/time/system/coordinate_precision.h"
+#include "core/time/watch/divergence.h"
+#include "core/time/watch/stable_step.h"
+
+namespace dartboard {
+
+/// Why a run had to stop: the motion is no longer one, or the scene refuses its step.
+struct Divergence {
+  std::uint64_t step = 0;  // the one that failed
+  double time = 0.0;       // [s] at its end
+  std::string quantity;    // "position", "speed", "stress", or what the integrator reports
+  std::uint32_t vertex = 0;
+  double value = 0.0;
+  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
+  std::uint64_t taken_back = 0;  // steps that the body has gone back by
+};
+/// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
+std::string to_string(const Divergence& divergence);
+
+/// A step that is too long to be stable, found before the first step or after an event.
+struct StepWarning {
+  std::uint64_t step = 0;   // after this many
+  double stable = 0.0;      // [s] the longest step that is
+  std::uint64_t parts = 1;  // that each step is divided into
+};
+/// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
+std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
+
+/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
+bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
+
+/// What is due at a step boundary happens before the state there is looked at: at the start by the constructor, then at
+/// the end of each step.
+class Simulation {
+ public:
+  /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
+  ///         and has not been given a step and an integrator, whose step is too long where it refuses one that is, or
+  ///         whose numbers are too large to move; IoError for a mesh that cannot be read
+  explicit Simulation(const SceneFile& scene);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Steps in all: the run is over at the first multiple of the step that is not before the duration.
+  std::uint64_t step_count() const { return step_count_; }
+  std::uint64_t steps_done() const { return done_; }
+  double step() const { return step_; }  // [s]
+  /// [s] steps_done() * step
+  double time() const { return static_cast<double>(done_) * step_; }
+
+  /// One step, then the events due at its end, then the velocities of driven vertices.
+  ///
+  /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
+  /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
+  /// looked for in every sixteenth step at least, in the first and the last), or when a stress that an event asks for
+  /// is not finite. The body then goes back to the state kept last, which is that of the start, after the last event,
+  /// or a later one whose energy could be explained: `taken_back` says how far back that is. Where another event of the
+  /// same step has changed the body already, and where the start is no state, there is none to go back to.
+  /// `unstable_step` says what is done about a step that is too long.
+  std::optional<Divergence> advance();
+  /// What is wrong with the state at the start, which `advance` says too: for a scene of no steps.
+  std::optional<Divergence> start_failure();
+
+  /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
+  /// step is stable.
+  const StableStep& stable_step() const { return limits_; }
+  /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps go by; see
+  /// StableStep::limit.   cost  a close look: a hundred force evaluations
+  StepLimit step_limit() const;
+  /// The first step found too long, and how it is divided now.
+  const std::optional<StepWarning>& step_warning() const { return warning_; }
+  /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
+  const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
+  /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that
+  /// rounding loses, motions that a stable step does not resolve (check_before_run).
+  std::span<const StepResult> warnings() const { return warnings_; }
+
+  const SimulatedBody& body() const { return *body_; }
+  /// Of the cells: 3, 2 of a surface, 0 of a chain.
+  int dimension() const { return dimension_; }
+  std::size_t operations() const { return operations_; }
+  /// The paths of the events that have been due and never changed anything.
+  std::vector<std::string> idle_events() const;
+  Diagnostics diagnostics() const;
+  Frame frame() const;
+  ProbeRow probes() const;
+
+  /// Measure momentum and energy on both sides of events from now on. It reads and changes nothing.
+  void watch_events(bool watch) { watch_ = watch; }
+  const EventJumps& jumps() const { return jumps_; }
+  const WorkCounters& work() const { return integrator_->work(); }
+  /// What the parts of the run take now.
+  MemoryReport memory() const;
+
+ private:
+  struct Scheduled {
+    std::unique_ptr<ReadyEvent> event;
+    EventClock clock;
+    bool dissociates;  // and does nothing else
+    std::string path;
+    bool was_due = false;
+    std::size_t operations = 0;
+  };
+  void happen();
+  bool drive();
+  StableStep look_closely() const;
+  void look_at_step();
+  void look_at_coordinates();
+  void look_before_run();
+  std::optional<Divergence> refused() const;
+  std::optional<Divergence> diverged() const;
+  Divergence failure(const StepResult& result);
+  std::uint64_t go_back();
+  Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
+
+  double step_;
+  std::uint64_t step_count_, done_ = 0;
+  Horizon horizon_;
+  std::unique_ptr<SimulatedBody> body_;
+  DrivenVertices driven_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<Scheduled> events_;
+  std::size_t operations_ = 0;
+  bool watch_ = false;
+  EventJumps jumps_;
+  UnstableStep unstable_step_;
+  StableStep limits_;
+  std::optional<StepWarning> warning_;
+  std::optional<CoordinatePrecision> coarse_;
+  std::vector<StepResult> warnings_;
+  std::uint64_t parts_ = 1;  // of a step
+  bool too_long_ = false;
+  double stable_ = 0.0;        // [s] the longest step that is, where this one is too long
+  double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
+  StepResult start_;           // what the detector finds in the state before a step
+  DivergenceDetector detector_;
+  std::uint64_t watched_ = 0;  // steps that the detector has seen
+  int dimension_ = 0;
+};
+
+}  // namespace dartboard

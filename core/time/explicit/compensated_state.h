@@ -1,0 +1,42 @@
+#pragma once
+// A motion that keeps the digits which rounding takes from it, for steps that change its last digits only.
+
+#include <span>
+#include <vector>
+
+#include "core/time/method/trial_state.h"
+
+namespace dartboard {
+
+/// x and v as unevaluated sums of two doubles: what everybody sees, and what did not fit into it, half a unit in the
+/// last place at most.
+///
+/// Additions are exact but for what increments themselves are rounded by (Knuth's two-sum), so that 10^6 steps that
+/// each move a vertex by less than a unit in the last place still move it. Forces see the first part only.
+/// source  Hairer, McLachlan, Razakarivony: Achieving Brouwer's law with implicit Runge-Kutta methods, 2008
+class CompensatedState {
+ public:
+  /// Begin a step from a motion. The lost digits of a coordinate are those of the last commit where it still is what
+  /// that left, and none where somebody has changed it since.
+  void begin(Motion motion);
+
+  std::span<const Eigen::Vector3d> x() const { return end_.x; }
+  std::span<const Eigen::Vector3d> v() const { return end_.v; }
+
+  /// x += t v.
+  void drift(double t);
+  /// v += t a.
+  void kick(double t, std::span<const Eigen::Vector3d> a);
+
+  /// As TrialState::commit; a step that fails loses no digits either.
+  StepResult commit(Motion motion, WorkCounters& work);
+
+  /// The digits lost so far, by vertex; to be added to what is seen.
+  const TrialState& lost() const { return lost_; }
+  std::size_t bytes() const { return end_.bytes() + lost_.bytes() + lost_at_end_.bytes() + left_.bytes(); }
+
+ private:
+  TrialState end_, lost_, lost_at_end_, left_;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,23 @@
+#pragma once
+// The explicit Euler method: the baseline that shows why not.
+
+#include <vector>
+
+#include "core/time/method/trial_state.h"
+
+namespace dartboard {
+
+/// x += h v, v += h a(x, v): amplifies every undamped oscillation, whatever the step.
+class ExplicitEuler : public Integrator {
+ public:
+  const Scheme& scheme() const override;
+  StepResult step(const SpringSystem& system, Motion motion, double h) override;
+  void restart() override { terms_.forget(); }
+  std::size_t bytes() const override { return end_.bytes(); }
+
+ private:
+  KnownTerms terms_;
+  TrialState end_;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,43 @@
+#pragma once
+// What the implicit integrators have in common.
+
+#include <vector>
+
+#include "core/time/implicit/implicit_stage.h"
+#include "core/time/method/integrator.h"
+#include "core/time/method/trial_state.h"
+
+namespace dartboard {
+
+/// An integrator whose steps solve stages.
+///
+/// `restart` keeps the factor: the next step finds out what has changed, and updates it where that is cheaper.
+class ImplicitIntegrator : public Integrator {
+ public:
+  explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}
+
+  void restart() override { stage_.system_changed(); }
+  std::size_t bytes() const override { return stage_.bytes() + end_.bytes(); }
+  std::size_t solver_bytes() const override { return stage_.solver_bytes(); }
+  const ImplicitOptions& options() const { return stage_.options(); }
+
+ protected:
+  /// One stage of h, and there: v1 = w, x1 = x0 + h w.
+  StepResult euler_step(const SpringSystem& system, Motion motion, double h);
+  /// One stage of h/2 to the midpoint, and on by reflection: v1 = 2 w - v0, x1 = x0 + h w.
+  StepResult midpoint_step(const SpringSystem& system, Motion motion, double h, StageForce force);
+
+  StepResult fail(const StepResult& result) {
+    ++work_.failed_steps;
+    return result;
+  }
+
+  ImplicitStage stage_;
+  TrialState end_;
+
+ private:
+  /// The velocities w of one stage of tau from the start of the step, into end_.v.
+  StepResult solve_one_stage(const SpringSystem& system, Motion motion, double tau, StageForce force);
+};
+
+}  // namespace dartboard

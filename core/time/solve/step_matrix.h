@@ -1,0 +1,76 @@
+#pragma once
+// The matrix of every implicit step, A = M + tau C + tau^2 K, as the springs give it: no entry is formed.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/time/system/node_matrix.h"
+#include "core/time/system/tangent.h"
+
+namespace dartboard {
+
+/// A symmetric change of a matrix by weight w w', where w has `direction` at node `first` and its opposite at node
+/// `second` (nothing there if it is NodePattern::none).
+struct RankOneTerm {
+  std::uint32_t first, second;
+  Eigen::Vector3d direction;
+  double weight;
+};
+
+/// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whatever they would couple eliminated.
+///
+/// C holds the damping of the springs and the ambient viscosity.
+class StepMatrix {
+ public:
+  /// cost    O(vertices + springs); no memory is taken after the first call for a body
+  void evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau);
+
+  std::size_t node_count() const { return inertia_.size(); }
+  std::size_t bytes() const { return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_); }
+  double tau() const { return tau_; }
+  const Eigen::Matrix3d& diagonal_block(std::size_t i) const { return diagonal_[i]; }
+  /// m + tau * viscosity by vertex; 1 for fixed ones.
+  std::span<const double> inertia() const { return inertia_; }
+
+  /// y = A x, from the springs: five numbers and two ends each, where entries would take nine.
+  void multiply(std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y) const;
+
+  /// The entries, on a pattern of the same system.
+  /// cost    O(vertices + springs)
+  void assemble(const NodePattern& pattern, BlockMatrix& matrix) const;
+
+  /// Follow a topological change while keeping what was evaluated for springs that are the same as before: the terms
+  /// that lead from this matrix to the one returned in its place.
+  ///
+  /// Springs and vertices are matched by number; those that changed are evaluated at `tangents`. A vertex whose number
+  /// is beyond the old ones starts from `spare` times the identity.
+  std::vector<RankOneTerm> follow(const SpringSystem& system, std::span<const SpringTangent> tangents, double spare);
+
+ private:
+  // One spring: p I + q d d' between vertices a and b.
+  struct Block {
+    SpringEnds ends;
+    Eigen::Vector3d d;
+    double p, q;
+  };
+  struct Source {  // what a block was evaluated for
+    double stiffness, damping;
+    friend bool operator==(const Source&, const Source&) = default;
+  };
+  Block block_of(const SpringSystem& system, std::size_t e, const SpringTangent& tangent) const;
+  void set_inertia(const SpringSystem& system);
+  void sum_diagonal();
+
+  double tau_ = 0.0;
+  std::vector<double> inertia_;
+  std::vector<std::uint8_t> fixed_;
+  std::vector<Block> blocks_;    // by spring
+  std::vector<Source> sources_;  // by spring
+  std::vector<Eigen::Matrix3d> diagonal_;
+  std::vector<std::uint32_t> links_;    // springs between two free vertices
+  std::vector<std::uint32_t> anchors_;  // springs between a free and a fixed vertex
+};
+
+}  // namespace dartboard

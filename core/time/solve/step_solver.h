@@ -1,0 +1,102 @@
+#pragma once
+// Solves with the matrix of an implicit step, M + tau C + tau^2 K, by the way asked for.
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/time/method/integrator.h"
+#include "core/time/solve/cholesky.h"
+#include "core/time/solve/conjugate_gradients.h"
+#include "core/time/solve/step_matrix.h"
+
+namespace dartboard {
+
+enum class LinearSolver : std::uint8_t {
+  fresh_factor,         // a Cholesky factor of each matrix
+  kept_factor,          // conjugate gradients with one factor for as long as it serves, updated at topological changes
+  conjugate_gradients,  // no factor
+  laplacian             // the constant matrix m + tau c + tau^2 k of the spring graph, whatever the directions
+};
+enum class TangentPolicy : std::uint8_t {
+  on_demand,  // exact first; projected where that is not positive definite
+  projected   // always
+};
+
+/// How far a solution with a kept factor must go: for an iteration of Newton's method, or all the way.
+enum class Accuracy : std::uint8_t { iteration, full };
+
+/// How implicit methods solve their equations.
+struct ImplicitOptions {
+  LinearSolver solver = LinearSolver::kept_factor;
+  TangentPolicy tangent = TangentPolicy::on_demand;
+  double tolerance = 1e-10;      // of Newton's method: acceleration left over, relative to what acts
+  int max_iterations = 300;      // of Newton's method
+  double kept_tolerance = 0.03;  // of the solutions with a kept factor, for an iteration
+  int patience = 12;             // iterations that a solution with a kept factor may take; then a fresh one is due
+  bool iterate_once = false;     // the iterations allowed are the method: no tolerance has to be met
+  CholeskyOptions cholesky = {.spare_nodes = 32};
+  ConjugateGradientsOptions conjugate_gradients = {.tolerance = 1e-6, .max_iterations = 2000};
+};
+
+/// The tangents of all springs at some linearisation.
+using TangentsAt = std::function<void(Compression, std::vector<SpringTangent>&)>;
+
+/// The matrix and what solves with it, kept between steps.
+///
+/// A matrix that is not positive definite is replaced by that of the projected tangents. A factor that is kept is that
+/// of an earlier matrix: it preconditions conjugate gradients on the present one.
+class StepSolver {
+ public:
+  explicit StepSolver(const ImplicitOptions& options) : options_(options), cholesky_(options.cholesky) {}
+
+  /// Exact tangents may be tried again.
+  void begin_step() {
+    projecting_ = options_.tangent == TangentPolicy::projected;
+    wait_ = remaining_ = 0;
+  }
+  /// Topology or material may have changed: look at them before the next solution.
+  void system_changed() { changed_ = true; }
+
+  /// Get ready to solve with M + tau C + tau^2 K at this linearisation.
+  SolveStatus prepare(const SpringSystem& system, const TangentsAt& tangents, double tau, WorkCounters& work);
+  /// The exact matrix has failed: project in the next 1, after another failure 2, then 4, ... calls of `prepare`.
+  void project(WorkCounters& work);
+  bool is_projecting() const { return projecting_; }
+
+  /// x = A^-1 b, in two arrays. Conjugate gradients may find here that A is indefinite.
+  SolveStatus solve(std::span<const Eigen::Vector3d> b, std::span<Eigen::Vector3d> x, Accuracy accuracy,
+                    WorkCounters& work);
+
+  const StepMatrix& matrix() const { return matrix_; }
+  /// The tangents that the matrix was made of.
+  std::span<const SpringTangent> tangents() const { return tangents_; }
+  const Cholesky& cholesky() const { return cholesky_; }
+  std::size_t bytes() const {
+    return cholesky_.bytes() + conjugate_gradients_.bytes() + matrix_.bytes() + factored_.bytes() + pattern_.bytes() +
+           blocks_.bytes() + scalars_.bytes() + bytes_of(tangents_);
+  }
+
+ private:
+  SolveStatus factorise(std::span<const RankOneTerm> terms, bool follow, WorkCounters& work);
+  void evaluate(const TangentsAt& tangents, const SpringSystem& system, double tau);
+
+  ImplicitOptions options_;
+  Cholesky cholesky_;
+  ConjugateGradients conjugate_gradients_;
+  StepMatrix matrix_;    // of the last `prepare`
+  StepMatrix factored_;  // what the factor is of
+  NodePattern pattern_;
+  BlockMatrix blocks_;
+  ScalarMatrix scalars_;
+  std::vector<SpringTangent> tangents_;
+  double tau_ = 0.0;
+  int wait_ = 0, remaining_ = 0;  // calls of `prepare` with projection after the last failure, and how many are left
+  bool changed_ = true, projecting_ = false, ready_ = false, due_ = false;
+};
+
+/// The diagnosis of a solution that failed.
+StepResult diagnosis_of(SolveStatus status, const StepSolver& solver);
+
+}  // namespace dartboard

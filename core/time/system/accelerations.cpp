@@ -1,0 +1,90 @@
+#include "core/time/system/accelerations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/forces/spring_force.h"
+#include "core/plain/nan_maximum.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+// Columns are reached by pointers of this frame: stores of Eigen's packets may alias anything, so what is reached
+// through a reference is loaded again after each. Pairing springs for SIMD gains nothing here: the sums at shared ends
+// are what the loop waits for.
+template <bool damped, class SomeSpring>
+void add_spring_forces(const SpringSystem& system, std::span<const SomeSpring> springs, std::span<const Vector3d> x,
+                       std::span<const Vector3d> v, std::span<Vector3d> force) {
+  const SpringEnds* const ends = system.ends.data();
+  const SomeSpring* const row = springs.data();
+  const Vector3d *const at = x.data(), *const velocity = v.data();
+  Vector3d* const sum = force.data();
+  for (std::size_t s = 0, count = springs.size(); s < count; ++s) {
+    const auto [i, j] = ends[s];
+    const SomeSpring& spring = row[s];
+    const Vector3d dx = at[j] - at[i];
+    Vector3d f;
+    if constexpr (damped) {
+      f = spring_force(spring, dx, velocity[j] - velocity[i]);
+    } else {
+      const double length = std::sqrt(dx.squaredNorm());
+      if (length == 0.0) continue;
+      f = (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
+    }
+    sum[i] += f;
+    sum[j] -= f;
+  }
+}
+
+template <bool viscous>
+void divide_by_mass(const SpringSystem& system, std::span<const Vector3d> v, std::span<Vector3d> a) {
+  const Vector3d gravity = system.gravity;
+  const double *const inverse_mass = system.inverse_mass.data(), *const viscosity = system.viscosity.data();
+  const Vector3d* const velocity = v.data();
+  Vector3d* const sum = a.data();
+  for (std::size_t i = 0, count = a.size(); i < count; ++i) {
+    if constexpr (viscous)
+      sum[i] = (sum[i] - viscosity[i] * velocity[i]) * inverse_mass[i] + gravity;
+    else
+      sum[i] = sum[i] * inverse_mass[i] + gravity;
+  }
+}
+
+}  // namespace
+
+Terms terms_of(const SpringSystem& system) {
+  const auto any = [](const auto& column) { return std::ranges::any_of(column, [](auto x) { return x != 0; }); };
+  const auto is_damped = [](const Spring& s) { return s.damping != 0.0; };
+  return {std::ranges::any_of(system.springs.damped(), is_damped), any(system.viscosity), any(system.fixed)};
+}
+
+void accelerations(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> x,
+                   std::span<const Vector3d> v, std::span<Vector3d> a) {
+  std::ranges::fill(a, Vector3d(0, 0, 0));
+  const SpringSpan& springs = system.springs;
+  if (springs.damped().empty())
+    add_spring_forces<false>(system, springs.undamped(), x, v, a);
+  else
+    terms.damping ? add_spring_forces<true>(system, springs.damped(), x, v, a)
+                  : add_spring_forces<false>(system, springs.damped(), x, v, a);
+  terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
+  if (!terms.fixed) return;
+  const std::uint8_t* const fixed = system.fixed.data();
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (fixed[i]) a[i].setZero();
+}
+
+double frequency_bound(const SpringSystem& system) {
+  std::vector<double> sum(system.vertex_count(), 0.0);
+  for (std::size_t s = 0; s < system.springs.size(); ++s)
+    for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (!system.fixed[i]) highest = max_or_nan(highest, 2.0 * sum[i] * system.inverse_mass[i]);
+  return std::sqrt(highest);
+}
+
+}  // namespace dartboard

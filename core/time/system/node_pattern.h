@@ -1,0 +1,30 @@
+#pragma once
+// Which vertices are coupled by springs: the sparsity of every matrix of a spring system, one row per vertex.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/plain/bytes.h"
+#include "core/time/system/spring_system.h"
+
+namespace dartboard {
+
+/// The lower triangle of a symmetric matrix on the free vertices, in compressed columns.
+///
+/// Fixed vertices keep a row, with the diagonal alone. Rows ascend in each column; parallel springs share an entry.
+struct NodePattern {
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  std::vector<std::uint32_t> column_start{0};  // nodes + 1
+  std::vector<std::uint32_t> row;              // of the entries below the diagonal
+  std::vector<std::uint32_t> place;            // by spring: its entry below the diagonal; none if an end is fixed
+
+  std::size_t node_count() const { return column_start.size() - 1; }
+  std::size_t bytes() const { return bytes_of(column_start, row, place); }
+  bool same_entries(const NodePattern& other) const { return column_start == other.column_start && row == other.row; }
+};
+
+/// cost    O(vertices + springs log(springs at a vertex))
+NodePattern node_pattern_of(const SpringSystem& system);
+
+}  // namespace dartboard

@@ -1,0 +1,55 @@
+#pragma once
+// The mechanics as the time loop sees them: contiguous columns, no map and no dart.
+
+#include <Eigen/Core>
+#include <concepts>
+#include <cstdint>
+#include <span>
+
+#include "core/forces/springs.h"
+
+namespace dartboard {
+
+/// A column that may be left out: it is zero everywhere then, and takes no memory.
+template <class T>
+class OptionalColumn {
+ public:
+  OptionalColumn() = default;
+  template <class Column>
+  requires std::convertible_to<const Column&, std::span<const T>> OptionalColumn(const Column& column)
+      : column_(column) {}
+
+  bool empty() const { return column_.empty(); }
+  T operator[](std::size_t i) const { return column_.empty() ? T{} : column_[i]; }
+  /// Null where it is left out.
+  const T* data() const { return column_.data(); }
+  auto begin() const { return column_.begin(); }
+  auto end() const { return column_.end(); }
+
+ private:
+  std::span<const T> column_;
+};
+
+/// What acts on a set of vertices: springs between them, ambient viscosity and gravity (the formulas:
+/// core/plain/problem.h).
+///
+/// A view of columns that somebody else owns; valid until they change their size. Columns are by vertex or by spring
+/// number.
+struct SpringSystem {
+  std::span<const SpringEnds> ends;
+  SpringSpan springs;
+  std::span<const double> mass;          // [kg]
+  std::span<const double> inverse_mass;  // [1/kg]
+  OptionalColumn<double> viscosity;      // [kg/s]
+  OptionalColumn<std::uint8_t> fixed;    // 1: held still
+  Eigen::Vector3d gravity{0, 0, 0};      // [m/s^2]
+
+  std::size_t vertex_count() const { return mass.size(); }
+};
+
+/// Positions [m] and velocities [m/s] by vertex number: what an integrator advances, in place.
+struct Motion {
+  std::span<Eigen::Vector3d> x, v;
+};
+
+}  // namespace dartboard

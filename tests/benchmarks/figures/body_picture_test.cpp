@@ -1,0 +1,297 @@
+#include "benchmarks/figures/body_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "core/meshes/generators/mesh_generators.h"
+#include "tests/support/folder_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+BodyPanel panel_of(Mesh mesh) {
+  BodyPanel panel;
+  panel.frame.mesh = std::move(mesh);
+  panel.frame.component.assign(panel.frame.mesh.cell_count(), 0);
+  for (std::uint32_t k = 0; k < panel.frame.mesh.points.size(); ++k) panel.point.push_back(k);
+  return panel;
+}
+
+std::set<std::uint32_t> colours(const std::vector<DrawnFacet>& facets) {
+  std::set<std::uint32_t> found;
+  for (const DrawnFacet& f : facets) found.insert(f.colour);
+  return found;
+}
+
+// a cube of six tetrahedra: two triangles on each side, and three sides towards the viewer
+TEST(BodyPicture, ShowsTheBoundaryTowardsTheViewerOnly) {
+  const BodyPanel panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
+  EXPECT_EQ(drawn_facets(panel, panel).size(), 6u);
+}
+
+TEST(BodyPicture, DrawsTheFarthestFacetFirst) {
+  const BodyPanel panel = panel_of(kuhn_box(2, 2, 2, 1.0, 0.0, 0));
+  const auto facets = drawn_facets(panel, panel);
+  EXPECT_TRUE(std::is_sorted(facets.begin(), facets.end(),
+                             [](const DrawnFacet& a, const DrawnFacet& b) { return a.depth < b.depth; }));
+}
+
+TEST(BodyPicture, GivesAComponentOfItsOwnAnotherColour) {
+  BodyPanel panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
+  const auto one = colours(drawn_facets(panel, panel));
+  panel.frame.component.assign(panel.frame.component.size(), 1);
+  for (const std::uint32_t colour : colours(drawn_facets(panel, panel))) EXPECT_FALSE(one.contains(colour));
+}
+
+// Of a box of two cubes the one in front is taken away: the side it had hidden shows, in the colour of what was inside.
+TEST(BodyPicture, ShowsWhatWasInsideInAColourOfItsOwn) {
+  const BodyPanel first = panel_of(hexahedron_box(1, 2, 1, 1.0));
+  BodyPanel later = first;
+  Mesh fewer;
+  fewer.points = first.frame.mesh.points;
+  fewer.add_cell(CellKind::hexahedron, first.frame.mesh.cell(1));
+  later.frame.mesh = fewer;
+  const auto facets = drawn_facets(later, first);
+  ASSERT_EQ(facets.size(), 3u);
+  EXPECT_EQ(std::count_if(facets.begin(), facets.end(),
+                          [](const DrawnFacet& f) { return (f.colour >> 16) > 2 * ((f.colour >> 8) & 0xff); }),
+            1);
+}
+
+TEST(BodyPicture, OfAChainShowsItsLinksAsLines) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}};
+  panel.frame.links = {{0, 1}, {1, 2}};
+  panel.point = {0, 1, 2};
+  const auto lines = drawn_facets(panel, panel);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].corners.size(), 2u);
+}
+
+TEST(BodyPicture, OfASurfaceShowsEveryPolygon) {
+  const BodyPanel panel = panel_of(triangle_sheet(3, 2, 1.0));
+  EXPECT_EQ(drawn_facets(panel, panel).size(), 12u);
+}
+
+// ---- places
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Where the picture has the ends of three links of 1 m along x, y and z, as columns.
+Eigen::Matrix<double, 2, 3> view() {
+  BodyPanel axes;
+  axes.frame.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  axes.frame.links = {{0, 1}, {0, 2}, {0, 3}};
+  axes.point = {0, 1, 2, 3};
+  Eigen::Matrix<double, 2, 3> columns;
+  for (int axis = 0; axis < 3; ++axis) {
+    BodyPanel one = axes;
+    one.frame.links = {axes.frame.links[static_cast<std::size_t>(axis)]};
+    const auto corners = drawn_facets(one, one).at(0).corners;
+    columns.col(axis) = corners[1] - corners[0];
+  }
+  return columns;
+}
+Vector3d towards_viewer() { return view().row(0).cross(view().row(1)).transpose(); }
+
+// "from the front, a little from the right and above, z upwards"; x to the right and y away from the front
+TEST(BodyPicture, IsSeenFromTheFrontRightAndAboveAndIsNotMirrored) {
+  const auto v = view();
+  // along parallels, one scale everywhere: rows of length 1 at right angles, to a few roundings
+  EXPECT_NEAR(v.row(0).norm(), 1.0, 0x1p-49);
+  EXPECT_NEAR(v.row(1).norm(), 1.0, 0x1p-49);
+  EXPECT_NEAR(v.row(0).dot(v.row(1)), 0.0, 0x1p-49);
+  EXPECT_NEAR(v(0, 2), 0.0, 0x1p-49);  // what is upright stands upright
+  EXPECT_GT(v(1, 2), 0.7);
+  EXPECT_GT(v(0, 0), 0.7);
+  EXPECT_GT(v(1, 1), 0.1);  // seen from above, what is behind is higher
+  const Vector3d viewer = towards_viewer();
+  EXPECT_LT(viewer.y(), -0.7);
+  EXPECT_GT(viewer.x(), 0.1);
+  EXPECT_GT(viewer.z(), 0.1);
+}
+
+TEST(BodyPicture, PutsEveryCornerWhereTheViewPutsItsVertex) {
+  // no two edges of this cell are parallel and of one length
+  Mesh mesh;
+  mesh.points = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
+  mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 3});
+  const BodyPanel panel = panel_of(mesh);
+  const auto facets = drawn_facets(panel, panel);
+  // of its faces, those on y = 0 and across the corner look towards the viewer; the others towards -x and -z
+  ASSERT_EQ(facets.size(), 2u);
+  for (const std::vector<int>& face : {std::vector{0, 1, 3}, std::vector{1, 2, 3}}) {
+    std::vector<Vector2d> expected;
+    Vector3d middle(0, 0, 0);
+    for (const int k : face) {
+      expected.push_back(view() * mesh.points[static_cast<std::size_t>(k)]);
+      middle += mesh.points[static_cast<std::size_t>(k)] / 3;
+    }
+    const bool drawn = std::ranges::any_of(facets, [&](const DrawnFacet& f) {
+      return f.corners.size() == 3 && std::abs(f.depth - middle.dot(towards_viewer())) < 0x1p-48 &&
+             std::is_permutation(f.corners.begin(), f.corners.end(), expected.begin(),
+                                 [](const Vector2d& a, const Vector2d& b) { return (a - b).norm() < 0x1p-48; });
+    });
+    EXPECT_TRUE(drawn) << face[0] << face[1] << face[2];
+  }
+}
+
+// ---- colours
+
+std::uint32_t red(std::uint32_t colour) { return colour >> 16; }
+std::uint32_t sum_of_channels(std::uint32_t c) { return (c >> 16) + ((c >> 8) & 0xff) + (c & 0xff); }
+
+TEST(BodyPicture, GivesSevenComponentsSevenColoursAndThenBeginsAnew) {
+  BodyPanel panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  const auto of = [&panel](std::uint32_t component) {
+    panel.frame.component = {component};
+    return colours(drawn_facets(panel, panel));
+  };
+  std::set<std::uint32_t> all;
+  for (std::uint32_t k = 0; k < 7; ++k) all.merge(of(k));
+  EXPECT_EQ(all.size(), 7u * 3u);  // three sides, each in its own light
+  EXPECT_EQ(of(7), of(0));
+  EXPECT_EQ(of(12), of(5));
+}
+
+TEST(BodyPicture, GivesEachFacetTheColourOfItsOwnCell) {
+  BodyPanel panel = panel_of(hexahedron_box(2, 1, 1, 1.0));
+  panel.frame.component = {0, 1};
+  BodyPanel blue = panel, ochre = panel;
+  blue.frame.component = {0, 0};
+  ochre.frame.component = {1, 1};
+  const auto facets = drawn_facets(panel, panel), at_left = drawn_facets(blue, blue),
+             at_right = drawn_facets(ochre, ochre);
+  ASSERT_EQ(facets.size(), 5u);
+  for (std::size_t k = 0; k < 5; ++k) {
+    double x = 0.0;
+    for (const Vector2d& corner : facets[k].corners) x += corner.x() / 4;
+    // of two facets in front, above or beside, which of the cells is told by how far right it is
+    EXPECT_TRUE(facets[k].colour == at_left[k].colour || facets[k].colour == at_right[k].colour);
+    EXPECT_NE(at_left[k].colour, at_right[k].colour);
+  }
+  // the side at the right end and the two beside it are the second cell's
+  EXPECT_EQ(std::ranges::count_if(facets, [&](const DrawnFacet& f) { return colours(at_right).contains(f.colour); }),
+            3);
+}
+
+TEST(BodyPicture, LightsTheTopMost) {
+  const BodyPanel panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  auto facets = drawn_facets(panel, panel);
+  std::ranges::sort(facets, {}, [](const DrawnFacet& f) {
+    double y = 0.0;
+    for (const Vector2d& corner : f.corners) y += corner.y();
+    return y;
+  });
+  EXPECT_GT(sum_of_channels(facets[2].colour), sum_of_channels(facets[0].colour));
+  EXPECT_GT(sum_of_channels(facets[2].colour), sum_of_channels(facets[1].colour));
+}
+
+// A new vertex has no place in the mesh: its facets are not known to have been inside.
+TEST(BodyPicture, DoesNotTakeWhatRefinementMadeForWhatWasInside) {
+  const BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  BodyPanel refined = first;
+  refined.point.assign(refined.point.size(), 0xffffffff);
+  for (const DrawnFacet& f : drawn_facets(refined, first)) EXPECT_LT(red(f.colour), f.colour & 0xff);  // blue
+}
+
+// Two opposite corners of a cube exchange their numbers, as removals make vertices do: its sides are its sides still.
+TEST(BodyPicture, KnowsFacetsByThePointsOfTheMeshWhateverTheirNumbersAre) {
+  const BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  BodyPanel renumbered = first;
+  Mesh& mesh = renumbered.frame.mesh;
+  std::swap(mesh.points[0], mesh.points[7]);
+  std::swap(renumbered.point[0], renumbered.point[7]);
+  for (std::uint32_t& k : mesh.nodes) k = k == 0 ? 7 : k == 7 ? 0 : k;
+  EXPECT_EQ(colours(drawn_facets(renumbered, first)), colours(drawn_facets(first, first)));
+}
+
+// ---- panels
+
+using BodyPictureFiles = FolderTest;
+
+/// The corners in a file of polygons, one list for each.
+std::vector<std::vector<Vector2d>> polygons(const std::string& data) {
+  std::vector<std::vector<Vector2d>> all(1);
+  std::istringstream stream(data);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.empty()) {
+      all.emplace_back();
+      continue;
+    }
+    std::istringstream numbers(line);
+    Vector2d x;
+    numbers >> x[0] >> x[1];
+    all.back().push_back(x);
+  }
+  if (all.back().empty()) all.pop_back();
+  return all;
+}
+
+TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
+  BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
+  second.frame.time = 0.5;
+  for (Vector3d& x : second.frame.mesh.points) x.z() += 0.25;
+  ASSERT_EQ(draw_bodies(std::vector{first, second}, "t", folder_, "two"), "");
+  const auto drawn = polygons(text("two.dat"));
+  ASSERT_EQ(drawn.size(), 2u * 3u * 2u);  // two panels, three sides, rim and inner part
+  // Every corner of the second panel is a panel's width to the right, and higher by what the view makes of 0.25 m. The
+  // file has six digits of numbers below 10.
+  const Vector2d shift = drawn[6][0] - drawn[0][0];
+  EXPECT_NEAR(shift.y(), 0.25 * view()(1, 2), 2e-5);
+  for (std::size_t k = 0; k < 6; ++k)
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_LT((drawn[k + 6][c] - drawn[k][c] - shift).norm(), 4e-5);
+  double left = 0.0, right = 0.0;
+  for (std::size_t k = 0; k < 6; ++k)
+    for (const Vector2d& x : drawn[k]) {
+      left = std::min(left, x.x());
+      right = std::max(right, x.x());
+    }
+  EXPECT_GT(shift.x(), right - left);
+  const std::string script = text("two.gnuplot");
+  EXPECT_NE(script.find("set label 1 't = 0 s' at 0,"), std::string::npos) << script;
+  const auto label = script.find("set label 2 't = 0.5 s' at ");
+  ASSERT_NE(label, std::string::npos) << script;
+  EXPECT_NEAR(std::stod(script.substr(label + 27)), shift.x(), 4e-5);
+}
+
+TEST_F(BodyPictureFiles, HaveARectangleAroundEachLink) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 0, -1}};
+  panel.frame.links = {{0, 1}, {1, 2}};
+  panel.point = {0, 1, 2};
+  ASSERT_EQ(draw_bodies(std::vector{panel}, "t", folder_, "links"), "");
+  const auto drawn = polygons(text("links.dat"));
+  const auto links = drawn_facets(panel, panel);
+  ASSERT_EQ(drawn.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    ASSERT_EQ(drawn[k].size(), 4u);
+    const Vector2d along = drawn[k][1] - drawn[k][0], aside = drawn[k][3] - drawn[k][0];
+    const Vector2d link = links[k].corners[1] - links[k].corners[0];
+    // six digits of numbers below 10
+    EXPECT_LT((drawn[k][2] - drawn[k][1] - aside).norm(), 4e-5);
+    EXPECT_NEAR(along.normalized().dot(link.normalized()), 1.0, 1e-3);
+    EXPECT_NEAR(along.norm() / link.norm(), 1.0, 0.02);
+    EXPECT_LT(std::abs(along.normalized().dot(aside.normalized())), 0.02);
+    EXPECT_GT(aside.norm(), 0.0);
+    EXPECT_LT(aside.norm(), 0.02 * link.norm());
+  }
+}
+
+TEST_F(BodyPictureFiles, HaveABodyThatFliesFarInTheMiddleOfItsPanel) {
+  BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
+  for (Vector3d& x : second.frame.mesh.points) x.x() += 100;
+  ASSERT_EQ(draw_bodies(std::vector{first, second}, "t", folder_, "two"), "");
+  const auto drawn = polygons(text("two.dat"));
+  ASSERT_EQ(drawn.size(), 12u);
+  EXPECT_LT((drawn[6][0] - drawn[0][0]).norm(), 3.0);
+  EXPECT_NEAR((drawn[6][0] - drawn[0][0]).y(), 0.0, 4e-5);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,109 @@
+#include "benchmarks/figures/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "benchmarks/figures/gnuplot.h"
+#include "core/plain/error.h"
+#include "tests/support/folder_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+using PlotTest = FolderTest;
+
+Plot small_plot() {
+  Plot plot;
+  plot.title = "A \"quoted\" title";
+  plot.x_high = plot.y_high = 100.0;
+  PlotSeries line{.title = "line", .points = {{1.0, 100.0}, {10.0, 10.0}, {100.0, 1.0, "end"}}, .colour = "#ff0000"};
+  line.width = 2.0;
+  line.opacity = 0.5;
+  plot.series = {line, {.title = "empty", .points = {}, .colour = "#000000"}};
+  return plot;
+}
+
+TEST(PlotText, DataHoldEveryPointWithAllItsDigits) {
+  const PlotSeries series{.title = "", .points = {{1.0 / 3.0, 2.0, "a \"b\""}}, .colour = "#000000"};
+  EXPECT_EQ(plot_data(series), "0.33333333333333331 2 \"a \\\"b\\\"\"\n");
+}
+
+TEST(PlotText, ScriptDrawsBothPicturesOfAllSeriesWithPoints) {
+  const std::string script = plot_script(small_plot(), "figure");
+  EXPECT_NE(script.find("set output './figure.png'"), std::string::npos);
+  EXPECT_NE(script.find("set output './figure.svg'"), std::string::npos);
+  EXPECT_NE(script.find("'./figure.dat' index 0 using 1:2 with linespoints linecolor rgb \"#80ff0000\""),
+            std::string::npos);
+  EXPECT_EQ(script.find("index 1"), std::string::npos);
+  EXPECT_NE(script.find("'A \"quoted\" title'"), std::string::npos);
+}
+
+TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
+  // 200 pixels of 10-point letters, 8 pixels each: 23 letters a line
+  EXPECT_EQ(quoted_title("short", 200, 10.0), "'short'");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0),
+            "'one two three four five' . \"\\n\" . 'six seven'");
+  EXPECT_EQ(quoted_title("one two three four five six seven", 200, 10.0, 1), "'one two three four ...'");
+  // letters beyond ASCII count once, apostrophes are typographic, blanks and breaks are one blank
+  EXPECT_EQ(
+      quoted_title(
+          "\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9",
+          200, 10.0),
+      "'\xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 \xC3\xA9t\xC3\xA9 "
+      "\xC3\xA9t\xC3\xA9'");
+  EXPECT_EQ(quoted_title("a \"b's\"\n  c", 200, 10.0), "'a \"b\xE2\x80\x99s\" c'");
+  // a word that is longer than a line is cut
+  EXPECT_EQ(quoted_title(std::string(100000, 'a'), 200, 10.0), "'" + std::string(20, 'a') + "...'");
+}
+
+// A line of letters that just fits into the picture is broken where a legend takes of its width.
+TEST(PlotText, TitlesAreCentredBesideTheLegend) {
+  Plot plot = small_plot();
+  plot.series.resize(1);
+  plot.series[0].title.clear();
+  plot.title.clear();
+  for (int k = 0; k < 10; ++k) plot.title += k == 0 ? "ten letter" : " ten letter";
+  const std::string one_line = "set title '" + plot.title + "' font";
+  EXPECT_NE(plot_script(plot, "figure").find(one_line), std::string::npos);
+  // sixty letters of 9 pixels and what stands beside them leave 800 of 1400: 62 letters of 12 pixels
+  plot.series[0].title = std::string(60, 'l');
+  EXPECT_NE(plot_script(plot, "figure")
+                .find("set title 'ten letter ten letter ten letter ten letter ten letter ten' . \"\\n\" . 'letter ten"),
+            std::string::npos)
+      << plot_script(plot, "figure");
+}
+
+TEST_F(PlotTest, AMissingGnuplotIsToldAndDataAndScriptStay) {
+  const std::string trouble = draw(small_plot(), folder_, "figure", "no-such-gnuplot");
+  EXPECT_NE(trouble.find("no-such-gnuplot"), std::string::npos) << trouble;
+  EXPECT_NE(text("figure.dat").find("100 1 \"end\""), std::string::npos);
+  EXPECT_FALSE(text("figure.gnuplot").empty());
+}
+
+TEST_F(PlotTest, OneFileHoldsTheDataOfAllSeries) {
+  Plot plot = small_plot();
+  plot.series.push_back({.title = "second", .points = {{2.0, 3.0}}, .colour = "#00ff00"});
+  ASSERT_EQ(draw(plot, folder_, "figure"), "");
+  EXPECT_EQ(text("figure.dat"), "# line\n1 100 \"\"\n10 10 \"\"\n100 1 \"end\"\n\n\n# second\n2 3 \"\"\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 4);  // data, script, pictures
+}
+
+TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
+  const std::string trouble = draw(small_plot(), fs::relative(folder_), "figure");
+  ASSERT_EQ(trouble, "");
+  EXPECT_EQ(text("figure.png").substr(1, 3), "PNG");
+  EXPECT_NE(text("figure.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(PlotTest, AnAxisThatHasNoLogarithmIsRefused) {
+  Plot plot = small_plot();
+  plot.x_low = 0.0;
+  EXPECT_THROW(draw(plot, folder_, "figure"), InputError);
+}
+
+}  // namespace
+}  // namespace dartboard

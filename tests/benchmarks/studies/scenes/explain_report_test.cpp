@@ -1,0 +1,123 @@
+// What `explain` says of a plan: every figure in its own place.
+
+#include "benchmarks/studies/scenes/explain_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/harness/table.h"
+
+namespace dartboard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+SceneFile scene() {
+  SceneFile s;
+  s.name = "box";
+  s.integrator = "rk4";
+  s.step = 0.125;
+  return s;
+}
+
+/// Two parts; the time of the second could not be measured.
+ScenePlan plan() {
+  ScenePlan p;
+  p.map = "general 3-g-map";
+  p.counts.vertices = 11;
+  p.counts.edges = 12;
+  p.counts.faces = 13;
+  p.counts.cells = 14;
+  p.counts.darts = 15;
+  p.steps = 16;
+  p.items = {{.part = Part::map, .what = "alphas", .why = "/events", .bytes = 100, .ns = 40.0},
+             {.part = Part::marks, .what = "stamps", .why = "/output", .bytes = 20, .ns_below = 7.0}};
+  p.left_out = {{"viscosity", "there is none"}};
+  return p;
+}
+
+MeasuredScene measured() {
+  MeasuredScene m;
+  m.found.bytes = {100, 24};
+  m.found.unplanned = {{Part::springs, 8}};
+  m.equal = false;
+  m.total = 132;
+  m.ns = 50.0;
+  return m;
+}
+
+const std::string heading =
+    "box\ngeneral 3-g-map; 11 vertices, 12 edges, 13 faces, 14 cells, 15 darts; 16 steps of "
+    "0.125 s\n\n";
+
+std::string left_out_table() {
+  Table table({{"left out"}, {"because"}});
+  table.add_row({"viscosity", "there is none"});
+  return to_text(table);
+}
+
+TEST(ExplainText, HasARowForEachPartAndOneForAll) {
+  Table table({{"part"}, {"bytes", Align::right}, {"ns per step", Align::right}, {"what"}, {"why"}});
+  table.add_row({"map", "100", "40", "alphas", "/events"});
+  table.add_row({"marks", "20", "not measurable (< 7)", "stamps", "/output"});
+  table.add_row({"in all", "120", "40", "", ""});
+  const std::string text = to_text(scene(), plan(), std::nullopt);
+  EXPECT_TRUE(text.starts_with(heading + to_text(table) + "\n" + left_out_table() + "\nBytes are those")) << text;
+  EXPECT_TRUE(text.ends_with("/unstable_step.\n")) << text;
+}
+
+TEST(ExplainText, HasWhatWasMeasuredBesideWhatWasPlanned) {
+  Table table({{"part"},
+               {"bytes", Align::right},
+               {"measured", Align::right},
+               {"ns per step", Align::right},
+               {"what"},
+               {"why"}});
+  table.add_row({"map", "100", "100", "40", "alphas", "/events"});
+  table.add_row({"marks", "20", "24 DIFFERS", "not measurable (< 7)", "stamps", "/output"});
+  table.add_row({"springs", "0", "8 DIFFERS", "", "not planned", ""});
+  table.add_row({"in all", "120", "132 DIFFERS", "40", "", ""});
+  std::string text = to_text(scene(), plan(), measured());
+  EXPECT_TRUE(text.starts_with(heading + to_text(table) + "\n" + left_out_table() + "\nBytes")) << text;
+  EXPECT_TRUE(text.ends_with("\nmeasured: 50 ns per step, +25.0 % from the estimate; bytes DIFFER\n")) << text;
+  MeasuredScene equal = measured();
+  equal.equal = true;
+  text = to_text(scene(), plan(), equal);
+  EXPECT_TRUE(text.ends_with("bytes exactly as planned\n")) << text;
+}
+
+TEST(ExplainText, SaysNothingOfTimesThatAreNone) {
+  ScenePlan p = plan();
+  p.items[0].ns = 0.0;
+  p.items[1].ns_below = 0.25;  // rounded to 0 it would be impossible
+  const std::string text = to_text(scene(), p, std::nullopt);
+  Table table({{"part"}, {"bytes", Align::right}, {"ns per step", Align::right}, {"what"}, {"why"}});
+  table.add_row({"map", "100", "", "alphas", "/events"});
+  table.add_row({"marks", "20", "not measurable (< 1)", "stamps", "/output"});
+  table.add_row({"in all", "120", "", "", ""});
+  EXPECT_TRUE(text.starts_with(heading + to_text(table))) << text;
+}
+
+Json expected() {
+  return Json::parse(R"({"scene": "box", "map": "general 3-g-map", "integrator": "rk4", "steps": 16,
+    "counts": {"vertices": 11, "edges": 12, "faces": 13, "cells": 14, "darts": 15}, "bytes": 120, "ns_per_step": 40.0,
+    "left_out": [{"what": "viscosity", "why": "there is none"}],
+    "plan": [{"part": "map", "what": "alphas", "why": "/events", "bytes": 100, "ns_per_step": 40.0},
+      {"part": "marks", "what": "stamps", "why": "/output", "bytes": 20, "ns_per_step": 0.0,
+       "ns_per_step_below": 7.0}]})");
+}
+
+TEST(ExplainJson, HoldsEveryFigureOfThePlan) { EXPECT_EQ(to_json(scene(), plan(), std::nullopt), expected()); }
+
+TEST(ExplainJson, HoldsWhatWasMeasured) {
+  Json json = expected();
+  json["plan"][0]["measured_bytes"] = 100;
+  json["plan"][1]["measured_bytes"] = 24;
+  json["measured"] = Json::parse(R"({"bytes": 132, "bytes_as_planned": false, "ns_per_step": 50.0,
+    "unplanned": [{"part": "springs", "bytes": 8}]})");
+  EXPECT_EQ(to_json(scene(), plan(), measured()), json);
+}
+
+}  // namespace
+}  // namespace dartboard

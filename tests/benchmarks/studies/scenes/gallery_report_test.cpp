@@ -1,0 +1,79 @@
+// What `gallery` says of a scene: every figure in its own place.
+
+#include "benchmarks/studies/scenes/gallery_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/plain/escape.h"
+#include "tests/support/tables_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+ShownScene shown_scene() {
+  ShownScene s;
+  s.scene.name = "a beam";
+  s.scene.about = "it *bends*";
+  s.scene.integrator = "rk4";
+  s.file = "beam.json";
+  s.map = "tetrahedral 3-g-map";
+  s.hash = "00000000deadbeef";
+  s.steps = 21;
+  s.operations = 22;
+  s.expected = s.held = 23;
+  s.cpu_s = 0.25;
+  return s;
+}
+
+ShownScene failed_scene() {
+  ShownScene s = shown_scene();
+  s.held = 20;
+  s.divergence = "diverged";
+  return s;
+}
+
+TEST(GalleryTable, HasARowForEachScene) {
+  const Table table = gallery_table({shown_scene(), failed_scene()});
+  EXPECT_EQ(alignment(table), "lllrrrll");
+  ASSERT_EQ(table.rows().size(), 2u);
+  EXPECT_EQ(labelled(table, 0), (Row{"scene: a beam", "map: tetrahedral 3-g-map", "integrator: rk4", "steps: 21",
+                                     "operations: 22", "expected: 23 of 23", "hash: 00000000deadbeef", "holds: yes"}));
+  EXPECT_EQ(table.rows()[1][5], "20 of 23");
+  EXPECT_EQ(table.rows()[1][7], "NO");
+}
+
+TEST(GalleryTable, SaysNoWhereAnExpectationFailsOrTheMotionDiverges) {
+  ShownScene missed = shown_scene(), diverged = shown_scene();
+  missed.held = 22;
+  diverged.divergence = "diverged";
+  EXPECT_TRUE(shown_scene().holds());
+  EXPECT_FALSE(missed.holds());
+  EXPECT_FALSE(diverged.holds());
+}
+
+TEST(GalleryPage, ShowsThePictureOfEachSceneAndWhatItIs) {
+  const std::string page = gallery_page({failed_scene()});
+  EXPECT_EQ(page,
+            "# Gallery\n\nEach scene at four times of its run, drawn from its own output.\n\n## a beam\n\n" +
+                markdown_line("it *bends*") +
+                "\n\n![a beam](a-beam.png)\n\n`beam.json`: tetrahedral 3-g-map, rk4, 21 steps, 22 operations; 20 of 23 "
+                "expectations hold.\n");
+}
+
+TEST(GalleryJson, HoldsEveryFigureOfAScene) {
+  EXPECT_EQ(to_json(shown_scene()),
+            Json::parse(R"({"scene": "a beam", "map": "tetrahedral 3-g-map", "integrator": "rk4", "steps": 21,
+              "operations": 22, "hash": "00000000deadbeef", "expected": 23, "held": 23, "holds": true,
+              "divergence": "", "cpu_s": 0.25})"));
+  EXPECT_EQ(to_json(failed_scene()),
+            Json::parse(R"({"scene": "a beam", "map": "tetrahedral 3-g-map", "integrator": "rk4", "steps": 21,
+              "operations": 22, "hash": "00000000deadbeef", "expected": 23, "held": 20, "holds": false,
+              "divergence": "diverged", "cpu_s": 0.25})"));
+}
+
+}  // namespace
+}  // namespace dartboard

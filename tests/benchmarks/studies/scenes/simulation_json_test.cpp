@@ -1,0 +1,44 @@
+#include "benchmarks/studies/scenes/simulation_json.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace dartboard {
+namespace {
+
+const Diagnostics telling{.time = 1,
+                          .kinetic = 2,
+                          .elastic = 3,
+                          .gravitational = 4,
+                          .momentum = {5, 6, 7},
+                          .angular_momentum = {8, 9, 10},
+                          .mass = 11,
+                          .counts = {.vertices = 12, .edges = 13, .faces = 14, .cells = 15, .components = 16},
+                          .boundary = 17,
+                          .largest_stress = 18,
+                          .operations = 19};
+
+TEST(SimulationJson, OfDiagnosticsHasEveryNumberUnderItsName) {
+  EXPECT_EQ(nlohmann::json(to_json(telling)),
+            nlohmann::json::parse(R"({"time": 1.0, "kinetic": 2.0, "elastic": 3.0, "gravitational": 4.0, "mass": 11.0,
+                                      "vertices": 12, "edges": 13, "faces": 14, "cells": 15, "components": 16,
+                                      "boundary": 17.0, "largest_stress": 18.0, "operations": 19})"));
+}
+
+TEST(SimulationJson, OfJumpsHasEveryNumberUnderItsName) {
+  const EventJumps jumps{.events = 1, .mass = 2, .momentum = 3, .energy = 4};
+  EXPECT_EQ(nlohmann::json(to_json(jumps)),
+            nlohmann::json::parse(R"({"events": 1, "mass": 2.0, "momentum": 3.0, "energy": 4.0})"));
+}
+
+TEST(SimulationJson, HasNullForWhatIsNotFinite) {
+  Diagnostics d = telling;
+  d.kinetic = d.elastic = d.gravitational = d.boundary = std::numeric_limits<double>::quiet_NaN();
+  d.largest_stress = std::numeric_limits<double>::infinity();
+  for (const char* name : {"kinetic", "elastic", "gravitational", "boundary", "largest_stress"})
+    EXPECT_TRUE(to_json(d).at(name).is_null()) << name;
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,156 @@
+// What `validate solvers` concludes from what it measured: with one wrong figure, the claim about it falls short.
+
+#include "benchmarks/studies/solvers/solver_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/claims_for_tests.h"
+#include "tests/support/solver_times_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using Ids = std::vector<std::string>;
+
+SolveCell solved(SolvePath path) {
+  SolveCell cell;
+  cell.path = path;
+  cell.before = 1e-15;
+  cell.after = 1e-16;
+  return cell;
+}
+
+/// Seven rounds of one process, each task taking the milliseconds given.
+SolverTimes timed(std::size_t vertices, const std::vector<std::pair<std::string, double>>& ms) {
+  SolverTimes t = solver_times(std::to_string(vertices) + " vertices", ms);
+  t.vertices = vertices;
+  return t;
+}
+SolverTimes update(std::size_t vertices, double following_ms) {
+  return timed(
+      vertices,
+      {{"again, AMD", 10.0}, {"again, METIS", 11.0}, {"follows, AMD", following_ms}, {"follows, METIS", following_ms}});
+}
+SolverTimes step(double gradients_ms) {
+  return timed(564, {{"conjugate gradients", gradients_ms}, {"fresh factor", 9.0}, {"kept factor", 1.0}});
+}
+
+SolverResults good_results() {
+  SolverResults r;
+  for (const SolvePath path : solve_paths) r.cells.push_back(solved(path));
+  r.indefinite = {{"simplicial", 10.0, -0.1, SolveStatus::not_positive_definite},
+                  {"updated", 10.0, -0.1, SolveStatus::not_positive_definite}};
+  EditRun edits;
+  edits.policy = "as by default";
+  edits.edits = 200;
+  edits.largest = 1e-15;
+  r.edits = {edits};
+  r.updates = {update(512, 4.0), update(1728, 4.0), update(4096, 2.0)};
+  Crossover crossover;
+  crossover.vertices = 512;
+  crossover.predicted_phase = 1100.0;
+  crossover.measured_phase = 1000.0;
+  r.crossovers = {crossover};
+  r.crossover_error = 3e-3;
+  r.steps = {step(0.5)};
+  return r;
+}
+
+Ids short_with(const std::function<void(SolverResults&)>& spoil) {
+  SolverResults r = good_results();
+  spoil(r);
+  return ids_of(claims_of(r), Verdict::falls_short);
+}
+
+TEST(SolverClaims, HoldWhenEverythingIsAsPromised) {
+  EXPECT_EQ(ids_of(claims_of(good_results()), Verdict::holds),
+            (Ids{"solve-componentwise", "solve-iterative", "indefinite-diagnosed", "edits-backward-error", "update-512",
+                 "update-1728", "update-4096", "break-even-law", "implicit-step"}));
+}
+
+TEST(SolverClaims, SayNothingOfPartsThatWereNotAskedFor) { EXPECT_TRUE(claims_of(SolverResults{}).empty()); }
+
+TEST(SolverClaims, FallShortOfEachDirectPathWhoseRefinedSolutionIsWrong) {
+  for (const std::size_t path : {0u, 1u, 2u}) {
+    EXPECT_EQ(short_with([=](auto& r) { r.cells[path].after = 2e-15; }), Ids{"solve-componentwise"});
+    EXPECT_EQ(short_with([=](auto& r) { r.cells[path].after = nan; }), Ids{"solve-componentwise"});
+    EXPECT_EQ(short_with([=](auto& r) { r.cells[path].status = SolveStatus::not_positive_definite; }),
+              Ids{"solve-componentwise"});
+  }
+}
+
+TEST(SolverClaims, FallShortOfConjugateGradientsThatMetTheirToleranceAndAreWrong) {
+  EXPECT_EQ(short_with([](auto& r) { r.cells[3].after = 2e-15; }), Ids{"solve-iterative"});
+}
+
+TEST(SolverClaims, SayNothingOfConjugateGradientsThatNeverConverge) {
+  SolverResults r = good_results();
+  r.cells[3].status = SolveStatus::not_converged;
+  EXPECT_EQ(ids_of(claims_of(r), Verdict::not_tested), Ids{"solve-iterative"});
+}
+
+TEST(SolverClaims, FallShortOfAnIndefiniteMatrixThatPassesAndNameIt) {
+  SolverResults r = good_results();
+  r.indefinite[1].status = SolveStatus::ok;
+  const auto claims = claims_of(r);
+  EXPECT_EQ(ids_of(claims, Verdict::falls_short), Ids{"indefinite-diagnosed"});
+  EXPECT_EQ(find_claim(claims, "indefinite-diagnosed").reason, "updated at h omega 10");
+  EXPECT_EQ(find_claim(claims, "indefinite-diagnosed").measured, "1 of 2");
+}
+
+TEST(SolverClaims, FallShortOfEditsByTheDefaultPolicyAlone) {
+  EXPECT_EQ(short_with([](auto& r) { r.edits[0].largest = 3e-15; }), Ids{"edits-backward-error"});
+  EXPECT_EQ(short_with([](auto& r) {
+              r.edits.push_back(r.edits[0]);
+              r.edits[1].policy = "never renewed";
+              r.edits[1].largest = 1e-9;
+            }),
+            Ids{});
+}
+
+TEST(SolverClaims, FallShortOfEditsThatEndWithADiagnosis) {
+  EXPECT_EQ(short_with([](auto& r) {
+              r.edits[0].failure = "not positive definite";
+              r.edits[0].edits = 0;
+              r.edits[0].largest = 0.0;
+            }),
+            Ids{"edits-backward-error"});
+}
+
+TEST(SolverClaims, AskTheLargestBodyToFollowFourTimesAsFastAndTheOthersTwice) {
+  EXPECT_EQ(short_with([](auto& r) { r.updates[0] = update(512, 5.1); }), Ids{"update-512"});
+  EXPECT_EQ(short_with([](auto& r) { r.updates[1] = update(1728, 5.1); }), Ids{"update-1728"});
+  EXPECT_EQ(short_with([](auto& r) { r.updates[2] = update(4096, 2.6); }), Ids{"update-4096"});
+}
+
+TEST(SolverClaims, FallShortOfTheLawBeyondAQuarterOnEitherSide) {
+  EXPECT_EQ(short_with([](auto& r) { r.crossovers[0].predicted_phase = 1260.0; }), Ids{"break-even-law"});
+  EXPECT_EQ(short_with([](auto& r) { r.crossovers[0].predicted_phase = 740.0; }), Ids{"break-even-law"});
+  EXPECT_EQ(short_with([](auto& r) { r.crossovers[0].measured_phase = nan; }), Ids{"break-even-law"});
+}
+
+TEST(SolverClaims, FallShortOfTheLawWhenNoCrossoverIsFound) {
+  EXPECT_EQ(short_with([](auto& r) { r.crossovers[0].failure = "not found"; }), Ids{"break-even-law"});
+}
+
+TEST(SolverClaims, FallShortOfAStepByConjugateGradientsThatTakesLonger) {
+  EXPECT_EQ(short_with([](auto& r) { r.steps[0] = step(0.95); }), Ids{"implicit-step"});
+}
+
+TEST(SolverSamples, CarryEveryMeasurementUnderTheNameOfItsStudy) {
+  std::vector<std::string> studies;
+  for_each_sample(good_results(), [&](const nlohmann::json& json) {
+    const auto study = json.at("study").get<std::string>();
+    if (studies.empty() || studies.back() != study) studies.push_back(study);
+  });
+  EXPECT_EQ(studies, (Ids{"accuracy", "indefinite", "edits", "updates", "steps"}));
+}
+
+}  // namespace
+}  // namespace dartboard

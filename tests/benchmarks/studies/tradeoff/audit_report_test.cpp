@@ -1,0 +1,234 @@
+#include "benchmarks/studies/tradeoff/audit_report.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/tables_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+AuditedPair good_pair() {
+  AuditedPair p;
+  p.scene = "a scene";
+  p.reference = "certified";
+  p.floor = 1e-12;
+  p.pick = "rk4";
+  p.confidence = "asymptotic";
+  p.setting = {.steps = 100};
+  p.swept = true;
+  p.audit = {.error = 1e-4,
+             .actual_error = 5e-5,
+             .predicted_error = 6e-5,
+             .actual_cost = 440.0,
+             .predicted_cost = 420.0,
+             .actual_evaluations = 400.0,
+             .predicted_evaluations = 400.0,
+             .actual_s = 6.0,
+             .predicted_s = 5.5,
+             .pilot_s = 0.6,
+             .best = "verlet",
+             .best_cost = 400.0};
+  return p;
+}
+
+std::vector<Verdict> verdicts(const std::vector<AuditedPair>& pairs) {
+  std::vector<Verdict> all;
+  for (const Claim& claim : audit_claims(pairs)) all.push_back(claim.verdict);
+  return all;
+}
+
+constexpr Verdict yes = Verdict::holds, no = Verdict::falls_short, untold = Verdict::not_tested;
+
+TEST(AuditClaims, HoldWhenEverythingIsAsPromised) {
+  EXPECT_EQ(verdicts(std::vector(20, good_pair())), (std::vector{yes, yes, yes, yes, yes}));
+}
+
+TEST(AuditClaims, AllowOneMissInTwentyAndNotTwo) {
+  std::vector<AuditedPair> pairs(20, good_pair());
+  pairs[3].audit.actual_error = 2e-4;
+  pairs[4].audit.predicted_evaluations = 470.0;  // 17.5 % too many
+  pairs[5].audit.predicted_s = 5.0;              // 16.7 % too few
+  EXPECT_EQ(verdicts(pairs), (std::vector{yes, yes, yes, yes, yes}));
+  pairs[6] = pairs[3];
+  pairs[7] = pairs[4];
+  pairs[8] = pairs[5];
+  EXPECT_EQ(verdicts(pairs), (std::vector{no, no, no, yes, yes}));
+}
+
+TEST(AuditClaims, ANumberThatIsNoneIsAMiss) {
+  std::vector<AuditedPair> pairs(1, good_pair());
+  pairs[0].audit.actual_error = pairs[0].audit.predicted_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(verdicts(pairs), (std::vector{no, yes, no, untold, yes}));
+}
+
+TEST(AuditClaims, NoRecommendationIsAMiss) {
+  std::vector<AuditedPair> pairs(2, good_pair());
+  pairs[0].pick.clear();
+  EXPECT_EQ(verdicts(pairs)[0], no);
+}
+
+TEST(AuditClaims, PairsBelowTheFloorOfTheReferenceSayNothingAboutErrors) {
+  std::vector<AuditedPair> pairs(2, good_pair());
+  pairs[0].floor = 1e-3;
+  pairs[0].audit.actual_error = 5e-4;
+  EXPECT_EQ(verdicts(pairs)[0], yes);
+}
+
+// Eleven good picks of regret 1.4, and nine that cost next to nothing because they missed, or nobody knows.
+TEST(AuditClaims, APickThatMissesItsErrorIsNotCheap) {
+  std::vector<AuditedPair> pairs(20, good_pair());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Audit& a = pairs[k].audit;
+    a.actual_cost = k < 9 ? 40.0 : 1.4 * a.best_cost;
+    if (k < 5)
+      a.actual_error = 2.0 * a.error;
+    else if (k < 9)
+      pairs[k].floor = 10.0 * a.error;
+  }
+  const Claim regret = audit_claims(pairs)[3];
+  EXPECT_EQ(regret.verdict, no);
+  EXPECT_EQ(regret.measured, "1.400, 11 pairs; 9 left out, whose error was missed or cannot be told");
+  pairs.resize(9);
+  EXPECT_EQ(audit_claims(pairs)[3].verdict, untold);
+}
+
+TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
+  std::vector<AuditedPair> pairs(3, good_pair());
+  for (AuditedPair& p : pairs) p.audit.actual_s = 1.0;
+  EXPECT_EQ(verdicts(pairs)[4], untold);
+  pairs[1].audit.actual_s = 5.5;
+  pairs[1].audit.pilot_s = 1.2;  // 22 %
+  pairs[2].audit.actual_s = 6.0;
+  pairs[2].audit.pilot_s = 0.6;
+  EXPECT_EQ(verdicts(pairs)[4], no);
+}
+
+TEST(AuditTable, HasARowForEachPair) {
+  std::vector<AuditedPair> pairs(3, good_pair());
+  pairs[0].audit.best_cost = 320.0;
+  pairs[0].audit.predicted_evaluations = 410.0;
+  pairs[1].audit.actual_error = 2e-4;
+  pairs[1].swept = false;
+  pairs[2].pick.clear();
+  const Table table = audit_table(pairs);
+  EXPECT_EQ(alignment(table), "lrlrlrrrrlrrll");
+  ASSERT_EQ(table.rows().size(), 3u);
+  EXPECT_EQ(labelled(table, 0), (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500",
+                                     "met: yes", "evaluations: 400", "predicted / counted: 1.025", "seconds: 6",
+                                     "predicted / measured: 0.917", "best of the sweep: verlet", "regret: 1.38",
+                                     "pilots / run: 0.10", "confidence: asymptotic", "reference: certified"}));
+  EXPECT_EQ(table.rows()[1][4], "NO");
+  EXPECT_EQ(table.rows()[1][9], "-");
+  EXPECT_EQ(table.rows()[1][10], "-");
+  EXPECT_EQ(table.rows()[2],
+            (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-", "certified"}));
+}
+
+TEST(AuditScenes, HaveARowForEachScene) {
+  std::vector<AuditedPair> pairs(3, good_pair());
+  pairs[0].what = pairs[1].what = "a soft box";
+  pairs[0].vertices = pairs[1].vertices = 27;
+  pairs[0].omega_phase = pairs[1].omega_phase = 350.0;
+  pairs[2].scene = "another";
+  const Table table = audited_scenes_table(pairs);
+  EXPECT_EQ(alignment(table), "llrr");
+  ASSERT_EQ(table.rows().size(), 2u);
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"scene: a scene", "what was drawn: a soft box", "vertices: 27", "T omega_max: 350"}));
+  EXPECT_EQ(table.rows()[1][0], "another");
+}
+
+TEST(AuditSample, HoldsEveryFigureOfAPair) {
+  AuditedPair p = good_pair();
+  p.what = "a soft box";
+  p.vertices = 27;
+  p.springs = 98;
+  p.omega_phase = 350.0;
+  p.setting.tolerance = 0.5;
+  p.audit.predicted_evaluations = 410.0;
+  p.audit.best_cost = 320.0;
+  EXPECT_EQ(json_of(p), nlohmann::json::parse(R"({"scene": "a scene", "what": "a soft box", "vertices": 27,
+    "springs": 98, "omega_phase": 350.0, "reference": "certified", "floor": 1e-12, "error": 1e-4, "pick": "rk4",
+    "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "told": true, "actual_error": 5e-5,
+    "predicted_error": 6e-5, "actual_evaluations": 400.0, "predicted_evaluations": 410.0, "actual_cost": 440.0,
+    "predicted_cost": 420.0, "actual_s": 6.0, "predicted_s": 5.5, "pilot_s": 0.6, "swept": true, "best": "verlet",
+    "best_cost": 320.0})"));
+}
+
+TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
+  std::vector<AuditedPair> pairs(3, good_pair());
+  pairs[0].floor = 10.0;  // of a chaotic scene: two references are as far apart as that
+  pairs[0].audit.actual_error = 2.8;
+  pairs[1].floor = std::numeric_limits<double>::infinity();
+  pairs[1].audit.actual_error = std::numeric_limits<double>::quiet_NaN();
+  const Table table = audit_table(pairs);
+  EXPECT_EQ(table.rows()[0][3], "-");
+  EXPECT_EQ(table.rows()[0][4], "not judged: the reference is no better than that");
+  EXPECT_EQ(table.rows()[1][3], "-");
+  EXPECT_EQ(table.rows()[1][4], "not judged: followed for its cost only");
+  EXPECT_EQ(table.rows()[2][3], "0.500");
+  for (const auto& row : table.rows())
+    for (const std::string& cell : row) EXPECT_EQ(cell.find("nan"), std::string::npos) << cell;
+}
+
+TEST(AuditPlot, PlacesEachPairByWhatItPromised) {
+  std::vector<AuditedPair> pairs(2, good_pair());
+  pairs[1].pick = "verlet";
+  const Plot plot = audit_plot(pairs, "of today");
+  EXPECT_EQ(plot.title, "recommend, promised and met");
+  EXPECT_EQ(plot.subtitle, "of today");
+  EXPECT_TRUE(plot.x_axis.starts_with("predicted over measured time")) << plot.x_axis;
+  EXPECT_TRUE(plot.y_axis.starts_with("actual error over the error asked for")) << plot.y_axis;
+  ASSERT_EQ(plot.series.size(), 5u);  // what is met and 15 % to either side as lines, then the picks by name
+  const auto expect_line = [&](std::size_t k, double x1, double y1, double x2, double y2) {
+    const PlotSeries& line = plot.series[k];
+    ASSERT_EQ(line.points.size(), 2u);
+    EXPECT_DOUBLE_EQ(line.points[0].x, x1);
+    EXPECT_DOUBLE_EQ(line.points[0].y, y1);
+    EXPECT_DOUBLE_EQ(line.points[1].x, x2);
+    EXPECT_DOUBLE_EQ(line.points[1].y, y2);
+    EXPECT_EQ(line.symbol, 0);
+    EXPECT_GT(line.width, 0.0);
+    EXPECT_TRUE(line.title.empty());
+  };
+  expect_line(0, plot.x_low, 1.0, plot.x_high, 1.0);
+  expect_line(1, 0.85, plot.y_low, 0.85, plot.y_high);
+  expect_line(2, 1.15, plot.y_low, 1.15, plot.y_high);
+  EXPECT_EQ(plot.series[3].title, "rk4");
+  EXPECT_NE(plot.series[3].colour, plot.series[4].colour);
+  const PlotSeries& last = plot.series.back();
+  EXPECT_EQ(last.title, "verlet");
+  ASSERT_EQ(last.points.size(), 1u);
+  EXPECT_DOUBLE_EQ(last.points[0].x, 5.5 / 6.0);
+  EXPECT_DOUBLE_EQ(last.points[0].y, 0.5);
+}
+
+TEST(AuditPlot, KeepsWhatIsFarOffWithinThePictureAndLeavesOutWhatCannotBeTold) {
+  std::vector<AuditedPair> pairs(4, good_pair());
+  pairs[0].audit.predicted_s = 600.0;
+  pairs[0].audit.actual_error = 1.0;
+  pairs[1].audit.predicted_s = 0.06;
+  pairs[1].audit.actual_error = 1e-12;
+  pairs[2].floor = 1.0;
+  pairs[3].pick.clear();
+  const Plot plot = audit_plot(pairs, "");
+  ASSERT_EQ(plot.series.size(), 4u);
+  const auto& points = plot.series.back().points;
+  ASSERT_EQ(points.size(), 2u);
+  for (const auto& p : points) {
+    EXPECT_GT(p.x, plot.x_low);
+    EXPECT_LT(p.x, plot.x_high);
+    EXPECT_GT(p.y, plot.y_low);
+    EXPECT_LT(p.y, plot.y_high);
+  }
+  EXPECT_GT(points[0].x, 1.15);
+  EXPECT_GT(points[0].y, 1.0);
+  EXPECT_LT(points[1].x, 0.85);
+  EXPECT_LT(points[1].y, 1.0);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,64 @@
+// A mesh file may have points that belong to no cell; a scene counts them, and a body does not have them.
+
+#include "core/scene/file/point_numbers.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+#include "core/plain/error.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Points 1, 2, 4 and 5 of six are the corners of the unit tetrahedron.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / (std::to_string(getpid()) + "-point-numbers");
+  explicit Folder(const std::string& keys) {
+    fs::create_directories(path);
+    std::ofstream(path / "gaps.mesh") << "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n9 9 9 0\n0 0 0 0\n1 0 0 0\n"
+                                         "8 8 8 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n2 3 5 6 0\nEnd\n";
+    std::ofstream(path / "scene.json")
+        << R"({"name": "x", "body": {"mesh": "gaps.mesh"}, "step": 0.001, "duration": 0.01, )" << keys << "}";
+  }
+  ~Folder() { fs::remove_all(path); }
+  SceneFile scene() const { return read_scene(path / "scene.json"); }
+};
+
+TEST(PointNumbers, AreThoseOfTheFileInEveryKey) {
+  const Folder folder(R"("fixed": [{"ids": [1, 5]}], "driven": [{"ids": [4], "velocity": [0, 0, 1]}],
+      "events": [{"at": 0.005, "tear": {"vertex": 2, "direction": [1, 0, 0]}},
+                 {"at": 0.005, "dissociate": {"points": [[1, 2, 5]]}}],
+      "output": {"probes": [{"name": "p", "vertex": 4}]})");
+  const SceneFile scene = folder.scene();
+  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0)).ids, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(std::get<IdSelection>(scene.driven.at(0).vertices).ids, (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(std::get<std::uint32_t>(std::get<Tear>(scene.events.at(0).action).vertex), 1u);
+  EXPECT_EQ(std::get<0>(std::get<Dissociate>(scene.events.at(1).action).faces).at(0),
+            (std::vector<std::uint32_t>{0, 1, 3}));
+}
+
+TEST(PointNumbers, LeadToThePlaceThatTheFileGivesThePoint) {
+  const Folder folder(R"("output": {"probes": [{"name": "p", "vertex": 4}]})");
+  EXPECT_EQ(Simulation(folder.scene()).probes().probes.at(0)->position, Eigen::Vector3d(0, 1, 0));
+}
+
+TEST(PointNumbers, OfPointsThatBelongToNoCellAreRefused) {
+  const Folder folder(R"("output": {"probes": [{"name": "p", "vertex": 3}]})");
+  try {
+    folder.scene();
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/output/probes/0/vertex: is 3; expected a point that belongs to a cell"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,40 @@
+#include "core/scene/file/selection.h"
+
+#include <gtest/gtest.h>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 4, 0}};
+using Numbers = std::vector<std::uint32_t>;
+
+Numbers select(const VertexSelection& selection) { return select_points(std::vector{selection}, points); }
+
+TEST(Selection, OfIdsIsThosePointsInOrder) { EXPECT_EQ(select(IdSelection{{3, 1, 3}}), (Numbers{1, 3})); }
+TEST(Selection, OfABoxIncludesItsSurface) { EXPECT_EQ(select(BoxSelection{{1, 0, 0}, {2, 0, 0}}), (Numbers{1, 2})); }
+TEST(Selection, OfAPlaneIsThePositiveSideAndThePlaneItself) {
+  EXPECT_EQ(select(PlaneSelection{{2, 0, 0}, {1, 0, 0}}), (Numbers{2, 3}));
+  EXPECT_EQ(select(PlaneSelection{{2, 0, 0}, {-1, 0, 0}}), (Numbers{0, 1, 2}));
+}
+TEST(Selection, OfASphereIncludesItsSurface) {
+  EXPECT_EQ(select(SphereSelection{{0, 0, 0}, 5.0}), (Numbers{0, 1, 2, 3}));  // 3-4-5
+  EXPECT_EQ(select(SphereSelection{{0, 0, 0}, 1.0}), (Numbers{0, 1}));
+}
+TEST(Selection, OfSeveralIsTheirUnion) {
+  EXPECT_EQ(select_points(std::vector<VertexSelection>{IdSelection{{3}}, SphereSelection{{0, 0, 0}, 0.0}}, points),
+            (Numbers{0, 3}));
+}
+TEST(Selection, OfNoneIsEmpty) { EXPECT_EQ(select_points({}, points), Numbers{}); }
+TEST(Selection, RefusesAnIdThatIsNoPointAndNamesIt) {
+  try {
+    select(IdSelection{{0, 4}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "/fixed/0/ids/1: is 4; expected a point of the mesh, less than 4");
+  }
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,28 @@
+#pragma once
+// Tables as tests compare them: each cell under its heading, so that one in another's place shows.
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/table.h"
+
+namespace dartboard {
+
+using Row = std::vector<std::string>;
+
+/// "heading: cell" of each column.
+inline Row labelled(const Table& table, std::size_t row) {
+  Row cells;
+  for (std::size_t k = 0; k < table.columns().size(); ++k)
+    cells.push_back(table.columns()[k].title + ": " + table.rows().at(row).at(k));
+  return cells;
+}
+
+/// One letter for each column: 'l' where it is aligned to the left, as words are, 'r' where to the right, as numbers.
+inline std::string alignment(const Table& table) {
+  std::string letters;
+  for (const Column& column : table.columns()) letters += column.align == Align::left ? 'l' : 'r';
+  return letters;
+}
+
+}  // namespace dartboard

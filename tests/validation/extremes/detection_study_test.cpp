@@ -1,0 +1,35 @@
+// Runs with steps beyond the limit: predicted, and found soon after their energy passes the bound.
+
+#include "validation/extremes/detection_study.h"
+
+#include <gtest/gtest.h>
+
+namespace dartboard {
+namespace {
+
+TEST(Detection, FollowsWithin64StepsWhereverTheEnergyPassesTheBound) {
+  const std::vector<Detection> all = measure_detection(true);
+  std::size_t passed = 0;
+  for (const Detection& d : all) {
+    EXPECT_TRUE(d.predicted) << d.body << " " << d.integrator << " " << d.factor;
+    EXPECT_TRUE(d.holds()) << d.body << " " << d.integrator << " " << d.factor << ": passed " << d.passed.value_or(0)
+                           << ", detected " << d.detected.value_or(0) << ", above for " << d.above;
+    passed += d.passed.has_value();
+  }
+  EXPECT_GE(passed, all.size() / 2);
+}
+
+TEST(Detection, HoldsWhereARunIsPredictedAndNotLongAboveTheBound) {
+  Detection d{.body = "", .integrator = ""};
+  d.steps = 10;
+  EXPECT_FALSE(d.holds());
+  d.predicted = true;
+  EXPECT_TRUE(d.holds());
+  d.above = 64;
+  EXPECT_TRUE(d.holds());
+  d.above = 65;
+  EXPECT_FALSE(d.holds());
+}
+
+}  // namespace
+}  // namespace dartboard

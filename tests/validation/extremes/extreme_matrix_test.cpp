@@ -1,0 +1,96 @@
+// How the matrix of extremes is filled, and the runs of its axes whose outcome theory tells.
+
+#include "validation/extremes/extreme_matrix.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace dartboard {
+namespace {
+
+using Values = std::vector<std::string>;
+
+/// The values that are left of "0" to "7".
+Values values_of(bool quick, bool with_scenes) {
+  ExtremeMatrix matrix("axis", quick);
+  constexpr std::string_view scenes[]{"one", "other"};
+  for (int k = 0; k < 8; ++k) {
+    if (with_scenes)
+      matrix.add(std::to_string(k), scenes, [](std::string_view) { return ExtremeSetup{}; });
+    else
+      matrix.add_run(std::to_string(k), "one", [](const ExtremeCase&) { return ExtremeCell{}; });
+  }
+  Values values;
+  const std::vector<ExtremeCase> cases = matrix.take();
+  const std::size_t of_each = integrators().size() * (with_scenes ? 2 : 1);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    if (k % of_each == 0) values.push_back(cases[k].value);
+    EXPECT_EQ(cases[k].axis, "axis");
+    EXPECT_EQ(cases[k].value, values.back());
+    EXPECT_EQ(cases[k].integrator, integrators()[k % integrators().size()].name);
+    EXPECT_EQ(cases[k].scene, k % of_each < integrators().size() ? "one" : "other");
+  }
+  EXPECT_EQ(cases.size(), values.size() * of_each);
+  return values;
+}
+
+TEST(ExtremeMatrix, TakesEveryValueWithEverySceneAndIntegrator) {
+  const Values all{"0", "1", "2", "3", "4", "5", "6", "7"};
+  EXPECT_EQ(values_of(false, true), all);
+  EXPECT_EQ(values_of(false, false), all);
+}
+
+TEST(ExtremeMatrix, TakesEveryThirdValueFromTheFirstOnWhenQuick) {
+  const Values third{"0", "3", "6"};
+  EXPECT_EQ(values_of(true, true), third);
+  EXPECT_EQ(values_of(true, false), third);
+}
+
+TEST(ExtremeMatrix, RunsWhatItWasGivenForItsScene) {
+  ExtremeMatrix matrix("axis", false);
+  matrix.add_run("value", "scene", [](const ExtremeCase& which) {
+    ExtremeCell cell;
+    cell.note = which.axis + " " + which.scene + " " + which.integrator + " " + which.value;
+    return cell;
+  });
+  for (const ExtremeCase& one : matrix.take()) EXPECT_EQ(one.run().note, "axis scene " + one.integrator + " value");
+}
+
+std::vector<ExtremeCell> runs_of(std::string_view axis, std::string_view value, const std::set<std::string>& methods) {
+  std::vector<ExtremeCell> cells;
+  for (const ExtremeCase& one : extreme_cases(axis, false))
+    if (one.value == value && methods.contains(one.integrator)) cells.push_back(one.run());
+  EXPECT_FALSE(cells.empty()) << value;
+  return cells;
+}
+
+// A diagnosis is what ended a run; where nothing did there is none, and the run has all of its steps.
+TEST(ExtremeEvents, AreDiagnosedByTheResultThatEndedThemAndByNothingElse) {
+  std::size_t whole = 0;
+  for (const char* value : {"a dissociation per step", "all dissociated", "a removal per step",
+                            "two removals per step, until nothing is left", "one face dissociated twice at one time"})
+    for (const ExtremeCell& cell : runs_of("events", value, {"verlet", "rk4", "backward-euler"})) {
+      EXPECT_EQ(cell.outcome == ExtremeOutcome::diagnosed, !cell.diagnosis.ok()) << value << " " << cell.integrator;
+      EXPECT_EQ(cell.outcome == ExtremeOutcome::degraded, !cell.warnings.empty() && cell.diagnosis.ok());
+      if (!cell.diagnosis.ok()) continue;
+      EXPECT_EQ(cell.step, 60u) << value << " " << cell.integrator;
+      EXPECT_FALSE(cell.refused);
+      ++whole;
+    }
+  EXPECT_GT(whole, 0u);
+}
+
+// Of a vertex that nothing moves the mass does not matter; of one that moves it is divided by.
+TEST(ExtremeVertices, NeedAMassUnlessTheyAreHeld) {
+  for (const ExtremeCell& cell : runs_of("vertices", "one massless", {"verlet", "rk4", "backward-euler"})) {
+    EXPECT_EQ(cell.outcome, ExtremeOutcome::diagnosed) << cell.scene << " " << cell.integrator;
+    EXPECT_TRUE(cell.refused) << cell.scene << " " << cell.integrator;
+  }
+  for (const ExtremeCell& cell : runs_of("vertices", "one held without mass", {"verlet", "rk4", "backward-euler"}))
+    EXPECT_EQ(cell.outcome, ExtremeOutcome::ok) << cell.scene << " " << cell.integrator << " " << cell.note;
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,199 @@
+// Pilots: which runs are made before a method is given up, by a clock that tells what was looked at.
+
+#include "validation/recommend/pilots.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/time/integrators.h"
+#include "tests/support/ticking_clock_for_tests.h"
+#include "validation/recommend/candidate_pilots.h"
+
+namespace dartboard {
+namespace {
+
+Candidate candidate(const char* name, bool implicit) {
+  Candidate c;
+  c.contender = name;
+  c.implicit = implicit;
+  c.order = implicit ? 1 : 2;
+  c.limit_h = std::numeric_limits<double>::infinity();
+  return c;
+}
+
+/// What comes of a candidate where the cheapest method so far takes `cheapest_s`.
+Candidate piloted(Candidate c, double cheapest_s, RecommendOptions options = {}, const CpuClock& clock = ticking()) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  options.pilot_floor_s = std::max(options.pilot_floor_s, 0.5);
+  Pilots pilots(scene, clock, options, clock());
+  if (std::isfinite(cheapest_s)) pilots.predicted(cheapest_s);
+  pilot_prefix(c, pilots, 0.5 / scene.fastest_rate, 1e-9, 1e-9);
+  return c;
+}
+
+/// The seconds that its first pilot foretells for the whole run.
+double foretold(const Candidate& c) {
+  const Candidate pruned = piloted(c, 1e-30);
+  const auto at = pruned.pruned.find("it takes ");
+  EXPECT_NE(at, std::string::npos) << pruned.pruned;
+  return at == std::string::npos ? 0.0 : std::stod(pruned.pruned.substr(at + 9));
+}
+
+// An explicit method is given up beyond 1.5 times the cheapest, an implicit one, of which coarser steps may do, beyond
+// 4 times; what is foretold is printed with two digits.
+TEST(PilotPrefix, GivesAMethodUpWhoseCoarsestRunIsTooDear) {
+  for (const bool implicit : {false, true}) {
+    const Candidate c = candidate(implicit ? "backward-euler" : "verlet", implicit);
+    const double seconds = foretold(c), most = implicit ? 4.0 : 1.5;
+    ASSERT_GT(seconds, 0.0);
+    EXPECT_TRUE(piloted(c, seconds / (0.9 * most)).usable()) << piloted(c, seconds / (0.9 * most)).pruned;
+    const Candidate given_up = piloted(c, seconds / (1.1 * most));
+    EXPECT_TRUE(given_up.pruned.starts_with("with h = ")) << given_up.pruned;
+    EXPECT_FALSE(given_up.untried);
+  }
+}
+
+// Each look at this clock takes ten milliseconds. One run is affordable, one of twice the steps is not: two looks more.
+TEST(PilotPrefix, LeavesAMethodUntriedWhoseSecondRunTakesTooLong) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const auto clock = [] { return CpuClock([t = std::int64_t{0}]() mutable { return t += 10'000'000; }); };
+  // the looks of a run of 64 and of 128 steps over the prefix
+  const auto seconds = [&](std::uint64_t steps) {
+    const CpuClock ten = clock();
+    return 1e-9 * static_cast<double>(
+                      run_timed(scene, *make_integrator("verlet"), {.steps = steps}, ten, {.checkpoints = 2}).cpu_ns);
+  };
+  const double h = scene.duration / 64.0;
+  ASSERT_LT(seconds(64), seconds(128));
+  RecommendOptions options;
+  options.most_pilot_s = 0.5 * (seconds(64) + seconds(128));
+  const CpuClock ten = clock();
+  Pilots pilots(scene, ten, options, ten());
+  Candidate c = candidate("verlet", false);
+  pilot_prefix(c, pilots, h, 1e-9, 1e-9);
+  EXPECT_EQ(c.pruned, "its pilots take too long");
+  EXPECT_TRUE(c.untried);
+  EXPECT_EQ(c.confidence, Confidence::none);
+}
+
+// The machine is suspended for an hour in the second run: what that has left behind is no pilot.
+TEST(PilotPrefix, TakesNoErrorsFromARunThatWasGivenUp) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const RecommendOptions options;
+  std::uint64_t looks = 0, suspended_at = std::numeric_limits<std::uint64_t>::max();
+  const CpuClock clock = [&] {
+    ++looks;
+    return static_cast<std::int64_t>(looks * 1'000'000 + (looks >= suspended_at ? 3'600'000'000'000u : 0u));
+  };
+  std::uint64_t after_first = 0, after_second = 0;
+  {
+    Pilots pilots(scene, clock, options, clock());
+    pilots.run(candidate("verlet", false), scene, {.steps = 64}, 2);
+    after_first = looks;
+    pilots.run(candidate("verlet", false), scene, {.steps = 128}, 2);
+    after_second = looks;
+  }
+  // the forces are timed with two looks before and after a run, whose first look is its start and whose last is its end
+  ASSERT_LT(after_first + 4, after_second - 3);
+  for (suspended_at = after_first + 4; suspended_at < after_second - 2; ++suspended_at) {
+    looks = 0;
+    Pilots pilots(scene, clock, options, clock());
+    Candidate c = candidate("verlet", false);
+    pilot_prefix(c, pilots, scene.duration / 64.0, 1e-9, 1e-9);
+    EXPECT_EQ(c.pruned, "its pilots take too long") << suspended_at;
+    EXPECT_TRUE(c.untried) << suspended_at;
+    EXPECT_EQ(c.confidence, Confidence::none) << suspended_at;
+  }
+}
+
+TEST(PilotPrefix, SeesTheOrderOfAMethodAndItsErrors) {
+  const Candidate c = piloted(candidate("verlet", false), std::numeric_limits<double>::infinity());
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  EXPECT_EQ(c.confidence, Confidence::asymptotic);
+  EXPECT_NEAR(c.observed_order, 2.0, 0.3);
+  EXPECT_EQ(c.slope, 2.0);
+  EXPECT_EQ(c.step_evaluations, 1.0);
+  EXPECT_GT(c.error_at_pilot, 0.0);
+  double before_h = c.pilot_h, before_error = c.error_at_pilot;
+  for (const Candidate::Seen& seen : c.coarser) {
+    EXPECT_DOUBLE_EQ(seen.h, 2.0 * before_h);
+    EXPECT_GT(seen.error, before_error);
+    before_h = seen.h;
+    before_error = seen.error;
+  }
+  EXPECT_FALSE(c.coarser.empty());
+}
+
+TEST(FirstPart, EndsEarlierAndHasTheEventsBeforeItsEnd) {
+  TradeoffScene scene = chain_scene(4, 8.0, 4);
+  const double t = scene.duration;
+  for (const double part : {0.25, 0.5, 0.75}) scene.motion.events.push_back({part * t, scene.motion.network, {}});
+  const TradeoffScene half = first_part(scene, 0.5, 5);
+  EXPECT_EQ(half.duration, 0.5 * t);
+  ASSERT_EQ(half.motion.events.size(), 1u);  // one at the very end changes nothing
+  EXPECT_EQ(half.motion.events[0].time, 0.25 * t);
+  ASSERT_EQ(half.motion.checkpoints.size(), 5u);
+  for (std::size_t c = 0; c < 5; ++c)
+    EXPECT_DOUBLE_EQ(half.motion.checkpoints[c], 0.1 * t * static_cast<double>(c + 1));
+  EXPECT_FALSE(half.closed_form);
+}
+
+TEST(WholeSteps, AreAtMostAsLongAsAskedAndAsManyInEveryInterval) {
+  const TradeoffScene scene = chain_scene(4, 8.0, 4);
+  EXPECT_EQ(whole_steps(scene, scene.duration), 4u);
+  EXPECT_EQ(whole_steps(scene, scene.duration / 4), 4u);
+  EXPECT_EQ(whole_steps(scene, 0.99 * scene.duration / 4), 8u);
+  EXPECT_EQ(whole_steps(scene, scene.duration / 10.0), 12u);
+}
+
+// Masses 1 and 3 and a fixed one of 0: edges of 2.
+TEST(Differences, AreMassWeightedInEdgesAtTheCheckpointsThatBothReached) {
+  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  scene.motion.network.mass = {1.0, 3.0};
+  scene.motion.checkpoints = {1.0, 2.0};
+  scene.edge = 2.0;
+  const auto run = [](double y) {
+    TimedRun made;
+    made.states.assign(2, {{{0, y, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}});
+    return made;
+  };
+  TimedRun shorter = run(0.5);
+  shorter.states.pop_back();
+  EXPECT_EQ(differences(scene, run(0.0), run(0.5)), (std::vector{0.125, 0.125}));  // sqrt(0.25 / 4) / 2
+  EXPECT_EQ(differences(scene, run(0.0), shorter), (std::vector{0.125}));
+}
+
+TEST(DistanceFromStart, IsThatOfTheFarthestPointInEdges) {
+  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  scene.motion.start = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+  scene.edge = 2.0;
+  TimedRun run;
+  run.states = {{{{0, 3, 0}, {1, 0, 0}}, {}}, {{{0, 0, 0}, {1, 0, -8}}, {}}, {{{0, 1, 0}, {1, 0, 0}}, {}}};
+  EXPECT_EQ(distance_from_start(scene, run), 4.0);
+  run.states[0].x[0].x() = std::nan("");
+  EXPECT_TRUE(std::isnan(distance_from_start(scene, run)));
+}
+
+TEST(Pilots, HaveAFloorAndAPartOfTheCheapestRunLessWhatTheyHaveSpent) {
+  const TradeoffScene scene = chain_scene(4, 8.0, 4);
+  std::int64_t now = 0;
+  const CpuClock clock = [&now] { return now; };
+  RecommendOptions options;
+  options.pilot_floor_s = 0.25;
+  options.pilot_part = 0.125;
+  options.most_pilot_s = 3.0;
+  Pilots pilots(scene, clock, options, 0);
+  now = 125'000'000;
+  EXPECT_DOUBLE_EQ(pilots.spent_s(), 0.125);
+  EXPECT_EQ(pilots.left_s(), 3.0);  // nothing is predicted
+  pilots.predicted(16.0);
+  EXPECT_DOUBLE_EQ(pilots.left_s(), 0.25 + 2.0 - 0.125);
+  pilots.predicted(8.0);
+  pilots.predicted(24.0);  // the cheapest counts
+  EXPECT_EQ(pilots.cheapest_s(), 8.0);
+  EXPECT_DOUBLE_EQ(pilots.left_s(), 0.25 + 1.0 - 0.125);
+}
+
+}  // namespace
+}  // namespace dartboard

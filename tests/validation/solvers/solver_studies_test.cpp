@@ -1,0 +1,104 @@
+// The studies behind `validate solvers`, on small bodies.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "tests/support/ticking_clock_for_tests.h"
+#include "validation/solvers/break_even.h"
+#include "validation/solvers/crossover.h"
+#include "validation/solvers/factor_edits.h"
+#include "validation/solvers/solver_accuracy.h"
+#include "validation/solvers/solver_bodies.h"
+
+namespace dartboard {
+namespace {
+
+TEST(DissociationPairs, HaveOneVertexMoreAndTheSameMassAndStiffness) {
+  const DissociationPairs pairs = dissociation_pairs(5, 0.1, 3);
+  ASSERT_EQ(pairs.torn.size(), 3u);
+  const auto mass = [](const SpringColumns& c) { return std::accumulate(c.mass.begin(), c.mass.end(), 0.0); };
+  const auto stiffness = [](const SpringColumns& c) {
+    double sum = 0.0;
+    for (const Spring& s : c.springs) sum += s.stiffness;
+    return sum;
+  };
+  for (const SpringColumns& torn : pairs.torn) {
+    EXPECT_EQ(torn.mass.size(), pairs.whole.mass.size() + 1);
+    EXPECT_GT(torn.springs.size(), pairs.whole.springs.size());
+    // sums of some 1,000 positive terms, the same but for two or so of them: within n epsilon
+    EXPECT_NEAR(mass(torn), mass(pairs.whole), 1e-12 * mass(torn));
+    EXPECT_NEAR(stiffness(torn), stiffness(pairs.whole), 1e-12 * stiffness(torn));
+  }
+}
+
+TEST(SolveAccuracy, OneRefinementReachesRoundingOverAllScales) {
+  for (const SolveCell& cell : solve_accuracy({.side = 4, .h_omega_step = 1e11, .pcg_tolerance = 1e-10})) {
+    if (cell.path == SolvePath::conjugate_gradients) continue;
+    ASSERT_EQ(cell.status, SolveStatus::ok) << name(cell.path) << " " << cell.state << " " << cell.h_omega;
+    EXPECT_LE(cell.after, 1e-15) << name(cell.path) << " " << cell.state << " " << cell.h_omega;
+  }
+}
+
+TEST(IndefiniteSystems, EndWithADiagnosisOnEveryPath) {
+  const auto cells = indefinite_systems();
+  EXPECT_GT(cells.size(), 50u);
+  for (const IndefiniteCell& cell : cells)
+    EXPECT_EQ(cell.status, SolveStatus::not_positive_definite) << cell.path << " at h omega " << cell.h_omega;
+}
+
+TEST(FactorEdits, StayAccurateUnderEveryPolicy) {
+  for (const EditPolicy& policy : edit_policies()) {
+    const EditRun run = run_edits(policy, 5, 0.2, 60, ticking());
+    EXPECT_EQ(run.failure, "") << policy.name;
+    EXPECT_EQ(run.edits, 60u);
+    // growth is slow: after 60 edits all are below what 3,000 may reach
+    EXPECT_LE(run.largest, 2e-15) << policy.name;
+    EXPECT_GT(run.counters.rank_one_updates + run.counters.rows_replaced, 0u) << policy.name;
+  }
+}
+
+TEST(BreakEven, IsWhereBothSidesOfTheLawAreEqual) {
+  ImplicitWork work;
+  work.forces = 10.0;
+  work.linearisations = 4.0;
+  work.solves = 20.0;
+  work.factorisations = 2.0;
+  const StepPrices prices{.force = 1e-5, .linearisation = 5e-5, .factorisation = 4e-3, .solve = 2e-4};
+  const double implicit_s = implicit_seconds(30.0, work, prices);
+  EXPECT_DOUBLE_EQ(implicit_s, 30.0 * (1e-4 + 2e-4 + 4e-3) + 8e-3);
+  // Verlet: T omega_max there, in steps of 0.9 * 2 / omega_max
+  const double step_s = 1.2e-5, omega = 50.0;
+  const double duration = break_even_phase(2.0, step_s, implicit_s) / omega;
+  EXPECT_NEAR(steps_for_stability(duration, 2.0 / omega) * step_s, implicit_s, 1e-14 * implicit_s);
+}
+
+TEST(BreakEven, CountsTheWorkOfAStep) {
+  WorkCounters counters;
+  counters.steps = 10;
+  counters.force_evaluations = 50;
+  counters.newton_iterations = 40;
+  counters.line_search_trials = 10;
+  counters.solves = 120;
+  counters.factorisations = 3;
+  const ImplicitWork work = implicit_work(counters);
+  EXPECT_DOUBLE_EQ(work.forces, 10.0);  // the line search looks at every spring once an iteration, and once a trial
+  EXPECT_DOUBLE_EQ(work.linearisations, 4.0);
+  EXPECT_DOUBLE_EQ(work.solves, 12.0);
+  EXPECT_DOUBLE_EQ(work.factorisations, 3.0);
+}
+
+// The clock ticks once a look, so the explicit side costs the same however many steps it takes: there is no crossover,
+// and the study has to say so.
+TEST(Crossover, SaysWhenThereIsNone) {
+  CrossoverOptions options;
+  options.most_evaluations = 2;
+  options.pilot_steps = 8;
+  options.error = 1e-2;
+  const Crossover found = find_crossover(3, options, ticking());
+  EXPECT_FALSE(found.failure.empty());
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,79 @@
+#pragma once
+// The book of a conservation run: every comparison goes through it.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "validation/conservation/conservation.h"
+
+namespace dartboard {
+
+/// What can be compared; the rows of a ConservationResult are some of these, in this order.
+enum class Check : std::size_t {
+  counts,
+  euler,
+  valid,
+  mass_of_vertex,
+  spring_of_edge,
+  duplicated,
+  views,
+  total_mass,
+  total_stiffness,
+  total_damping,
+  linear_momentum,
+  angular_momentum,
+  kinetic_energy,
+  elastic_energy,
+  boundary_area,
+  side_by_side,
+  same_cells,
+  same_bits,
+  oracle_position,
+  oracle_velocity,
+  split_cells,
+  split_sums,
+  split_bits,
+  put_in_the_middle,
+  mass_of_cell,
+  forces_kept,
+  mass_drift,
+  stiffness_drift
+};
+inline constexpr std::size_t check_count = 28;
+
+/// Fills the rows of a result, and keeps the first violation.
+class ConservationLedger {
+ public:
+  /// With a row for each of these.
+  ConservationLedger(ConservationResult& result, std::uint64_t seed, std::span<const Check> checks);
+  bool broken() const { return result_.violation.has_value(); }
+
+  /// The same bits. `of` and `number` say whose.
+  template <class T>
+  void equal(Check check, const T& actual, const T& expected, const char* of, std::size_t number) {
+    ++row(check).checks;
+    if (!(actual == expected))
+      fail(check, fmt::format(", {} {}", of, number), fmt::format("{}", actual), fmt::format("{}", expected), "exact");
+  }
+  void require(Check check, bool ok, const char* of, std::size_t number) {
+    ++row(check).checks;
+    if (!ok) fail(check, fmt::format(", {} {}", of, number), "not so", "so", "exact");
+  }
+  /// deviation <= bound, both recorded in units of `scale`. A deviation that is not a number is too large.
+  void within(Check check, double deviation, double bound, double scale, double actual, double expected);
+
+ private:
+  ConservedRow& row(Check check) { return result_.rows.at(row_[static_cast<std::size_t>(check)]); }
+  void fail(Check check, const std::string& whose, std::string actual, std::string expected, std::string bound);
+
+  ConservationResult& result_;
+  std::uint64_t seed_;
+  std::array<std::size_t, check_count> row_{};
+  std::array<double, check_count> share_{};  // of the bound, the largest so far
+};
+
+}  // namespace dartboard

@@ -1,0 +1,38 @@
+#pragma once
+// The rebuild oracle: a body that was taken apart moves as one built from scratch from the cells that remain.
+
+#include <cstddef>
+
+#include "reference/summation_bound.h"
+#include "validation/conservation/conservation.h"
+#include "validation/conservation/mesh_places.h"
+
+namespace dartboard {
+
+/// How far the live body and bodies from scratch are apart after some steps from the same state.
+struct RebuiltMotion {
+  // build_body of the rest_problem. Where an edge came apart between vertices that did not, the live body has several
+  // springs side by side and this one has their sum: it sums in another order, and is told apart by a bound.
+  double position = 0.0, velocity = 0.0;  // largest difference of a coordinate [m], [m/s]
+  reference::StateBound bound{};
+  std::size_t springs_side_by_side = 0;
+
+  // The same, and then all sides that touch but are not joined dissociated in one series. It has the live body's very
+  // cells, so with its edges walked in the live body's order the bits must agree.
+  std::size_t vertices = 0, springs = 0;
+  bool same_cells = false, same_bits = false;
+};
+
+/// Neither the body nor its arrays change.   pre  `places` and `cells` are those of `start.mesh`
+template <class Map>
+RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
+                                     const MeshPlaces& places, const RemainingCells& cells, int steps);
+
+extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map2>&, const CellArrays&, const Problem&,
+                                                     const MeshPlaces&, const RemainingCells&, int);
+extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map3>&, const CellArrays&, const Problem&,
+                                                     const MeshPlaces&, const RemainingCells&, int);
+extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
+                                                     const MeshPlaces&, const RemainingCells&, int);
+
+}  // namespace dartboard

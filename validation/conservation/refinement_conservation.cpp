@@ -1,0 +1,335 @@
+#include "validation/conservation/refinement_conservation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/operations/dissociate_face.h"
+#include "core/operations/remove_volume.h"
+#include "core/operations/tear_fan.h"
+#include "core/plain/error.h"
+#include "core/plain/random.h"
+#include "core/walks/runge_kutta_4.h"
+#include "validation/conservation/refinement_checks.h"
+#include "validation/conservation/refinement_effects.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::array compared{
+    Check::counts,          Check::euler,          Check::valid,           Check::mass_of_vertex,
+    Check::spring_of_edge,  Check::duplicated,     Check::views,           Check::total_mass,
+    Check::total_stiffness, Check::total_damping,  Check::linear_momentum, Check::angular_momentum,
+    Check::kinetic_energy,  Check::elastic_energy, Check::boundary_area,   Check::put_in_the_middle,
+    Check::mass_of_cell,    Check::forces_kept,    Check::mass_drift,      Check::stiffness_drift};
+
+constexpr std::size_t small = 24;     // cells; everything is compared after each series
+constexpr std::uint32_t deepest = 8;  // refinements that a cell may go through: each takes up to 8 from the square of h
+
+template <class Map>
+class Run {
+ public:
+  Run(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper,
+      const FollowSubdivision<Map>& followed)
+      : plan_(plan),
+        tamper_(tamper),
+        follow_(followed),
+        random_(plan.seed),
+        ledger_(result_, plan.seed, compared),
+        fresh_(start),
+        at_(fresh_),
+        checks_(at_, ledger_) {}
+
+  ConservationResult run() {
+    begin();
+    std::size_t next_everything = plan_.everything_every, next_progress = 1000;
+    while (!ledger_.broken() && result_.operations() < plan_.operations) {
+      if (at_.cells.count() == 0) {
+        if (fresh_.cells.count() == 0) break;
+        at_ = fresh_;
+        ++result_.refills;
+        begin();
+      }
+      move();
+      if (at_.cells.count() > 2 * fresh_.cells.count() + small) is_growing_ = false;
+      if (random_.below(100) < (is_growing_ ? 60u : 10u))
+        refine_something();
+      else
+        series();
+      ++result_.series;
+      if (tamper_) tamper_(at_.body, at_.views);
+      if (ledger_.broken()) break;
+      if (at_.cells.count() <= small || result_.operations() >= next_everything) {
+        checks_.everything();
+        next_everything = result_.operations() + plan_.everything_every;
+      }
+      if (result_.operations() >= next_progress) {
+        if (plan_.progress) plan_.progress(result_.operations());
+        next_progress += 1000;
+      }
+    }
+    if (!ledger_.broken()) checks_.everything();
+    if (!ledger_.broken()) compare_drift();
+    return std::move(result_);
+  }
+
+ private:
+  void begin() {
+    is_growing_ = true;
+    checks_.begin();
+    const ConservedSums sums = checks_.all_sums();
+    mass_.begin(sums[Conserved::mass].value());
+    stiffness_.begin(sums[Conserved::stiffness].value());
+    checks_.everything();
+  }
+
+  // Gershgorin, as in moving_problem: stiffer springs and lighter vertices need a shorter step.
+  void move() {
+    LiveBody<Map>& body = at_.body;
+    const std::uint32_t steps = random_.below(3);
+    if (steps == 0 || body.vertices.size() == 0) return;
+    std::vector<double> stiffness(body.vertices.size(), 0.0), damping(stiffness);
+    at_.views.cells.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
+      for (const std::uint32_t k : {a, b}) {
+        stiffness[k] += body.springs[e].stiffness;
+        damping[k] += body.springs[e].damping;
+      }
+    });
+    double fastest = 0.5 / at_.start().h;
+    for (std::uint32_t k = 0; k < stiffness.size(); ++k) {
+      const double mass = body.vertices.mass[k];
+      fastest = std::max(
+          {fastest, std::sqrt(2.0 * stiffness[k] / mass), 2.0 * damping[k] / mass + at_.start().material.viscosity});
+    }
+    for (std::uint32_t k = 0; k < steps; ++k) rk4_.step(at_.views.cells, body, 0.5 / fastest);
+    result_.steps += steps;
+  }
+
+  Dart some_dart() {
+    for (;;) {
+      const Dart d = at_.body.cell_dart[random_.below(at_.body.cell_dart.size())];
+      if (!at_.body.map.is_live(d)) continue;  // gone in this series
+      const auto& darts = at_.darts_of[at_.corner(d).cell];
+      return darts[random_.below(darts.size())];
+    }
+  }
+
+  // ---- refinement
+
+  void refine_something() {
+    const Dart d = some_dart();
+    const std::uint32_t dimension = 1 + random_.below(3);
+    const double bracing = 0.5 * random_.below(3);
+    if (dimension == 1) return refine_cell(Edge{d}, bracing);
+    if (dimension == 2) return refine_cell(Face{d}, bracing);
+    refine_cell(Volume{d}, bracing);
+  }
+
+  template <int i>
+  void refine_cell(Cell<i> cell, double bracing) {
+    const auto start_cell = at_.corner(cell.dart).cell;
+    const std::uint8_t nodes = at_.template nodes<i>(cell.dart);
+    const auto parents = at_.cells.around(start_cell, nodes);
+    for (const auto& parent : parents)
+      if (at_.cells.cells()[parent.first].depth >= deepest) return;
+
+    ++result_.refinements;
+    LiveBody<Map>& body = at_.body;
+    const VertexColumns old = body.vertices;
+    const long euler = checks_.euler();
+    const ConservedSums before = checks_.all_sums();
+    std::vector<std::uint32_t> corners;  // the numbers of S
+    for (std::uint32_t n = 0; n < 4; ++n)
+      if (nodes >> n & 1u) corners.push_back(at_.vertex({start_cell, n}));
+    const Spring whole = body.springs[body.edge(body.map, cell.dart)];  // read for an edge only
+    double mass = 0.0;
+    for (const auto& parent : parents) mass += at_.cells.cells()[parent.first].mass;
+    const SpringForceSums forces_before = spring_force_sums(body, at_.views.cells);
+
+    const Subdivision subdivision = subdivide(body.map, cell);
+    const ChangedEmbeddings changed = follow_(body, subdivision, bracing);
+    at_.views.apply(body, TopologyChange{}, changed);
+    const auto children = at_.cells.subdivide(start_cell, nodes, bracing);
+    ledger_.equal(Check::counts, subdivision.children.size(), children.size(), "children, of parents", parents.size());
+    if (ledger_.broken()) return;
+    at_.put_children(subdivision, children);
+
+    ledger_.equal(Check::counts, body.vertices.size(), old.size() + 1, "dimension", 0);
+    ledger_.equal(Check::euler, checks_.euler(), euler, "dimension", 3);
+    if (!ledger_.broken()) checks_.changed_cells(changed);
+    if (ledger_.broken()) return;
+    others_stay(old);
+    const RefinementMeans means = put_in_the_middle(old, corners);
+
+    // what S gave away, less what the vertex put in got; the new springs
+    const auto vertex = static_cast<std::uint32_t>(old.size());
+    ConservedSums removed = given_away(old, corners, means, mass);
+    double slack = 0.0;
+    const ConservedSums after = checks_.all_sums();
+    at_.views.cells.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
+      if (a != vertex && b != vertex) return;
+      const Spring& s = body.springs[e];
+      const double e_now = elongation(s.rest_length, body.vertices.position[a], body.vertices.position[b]);
+      const bool is_half = i == 1 && std::count(corners.begin(), corners.end(), a + b - vertex) != 0;
+      if (is_half) slack += s.stiffness * means.off * (std::abs(e_now) + means.off);
+      // a half has twice the stiffness of the whole, of which both lose one
+      const double added = is_half ? s.stiffness - whole.stiffness / 2.0 : s.stiffness;
+      const double damped = is_half ? s.damping - whole.damping / 2.0 : s.damping;
+      removed[Conserved::stiffness].add(-added);
+      removed[Conserved::damping].add(-damped);
+      stiffness_.remove(-added);
+      if (!is_half) removed[Conserved::elastic].add(-0.5 * (s.stiffness * (e_now * e_now)));
+    });
+    checks_.sums(before, after, removed, 24, 1.001 * slack);
+    mass_.compare(after[Conserved::mass].value());
+    stiffness_.compare(after[Conserved::stiffness].value());
+    if (bracing == 0.0) forces_are_kept(forces_before, vertex, means);
+  }
+
+  void others_stay(const VertexColumns& old) {
+    const VertexColumns& v = at_.body.vertices;
+    for (std::uint32_t k = 0; k < old.size(); ++k)
+      ledger_.require(Check::duplicated,
+                      v.position[k] == old.position[k] && v.velocity[k] == old.velocity[k] &&
+                          v.fixed[k] == old.fixed[k] && v.point[k] == old.point[k] &&
+                          v.force[k] == Eigen::Vector3d(0, 0, 0),
+                      "vertex", k);
+  }
+
+  RefinementMeans put_in_the_middle(const VertexColumns& old, const std::vector<std::uint32_t>& corners) {
+    const RefinementMeans m(old, corners);
+    const VertexColumns& v = at_.body.vertices;
+    ledger_.within(Check::put_in_the_middle, (v.position.back() - m.x).norm(), m.off, m.absolute_x.norm(),
+                   v.position.back().norm(), m.x.norm());
+    ledger_.within(Check::put_in_the_middle, (v.velocity.back() - m.v).norm(), m.off_v, m.absolute_v.norm(),
+                   v.velocity.back().norm(), m.v.norm());
+    ledger_.equal(Check::duplicated, v.fixed.back() != 0, m.all_fixed, "fixed, vertex", old.size());
+    ledger_.equal(Check::duplicated, v.point.back(), no_point, "point, vertex", old.size());
+    return m;
+  }
+
+  // At most as many cells around an edge as springs at its ends, so that every term has fewer roundings than this.
+  void forces_are_kept(const SpringForceSums& before, std::uint32_t vertex, const RefinementMeans& means) {
+    const SpringForceSums after = spring_force_sums(at_.body, at_.views.cells, vertex, &means);
+    for (std::uint32_t k = 0; k < after.force.size(); ++k) {
+      const bool is_new = k == vertex;
+      const Eigen::Vector3d expected = is_new ? Eigen::Vector3d(0, 0, 0) : before.force[k];
+      const std::size_t springs = after.springs[k] + (is_new ? 0 : before.springs[k]);
+      const double terms = after.terms[k] + (is_new ? 0.0 : before.terms[k]);
+      ledger_.within(Check::forces_kept, (after.force[k] - expected).norm(),
+                     1.001 * (gamma(2 * springs + 40) * terms + after.moved[k]), terms, after.force[k].norm(),
+                     expected.norm());
+    }
+  }
+
+  // ---- dissociations, tears and removals
+
+  void series() {
+    const ConservedSums before = checks_.all_sums();
+    removed_ = {};
+    LiveBody<Map>& body = at_.body;
+    const std::array<std::size_t, 3> old{body.vertices.size(), body.springs.size(), body.face_dart.size()};
+    TopologyChange change;
+    for (std::uint32_t k = 1 + random_.below(3); k > 0 && at_.cells.count() > 0; --k) operate(change);
+    const Followed followed = follow(body, at_.views, change);
+    const std::array<std::size_t, 3> now{body.vertices.size(), body.springs.size(), body.face_dart.size()};
+    const std::array<std::size_t, 3> predicted{old[0] + change.vertices.size() - change.removed_vertices.size(),
+                                               old[1] + change.edges.size() - change.removed_edges.size(),
+                                               old[2] + change.faces.size() - change.removed_faces.size()};
+    for (std::size_t i = 0; i < 3; ++i) ledger_.equal(Check::counts, now[i], predicted[i], "dimension", i);
+    checks_.changed_cells(followed.embeddings);
+    if (ledger_.broken()) return;
+    const ConservedSums after = checks_.all_sums();
+    checks_.sums(before, after, removed_, 0, 0.0);
+    mass_.compare(after[Conserved::mass].value());
+    stiffness_.compare(after[Conserved::stiffness].value());
+  }
+
+  void operate(TopologyChange& change) {
+    Map& map = at_.body.map;
+    const std::uint32_t which = random_.below(100);
+    const Dart d = some_dart();
+    if (which < 45) {
+      dissociate(at_.side(d));
+      change.append(dissociate_face(map, d));
+      ++result_.dissociations;
+    } else if (which < 55) {
+      for (const Dart face : fan(map, d)) dissociate(at_.side(face));
+      change.append(tear_fan(map, d));
+      ++result_.tears;
+    } else {
+      take_away(at_.corner(d).cell);
+      change.append(remove_volume(map, d));
+      ++result_.removals;
+    }
+  }
+
+  void dissociate(SubdividedCells::Corner side) {
+    if (!at_.cells.is_joined(side)) return;
+    const auto other = at_.cells.cells()[side.cell].across[side.node];
+    for (const auto s : {side, other}) removed_[Conserved::boundary].add(-at_.cells.cells()[s.cell].side_area[s.node]);
+    at_.cells.dissociate(side);
+  }
+
+  // Numbers and states are those before the series.
+  void take_away(std::uint32_t c) {
+    const LiveBody<Map>& body = at_.body;
+    const auto cell = at_.cells.cells()[c];
+    std::array<std::uint32_t, 4> number{};
+    for (std::uint32_t n = 0; n < 4; ++n) {
+      number[n] = at_.vertex({c, n});
+      removed_.add_node(cell.mass / 4.0, body.vertices.position[number[n]], body.vertices.velocity[number[n]]);
+      mass_.remove(cell.mass / 4.0);
+    }
+    for (std::uint32_t e = 0; e < 6; ++e) {
+      const auto [a, b] = SubdividedCells::ends[e];
+      const double stiffness = at_.start().material.stiffness * cell.share[e];
+      removed_.add_spring(stiffness, at_.start().material.damping * cell.share[e],
+                          elongation(body.springs[at_.edge({c, e})].rest_length, body.vertices.position[number[a]],
+                                     body.vertices.position[number[b]]));
+      stiffness_.remove(stiffness);
+    }
+    for (std::uint32_t n = 0; n < 4; ++n) {
+      dissociate({c, n});
+      removed_[Conserved::boundary].add(cell.side_area[n]);
+    }
+    at_.cells.remove(c);
+  }
+
+  void compare_drift() {
+    const double target = drift_target(result_.operations());
+    ledger_.within(Check::mass_drift, mass_.largest(), target, 1.0, mass_.largest(), 0.0);
+    ledger_.within(Check::stiffness_drift, stiffness_.largest(), target, 1.0, stiffness_.largest(), 0.0);
+  }
+
+  const ConservationPlan& plan_;
+  const Tamper<Map>& tamper_;
+  const FollowSubdivision<Map>& follow_;
+  SplitMix64 random_;
+  ConservationResult result_;
+  ConservationLedger ledger_;
+  const RefinedSubject<Map> fresh_;
+  RefinedSubject<Map> at_;
+  RefinementChecks<Map> checks_;
+  RungeKutta4 rk4_;
+  ConservedSums removed_;  // by the series
+  Drift mass_, stiffness_;
+  bool is_growing_ = true;
+};
+
+}  // namespace
+
+template <class Map>
+ConservationResult validate_refinement(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper,
+                                       const FollowSubdivision<Map>& followed) {
+  for (const CellKind kind : start.mesh.kinds)
+    if (kind != CellKind::tetrahedron) throw InputError("expected a mesh of tetrahedra");
+  return Run<Map>(start, plan, tamper, followed).run();
+}
+
+template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<Map3>&,
+                                                const FollowSubdivision<Map3>&);
+template ConservationResult validate_refinement(const Problem&, const ConservationPlan&, const Tamper<TetMap>&,
+                                                const FollowSubdivision<TetMap>&);
+
+}  // namespace dartboard

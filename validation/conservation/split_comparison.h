@@ -1,0 +1,29 @@
+#pragma once
+// A component that came loose becomes a body of its own: what it takes along, and whether it moves as it would have.
+
+#include <cstdint>
+
+#include "validation/conservation/conservation_ledger.h"
+#include "validation/conservation/mesh_places.h"
+
+namespace dartboard {
+
+/// Split the component of a cell off a body, compare, and drop it; the rest and its views have followed.
+///
+/// Part and rest must have the cells, vertices and springs that the witness and the body say. All their embeddings keep
+/// their bits, so the conserved sums of the two and of the whole have the very same terms, and differ by what twofold
+/// sums round: gamma_4 of the absolute values (conserved_sums.h). Some steps of the part must give the bits of the same
+/// steps of the whole.
+/// pre  `leaving` are the cells that hang together with one of them; `places` and `cells` are those of the body
+template <class Map>
+void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& places, const RemainingCells& cells,
+                           std::span<const std::uint32_t> leaving, double h, ConservationLedger& ledger);
+
+extern template void split_off_and_compare(LiveBody<Map2>&, Views&, const MeshPlaces&, const RemainingCells&,
+                                           std::span<const std::uint32_t>, double, ConservationLedger&);
+extern template void split_off_and_compare(LiveBody<Map3>&, Views&, const MeshPlaces&, const RemainingCells&,
+                                           std::span<const std::uint32_t>, double, ConservationLedger&);
+extern template void split_off_and_compare(LiveBody<TetMap>&, Views&, const MeshPlaces&, const RemainingCells&,
+                                           std::span<const std::uint32_t>, double, ConservationLedger&);
+
+}  // namespace dartboard

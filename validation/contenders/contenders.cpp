@@ -1,0 +1,118 @@
+#include "validation/contenders/contenders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/mechanics/mass_spring_body.h"
+#include "core/plain/error.h"
+#include "core/topology/storage/hash.h"
+#include "core/walks/cell_arrays.h"
+#include "core/walks/dart_coverage.h"
+#include "core/walks/embedding_lists.h"
+#include "core/walks/runge_kutta_4.h"
+#include "reference/adjacency_graph.h"
+#include "reference/cgal/cgal_body.h"
+
+namespace dartboard {
+namespace {
+
+/// A body of the core and one way to walk it.
+template <class Map, Held held, class Walk>
+class CoreContender : public ContenderBody {
+ public:
+  explicit CoreContender(const Problem& problem) : body_(build_body<Map, held>(problem)), h_(problem.h) {
+    if constexpr (requires { walk_.rebuild(body_); }) walk_.rebuild(body_);
+  }
+  void step(int n) override {
+    for (int k = 0; k < n; ++k) integrator_.step(walk_, body_, h_);
+  }
+  PointState state() const override { return body_.state(); }
+  void set_state(const PointState& state) override { body_.set_state(state); }
+  std::vector<Eigen::Vector3d> forces() override {
+    VertexColumns& v = body_.vertices;
+    add_spring_forces(walk_, body_);
+    std::vector<Eigen::Vector3d> f(v.size());
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      f[v.point[k]] = v.force[k] - v.viscosity[k] * v.velocity[k];
+      v.force[k].setZero();
+    }
+    return f;
+  }
+
+ private:
+  MassSpringBody<Map, held> body_;
+  Walk walk_;
+  RungeKutta4 integrator_;
+  double h_;
+};
+
+/// A witness from reference/, which speaks the same language under its own class.
+template <class Body>
+class ReferenceContender : public ContenderBody {
+ public:
+  template <class... Arguments>
+  explicit ReferenceContender(const Arguments&... arguments) : body_(arguments...) {}
+  void step(int n) override { body_.step(n); }
+  PointState state() const override { return body_.state(); }
+  void set_state(const PointState& state) override { body_.set_state(state); }
+  std::vector<Eigen::Vector3d> forces() override { return body_.spring_and_drag_forces(); }
+
+ private:
+  Body body_;
+};
+
+template <class Map, Held held, class Walk>
+std::unique_ptr<ContenderBody> core(const Problem& problem) {
+  return std::make_unique<CoreContender<Map, held, Walk>>(problem);
+}
+
+std::unique_ptr<ContenderBody> graph(const Problem& problem) {
+  return std::make_unique<ReferenceContender<reference::AdjacencyGraph>>(problem);
+}
+
+template <reference::CgalWalk walk>
+std::unique_ptr<ContenderBody> cgal(const Problem& problem) {
+  return std::make_unique<ReferenceContender<reference::CgalBody>>(problem, walk);
+}
+
+}  // namespace
+
+std::span<const Contender> contenders() {
+  constexpr auto one = Held::by_one_dart;
+  constexpr auto every = Held::by_every_dart;
+  static const std::array<Contender, 8> table{{
+      {"coverage", "full dart coverage with marks; one dart of the orbit holds the embedding", "4.2, 5.1", 12.0,
+       Carrier::core_map, core<Map3, one, DartCoverage>},
+      {"coverage-every", "the same; every dart holds the embedding", "4.2, 5.1", 12.0, Carrier::core_map,
+       core<Map3, every, DartCoverage>},
+      {"lists", "lists of embeddings; one dart holds", "5.2", 8.0, Carrier::core_map, core<Map3, one, EmbeddingLists>},
+      {"lists-every", "the same; every dart holds", "5.2", 8.0, Carrier::core_map, core<Map3, every, EmbeddingLists>},
+      {"arrays", "cell arrays Cell{dart, embedding}", "5.2", 2.0, Carrier::core_map, core<Map3, every, CellArrays>},
+      {"graph", "indexed adjacency graph, the baseline", "5.1", 2.0, Carrier::adjacency_graph, graph},
+      {"cgal-coverage", "CGAL linear cell complex, one_dart_per_cell", "", 0.0, Carrier::cgal_map,
+       cgal<reference::CgalWalk::coverage>},
+      {"cgal-attributes", "CGAL linear cell complex, attribute ranges", "", 0.0, Carrier::cgal_map,
+       cgal<reference::CgalWalk::attributes>},
+  }};
+  return table;
+}
+
+const Contender& contender(std::string_view id) {
+  const auto all = contenders();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Contender& c) { return c.id == id; });
+  if (found != all.end()) return *found;
+  std::string known;
+  for (const Contender& c : all) known += (known.empty() ? "" : ", ") + c.id;
+  throw InputError(fmt::format("no contender is called '{}'; there are {}", id, known));
+}
+
+std::uint64_t state_hash(const PointState& state) {
+  Hash h;
+  h.add(state.x);
+  h.add(state.v);
+  return h.value();
+}
+
+}  // namespace dartboard

@@ -1,0 +1,34 @@
+#pragma once
+// The contenders: one row per way of carrying and walking the same body.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/plain/problem.h"
+#include "validation/contenders/contender_body.h"
+
+namespace dartboard {
+
+enum class Carrier { core_map, adjacency_graph, cgal_map };
+
+struct Contender {
+  std::string id;       // for the command line and the raw samples
+  std::string what;     // one line for people
+  std::string section;  // of the paper; empty for what the paper does not have
+  double paper_ms;      // per step, section 5; 0 where the paper gives none
+  Carrier carrier;      // the walks of the core must agree bit for bit, the others within the summation bound
+  std::function<std::unique_ptr<ContenderBody>(const Problem&)> make;
+};
+
+/// All of them, in the order in which they are printed; the baseline of every ratio is `graph`.
+std::span<const Contender> contenders();
+
+inline constexpr std::string_view baseline_id = "graph";
+
+/// throws  InputError that lists the known ids
+const Contender& contender(std::string_view id);
+
+}  // namespace dartboard

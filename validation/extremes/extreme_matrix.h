@@ -1,0 +1,60 @@
+#pragma once
+// The matrix of extremes while it is filled, axis by axis.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/time/integrators.h"
+#include "validation/extremes/extreme_run.h"
+
+namespace dartboard {
+
+using SetupMaker = std::function<ExtremeSetup(std::string_view scene)>;
+
+/// Collects the runs of one axis: a value times scenes times all integrators. A quick one takes every third value.
+class ExtremeMatrix {
+ public:
+  ExtremeMatrix(std::string_view axis, bool quick) : axis_(axis), quick_(quick) {}
+
+  void add(const std::string& value, std::span<const std::string_view> scenes, const SetupMaker& make) {
+    if (quick_ && count_++ % 3 != 0) return;
+    for (const std::string_view scene : scenes)
+      for (const IntegratorEntry& entry : integrators()) {
+        ExtremeCase which{axis_, std::string(scene), std::string(entry.name), value, {}};
+        which.run = [which, make] { return run_extreme(which, make(which.scene)); };
+        cases_.push_back(std::move(which));
+      }
+  }
+  void add_run(const std::string& value, std::string_view scene,
+               const std::function<ExtremeCell(const ExtremeCase&)>& run_it) {
+    if (quick_ && count_++ % 3 != 0) return;
+    for (const IntegratorEntry& entry : integrators()) {
+      ExtremeCase which{axis_, std::string(scene), std::string(entry.name), value, {}};
+      which.run = [which, run_it] { return run_it(which); };
+      cases_.push_back(std::move(which));
+    }
+  }
+  std::vector<ExtremeCase> take() { return std::move(cases_); }
+
+ private:
+  std::string axis_;
+  bool quick_;
+  std::size_t count_ = 0;
+  std::vector<ExtremeCase> cases_;
+};
+
+inline constexpr std::string_view extreme_solids[]{"box", "sheet"};
+
+// One function per family of axes; each looks at the name itself where it serves several.
+void add_numbers(ExtremeMatrix& matrix, std::string_view axis);
+void add_shapes(ExtremeMatrix& matrix);
+void add_vertices(ExtremeMatrix& matrix);
+void add_denormals(ExtremeMatrix& matrix);
+void add_bad_numbers(ExtremeMatrix& matrix, bool injected);
+void add_events(ExtremeMatrix& matrix);
+
+}  // namespace dartboard

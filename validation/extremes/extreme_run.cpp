@@ -1,0 +1,227 @@
+#include "validation/extremes/extreme_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/plain/nan_maximum.h"
+#include "core/time/integrators.h"
+#include "core/time/watch/divergence.h"
+#include "core/time/watch/preflight.h"
+#include "core/time/watch/stable_step.h"
+#include "reference/ode_intervals.h"
+#include "validation/extremes/extreme_judgement.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// Of processor time, so that a busy machine changes no verdict [s]; a step is not interrupted.
+constexpr double budget = 0.4;
+
+double largest_coordinate(const std::vector<Vector3d>& x) {
+  double largest = 0.0;
+  for (const Vector3d& p : x) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+bool finite(const SpringColumns& body) {
+  for (std::size_t i = 0; i < body.x.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(body.x[i][c]) || !std::isfinite(body.v[i][c])) return false;
+  return true;
+}
+
+// The largest distance from a run of Dormand and Prince's method in eighths of the step; nothing where that fails.
+std::optional<double> distance_from_finer(const ExtremeSetup& setup, const SpringColumns& start,
+                                          const SpringColumns& end) {
+  SpringColumns fine = start;
+  const auto integrator = make_integrator("dormand-prince-54");
+  for (std::uint64_t k = 0; k < 8 * setup.steps; ++k)
+    if (!integrator->step(fine.system(), fine.motion(), setup.h / 8).ok()) return {};
+  double distance = 0.0;
+  for (std::size_t i = 0; i < fine.x.size(); ++i) distance = max_or_nan(distance, (fine.x[i] - end.x[i]).norm());
+  return distance;
+}
+
+/// Does nothing take energy from the motion? Of methods that keep the energy, or a quantity near it; within their limit
+/// of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
+bool must_live(const SpringColumns& start, const Scheme& scheme, const StableStep& limits) {
+  const bool damped = limits.damping_time.upper > 0.0 || limits.viscous_rate.upper > 0.0;
+  return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0);
+}
+
+bool warned_of(const ExtremeCell& cell, StepCode code) {
+  return std::ranges::find(cell.warnings, to_string(code)) != cell.warnings.end();
+}
+
+/// Look at a run that ended without a diagnosis.
+ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end,
+                           const Scheme& scheme, const StableStep& limits) {
+  const SpringColumns& start = setup.body;
+  ExtremeObservation seen{.finite = finite(end),
+                          .warned = !cell.warnings.empty(),
+                          .warned_of_instability = warned_of(cell, StepCode::unstable_step)};
+  if (!seen.finite) return seen;
+  seen.energy_before = energy_of(start);
+  seen.energy_after = energy_of(end);
+  seen.must_live = must_live(start, scheme, limits);
+  FinerRunScale scale{.theta = setup.h * limits.upper,
+                      .zeta = limits.damping_ratio().upper,
+                      .order = scheme.order,
+                      .explicit_euler = scheme.name == "explicit-euler",
+                      .steps = static_cast<double>(setup.steps),
+                      .size = largest_coordinate(start.x)};
+  for (const Spring& s : start.springs)
+    seen.energy_rounding += s.stiffness * std::pow(64 * epsilon * (scale.size + s.rest_length), 2);
+  if (!setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
+  for (std::size_t i = 0; i < start.x.size(); ++i)
+    scale.amplitude = std::max(scale.amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
+  for (std::size_t s = 0; s < start.springs.size(); ++s)
+    scale.amplitude = std::max(
+        scale.amplitude,
+        std::abs((start.x[start.ends[s][1]] - start.x[start.ends[s][0]]).norm() - start.springs[s].rest_length));
+  seen.distance_from_finer = distance_from_finer(setup, start, end);
+  seen.bound_from_finer = finer_run_bound(scale);
+  return seen;
+}
+
+/// How far a run at an offset is from the same run at the origin; nothing where that one fails.
+std::optional<OffsetObservation> observe_offset(const ExtremeCell& cell, const ExtremeSetup& setup,
+                                                const SpringColumns& end) {
+  SpringColumns twin = setup.body;
+  twin.x = setup.at_origin;
+  const auto integrator = make_integrator(cell.integrator);
+  for (std::uint64_t k = 0; k < cell.step; ++k)
+    if (!integrator->step(twin.system(), twin.motion(), setup.h).ok()) return {};
+  OffsetObservation seen{.offset = setup.offset,
+                         .shortest = std::numeric_limits<double>::infinity(),
+                         .warned = warned_of(cell, StepCode::coordinate_precision),
+                         .iterates = integrator->work().newton_iterations > 0,
+                         .explicit_euler = cell.integrator == "explicit-euler",
+                         .steps = cell.step};
+  for (std::size_t i = 0; i < twin.x.size(); ++i)
+    seen.distance = max_or_nan(seen.distance, (end.x[i] - Vector3d(setup.offset, 0, 0) - twin.x[i]).norm());
+  for (const Spring& s : twin.springs) seen.shortest = std::min(seen.shortest, s.rest_length);
+  return seen;
+}
+
+void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end) {
+  const std::optional<OffsetObservation> seen = observe_offset(cell, setup, end);
+  if (!seen) return;
+  cell.offset_error = seen->distance / seen->rounding();
+  cell.note = fmt::format("{:.3g} eps D from the run at the origin", *cell.offset_error);
+  if (!seen->is_right()) cell.outcome = ExtremeOutcome::silent;
+}
+
+}  // namespace
+
+ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
+  ExtremeCell cell{which.axis, which.scene, which.integrator, which.value, ExtremeOutcome::ok, {}, 0, {}, ""};
+  SpringColumns body = setup.body;
+  const auto integrator = make_integrator(which.integrator);
+  const Scheme& scheme = integrator->scheme();
+  StableStepEstimate estimate;
+  const Horizon horizon{.steps = static_cast<double>(setup.steps), .gain = 2.0};
+  const StableStep limits = estimate.refresh(body.system(), body.x);
+  const Preflight preflight = check_before_run(body.system(), body.motion(), scheme, setup.h, limits, horizon);
+  for (const StepResult& warning : preflight.warnings) cell.warnings.emplace_back(to_string(warning.code));
+  const auto diagnosed = [&cell](const StepResult& result) {
+    cell.outcome = ExtremeOutcome::diagnosed;
+    cell.diagnosis = result;
+  };
+  if (!preflight.refused.ok()) {
+    diagnosed(preflight.refused);
+    cell.refused = true;
+    return cell;
+  }
+  if (!preflight.warnings.empty()) cell.diagnosis = preflight.warnings.front();
+  DivergenceDetector detector;
+  StepResult result = detector.start(body.system(), body.motion(), setup.h);
+  cell.refused = !result.ok();
+  const double deadline = reference::thread_cpu_seconds() + budget;
+  for (; cell.step < setup.steps && result.ok(); ++cell.step) {
+    if (setup.halfway && cell.step == setup.steps / 2) {
+      setup.halfway(body);
+      integrator->restart();
+      if (setup.announced) result = detector.system_changed(body.system(), body.motion());
+      if (!result.ok()) break;
+    }
+    result = integrator->step(body.system(), body.motion(), setup.h);
+    result = result.ok() ? detector.after_step(body.system(), body.motion())
+                         : detector.with_witness(result, body.system(), body.motion());
+    if (result.ok() && cell.step % 16 == 15 && reference::thread_cpu_seconds() > deadline)
+      result = {StepCode::budget, Witness::none, 0, "steps", static_cast<double>(cell.step)};
+  }
+  if (result.ok()) result = detector.check_all(body.system(), body.motion());
+  if (!result.ok()) {
+    diagnosed(result);
+    detector.restore(body.motion());
+    if (!finite(body)) {
+      cell.outcome = ExtremeOutcome::silent;
+      cell.note = "the state to go back to is not finite";
+    }
+    return cell;
+  }
+  if (setup.halfway && must_be_found_by(setup.steps)) {
+    cell.outcome = ExtremeOutcome::silent;
+    cell.note = "what was injected was not found";
+    return cell;
+  }
+  const ExtremeVerdict verdict = verdict_of(observe(cell, setup, body, scheme, limits));
+  cell.outcome = verdict.outcome;
+  cell.note = verdict.note;
+  if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body);
+  // a step that theory calls unstable must have been predicted
+  if (cell.outcome == ExtremeOutcome::ok && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
+    cell.outcome = ExtremeOutcome::silent;
+    cell.note = "an unstable step was not predicted";
+  }
+  return cell;
+}
+
+bool conserves_energy(const Scheme& scheme) { return scheme.symplectic || scheme.name == "energy-momentum"; }
+
+long double energy_of(const SpringColumns& body) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < body.x.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const long double v = body.v[i][c];
+      sum += 0.5L * static_cast<long double>(body.mass[i]) * v * v;
+      sum -= static_cast<long double>(body.mass[i]) * body.gravity[c] * body.x[i][c];
+    }
+  }
+  for (std::size_t s = 0; s < body.springs.size(); ++s) {
+    long double square = 0;
+    for (int c = 0; c < 3; ++c) {
+      const long double d = static_cast<long double>(body.x[body.ends[s][1]][c]) - body.x[body.ends[s][0]][c];
+      square += d * d;
+    }
+    const long double stretch = std::sqrt(square) - body.springs[s].rest_length;
+    sum += 0.5L * static_cast<long double>(body.springs[s].stiffness) * stretch * stretch;
+  }
+  return sum;
+}
+
+double highest_frequency(const SpringColumns& body) {
+  StableStepEstimate estimate;
+  return estimate.refresh(body.system(), body.x).lower;
+}
+
+SpringColumns moving_body(std::string_view scene, double size) {
+  SpringColumns body = extreme_body(scene);
+  set_moving(body, size, highest_frequency(body) / 4);
+  return body;
+}
+
+ExtremeSetup with_theta(SpringColumns body, double theta, std::uint64_t steps) {
+  const double omega = highest_frequency(body);
+  return {.body = std::move(body), .h = omega > 0.0 ? theta / omega : 1e-3, .steps = steps};
+}
+
+}  // namespace dartboard

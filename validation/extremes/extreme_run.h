@@ -1,0 +1,44 @@
+#pragma once
+// One run of the matrix of extremes: what it starts from, and the judgement of what it ends with.
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "validation/extremes/extremes.h"
+#include "validation/scenes/extreme_bodies.h"
+
+namespace dartboard {
+
+/// A run on columns, and what is done to it.
+struct ExtremeSetup {
+  SpringColumns body;
+  double h = 0.0;
+  std::uint64_t steps = 100;
+  std::function<void(SpringColumns&)> halfway{};  // in mid-run
+  bool announced = false;                         // as a change of the system, which only the state need not be
+  bool compare = true;                            // with a finer run
+  double offset = 0.0;                            // [m] of the body, along x
+  std::vector<Eigen::Vector3d> at_origin{};       // positions of the same body there; empty: no run to compare with
+};
+
+/// Check, run, watch and judge it.
+ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup);
+
+/// Does the method keep the energy of what nothing damps, or a quantity near it?
+bool conserves_energy(const Scheme& scheme);
+
+/// Kinetic, elastic and gravity energy [J], in extended precision and without the detector: what outcomes rest on.
+long double energy_of(const SpringColumns& body);
+
+/// omega_max [1/s] at the state of the body, from below.
+double highest_frequency(const SpringColumns& body);
+
+/// An extreme body displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
+SpringColumns moving_body(std::string_view scene, double size = 0.01);
+
+/// A run in steps of theta / omega_max.
+ExtremeSetup with_theta(SpringColumns body, double theta, std::uint64_t steps = 100);
+
+}  // namespace dartboard

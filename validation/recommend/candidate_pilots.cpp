@@ -1,0 +1,244 @@
+#include "validation/recommend/candidate_pilots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/plain/nan_maximum.h"
+
+namespace dartboard {
+namespace {
+
+/// The first quarter of the checkpoints, at least two; where there are events, up to the checkpoint after the first.
+std::size_t prefix_of(const TradeoffScene& scene) {
+  const auto& times = scene.motion.checkpoints;
+  std::size_t count = std::min(times.size(), std::max<std::size_t>(2, times.size() / 4));
+  if (!scene.motion.events.empty())
+    while (count < times.size() && times[count - 1] <= scene.motion.events[0].time) ++count;
+  return count;
+}
+
+// How the largest error so far grows with time, as a power.
+double growth_of(const std::vector<double>& errors, const std::vector<double>& times) {
+  if (errors.size() < 2) return 1.0;
+  const std::size_t first = (errors.size() - 1) / 2, last = errors.size() - 1;
+  const double early = max_or_nan(std::span(errors).first(first + 1)), late = max_or_nan(errors);
+  if (!(early > 0.0) || !(late > 0.0)) return 1.0;
+  return std::clamp(std::log(late / early) / std::log(times[last] / times[first]), 0.5, 2.0);
+}
+
+/// The power of h that errors are extrapolated with.
+///
+/// An observed order that is below the method's but near it rises towards it: the mean of both is still on the safe
+/// side. Far below it, steps are too large for the fastest springs, and nothing is known about when that ends.
+double slope_of(const Candidate& c) {
+  const double order = c.order;
+  if (c.confidence == Confidence::asymptotic || c.observed_order > order) return order;
+  return c.observed_order > 0.6 * order ? 0.5 * (c.observed_order + order) : std::max(c.observed_order, 0.3);
+}
+
+// Left in the finer of two runs; by the order that was seen, which promises less than the one of the method.
+double richardson(const Candidate& c, double change) {
+  const double order = c.confidence == Confidence::asymptotic
+                           ? c.order
+                           : std::clamp(c.observed_order, 0.3, static_cast<double>(c.order));
+  return change / (std::exp2(order) - 1.0);
+}
+
+bool shows_its_order(const Candidate& c) { return std::abs(c.observed_order - c.order) <= 0.3; }
+
+void take_cost(Candidate& c, const PilotRun& pilot) {
+  c.step_cost = pilot.step_cost;
+  c.step_evaluations = static_cast<double>(pilot.run.work.force_evaluations) /
+                       static_cast<double>(std::max<std::uint64_t>(pilot.run.work.steps, 1));
+}
+
+/// The errors of the pilots, the last of them the finest: Richardson's estimate there, and of the coarser ones what
+/// they are away from it; grown from the part that was run to the whole.
+void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<const PilotRun*>& runs, double part) {
+  const TimedRun& finest = runs.back()->run;
+  std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
+  for (double& e : left) e = richardson(c, e);
+  const double growth = std::pow(1.0 / part, growth_of(left, scene.motion.checkpoints));
+  c.pilot_h = finest.h;
+  c.error_at_pilot = growth * max_or_nan(left);
+  c.coarser.clear();
+  for (std::size_t k = runs.size() - 1; k-- > 0;) {
+    const double error = c.error_at_pilot + growth * max_or_nan(differences(scene, runs[k]->run, finest));
+    const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
+    if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k]->run.h, error});
+  }
+}
+
+/// How far a body may have moved that has not exploded [edges]: as a thousand edges beside its flight.
+double farthest_flight(const TradeoffScene& scene) {
+  double speed = 0.0;
+  for (const auto& v : scene.motion.start.v) speed = std::max(speed, v.norm());
+  const double t = scene.duration;
+  return 1e3 + 2.0 * t * (speed + t * scene.motion.network.gravity.norm()) / scene.edge;
+}
+
+}  // namespace
+
+void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double error) {
+  // a third of what there is, for three pilots; no run with this method takes less than its largest steps do
+  const double steps_in_all = pilots.scene().duration / h;
+  const RecommendOptions& options = pilots.options();
+  const double run_s = steps_in_all * step_s;
+  const double allowed_s = std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s) / 3.0;
+  std::size_t prefix = prefix_of(pilots.scene());
+  const auto& all_times = pilots.scene().motion.checkpoints;
+  double part = all_times[prefix - 1] / pilots.scene().duration;
+  std::optional<TradeoffScene> shorter;
+  if (const double expected_s = 7.0 * part * steps_in_all * step_s; expected_s > allowed_s) {
+    // sixteen steps at least, and no less than a hundredth: growth is told from what is seen
+    part = std::min(part, std::max({part * allowed_s / expected_s, 16.0 / steps_in_all, 0.01}));
+    shorter = first_part(pilots.scene(), part, 4);
+    prefix = 4;
+  }
+  const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
+  auto steps = whole_steps(scene, h);
+  std::vector<PilotRun> runs;
+  std::vector<std::vector<double>> change;
+  for (int k = 0; k < 5; ++k, steps *= 2) {
+    if (!runs.empty() && 2.0 * runs.back().cpu_s > pilots.left_s()) break;
+    runs.push_back(pilots.run(c, scene, {.steps = steps}, prefix));
+    if (!runs.back().run.result.ok()) {
+      if (runs.back().run.result.code == StepCode::budget) {
+        runs.pop_back();
+        break;
+      }
+      runs.clear();  // a step too large: begin again with half of it
+      change.clear();
+      continue;
+    }
+    // finer runs are dearer; of an implicit method a coarser one may do
+    if (const double whole_s = runs.back().cpu_s / part;
+        runs.size() == 1 && whole_s > (c.implicit ? 4.0 : 1.5) * pilots.cheapest_s()) {
+      c.pruned = fmt::format("with h = {:.2g} s it takes {:.1e} s in all, against {:.1e} s", runs.back().run.h, whole_s,
+                             pilots.cheapest_s());
+      return;
+    }
+    if (runs.size() >= 2) change.push_back(differences(scene, runs[runs.size() - 2].run, runs.back().run));
+    // the largest step that is stable is accurate enough by far: how its error falls is of no interest
+    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) break;
+    if (change.size() < 2) continue;
+    c.observed_order = std::log2(max_or_nan(change[change.size() - 2]) / max_or_nan(change.back()));
+    if (shows_its_order(c)) break;
+    if (3.0 * runs.back().cpu_s > allowed_s) break;
+  }
+  const bool at_once = change.size() == 1 && std::isfinite(max_or_nan(change[0])) && runs.size() == 2;
+  if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
+    c.untried = !runs.empty();
+    c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
+    return;
+  }
+  if (at_once) c.observed_order = 1.0;
+  c.confidence = at_once              ? Confidence::sufficient
+                 : shows_its_order(c) ? Confidence::asymptotic
+                                      : Confidence::pre_asymptotic;
+  c.slope = at_once ? 1.0 : slope_of(c);
+  std::vector<const PilotRun*> all;
+  for (const PilotRun& run : runs) all.push_back(&run);
+  take_errors(c, scene, all, part);
+  take_cost(c, runs.back());
+  if (c.implicit) {
+    const PilotRun& before = runs[runs.size() - 2];
+    c.step_slope = std::clamp(std::log2(before.step_cost / runs.back().step_cost), 0.0, 1.0);
+  }
+}
+
+void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
+  const TradeoffScene& scene = pilots.scene();
+  double tolerance = std::clamp(10.0 * error, 1e-12, 1e-2);
+  std::vector<PilotRun> runs;
+  std::vector<double> change;
+  for (int k = 0; k < 4; ++k, tolerance /= 10.0) {
+    if (!runs.empty() && 1.6 * runs.back().cpu_s > pilots.left_s()) break;
+    runs.push_back(pilots.run(c, scene, {.tolerance = tolerance}));
+    if (!runs.back().run.result.ok()) {
+      runs.pop_back();
+      break;
+    }
+    c.pilot_h = tolerance;
+    if (runs.size() >= 2) change.push_back(max_or_nan(differences(scene, runs[runs.size() - 2].run, runs.back().run)));
+    if (change.size() < 2) continue;
+    c.observed_order = std::log10(change[change.size() - 2] / change.back());
+    if (std::abs(c.observed_order - 1.0) < 0.2) break;
+  }
+  if (change.size() < 2 || !(change.back() > 0.0) || !std::isfinite(c.observed_order)) {
+    c.untried = change.size() < 2;
+    c.pruned = c.untried ? "its pilots take too long" : "its pilots show no order";
+    return;
+  }
+  c.confidence = std::abs(c.observed_order - 1.0) < 0.2 ? Confidence::asymptotic : Confidence::pre_asymptotic;
+  c.slope = std::clamp(c.observed_order, 0.3, 1.1);
+  c.error_at_pilot = change.back() / (std::pow(10.0, c.slope) - 1.0);
+  take_cost(c, runs.back());
+  double looser = c.pilot_h;
+  for (std::size_t k = runs.size() - 1; k-- > 0;) {
+    looser *= 10.0;
+    const double seen = c.error_at_pilot + max_or_nan(differences(scene, runs[k].run, runs.back().run));
+    const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
+    if (std::isfinite(seen) && seen > before)
+      c.coarser.push_back({looser, seen, static_cast<double>(runs[k].run.work.steps)});
+  }
+  const auto steps_of = [&](std::size_t back) {
+    return static_cast<double>(runs[runs.size() - 1 - back].run.work.steps);
+  };
+  c.pilot_steps = steps_of(0);
+  // coarse steps are short for stability's sake; the finer, the nearer the number of steps comes to its power
+  const double last = std::log10(steps_of(0) / steps_of(1)), before = std::log10(steps_of(1) / steps_of(2));
+  const double power = 1.0 / c.order;
+  c.steps_slope = std::clamp(std::min(last + 0.5 * std::max(last - before, 0.0), std::max(last, power)), 0.0, 0.5);
+  c.full_length = true;
+}
+
+Longer pilot_longer(Candidate& c, Pilots& pilots) {
+  // three pilots with k, k/2 and k/4 times the step take 7/k of the run
+  const double budget = 0.8 * pilots.left_s();
+  if (!(budget > 0.0)) return Longer::skipped;
+  const double times_h = std::clamp(7.0 * c.predicted_s / budget, 4.0, 64.0);
+  const double h = std::min(times_h * c.h, pilots.options().stability * c.limit_h);
+  double part = 1.0;
+  if (const double expected_s = 3.0 * c.predicted_s * c.h / h; expected_s > budget) part = budget / expected_s;
+  // half of the run foretells it no better than the prefix
+  if (part < 0.5) return Longer::skipped;
+  std::optional<TradeoffScene> shorter;
+  if (part < 1.0) shorter = first_part(pilots.scene(), part, pilots.scene().motion.checkpoints.size());
+  const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
+  const auto steps = whole_steps(scene, h);
+  const PilotRun coarse = pilots.run(c, scene, {.steps = steps});
+  const PilotRun fine = pilots.run(c, scene, {.steps = 2 * steps});
+  for (const PilotRun* pilot : {&fine, &coarse}) {
+    if (pilot->run.result.code == StepCode::budget) return Longer::skipped;
+    const double away = distance_from_start(scene, pilot->run);
+    if (pilot->run.result.ok() && away < farthest_flight(scene)) continue;
+    c.limit_h = pilot->run.h;
+    return Longer::unstable;
+  }
+  const std::vector<double> change = differences(scene, coarse.run, fine.run);
+  if (!(max_or_nan(change) > 0.0)) return Longer::skipped;
+  // a third, where there is time for it, tells whether the order shows
+  const PilotRun* finest = &fine;
+  PilotRun third;
+  if (2.0 * fine.cpu_s <= pilots.left_s()) {
+    third = pilots.run(c, scene, {.steps = 4 * steps});
+    if (third.run.result.ok()) {
+      const std::vector<double> left = differences(scene, fine.run, third.run);
+      if (!(max_or_nan(left) > 0.0) || !std::isfinite(max_or_nan(left))) return Longer::skipped;
+      c.observed_order = std::log2(max_or_nan(change) / max_or_nan(left));
+      c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
+      c.slope = slope_of(c);
+      finest = &third;
+    }
+  }
+  take_errors(c, scene, finest == &third ? std::vector{&coarse, &fine, finest} : std::vector{&coarse, finest}, part);
+  take_cost(c, *finest);
+  c.full_length = part == 1.0;
+  return Longer::confirmed;
+}
+
+}  // namespace dartboard

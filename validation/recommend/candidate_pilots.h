@@ -1,0 +1,29 @@
+#pragma once
+// The pilots of one candidate, and what is read off them: errors, orders and costs.
+
+#include "validation/recommend/pilots.h"
+#include "validation/scenes/scene_features.h"
+
+namespace dartboard {
+
+/// Pilots with h, h/2 and h/4, up to five where orders do not show, on the first quarter of the scene or up to the
+/// checkpoint after its first event, or on less where that would take too long; sets the candidate's fits, or why it
+/// is left out.
+///
+/// Richardson's estimate at each checkpoint, the observed order, and the growth of the error with time give the error
+/// of the whole run. `step_s` is about what a step takes.
+void pilot_prefix(Candidate& candidate, Pilots& pilots, double h, double step_s, double error);
+
+/// Runs that choose their steps, with three tolerances from ten times the error down, over the whole duration: where
+/// steps follow the motion, a part says little about the rest.
+void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
+
+enum class Longer : std::uint8_t { confirmed, skipped, unstable };
+
+/// Two or three pilots over the whole duration, or over as much of it as there is time for, in steps coarser than those
+/// of the run, where they say something.
+///
+/// Some instabilities take longer than the prefix to show: the limit of the step is lowered to what has failed then.
+Longer pilot_longer(Candidate& candidate, Pilots& pilots);
+
+}  // namespace dartboard

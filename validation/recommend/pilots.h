@@ -1,0 +1,68 @@
+#pragma once
+// Short runs of a scene, timed, within a limit for all of them together.
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "validation/recommend/candidate.h"
+
+namespace dartboard {
+
+struct PilotRun {
+  TimedRun run;
+  double step_cost = 0.0;  // in force evaluations, timed before and after
+  double cpu_s = 0.0;
+};
+
+/// A scene up to a part of its duration, with checkpoints of its own; events after that are left out.
+///
+/// pre  0 < part <= 1
+TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t checkpoints);
+
+/// Runs pilots and knows what they have taken.
+class Pilots {
+ public:
+  /// `start` is the time of the clock from which all is counted.   pre  the arguments outlive it
+  Pilots(const TradeoffScene& scene, const CpuClock& clock, const RecommendOptions& options, std::int64_t start);
+
+  /// One pilot with the integrator of a candidate, on the scene or on a part of it.
+  PilotRun run(const Candidate& candidate, const TradeoffScene& scene, const RunSetting& setting,
+               std::size_t checkpoints = std::numeric_limits<std::size_t>::max());
+
+  /// What a step of a candidate's fixed setting costs in force evaluations: the median of short runs, each between two
+  /// timings of the forces.   pre  the candidate has been solved for an error
+  double step_cost(const Candidate& candidate);
+
+  double spent_s() const;
+  /// What is left for pilots; at least `most_pilot_s` for the next one as long as nothing is predicted.
+  double left_s() const;
+  /// A run was predicted to take so long [s]: the cheapest counts.
+  void predicted(double seconds) { cheapest_s_ = std::min(cheapest_s_, seconds); }
+  double cheapest_s() const { return cheapest_s_; }
+
+  const TradeoffScene& scene() const { return scene_; }
+  const RecommendOptions& options() const { return options_; }
+
+ private:
+  const TradeoffScene& scene_;
+  const CpuClock& clock_;
+  const RecommendOptions& options_;
+  std::int64_t start_;
+  ForceTimer force_;
+  double force_ns_ = std::numeric_limits<double>::infinity();  // the least so far
+  double cheapest_s_ = std::numeric_limits<double>::infinity();
+};
+
+/// Of two runs of a scene, at the checkpoints reached by both, one by one [edges].
+std::vector<double> differences(const TradeoffScene& scene, const TimedRun& a, const TimedRun& b);
+
+/// The farthest that a point is from where its number was at the start, in edges: what tells a motion from an
+/// explosion, also where an event has given some numbers to other points. A NaN stays one.
+double distance_from_start(const TradeoffScene& scene, const TimedRun& run);
+
+/// Steps of at most h, as many between any two checkpoints: others would be split there, and not all of one size.
+std::uint64_t whole_steps(const TradeoffScene& scene, double h);
+
+}  // namespace dartboard

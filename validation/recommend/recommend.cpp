@@ -1,0 +1,287 @@
+#include "validation/recommend/recommend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/plain/error.h"
+#include "core/time/integrators.h"
+#include "validation/recommend/candidate_pilots.h"
+#include "validation/solvers/break_even.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// An implicit step has not been seen to cost fewer force evaluations.
+constexpr double least_implicit_step = 10.0;
+// The law knows the motion at the start only: it has to be wrong by this before a method is lost to it.
+constexpr double doubt = 4.0;
+// Of the least time for pilots, what explicit methods leave to implicit ones.
+constexpr double for_implicit = 0.25;
+
+void rank(std::vector<Candidate>& candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.usable() != b.usable()) return a.usable();
+    return a.usable() && a.predicted_cost < b.predicted_cost;
+  });
+}
+
+/// Explicit methods before implicit ones, high orders before low ones: what they cost is what the others have to beat.
+/// Where nothing is damped the symplectic method of order 4 comes before all. A compensated method is the plain one
+/// until rounding shows, at some more cost: these are the others, or they alone.
+std::vector<Scheme> schemes_in_order(bool damped, const std::string& only, bool compensated = false) {
+  std::vector<Scheme> schemes;
+  for (const IntegratorEntry& entry : integrators())
+    if (const Scheme& scheme = entry.make()->scheme();
+        only.empty() ? scheme.compensated == compensated : entry.name == only)
+      schemes.push_back(scheme);
+  const auto rank = [damped](const Scheme& s) {
+    return (s.implicit ? 0.0 : 100.0) + s.order + (s.symplectic && !damped && s.order > 2 ? 2.0 : 0.0);
+  };
+  std::stable_sort(schemes.begin(), schemes.end(), [&](const Scheme& a, const Scheme& b) { return rank(a) > rank(b); });
+  return schemes;
+}
+
+/// One search, from the features to the ranking.
+class Search {
+ public:
+  Search(const TradeoffScene& scene, double error, const CpuClock& clock, const RecommendOptions& options)
+      : scene_(scene), error_(error), clock_(clock), options_(options), start_(clock()) {
+    r_.scene = scene.name;
+    r_.error = error;
+    r_.best_error = std::numeric_limits<double>::quiet_NaN();
+    r_.features = features_of(scene, clock);
+    for (const IntegratorEntry& entry : integrators())
+      least_error_ = std::min(least_error_, rounding_floor(scene, entry.make()->scheme()).at(per_interval()));
+    pilots_.emplace(scene, clock, options, start_);
+  }
+
+  Recommendation run() {
+    const auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
+    for (const Scheme& scheme : schemes) {
+      if (scheme.implicit) continue;
+      const bool first = r_.candidates.empty();
+      try_explicit(scheme);
+      for (const Scheme& other : schemes)
+        if (first && other.implicit && is_promising(other)) try_implicit(other);
+    }
+    if (options_.adaptive)
+      for (const Scheme& scheme : schemes)
+        if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
+    for (const Scheme& scheme : schemes)
+      if (scheme.implicit &&
+          std::ranges::find(r_.candidates, scheme.name, &Candidate::contender) == r_.candidates.end())
+        try_implicit(scheme);
+    rank(r_.candidates);
+    confirm();
+    if (r_.pick() == nullptr && options_.only.empty() && std::ranges::any_of(r_.candidates, kept_by_rounding)) {
+      for (const Scheme& scheme : schemes_in_order(r_.features.damping_ratio > 0.0, "", true))
+        try_explicit(scheme, true);
+      rank(r_.candidates);
+      confirm();
+    }
+    time_the_best();
+    look_around();
+    for (const Candidate& c : r_.candidates)
+      if (r_.pick() == nullptr && kept_by_rounding(c) && !(c.least_error >= r_.best_error)) {
+        r_.best_error = c.least_error;
+        r_.best_error_by = c.contender;
+      }
+    r_.pilot_s = pilots_->spent_s();
+    return std::move(r_);
+  }
+
+ private:
+  Candidate begin(const Scheme& scheme) const {
+    Candidate c;
+    c.contender = scheme.name;
+    c.implicit = scheme.implicit;
+    c.order = scheme.order;
+    c.rounding = rounding_floor(scene_, scheme);
+    c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
+    return c;
+  }
+  void solve(Candidate& c) {
+    solve_for_error(c, error_, scene_.motion, r_.features.force_s, options_);
+    if (!c.usable() && !kept_by_rounding(c)) return;  // too many steps
+    if (std::isfinite(c.predicted_s))
+      pilots_->predicted(c.predicted_s);
+    else
+      c.pruned = "its pilots say nothing about its errors";
+  }
+  void pilot(Candidate& c, double h, double step_s) {
+    if (!(h > 1e-4 / r_.features.omega_low))
+      c.pruned = "no stable step of a useful size";
+    else if (!(pilots_->left_s() > (c.implicit ? 0.0 : for_implicit * options_.pilot_floor_s))) {
+      c.untried = true;
+      c.pruned = "the time for pilots is up";
+    } else
+      pilot_prefix(c, *pilots_, h, step_s, sought());
+    if (c.usable()) solve(c);
+  }
+
+  /// A last resort has no cheaper method to be compared with: those so far do not meet the error.
+  void try_explicit(const Scheme& scheme, bool last_resort = false) {
+    Candidate c = begin(scheme);
+    const double step_s = scheme.stages * r_.features.force_s;
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
+    const double least_s = scene_.duration / c.limit_h * step_s;
+    if (!last_resort && needed * step_s > doubt * pilots_->cheapest_s())
+      c.pruned = law(needed, step_s);
+    else if (!last_resort && least_s > 1.2 * pilots_->cheapest_s())
+      c.pruned = fmt::format("its largest stable step takes {:.1e} s in all, against {:.1e} s", least_s,
+                             pilots_->cheapest_s());
+    else
+      // the longest step that could be recommended is tried: close to the limit errors grow faster than any order says
+      pilot(c, std::min({options_.stability * c.limit_h, per_interval(), 2.7 / r_.features.omega_low}), step_s);
+    r_.candidates.push_back(std::move(c));
+  }
+
+  /// Does the law, wrong as it may be, give an implicit method less than what the best method so far takes? Of a motion
+  /// that starts at rest it knows nothing.
+  bool is_promising(const Scheme& scheme) const {
+    if (!(r_.features.motion_size > 0.0)) return false;
+    const double step_s = std::max(r_.features.implicit_step_s, least_implicit_step * r_.features.force_s);
+    const double needed = std::max(steps_for_error(r_.features, scheme.order, scene_.duration, sought()),
+                                   static_cast<double>(scene_.motion.checkpoints.size()));
+    return doubt * needed * scheme.stages * step_s < pilots_->cheapest_s();
+  }
+
+  void try_implicit(const Scheme& scheme) {
+    Candidate c = begin(scheme);
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
+    double& measured_s = r_.features.implicit_step_s;
+    double step_s = scheme.stages * (measured_s > 0.0 ? measured_s : least_implicit_step * r_.features.force_s);
+    if (measured_s == 0.0 && needed * step_s <= doubt * pilots_->cheapest_s()) {
+      const auto steps = std::max(needed, static_cast<double>(scene_.motion.checkpoints.size()));
+      measured_s = implicit_step_seconds(scene_, scene_.duration / steps, clock_);
+      step_s = scheme.stages * measured_s;
+    }
+    if (!(needed * step_s <= doubt * pilots_->cheapest_s()))
+      c.pruned = law(needed, step_s);
+    else
+      pilot(c, std::min(per_interval(), 4.0 * scene_.duration / needed), step_s);
+    r_.candidates.push_back(std::move(c));
+  }
+
+  /// A method that chooses its steps has little to win where fixed steps of the same method are far from the best.
+  void try_adaptive(const Scheme& scheme) {
+    constexpr double hope = 3.0;
+    Candidate c = begin(scheme);
+    c.contender = fmt::format("{}, adaptive", scheme.name);
+    c.adaptive = true;
+    c.limit_h = infinity;
+    const auto fixed = std::ranges::find(r_.candidates, scheme.name, &Candidate::contender);
+    if (!fixed->usable())
+      c.pruned = fmt::format("as with fixed steps: {}", fixed->pruned);
+    else if (fixed->predicted_s > hope * pilots_->cheapest_s())
+      c.pruned =
+          fmt::format("with fixed steps it costs {:.1f} times the best", fixed->predicted_s / pilots_->cheapest_s());
+    else if (1.5 * fixed->predicted_s > pilots_->left_s()) {
+      c.untried = true;
+      c.pruned = "its pilots would take too long";
+    } else
+      pilot_tolerances(c, *pilots_, sought());
+    if (c.usable()) solve(c);
+    r_.candidates.push_back(std::move(c));
+  }
+
+  /// Until the best two have been looked at as long as that is affordable.
+  void confirm() {
+    std::vector<std::string> tried;
+    for (int round = 0; round < 12; ++round) {
+      Candidate* next = nullptr;
+      for (std::size_t k = 0; k < std::min<std::size_t>(2, r_.candidates.size()); ++k) {
+        Candidate& c = r_.candidates[k];
+        if (!c.usable() || c.adaptive || std::ranges::find(tried, c.contender) != tried.end()) continue;
+        if (k > 0 && c.predicted_cost > 2.0 * r_.candidates[0].predicted_cost) continue;
+        next = &c;
+        break;
+      }
+      if (next == nullptr) break;
+      const Longer outcome = pilot_longer(*next, *pilots_);
+      if (outcome != Longer::unstable) tried.push_back(next->contender);
+      if (outcome != Longer::skipped) solve(*next);
+      rank(r_.candidates);
+    }
+  }
+
+  /// The pilots of the best two were timed once each, and by the way: look again.
+  void time_the_best() {
+    for (std::size_t k = 0; k < std::min<std::size_t>(2, r_.candidates.size()); ++k) {
+      Candidate& c = r_.candidates[k];
+      if (!c.usable() || c.adaptive || c.implicit || c.predicted_cost > 1.5 * r_.candidates[0].predicted_cost) continue;
+      c.step_cost = pilots_->step_cost(c);
+      solve(c);
+    }
+    rank(r_.candidates);
+  }
+
+  /// What one more digit would cost, and what real time would allow.
+  void look_around() {
+    const Candidate* pick = r_.pick();
+    if (pick == nullptr) return;
+    r_.realtime_factor = scene_.duration / pick->predicted_s;
+    const RealTime realtime = best_in_real_time(r_.candidates, r_.features.force_s, options_.stability);
+    r_.realtime_error = realtime.error;
+    r_.realtime_by = realtime.by;
+    double best = infinity;
+    for (const Candidate& candidate : r_.candidates) {
+      if (!candidate.usable()) continue;
+      Candidate c = candidate;
+      if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
+      solve_for_error(c, error_ / 10.0, scene_.motion, r_.features.force_s, options_);
+      if (c.usable() && c.predicted_s < best) {
+        best = c.predicted_s;
+        r_.one_more_digit_by = c.contender;
+      }
+    }
+    r_.one_more_digit = best / pick->predicted_s;
+  }
+
+  static bool kept_by_rounding(const Candidate& c) { return c.least_error > 0.0; }
+  /// Pilots and the law look for an error that rounding leaves room for.
+  double sought() const { return std::max(error_, least_error_); }
+  double per_interval() const { return scene_.duration / static_cast<double>(scene_.motion.checkpoints.size()); }
+  std::string law(double needed, double step_s) const {
+    return fmt::format("break-even law: about {:.2g} steps of {:.1e} s, {:.1e} s against {:.1e} s", needed, step_s,
+                       needed * step_s, pilots_->cheapest_s());
+  }
+
+  const TradeoffScene& scene_;
+  double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
+  const CpuClock& clock_;
+  const RecommendOptions& options_;
+  std::int64_t start_;
+  std::optional<Pilots> pilots_;
+  Recommendation r_;
+};
+
+}  // namespace
+
+const Candidate* Recommendation::pick() const {
+  return !candidates.empty() && candidates[0].usable() ? &candidates[0] : nullptr;
+}
+const Candidate* Recommendation::runner_up() const {
+  return candidates.size() > 1 && candidates[1].usable() ? &candidates[1] : nullptr;
+}
+
+std::vector<std::string> Recommendation::untried() const {
+  std::vector<std::string> names;
+  for (const Candidate& c : candidates)
+    if (c.untried) names.push_back(c.contender);
+  return names;
+}
+
+Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
+                         const RecommendOptions& options) {
+  if (!(error > 0.0)) throw InputError("an error to meet is positive");
+  return Search(scene, error, clock, options).run();
+}
+
+}  // namespace dartboard

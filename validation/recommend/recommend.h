@@ -1,0 +1,54 @@
+#pragma once
+// Which integrator, with which step, is the cheapest for a scene and an error: predicted from short runs, without a
+// reference.
+
+#include <string>
+#include <vector>
+
+#include "validation/recommend/candidate.h"
+#include "validation/scenes/scene_features.h"
+
+namespace dartboard {
+
+struct Recommendation {
+  std::string scene;
+  double error = 0.0;  // [edges] asked for
+  SceneFeatures features;
+  std::vector<Candidate> candidates;  // usable ones first, the cheapest first
+  double one_more_digit = 0.0;        // predicted cost of a tenth of the error over that of the error
+  std::string one_more_digit_by;      // with which method
+  double realtime_factor = 0.0;       // simulated over predicted seconds of the pick
+  double realtime_error = 0.0;        // what the best method would reach in real time; NaN when none is fast enough
+  std::string realtime_by;
+  double best_error = 0.0;  // [edges] where rounding keeps every method from the error: the least of theirs
+  std::string best_error_by;
+  double pilot_s = 0.0;  // spent on all of this
+  /// The methods that there was no time to try: another run may pick one of them.
+  std::vector<std::string> untried() const;
+
+  const Candidate* pick() const;
+  const Candidate* runner_up() const;
+};
+
+/// The algorithm:
+///
+/// 1. features of the scene, and of this machine;
+/// 2. explicit methods, those first that are cheapest as a rule: three pilots with h, h/2 and h/4, from the largest
+///    stable step on (`pilot_prefix`); those are left out of which even the largest stable step costs more than what
+///    was found before. On stiff scenes they would use up the time for pilots: they leave a part of it, and implicit
+///    methods that the law (4.) gives far less than what the first of them takes come before the second;
+/// 3. methods that choose their steps, where they might win: pilots with three tolerances;
+/// 4. implicit methods by the break-even law: steps that the motion needs at their order, times the cost of a step;
+///    only those that might beat the cheapest explicit one get pilots;
+/// 5. the step or tolerance for the error, by the order, with safety and within stability; longer pilots, coarser than
+///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`); their steps timed again;
+/// 6. the ranking by predicted cost; compensated methods take part where rounding keeps all others from the error.
+///
+/// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); what
+/// has had none by then is left out, and says so (`untried`). What is left out so may differ from run to run.
+///
+/// throws  InputError unless error > 0
+Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
+                         const RecommendOptions& options = {});
+
+}  // namespace dartboard

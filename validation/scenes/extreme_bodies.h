@@ -1,0 +1,22 @@
+#pragma once
+// Small bodies that can be made hostile.
+
+#include <string_view>
+
+#include "validation/scenes/spring_columns.h"
+
+namespace dartboard {
+
+/// "oscillator": a mass on a spring at a wall. "chain": twelve masses between two walls. "box": 2 x 2 x 2 jittered
+/// cubes of tetrahedra. "sheet": 4 x 4 squares of triangles. Edges of about 1 m, masses of 1 kg, springs of 100 N/m per
+/// cell. At rest; oscillator and chain lie on the x axis.
+///
+/// throws  InputError for another name
+SpringColumns extreme_body(std::string_view name);
+inline constexpr std::string_view extreme_bodies[]{"oscillator", "chain", "box", "sheet"};
+
+/// Displace and set going the free vertices, by up to `size` edge lengths and `size` times omega of them per second;
+/// along the x axis only for bodies on it.
+void set_moving(SpringColumns& body, double size, double omega);
+
+}  // namespace dartboard

@@ -1,0 +1,112 @@
+#include "validation/scenes/scene_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/time/implicit/baraff_witkin.h"
+#include "core/time/watch/stable_step.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double mass_weighted(const reference::SpringNetwork& network, std::span<const Eigen::Vector3d> column) {
+  double sum = 0.0, mass = 0.0;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    mass += network.mass[i];
+    if (!network.fixed[i]) sum += network.mass[i] * column[i].squaredNorm();
+  }
+  return std::sqrt(sum / mass);
+}
+
+double gershgorin(const reference::SpringNetwork& network) {
+  std::vector<double> sum(network.point_count(), 0.0);
+  for (const reference::Spring& s : network.springs)
+    for (const std::uint32_t i : {s.a, s.b}) sum[i] += s.stiffness;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (!network.fixed[i]) largest = std::max(largest, 2.0 * sum[i] / network.mass[i]);
+  return std::sqrt(largest);
+}
+
+/// At the start, and after each event that happens later.
+std::vector<StableStep> limits_of(const TradeoffScene& scene) {
+  if (scene.limits) return {*scene.limits};
+  SceneStage stage(scene);
+  std::vector<StableStep> limits;
+  const auto look = [&] { limits.push_back(StableStepEstimate().refresh(stage.system(), stage.motion().x)); };
+  std::size_t passed = 0;
+  for (; passed < scene.motion.events.size() && scene.motion.events[passed].time <= 0.0; ++passed) stage.pass_event();
+  look();
+  for (; passed < scene.motion.events.size(); ++passed) {
+    stage.pass_event();
+    look();
+  }
+  return limits;
+}
+
+}  // namespace
+
+SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock) {
+  SceneFeatures f;
+  const reference::SpringNetwork& start = scene.motion.network;
+  f.vertices = start.point_count();
+  f.springs = start.springs.size();
+  f.events = scene.motion.events.size();
+  // by interval, the points of each where they were at the start; rates of decay are not frequencies
+  std::vector<Eigen::Vector3d> x = scene.motion.start.x;
+  for (std::size_t k = 0; k <= scene.motion.events.size(); ++k) {
+    if (k > 0) {
+      std::vector<Eigen::Vector3d> next;
+      for (const std::uint32_t from : scene.motion.events[k - 1].from) next.push_back(x[from]);
+      x = std::move(next);
+    }
+    reference::SpringNetwork network = scene.motion.network_of(k);
+    network.viscosity = 0.0;
+    for (reference::Spring& s : network.springs) s.damping = 0.0;
+    f.omega_low = std::max(f.omega_low, reference::fastest_rate(network, x));
+    f.omega_high = std::max(f.omega_high, gershgorin(network));
+  }
+  // without springs, the scale of time is that of the scene
+  if (!(f.omega_low > 0.0)) f.omega_low = f.omega_high = 1.0 / scene.duration;
+  for (const reference::Spring& s : start.springs)
+    if (s.stiffness > 0.0) f.damping_ratio = std::max(f.damping_ratio, 0.5 * f.omega_low * s.damping / s.stiffness);
+  f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
+  f.phase = scene.duration * f.omega_low;
+
+  f.limits = limits_of(scene);
+  SceneStage stage(scene);
+  const SpringSystem system = stage.system();
+  std::vector<Eigen::Vector3d> a(f.vertices);
+  accelerations(system, terms_of(system), stage.motion().x, stage.motion().v, a);
+  const double speed = mass_weighted(start, stage.motion().v), push = mass_weighted(start, a);
+  f.motion_rate = speed > 0.0 ? std::min(push / speed, f.omega_low) : f.omega_low;
+  if (f.motion_rate == 0.0) f.motion_rate = 1.0 / scene.duration;
+  f.motion_size = speed / f.motion_rate / scene.edge;
+
+  ForceTimer force(scene, clock, 1'000'000);
+  f.force_s = 1e-9 * std::min({force.measure(), force.measure(), force.measure()});
+  return f;
+}
+
+double implicit_step_seconds(const TradeoffScene& scene, double h, const CpuClock& clock) {
+  SceneStage stage(scene);
+  BaraffWitkin integrator;
+  std::vector<double> s;
+  for (int k = 0; k < 3; ++k) {
+    const std::int64_t start = clock();
+    if (!integrator.step(stage.system(), stage.motion(), h).ok()) return infinity;
+    s.push_back(1e-9 * static_cast<double>(clock() - start));
+  }
+  return std::min(s[1], s[2]);
+}
+
+double stability_limit(const Scheme& scheme, const SceneFeatures& f, double duration) {
+  double limit = infinity;
+  for (const StableStep& step : f.limits) limit = std::min(limit, step.limit(scheme, horizon_of(duration)).stable);
+  return limit;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,36 @@
+#pragma once
+// What the choice of an integrator depends on: of a scene, and of this machine.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/time/method/step_limit.h"
+#include "validation/scenes/scene_stage.h"
+
+namespace dartboard {
+
+/// What a choice depends on.
+struct SceneFeatures {
+  std::size_t vertices = 0, springs = 0, events = 0;
+  double omega_low = 0.0, omega_high = 0.0;  // [1/s] omega_max: power iteration below, Gershgorin above; over all times
+  double damping_ratio = 0.0;                // at omega_max, the largest of a spring's
+  double phase = 0.0;                        // duration times omega_max
+  double motion_rate = 0.0;                  // [1/s] of the motion: accelerations over velocities at the start
+  double motion_size = 0.0;                  // [edges] velocities over that rate
+  double force_s = 0.0;                      // seconds of a force evaluation here
+  double implicit_step_s = 0.0;              // seconds of a linearly implicit step here, its factor kept
+  std::vector<StableStep> limits{};          // of the step: at the start, and there after each event
+};
+
+/// All but `implicit_step_s`, which takes a factorisation to know.
+SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock);
+
+/// The less of the second and third of three linearly implicit steps of h [s], of which the first finds a factor;
+/// infinite when they fail.
+double implicit_step_seconds(const TradeoffScene& scene, double h, const CpuClock& clock);
+
+/// The longest stable step [s] of a method for a scene: the least that StableStep::limit says of the start and of what
+/// events leave there, for a run of that duration. A simulation of the scene goes by the same number.
+double stability_limit(const Scheme& scheme, const SceneFeatures& features, double duration);
+
+}  // namespace dartboard

@@ -1,0 +1,142 @@
+#include "validation/scenes/scene_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/operations/dissociate_all.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
+  if (scene.body) {
+    body_ = scene.body->body;
+    ends_.rebuild(*body_);
+    return;
+  }
+  const reference::SpringNetwork& network = scene.motion.network;
+  if (!scene.motion.events.empty()) throw InputError("a network without a body has no events");
+  for (const reference::Spring& s : network.springs) {
+    columns_.ends.push_back({s.a, s.b});
+    columns_.springs.push_back({s.rest_length, s.stiffness, s.damping});
+  }
+  columns_.mass = network.mass;
+  for (const double m : network.mass) {
+    columns_.inverse_mass.push_back(1.0 / m);
+    columns_.viscosity.push_back(network.viscosity * m);
+  }
+  columns_.fixed = network.fixed;
+  columns_.gravity = network.gravity;
+  columns_.state = scene.motion.start;
+}
+
+SpringSystem SceneStage::system() const {
+  if (body_) return system_of(*body_, ends_);
+  const Columns& c = columns_;
+  return {c.ends, c.springs, c.mass, c.inverse_mass, c.viscosity, c.fixed, c.gravity};
+}
+
+Motion SceneStage::motion() {
+  if (body_) return {body_->vertices.position, body_->vertices.velocity};
+  return {columns_.state.x, columns_.state.v};
+}
+
+PointState SceneStage::state() const {
+  if (body_) return {body_->vertices.position, body_->vertices.velocity};
+  return columns_.state;
+}
+
+void SceneStage::pass_event() {
+  const std::vector<Dart>& faces = scene_->body->faces.at(next_event_++);
+  ends_.apply(*body_, adapt(*body_, dissociate_all(body_->map, std::span<const Dart>(faces))));
+}
+
+TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
+                   const RunLimits& limits) {
+  auto* adaptive = dynamic_cast<AdaptiveIntegrator*>(&integrator);
+  if (setting.steps == 0 && !(setting.tolerance > 0.0)) throw InputError("a run needs steps, or a tolerance");
+  if (setting.steps == 0 && adaptive == nullptr)
+    throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
+  // an error of the position that the fastest oscillation would turn into one of the velocity, of a sixteenth of that
+  // rate: the motions of these scenes are slower than the fastest they could be
+  const Tolerance tolerance{setting.tolerance * scene.edge, setting.tolerance * scene.edge * scene.fastest_rate / 16};
+
+  SceneStage stage(scene);
+  TimedRun run;
+  if (setting.steps > 0) run.h = scene.duration / static_cast<double>(setting.steps);
+  integrator.restart();
+  integrator.reset_work();
+
+  const std::int64_t start = clock();
+  const auto give_up_late = [&] {
+    if (run.result.ok() && clock() - start > limits.cpu_ns) {
+      run.result.code = StepCode::budget;
+      run.result.quantity = "CPU seconds";
+      run.result.value = 1e-9 * static_cast<double>(limits.cpu_ns);
+    }
+  };
+  std::uint64_t look_after = 1, since_look = 0;
+  std::int64_t last_look = start;
+  double t = 0.0;
+  // an excess of 2^-30 of a step is rounding
+  const auto go_to = [&](double end) {
+    if (end <= t) return;
+    if (setting.steps == 0) {
+      run.result = adaptive->advance(stage.system(), stage.motion(), end - t, tolerance);
+      give_up_late();
+    } else {
+      const double count = std::max(1.0, std::ceil((end - t) / run.h - 0x1p-30));
+      double h = (end - t) / count;
+      if (std::abs(h - run.h) < 0x1p-40 * run.h) h = run.h;
+      const SpringSystem system = stage.system();
+      for (double k = 0; k < count && run.result.ok(); ++k) {
+        run.result = integrator.step(system, stage.motion(), h);
+        if (++since_look < look_after) continue;
+        // the clock costs as much as a step of a small scene: look at it about every millisecond
+        const std::int64_t now = clock();
+        if (now - last_look < 1'000'000) look_after *= 2;
+        last_look = now;
+        since_look = 0;
+        give_up_late();
+      }
+    }
+    t = end;
+  };
+  const auto& events = scene.motion.events;
+  std::size_t next_event = 0;
+  for (const double checkpoint : scene.motion.checkpoints) {
+    if (run.states.size() >= limits.checkpoints) break;
+    for (; next_event < events.size() && events[next_event].time < checkpoint && run.result.ok(); ++next_event) {
+      go_to(events[next_event].time);
+      if (!run.result.ok()) break;
+      stage.pass_event();
+      integrator.restart();
+    }
+    if (run.result.ok()) go_to(checkpoint);
+    if (!run.result.ok()) break;
+    run.states.push_back(stage.state());
+  }
+  run.cpu_ns = clock() - start;
+  run.work = integrator.work();
+  if (setting.steps == 0 && run.work.steps > 0) run.h = t / static_cast<double>(run.work.steps);
+  return run;
+}
+
+ForceTimer::ForceTimer(const TradeoffScene& scene, CpuClock clock, std::int64_t batch_ns)
+    : stage_(scene), clock_(std::move(clock)), terms_(terms_of(stage_.system())), a_(stage_.motion().x.size()) {
+  // doubling until the batch is long enough; its first evaluations warm the caches
+  for (batch_ = 1; batch_ < 4096; batch_ *= 2)
+    if (measure() * static_cast<double>(batch_) >= static_cast<double>(batch_ns)) break;
+}
+
+double ForceTimer::measure() {
+  const SpringSystem system = stage_.system();
+  const Motion motion = stage_.motion();
+  const std::int64_t start = clock_();
+  for (std::uint64_t k = 0; k < batch_; ++k) accelerations(system, terms_, motion.x, motion.v, a_);
+  return static_cast<double>(clock_() - start) / static_cast<double>(batch_);
+}
+
+}  // namespace dartboard
