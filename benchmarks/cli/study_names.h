@@ -18,4 +18,11 @@ inline std::string study_scene_or_file(const std::string& given) {
   return scene_file(given, names).string();
 }
 
+/// "smooth, cut, ..."
+inline std::string study_scene_names() {
+  std::string known;
+  for (const TradeoffEntry& entry : tradeoff_scenes()) known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  return known;
+}
+
 }  // namespace dartboard

@@ -2,7 +2,7 @@
 # the project as a subdirectory inherits them.
 add_library(dartboard_options INTERFACE)
 target_compile_features(dartboard_options INTERFACE cxx_std_20)
-target_include_directories(dartboard_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(dartboard_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(dartboard_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
 # The walks promise equal bits. Fusing a*b+c changes bits, and is the one such transform on by default ...
@@ -45,14 +45,18 @@ if(DARTBOARD_COVERAGE)
   target_link_options(dartboard_options INTERFACE --coverage)
 endif()
 
-# One precompiled header for all folders: what most sources include and what costs most to read.
-if(DARTBOARD_PRECOMPILE)
-  file(WRITE ${CMAKE_BINARY_DIR}/precompiled.cpp "")
-  add_library(dartboard_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
-  target_link_libraries(dartboard_precompiled PRIVATE dartboard_options Eigen3::Eigen fmt::fmt)
-  target_precompile_headers(dartboard_precompiled PRIVATE <algorithm> <functional> <map> <span> <string> <vector>
-    <fmt/format.h> <Eigen/Geometry>)
-endif()
+# dartboard_precompile(NAME HEADERS...): a precompiled header that the folders added after it, in this room, share: what
+# most of their sources include and what costs most to read.
+function(dartboard_precompile name)
+  if(DARTBOARD_PRECOMPILE)
+    file(WRITE ${PROJECT_BINARY_DIR}/${name}.cpp "")
+    add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
+    target_link_libraries(${name} PRIVATE dartboard_options Eigen3::Eigen fmt::fmt)
+    target_precompile_headers(${name} PRIVATE <algorithm> <functional> <map> <span> <string> <vector> <fmt/format.h>
+      <Eigen/Geometry> ${ARGN})
+    set(dartboard_precompiled ${name} PARENT_SCOPE)
+  endif()
+endfunction()
 
 # dartboard_libraries(VARIABLE NAMES...): the targets of folders; other names stay what they are.
 function(dartboard_libraries variable)
@@ -88,15 +92,20 @@ function(dartboard_folder path)
   endif()
   dartboard_libraries(libraries ${ARG_SEES})
   string(REPLACE "/" "_" target dartboard_${path})
-  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/${path}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${path}/*.cpp)
   if(NOT sources)
     add_library(${target} INTERFACE)
-    target_link_libraries(${target} INTERFACE dartboard_options ${libraries} ${ARG_LINK})
+    target_include_directories(${target} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${target} INTERFACE ${libraries} ${ARG_LINK})
     return()
   endif()
   add_library(${target} STATIC ${sources})
-  target_link_libraries(${target} PUBLIC dartboard_options ${libraries} ${ARG_LINK})
+  # our flags are for our sources alone, not for those of who links to them
+  target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:dartboard_options,INTERFACE_COMPILE_OPTIONS>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PUBLIC ${libraries} ${ARG_LINK})
   if(DARTBOARD_PRECOMPILE AND NOT ARG_NOT_PRECOMPILED)
-    target_precompile_headers(${target} REUSE_FROM dartboard_precompiled)
+    target_precompile_headers(${target} REUSE_FROM ${dartboard_precompiled})
   endif()
 endfunction()

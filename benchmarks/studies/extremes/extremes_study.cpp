@@ -1,8 +1,10 @@
 #include "benchmarks/studies/extremes/extremes_study.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -11,10 +13,11 @@
 
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/processes.h"
-#include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/extremes/extremes_figures.h"
+#include "benchmarks/studies/extremes/extremes_report.h"
 #include "core/meshes/mesh_io.h"
+#include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/cgal/delaunay_ball.h"
 
@@ -25,6 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr unsigned hang_seconds = 20;  // of one run
 
+// What is measured beside the matrix, and asked for as its axes are.
 constexpr std::array studies{
     ExtremeAxis{"limits", "longest stable steps beside theory"},
     ExtremeAxis{"maps", "stability over step and damping ratio"},
@@ -34,13 +38,14 @@ constexpr std::array studies{
 };
 
 /// All runs of an axis in child processes: after one that ended the process, the next goes on behind it.
-void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool quick, Progress& progress,
-              std::vector<Json>& all) {
+void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool quick, const std::string& folder,
+              StudyLog& log, std::vector<Json>& all) {
   std::size_t ended = 0;
   const auto end = [&](Json cell) {
     all.push_back(std::move(cell));
     ++ended;
-    progress.advance(axis);
+    log.sample(all.back(), "extremes.jsonl", folder);
+    log.advance(axis);
   };
   while (ended < cases.size()) {
     std::vector<std::string> arguments{"extremes", "--axis", std::string(axis), "--child-from", std::to_string(ended)};
@@ -59,20 +64,17 @@ void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool qu
   }
 }
 
-/// The pictures of what was measured; what is missing is told.
-std::vector<std::string> draw_figures(const ExtremesResults& results, const RunFolder& folder) {
-  std::vector<std::string> troubles;
-  if (!results.maps.empty()) troubles.push_back(draw(maps_figure(results.maps), folder.path(), "maps"));
+/// The pictures of what was measured.
+std::vector<Picture> pictures_of(const ExtremesResults& results) {
+  std::vector<Picture> pictures;
+  if (!results.maps.empty()) pictures.push_back({"maps", maps_figure(results.maps)});
   if (!results.amplification.empty())
-    troubles.push_back(draw(amplification_figure(results.amplification), folder.path(), "amplification"));
-  if (!results.rounding.empty()) troubles.push_back(draw(rounding_figure(results.rounding), folder.path(), "rounding"));
-  std::erase(troubles, "");
-  return troubles;
+    pictures.push_back({"amplification", amplification_figure(results.amplification)});
+  if (!results.rounding.empty()) pictures.push_back({"rounding", rounding_figure(results.rounding)});
+  return pictures;
 }
 
 }  // namespace
-
-std::span<const ExtremeAxis> extremes_studies() { return studies; }
 
 void run_extremes_child(std::string_view axis, bool quick, std::size_t from) {
   const std::vector<ExtremeCase> cases = extreme_cases(axis, quick);
@@ -85,12 +87,21 @@ void run_extremes_child(std::string_view axis, bool quick, std::size_t from) {
   }
 }
 
-ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made) {
+namespace {
+
+ExtremesResults measure(const ExtremesPlan& plan, StudyLog& log) {
   ExtremesResults results;
+  const auto made = [&](std::string_view study) {
+    Report part;
+    for (NamedTable& t : tables_of(results))
+      if (t.study == study) part.tables.push_back(std::move(t));
+    part.silent = !plan.shows_tables && study != "matrix";
+    log.finished(part, plan.folder);
+  };
   const bool quick = plan.quick;
   const auto wants = [&plan](std::string_view study) { return plan.axis.empty() || plan.axis == study; };
-  const auto begin = [&plan, &wants](const ExtremeAxis& study) {
-    if (wants(study.name) && !plan.silent) tell(stderr, "extremes: {}\n", study.what);
+  const auto begin = [&](const ExtremeAxis& study) {
+    if (wants(study.name)) log.say(fmt::format("extremes: {}", study.what));
     return wants(study.name);
   };
   if (begin(studies[0])) {
@@ -100,21 +111,21 @@ ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made
     for (MeshBody& body : mesh_bodies("delaunay-250", delaunay_ball(250, 2), 200, 2))
       results.meshes.push_back(std::move(body));
     for (StabilityLimit& limit : measure_mesh_limits(results.meshes, quick)) results.limits.push_back(std::move(limit));
-    made(results, "limits");
+    made("limits");
   }
   if (begin(studies[1])) {
     for (const IntegratorEntry& entry : integrators())
       if (const Scheme& scheme = entry.make()->scheme(); !scheme.implicit)
         results.maps.push_back(measure_stability_map(entry, map_plan(scheme, quick)));
-    made(results, "maps");
+    made("maps");
   }
   if (begin(studies[2])) {
     results.amplification = measure_amplification(amplification_steps(quick ? 4 : 12));
-    made(results, "amplification");
+    made("amplification");
   }
   if (begin(studies[3])) {
     results.detections = measure_detection(quick);
-    made(results, "detection");
+    made("detection");
   }
   if (begin(studies[4])) {
     constexpr std::array methods{"verlet", "verlet-compensated", "blanes-moan-4", "blanes-moan-4-compensated"};
@@ -126,7 +137,7 @@ ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made
     }
     for (const double h : {1e-18, 1e-17, 1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-10})
       for (const std::string_view name : methods) results.tiny.push_back(measure_tiny_steps(name, h, 1'000'000));
-    made(results, "rounding");
+    made("rounding");
   }
   std::vector<std::pair<std::string_view, std::vector<ExtremeCase>>> matrix;
   std::size_t runs = 0;
@@ -136,23 +147,34 @@ ExtremesResults measure_extremes(const ExtremesPlan& plan, const StudyMade& made
     runs += matrix.back().second.size();
   }
   if (runs == 0) return results;
-  {
-    Progress progress("extremes: runs of the matrix", runs, plan.silent);
-    for (const auto& [axis, cases] : matrix) run_axis(axis, cases, quick, progress, results.cells);
-  }
-  made(results, "matrix");
+  log.begin("extremes: runs of the matrix", runs);
+  for (const auto& [axis, cases] : matrix) run_axis(axis, cases, quick, plan.folder, log, results.cells);
+  made("matrix");
   return results;
 }
 
-std::vector<std::string> write_extremes(const ExtremesResults& results, const RunFolder& folder) {
-  JsonLines matrix = folder.json_lines("extremes.jsonl");
-  for (const Json& cell : results.cells) matrix.append(cell);
-  for (const NamedTable& t : tables_of(results)) folder.write_table(t.name, t.heading, t.table);
-  Json rest = to_json(results);
-  rest.erase("matrix");
-  folder.write_json("measurements.json", rest);
-  folder.write_claims(claims_of(results));
-  return draw_figures(results, folder);
+}  // namespace
+
+std::string known_extremes() {
+  std::vector<std::string_view> known;
+  for (const ExtremeAxis& axis : extreme_axes()) known.push_back(axis.name);
+  for (const ExtremeAxis& study : studies) known.push_back(study.name);
+  return fmt::format("{}", fmt::join(known, ", "));
+}
+
+Report extremes_study(const ExtremesPlan& plan, StudyLog& log) {
+  const auto is_asked_for = [&plan](const ExtremeAxis& axis) { return axis.name == plan.axis; };
+  if (!plan.axis.empty() && std::ranges::none_of(studies, is_asked_for) &&
+      std::ranges::none_of(extreme_axes(), is_asked_for))
+    throw InputError(fmt::format("there is no axis '{}'; there are {}", plan.axis, known_extremes()));
+  const ExtremesResults results = measure(plan, log);
+  Report report{.claims = claims_of(results), .pictures = pictures_of(results), .numbers = to_json(results)};
+  for (const auto& cells : {forbidden_cells(results), nameless_cells(results)})
+    for (const Json& cell : cells) report.opening += json_text(cell) + "\n";
+  Json rest = report.numbers;
+  rest.erase("matrix");  // it is in extremes.jsonl
+  report.data_files = {{"measurements.json", std::move(rest)}};
+  return report;
 }
 
 }  // namespace dartboard

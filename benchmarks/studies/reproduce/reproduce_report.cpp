@@ -275,12 +275,6 @@ std::string timing_note(const ReproduceResults& r, const Problem& problem) {
       r.ms("coverage-every"), r.ms("lists-every"));
 }
 
-void Answers::append(const Answers& part) {
-  claims.insert(claims.end(), part.claims.begin(), part.claims.end());
-  gates_passed = gates_passed && part.gates_passed;
-  picture_trouble += part.picture_trouble;
-}
-
 std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem) {
   std::vector<Claim> claims = answer_topology(results.counts, problem);
   for (Claim& claim : answer_time(results)) claims.push_back(std::move(claim));

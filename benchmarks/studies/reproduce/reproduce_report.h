@@ -60,16 +60,6 @@ Claim measure_rebuild_claim(const Problem& problem);
 /// All of them, in the order of the paper.
 std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem);
 
-/// What a part of the run comes to.
-struct Answers {
-  std::vector<Claim> claims{};
-  bool gates_passed = true;
-  std::string picture_trouble{};  // of pictures that could not be drawn
-
-  /// The answers of another part come behind.
-  void append(const Answers& part);
-};
-
 /// What the run comes to: 1 if a gate has failed, or as exit_code(claims).
 int reproduce_exit_code(const std::vector<Claim>& claims, bool gates_passed);
 /// The last lines: what was found, and what to try next.

@@ -364,26 +364,5 @@ TEST(ReproduceTables, HaveThePapersTimesBesideOurs) {
   }
 }
 
-TEST(ReproduceAnswers, OfTwoPartsAreTheClaimsTheGatesAndTheTroublesOfBoth) {
-  const auto part = [](const std::string& id, bool passed, const std::string& trouble) {
-    Answers answers{.gates_passed = passed, .picture_trouble = trouble};
-    answers.claims.resize(1);
-    answers.claims[0].id = id;
-    return answers;
-  };
-  Answers all = part("first", true, "");
-  all.append(part("second", true, "no picture"));
-  ASSERT_EQ(all.claims.size(), 2u);
-  EXPECT_EQ(all.claims[0].id, "first");
-  EXPECT_EQ(all.claims[1].id, "second");
-  EXPECT_TRUE(all.gates_passed);
-  EXPECT_EQ(all.picture_trouble, "no picture");
-  all.append(part("third", false, ""));
-  EXPECT_FALSE(all.gates_passed);
-  EXPECT_EQ(all.picture_trouble, "no picture");
-  all.append(part("fourth", true, ""));
-  EXPECT_FALSE(all.gates_passed);
-}
-
 }  // namespace
 }  // namespace dartboard

@@ -1,18 +1,11 @@
-// dartboard recommend --audit: unseen scenes, their recommendations, and what happens when they are followed.
+#include "benchmarks/studies/tradeoff/audit_study.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "benchmarks/cli/verbs/verb_recommend.h"
 #include "benchmarks/harness/clock.h"
-#include "benchmarks/harness/json_text.h"
-#include "benchmarks/harness/manifest.h"
-#include "benchmarks/harness/progress.h"
-#include "benchmarks/harness/run_folder.h"
-#include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/tradeoff/audit_plan.h"
 #include "benchmarks/studies/tradeoff/audit_report.h"
 
@@ -75,58 +68,31 @@ constexpr std::string_view reading =
 
 }  // namespace
 
-void audit_recommendations(const AuditOptions& options, Outcome& outcome) {
-  const auto say = [&](const std::string& text) {
-    tell(options.json ? stderr : stdout, "{}\n", text);
-    std::fflush(options.json ? stderr : stdout);
-  };
-  const RunFolder folder(run_path(options.out, "recommend"));
-  RunFacts facts;
-  facts.command_line = {outcome.command_line};
-  facts.seeds = {{"scenes and errors", options.seed}};
-  auto manifest = begin_manifest(facts);
-  manifest["quick"] = options.quick;
-  folder.write_manifest(manifest);
-  auto samples = folder.json_lines("samples.jsonl");
-
-  AuditCases cases(options.seed, options.quick);
+Report audit_study(std::uint64_t seed, bool quick, StudyLog& log) {
+  AuditCases cases(seed, quick);
   std::vector<AuditedPair> pairs;
+  Report report;
+  report.numbers = {{"pairs", nlohmann::json::array()}};
   const std::int64_t start = thread_cpu_ns();
-  {
-    Progress progress("audit", cases.size(), options.json);
-    for (std::uint64_t k = 0; k < cases.size(); ++k) {
-      const AuditCase drawn = cases.next();
-      for (const AuditedPair& p : audit_case(drawn)) {
-        samples.append(json_of(p));
-        pairs.push_back(p);
-      }
-      progress.advance(drawn.scene.what);
+  log.begin("audit", cases.size());
+  for (std::uint64_t k = 0; k < cases.size(); ++k) {
+    const AuditCase drawn = cases.next();
+    for (const AuditedPair& p : audit_case(drawn)) {
+      log.sample(json_of(p));
+      report.numbers["pairs"].push_back(nlohmann::ordered_json(json_of(p)));
+      pairs.push_back(p);
     }
+    log.advance(drawn.scene.what);
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
-  manifest["cpu_s"] = cpu_s;
-  const std::vector<Claim> claims = audit_claims(pairs);
-  const Table table = audit_table(pairs);
-  const Table scenes = audited_scenes_table(pairs);
-  folder.write_claims(claims);
-  folder.write_table("audit", "Recommendations and what happened", table, reading);
-  folder.write_table("scenes", "The scenes", scenes);
-  const std::string trouble = draw(
-      audit_plot(pairs, fmt::format("{} pairs of an unseen scene and an error, seed {}", pairs.size(), options.seed)),
-      folder.path(), "audit");
-  if (!trouble.empty()) say(trouble);
-  finish_manifest(manifest);
-  folder.write_manifest(manifest);
-
-  say(to_text(scenes) + "\n" + to_text(table) + "\n" + to_text(claims));
-  say(fmt::format("{:.0f} s of processor time. Written to {}.", cpu_s, folder.path().string()));
-  if (options.json) {
-    nlohmann::json report{{"claims", claims}, {"pairs", nlohmann::json::array()}, {"manifest", manifest}};
-    for (const AuditedPair& p : pairs) report["pairs"].push_back(json_of(p));
-    tell("{}\n", json_text(report, 2));
-  }
-  outcome.exit_code = exit_code(claims);
-  picture_missing(outcome, trouble);
+  report.numbers["cpu_s"] = cpu_s;
+  report.tables = {{"scenes", "The scenes", audited_scenes_table(pairs)},
+                   {"audit", "Recommendations and what happened", audit_table(pairs), std::string(reading)}};
+  report.claims = audit_claims(pairs);
+  report.pictures = {{"audit", audit_plot(pairs, fmt::format("{} pairs of an unseen scene and an error, seed {}",
+                                                             pairs.size(), seed))}};
+  report.sentence = fmt::format("{:.0f} s of processor time. {}", cpu_s, in_words(report.claims));
+  return report;
 }
 
 }  // namespace dartboard

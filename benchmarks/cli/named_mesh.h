@@ -1,0 +1,17 @@
+#pragma once
+// Meshes as a command line names them: those of the project by name, all others by their file.
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/studies/topology/topology_study.h"
+
+namespace dartboard {
+
+/// Notices of a file are told on standard error when it is read.
+MeshSource find_mesh(const std::string& name);
+
+/// Those that generators and CGAL make, and the files of benchmarks/meshes.
+std::vector<MeshSource> all_meshes();
+
+}  // namespace dartboard

@@ -1,0 +1,42 @@
+#pragma once
+// What the verbs that run a study share: options, and the way from a study to an exit status.
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "benchmarks/cli/cli.h"
+#include "benchmarks/report/publish.h"
+
+namespace dartboard {
+
+struct StudyOptions {
+  bool json = false, quick = false;
+  std::string out;
+  std::uint64_t seed = 1;
+};
+
+/// What help says of the options; an option without a text does not exist.
+struct StudyTexts {
+  std::string quick{};       // what it leaves out
+  std::string seed{};        // what it is of
+  bool keeps_folder = true;  // also without --out
+  std::string out{};         // instead of what is said of a folder anyway
+};
+void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& texts);
+
+/// The same for options with more members than those.
+template <class Options = StudyOptions>
+std::shared_ptr<Options> study_options(CLI::App& verb, const StudyTexts& texts) {
+  auto options = std::make_shared<Options>();
+  add_study_options(verb, *options, texts);
+  return options;
+}
+
+/// Run a study and publish what it finds; `how` lacks only what the options and the command line say.
+void run_study(const StudyOptions& options, Publication how, const std::function<Report(StudyLog&)>& study,
+               Outcome& outcome);
+
+}  // namespace dartboard

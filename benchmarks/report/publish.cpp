@@ -1,0 +1,150 @@
+#include "benchmarks/report/publish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/progress.h"
+#include "benchmarks/harness/run_folder.h"
+#include "benchmarks/harness/tell.h"
+
+namespace dartboard {
+
+int exit_code(const Report& report) {
+  return report.disagreements.empty() ? exit_code(std::span<const Claim>(report.claims)) : 1;
+}
+
+namespace {
+
+constexpr int picture_missing = 3;
+
+class Publisher : public StudyLog {
+ public:
+  explicit Publisher(const Publication& how) : how_(how) {
+    if (how.out.empty() && !how.keeps_folder) return;
+    folder_.emplace(run_path(how.out, how.label));
+    manifest_ = begin_manifest(how.facts);
+    manifest_["quick"] = how.quick;
+    folder_->write_manifest(manifest_);
+  }
+
+  void say(const std::string& sentence) override {
+    progress_.reset();
+    std::FILE* to = how_.json ? stderr : stdout;
+    tell(to, "{}\n", sentence);
+    std::fflush(to);
+  }
+
+  void sample(const nlohmann::json& sample, const std::string& file, const std::string& folder) override {
+    if (!folder_) return;
+    Part& to = part(folder);
+    auto lines = to.lines.find(file);
+    if (lines == to.lines.end()) lines = to.lines.emplace(file, to.folder.json_lines(file)).first;
+    lines->second.append(sample);
+  }
+
+  void begin(const std::string& label, std::size_t steps) override {
+    progress_ = std::make_unique<Progress>(label, steps, how_.json);
+  }
+  void advance(std::string_view detail) override {
+    if (progress_) progress_->advance(detail);
+  }
+
+  void finished(const Report& report, const std::string& folder) override {
+    if (!report.silent) show(report);
+    if (folder_) write(report, part(folder));
+    std::ranges::copy(report.claims, std::back_inserter(all_.claims));
+    std::ranges::copy(report.disagreements, std::back_inserter(all_.disagreements));
+    std::ranges::copy(report.troubles, std::back_inserter(all_.troubles));
+    if (folder_ && !all_.claims.empty()) folder_->write_claims(all_.claims);
+  }
+
+  int end(const Report& last) {
+    finished(last, "");
+    if (folder_) {
+      finish_manifest(manifest_);
+      folder_->write_manifest(manifest_);
+    }
+    if (how_.json) tell("{}\n", json_text(numbers(last), 2));
+    std::string words = last.sentence;
+    if (words.empty() && !all_.claims.empty()) words = in_words(all_.claims);
+    if (how_.quick && folder_ && last.sentence.empty()) words = "This was a quick run. " + words;
+    if (folder_) words += fmt::format("{}Written to {}.", words.empty() ? "" : "\n", folder_->path().string());
+    if (!words.empty()) say(words);
+    if (exit_code(all_) != 0) return 1;
+    return all_.troubles.empty() ? 0 : picture_missing;
+  }
+
+ private:
+  void show(const Report& report) {
+    if (!report.opening.empty()) say(report.opening);
+    for (const NamedTable& t : report.tables) {
+      std::string text = t.heading.empty() ? "" : t.heading + "\n\n";
+      text += to_text(t.table);
+      if (!t.note.empty()) text += "\n" + t.note + "\n";
+      say(text);
+    }
+    if (!report.claims.empty()) say("Claims\n\n" + to_text(report.claims));
+    for (const std::string& words : report.disagreements) say(words);
+    for (const std::string& trouble : report.troubles) tell(stderr, "{}\n", trouble);
+  }
+
+  /// A folder within that of the run, or that itself, and what has gone there.
+  struct Part {
+    RunFolder folder;
+    std::map<std::string, JsonLines> lines{};
+    std::vector<Claim> claims{};
+  };
+  Part& part(const std::string& name) {
+    const auto known = parts_.find(name);
+    if (known != parts_.end()) return known->second;
+    return parts_.emplace(name, Part{name.empty() ? *folder_ : RunFolder(folder_->path() / name)}).first->second;
+  }
+
+  void write(const Report& report, Part& to) {
+    const RunFolder& folder = to.folder;
+    for (const NamedTable& t : report.tables)
+      if (!t.name.empty()) folder.write_table(t.name, t.heading, t.table, t.note);
+    for (const auto& [file, text] : report.pages) folder.write(file, text);
+    for (const auto& [file, value] : report.data_files) folder.write_json(file, value);
+    std::ranges::copy(report.claims, std::back_inserter(to.claims));
+    if (!to.claims.empty()) folder.write_claims(to.claims);
+    for (const Picture& picture : report.pictures) {
+      const std::string trouble =
+          std::visit([&](const auto& what) { return draw(what, folder.path(), picture.name); }, picture.what);
+      if (trouble.empty()) continue;
+      tell(stderr, "{}\n", trouble);
+      all_.troubles.push_back(trouble);
+    }
+  }
+
+  nlohmann::ordered_json numbers(const Report& last) const {
+    nlohmann::ordered_json json = last.numbers;
+    if (json.is_array()) return json;
+    if (!all_.claims.empty()) json["claims"] = nlohmann::json(all_.claims);
+    if (folder_) json["manifest"] = manifest_;
+    return json;
+  }
+
+  const Publication& how_;
+  std::optional<RunFolder> folder_;
+  nlohmann::json manifest_;
+  std::map<std::string, Part> parts_;  // by name; that of the run has none
+  std::unique_ptr<Progress> progress_;
+  Report all_;  // claims, disagreements and troubles of all parts
+};
+
+}  // namespace
+
+int publish(const Publication& how, const std::function<Report(StudyLog&)>& study) {
+  Publisher publisher(how);
+  return publisher.end(study(publisher));
+}
+
+}  // namespace dartboard

@@ -1,0 +1,80 @@
+#include "benchmarks/studies/order/order_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "benchmarks/studies/order/order_report.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double quick_error = 0.05;  // upper end of the window of a quick run
+
+std::vector<const IntegratorEntry*> wanted(const OrderPlan& plan) {
+  for (const std::string& name : plan.integrators) (void)make_integrator(name);  // throws for one there is not
+  std::vector<const IntegratorEntry*> entries;
+  for (const IntegratorEntry& entry : integrators())
+    if (plan.integrators.empty() || std::ranges::find(plan.integrators, entry.name) != plan.integrators.end())
+      entries.push_back(&entry);
+  return entries;
+}
+
+OrderResults measure(const OrderPlan& plan, StudyLog& log) {
+  OrderResults results;
+  const auto entries = wanted(plan);
+  log.begin("validate order", std::size(order_cases) * (entries.size() + 1) + entries.size() + 2);
+  OrderOptions order;
+  if (plan.quick) order.most_error = quick_error;  // methods of order 1 get there two halvings earlier
+  for (const OrderCase which : order_cases) {
+    const OrderStage stage = order_stage(which);
+    results.references.push_back({which, stage.certified});
+    log.advance(fmt::format("{}: reference", name(which)));
+    for (const IntegratorEntry* entry : entries) {
+      results.studies.push_back(study_order(stage, *entry, order));
+      log.advance(fmt::format("{}: {}", name(which), entry->name));
+    }
+    if (which == OrderCase::undamped) results.force = compare_forces_with_energy(stage.scene);
+    if (which == OrderCase::aligned_cut || which == OrderCase::unaligned_cut) {
+      const PreparedScene& scene = stage.scene;
+      for (const CutJump& jump : cut_jumps(scene, *make_integrator("blanes-moan-4"), 0.5 / scene.fastest_rate))
+        results.jumps.push_back(jump);
+    }
+  }
+  for (const IntegratorEntry* entry : entries) {
+    if (entry->make()->scheme().amplification == nullptr)
+      results.no_discrete.emplace_back(entry->name);
+    else
+      for (const double zeta : {0.0, 1e-5})
+        results.discrete.push_back(compare_with_discrete_map(*entry, zeta, plan.quick ? 10000 : 100000));
+    log.advance(fmt::format("discrete map: {}", entry->name));
+  }
+  results.drift = measure_energy_drift(plan.quick ? 1000 : 10000, 20.0);
+  log.advance("energy-momentum at large steps");
+  results.factor = compare_kept_factor(100, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  log.advance("a factor that is kept");
+  return results;
+}
+
+}  // namespace
+
+Report order_study(const OrderPlan& plan, StudyLog& log) {
+  const OrderResults results = measure(plan, log);
+  Report report;
+  report.claims = claims_of(results);
+  report.tables = {
+      {"references", "The references: a box of 3 x 3 x 3 cubes for 16.5 / omega_max, " + references_heading(results),
+       oracle_table(results)},
+      {"orders", "Observed orders", order_table(results),
+       fmt::format("^ error above {:g}, ~ not within 0.1, _ near the floor of the reference, ! no result; over two "
+                   "halvings across the unaligned cut",
+                   plan.quick ? quick_error : OrderOptions{}.most_error)},
+      {"discrete", "Against the exact maps of the methods", discrete_table(results)}};
+  report.numbers = to_json(results, report.claims);
+  report.data_files = {{"order.json", report.numbers}};
+  return report;
+}
+
+}  // namespace dartboard

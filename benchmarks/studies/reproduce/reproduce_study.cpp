@@ -1,0 +1,67 @@
+#include "benchmarks/studies/reproduce/reproduce_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "benchmarks/paper/scenes.h"
+#include "benchmarks/studies/extremes/extremes_study.h"
+#include "benchmarks/studies/reproduce/measure.h"
+#include "benchmarks/studies/reproduce/reproduce_report.h"
+
+namespace dartboard {
+namespace {
+
+constexpr int agreement_steps = 10;
+const std::string body = "liver";
+
+/// The paper's walks, gated and timed, and its claims.
+Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
+  const Problem problem = scene(body).make();
+  ReproduceResults results;
+  results.quick = plan.quick;
+  results.counts = compare_counts(problem);
+  log.finished(
+      {.opening = fmt::format("Topology-based Physical Simulation, section 5, on a body of the paper's size{}\n",
+                              plan.quick ? " (a quick run: few rounds, wide intervals)" : ""),
+       .tables = {{"counts", "1. Topology, against CGAL", counts_table(results)}}});
+  results.motion = compare_motion(problem, agreement_steps);
+  log.finished(
+      {.tables = {{"agreement",
+                   fmt::format("2. Forces, and states after {} steps, against the first contender", agreement_steps),
+                   agreement_table(results)}}});
+
+  const ReproduceGates gates = gates_of(results.counts, results.motion);
+  if (!gates.agreed.empty()) {
+    const MeasurePlan measured = plan_measurement(body, problem, gates.agreed, plan.quick, plan.seed);
+    log.say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each\n", measured.processes,
+                        measured.rounds));
+    results.per_step = per_step(measure(measured, [&](const StepSample& s) { log.sample(s); }));
+  }
+  Report report{.tables = {{"timing", "Time per RK4 step", timing_table(results), timing_note(results, problem)}},
+                .claims = answer_claims(results, problem)};
+  if (!gates.passed) report.disagreements.emplace_back("A gate has failed: see above who was not timed.");
+  return report;
+}
+
+}  // namespace
+
+Report reproduce_study(const ReproducePlan& plan, StudyLog& log) {
+  std::vector<Claim> claims;
+  bool gates_passed = true;
+  const auto add = [&](const Report& part, const std::string& folder) {
+    log.finished(part, folder);
+    std::ranges::copy(part.claims, std::back_inserter(claims));
+    gates_passed = gates_passed && part.disagreements.empty();
+  };
+  if (plan.part != "extremes") add(reproduce_paper(plan, log), "");
+  if (plan.part != "paper") {
+    log.say(fmt::format("4. Numerical stability at the extremes{}\n", plan.quick ? " (a third of the values)" : ""));
+    add(extremes_study({.quick = plan.quick, .shows_tables = false, .folder = "extremes"}, log), "extremes");
+  }
+  return {.numbers = {{"gates_passed", gates_passed}}, .sentence = closing_words(claims, gates_passed, plan.quick)};
+}
+
+}  // namespace dartboard

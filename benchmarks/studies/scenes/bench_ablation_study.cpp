@@ -1,0 +1,59 @@
+#include "benchmarks/studies/scenes/bench_ablation_study.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+
+#include "benchmarks/harness/processes.h"
+#include "benchmarks/studies/scenes/ablation_study.h"
+#include "benchmarks/studies/scenes/bench_ablation_report.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/plan/measured_plan.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+namespace {
+
+/// Asked of the built objects, part by part, whatever a plan says.
+std::map<std::string, AblationBytes> bytes_of_variants() {
+  std::map<std::string, AblationBytes> all;
+  for (const AblationVariant& variant : ablation_variants()) {
+    const MeshTally counts = plan_scene(variant.scene, make_problem(variant.scene)).counts;
+    const MemoryReport report = measured_memory(variant.scene);
+    AblationBytes bytes{.tetrahedra = counts.cells,
+                        .springs = counts.edges,
+                        .not_asked_for = bytes_not_asked_for(report),
+                        .damping = bytes_of_damping(report, counts.edges)};
+    for (const MemoryItem& item : report) bytes.total += item.bytes;
+    all[variant.name] = bytes;
+  }
+  return all;
+}
+
+}  // namespace
+
+Report ablation_bench(const AblationBenchPlan& plan, StudyLog& log) {
+  const int processes = plan.quick ? 6 : 11, rounds = plan.quick ? 3 : 12, steps = plan.quick ? 20 : 60;
+  AblationFigures results{.samples = {}, .bytes = bytes_of_variants(), .steps = steps};
+  log.say(fmt::format("{} scenes and {} loops, {} steps each time, in {} processes", results.bytes.size(), 5, steps,
+                      processes));
+  log.begin("timing", static_cast<std::size_t>(processes));
+  for (int process = 0; process < processes; ++process) {
+    run_self({"measure-ablation", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
+              std::to_string(steps), "--seed", std::to_string(plan.seed)},
+             [&](std::string_view line) {
+               const auto json = nlohmann::json::parse(line);
+               log.sample(json);
+               results.samples.push_back(json.get<Sample>());
+             });
+    log.advance();
+  }
+  check_repeats(results.samples);
+  return {.tables = {{"features", "Features on and off", features_table(results), features_note()},
+                     {"staircase", "The bare scene, with less and less around its loop", staircase_table(results)}},
+          .claims = claims_of(results),
+          .pictures = {{"ablation", ablation_plot(results)}}};
+}
+
+}  // namespace dartboard

@@ -1,0 +1,78 @@
+#include "benchmarks/studies/scenes/gallery_study.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "benchmarks/figures/album.h"
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/studies/scenes/gallery_report.h"
+#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "core/plain/escape.h"
+#include "core/scene/run/scene_run.h"
+#include "core/scene/run/scene_verdict.h"
+
+namespace dartboard {
+namespace {
+
+class AlbumWatcher : public RunWatcher {
+ public:
+  explicit AlbumWatcher(Album& album) : album_(album) {}
+  void stepped(const Simulation& simulation) override { album_.stepped(simulation); }
+
+ private:
+  Album& album_;
+};
+
+/// The scene, judged, and what it looked like.
+std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
+  ShownScene shown;
+  shown.scene = read_scene(file);
+  shown.file = file.filename().string();
+  settle_accuracy(shown.scene, thread_cpu_ns);
+  Simulation simulation(shown.scene);
+  Album album(simulation, simulation.step_count());
+  AlbumWatcher watcher(album);
+  const auto start = thread_cpu_ns();
+  const RunResult result = run_scene(simulation, shown.scene.output, watcher);
+  shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;
+  if (result.divergence) shown.divergence = to_string(*result.divergence);
+  shown.map = simulation.body().map_name();
+  shown.hash = fmt::format("{:016x}", simulation.body().state_hash());
+  shown.steps = simulation.steps_done();
+  shown.operations = simulation.operations();
+  for (const ExpectedRow& row : compare_with_expectation(shown.scene, simulation, result)) {
+    ++shown.expected;
+    if (row.holds) ++shown.held;
+  }
+  album.ended(simulation);
+  return {shown, {album.panels(), shown.scene.name}};
+}
+
+}  // namespace
+
+Report gallery_study(const std::vector<std::filesystem::path>& scene_files, StudyLog& log) {
+  Report report;
+  report.numbers = nlohmann::ordered_json::array();
+  std::vector<ShownScene> all;
+  log.begin("gallery", scene_files.size());
+  for (const auto& file : scene_files) {
+    auto [shown, strip] = show(file);
+    log.advance(shown.scene.name);
+    report.numbers.push_back(to_json(shown));
+    report.pictures.push_back({file_name_of(shown.scene.name), std::move(strip)});
+    if (!shown.divergence.empty())
+      report.disagreements.push_back(
+          fmt::format("{}: the motion {}", shortened(shown.scene.name, 100), shown.divergence));
+    else if (!shown.holds())
+      report.disagreements.push_back(
+          fmt::format("{}: {} of {} expectations hold", shortened(shown.scene.name, 100), shown.held, shown.expected));
+    all.push_back(std::move(shown));
+  }
+  report.tables = {{"", "", gallery_table(all)}};
+  report.pages = {{"gallery.md", gallery_page(all)}};
+  report.data_files = {{"gallery.json", report.numbers}};
+  return report;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,68 @@
+#include "benchmarks/studies/tradeoff/recommend_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/studies/tradeoff/recommend_report.h"
+#include "validation/scenes/scene_of_file.h"
+
+namespace dartboard {
+
+Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
+  const TradeoffScene scene =
+      find_scene(plan.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  for (const std::string& omission : scene.omissions) log.say(omission);
+  const CpuClock clock = thread_cpu_ns;
+  Report report{.numbers = nlohmann::ordered_json::array()};
+  std::vector<Recommendation> all;
+  for (const double error : plan.errors) {
+    all.push_back(recommend(scene, error, clock));
+    log.say(text_of(all.back(), plan.realtime, scene.duration));
+    report.numbers.push_back(nlohmann::ordered_json(json_of(all.back())));
+    if (all.back().pick() == nullptr)
+      report.disagreements.push_back(fmt::format("No method is recommended for an error of {:g} edges.", error));
+    else if (plan.realtime && all.back().realtime_factor < 1.0)
+      report.disagreements.push_back(
+          fmt::format("An error of {:g} edges is not met as fast as the motion itself.", error));
+  }
+  if (plan.verify) {
+    const SceneReference reference = reference_of(scene, clock, {.gain = false});
+    log.say(
+        fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
+    // the sweep: everything that was not left out for some error, no longer than a few times the longest pick
+    double longest = 0.05;
+    std::vector<TradeoffContender> contenders;
+    for (const Recommendation& r : all) {
+      if (r.pick() != nullptr) longest = std::max(longest, 3.0 * r.pick()->predicted_s);
+      for (const TradeoffContender& c : tradeoff_contenders()) {
+        const auto usable = [&](const Candidate& candidate) {
+          return candidate.contender == c.name && candidate.usable();
+        };
+        if (std::ranges::any_of(r.candidates, usable) &&
+            std::ranges::find(contenders, c.name, &TradeoffContender::name) == contenders.end())
+          contenders.push_back(c);
+      }
+    }
+    WorkPrecisionOptions how;
+    how.most_s = longest;
+    how.fewest_repetitions = 2;
+    how.repetitions_s = 0.1;
+    const WorkPrecision sweep = work_precision(scene, reference, contenders, clock, how);
+    std::vector<FollowedPick> followed;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].pick() == nullptr) continue;
+      const Audit a = audit(scene, reference, all[k], sweep.points, clock);
+      report.numbers[k]["audit"] = json_of(a);
+      followed.push_back({all[k].pick()->contender, a, a.error >= reference.floor});
+      if (followed.back().misses())
+        report.disagreements.push_back(fmt::format("The pick for an error of {:g} edges misses it.", a.error));
+    }
+    report.tables = {{"", "Predicted and actual", followed_table(followed)}};
+  }
+  return report;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,21 @@
+#pragma once
+// `dartboard recommend`: the cheapest integrator and step for an error.
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/report/report.h"
+#include "benchmarks/report/study_log.h"
+
+namespace dartboard {
+
+struct RecommendPlan {
+  std::string scene;           // a name of the study, or a scene file
+  std::vector<double> errors;  // [edges]
+  bool realtime = false;       // is that as fast as the motion itself, and what would be?
+  bool verify = false;         // run it, against the oracle and a sweep of all methods
+};
+
+Report recommend_study(const RecommendPlan& plan, StudyLog& log);
+
+}  // namespace dartboard

@@ -1,0 +1,93 @@
+#include "benchmarks/studies/tradeoff/tradeoff_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/tell.h"
+#include "benchmarks/studies/tradeoff/tradeoff_json.h"
+#include "benchmarks/studies/tradeoff/tradeoff_report.h"
+#include "benchmarks/studies/tradeoff/tradeoff_tables.h"
+#include "benchmarks/studies/tradeoff/work_precision_plot.h"
+#include "core/plain/error.h"
+#include "core/plain/escape.h"
+#include "validation/scenes/scene_of_file.h"
+
+namespace dartboard {
+namespace {
+
+/// Those that take part.
+///
+/// throws  InputError for a name that none has
+std::vector<TradeoffContender> contenders_of(const TradeoffPlan& plan) {
+  std::vector<TradeoffContender> contenders = tradeoff_contenders(plan.solvers);
+  std::string known;
+  for (const TradeoffContender& c : contenders) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", c.name);
+  for (const std::string& name : plan.only)
+    if (std::ranges::find(contenders, name, &TradeoffContender::name) == contenders.end())
+      throw InputError(fmt::format("--only: no integrator '{}' takes part; expected some of {}", name, known));
+  if (!plan.only.empty())
+    std::erase_if(contenders,
+                  [&](const TradeoffContender& c) { return std::ranges::find(plan.only, c.name) == plan.only.end(); });
+  return contenders;
+}
+
+Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, StudyLog& log) {
+  const TradeoffScene scene =
+      find_scene(scene_name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  log.say(fmt::format("{}: {}; T omega_max = {:.4g}", one_line(scene.name), one_line(scene.what, 400),
+                      scene.duration * scene.fastest_rate));
+  const CpuClock clock = thread_cpu_ns;
+  const SceneReference reference = reference_of(
+      scene, clock,
+      {.oracle_s = plan.quick ? 6.0 : 60.0, .self_converged_s = plan.quick ? 4.0 : 40.0, .gain = !plan.quick});
+  log.say(fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
+
+  WorkPrecisionOptions how;
+  how.seed = plan.seed;
+  how.most_s = plan.most_s > 0.0 ? plan.most_s : plan.quick ? 0.4 : 8.0;
+  if (plan.quick) {
+    how.fewest_repetitions = 2;
+    how.repetitions_s = 0.05;
+  }
+  WorkPrecision study = work_precision(scene, reference, contenders_of(plan), clock, how,
+                                       [&](const WorkPoint& p) { log.sample(json_of(scene.name, p)); });
+  if (reference.gain > 0.0) log.say(fmt::format("a small disturbance grows by {:.3g}", reference.gain));
+  if (!plan.solvers)
+    study.omissions.emplace_back(
+        "Implicit methods solve with a kept factor only; --solvers adds fresh factors and conjugate gradients.");
+  study.omissions.emplace_back(
+      "Steps are powers of two of the distance of checkpoints; the largest stable step lies "
+      "up to a factor of two above the largest tried.");
+  study.omissions.emplace_back("No multirate, exponential or multigrid method takes part.");
+
+  const std::string stem = file_name_of(scene.name);  // what the files are called
+  Report report;
+  report.tables = {{"", "", winners_table(study)},
+                   {"", "Regret of a fixed choice", regrets_table(study),
+                    "Omissions\n\n" + bullets(study.omissions, terminal_text)}};
+  report.pages = {{stem + ".md", tradeoff_page(study, stem)}};
+  report.pictures = {{stem, work_precision_plot(study)}};
+  report.numbers = summary_of(study);
+  if (const std::string trouble = trouble_of(study); !trouble.empty()) report.disagreements.push_back(trouble);
+  return report;
+}
+
+}  // namespace
+
+void check_tradeoff(const TradeoffPlan& plan) { contenders_of(plan); }
+
+Report tradeoff_study(const TradeoffPlan& plan, StudyLog& log) {
+  check_tradeoff(plan);
+  nlohmann::ordered_json summaries = nlohmann::ordered_json::array();
+  for (const std::string& scene : plan.scenes) {
+    const Report found = study_scene(scene, plan, log);
+    log.finished(found);
+    summaries.push_back(found.numbers);
+  }
+  return {.data_files = {{"winners.json", summaries}}, .numbers = {{"scenes", summaries}}};
+}
+
+}  // namespace dartboard

@@ -1,0 +1,186 @@
+#include "benchmarks/report/publish.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/folder_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+Claim claim(const std::string& id, Verdict verdict) {
+  return {.id = id, .text = "a sentence on " + id, .verdict = verdict};
+}
+
+/// What a publication of a study prints, and its exit status.
+struct Published {
+  int status;
+  std::string out, err;
+};
+Published published(const Publication& how, const std::function<Report(StudyLog&)>& study) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int status = publish(how, study);
+  std::string err = testing::internal::GetCapturedStderr();
+  return {status, testing::internal::GetCapturedStdout(), std::move(err)};
+}
+Published printed(const Report& report, bool json = false) {
+  return published({.label = "test", .keeps_folder = false, .json = json}, [&](StudyLog&) { return report; });
+}
+
+class Publish : public FolderTest {
+ protected:
+  std::filesystem::path out() const { return folder_ / "run"; }
+  static nlohmann::json json_of(const std::filesystem::path& file) { return nlohmann::json::parse(contents(file)); }
+  Published kept(const std::function<Report(StudyLog&)>& study, bool quick = false) {
+    return published({.label = "test", .quick = quick, .out = out().string()}, study);
+  }
+};
+
+Table one_cell(const std::string& text) {
+  Table table({{"title"}});
+  table.add_row({text});
+  return table;
+}
+
+TEST(PublishStatus, IsThatOfTheClaims) {
+  EXPECT_EQ(printed({}).status, 0);
+  EXPECT_EQ(printed({.claims = {claim("one", Verdict::holds)}}).status, 0);
+  EXPECT_EQ(printed({.claims = {claim("one", Verdict::holds), claim("two", Verdict::falls_short)}}).status, 1);
+}
+TEST(PublishStatus, IsOneForADisagreementWhateverTheClaims) {
+  EXPECT_EQ(printed({.claims = {claim("one", Verdict::holds)}, .disagreements = {"They differ."}}).status, 1);
+}
+TEST(PublishStatus, IsThreeForAMissingPictureWhereAllElseIsWell) {
+  EXPECT_EQ(printed({.troubles = {"no gnuplot"}}).status, 3);
+  EXPECT_EQ(printed({.disagreements = {"They differ."}, .troubles = {"no gnuplot"}}).status, 1);
+}
+TEST(PublishStatus, CountsPartsThatWereFinishedBefore) {
+  const auto study = [](const Report& part) {
+    return [part](StudyLog& log) {
+      log.finished(part);
+      log.finished({.claims = {claim("fine", Verdict::holds)}}, "");
+      return Report{.claims = {claim("last", Verdict::holds)}};
+    };
+  };
+  const Publication how{.label = "test", .keeps_folder = false};
+  EXPECT_EQ(published(how, study({})).status, 0);
+  EXPECT_EQ(published(how, study({.claims = {claim("one", Verdict::falls_short)}})).status, 1);
+  EXPECT_EQ(published(how, study({.disagreements = {"They differ."}})).status, 1);
+  EXPECT_EQ(published(how, study({.troubles = {"no gnuplot"}})).status, 3);
+}
+
+TEST(PublishText, HasWhatTheReportHoldsInItsOrder) {
+  const Report report{.opening = "An opening.",
+                      .tables = {{"t", "A heading", one_cell("a cell"), "A note."}},
+                      .claims = {claim("one", Verdict::holds)},
+                      .disagreements = {"They differ."}};
+  const std::string text = printed(report).out;
+  std::size_t last = 0;
+  for (const char* piece :
+       {"An opening.", "A heading", "a cell", "A note.", "a sentence on one", "They differ.", "1 claim holds."}) {
+    const std::size_t at = text.find(piece, last);
+    ASSERT_NE(at, std::string::npos) << piece << " in\n" << text;
+    last = at;
+  }
+}
+TEST(PublishText, EndsWithTheSentenceOfTheReportIfItHasOne) {
+  const std::string text = printed({.claims = {claim("one", Verdict::holds)}, .sentence = "All is well."}).out;
+  EXPECT_TRUE(text.ends_with("All is well.\n")) << text;
+  EXPECT_EQ(text.find("1 claim holds"), std::string::npos);
+}
+TEST(PublishText, LeavesOutWhatIsSilent) {
+  const auto [status, out, err] =
+      printed({.silent = true, .opening = "An opening.", .claims = {claim("one", Verdict::falls_short)}});
+  EXPECT_EQ(out.find("An opening."), std::string::npos);
+  EXPECT_EQ(status, 1);
+}
+
+TEST(PublishJson, IsAloneOnStandardOutputWithNumbersAndClaims) {
+  const Report report{.opening = "An opening.",
+                      .claims = {claim("one", Verdict::holds)},
+                      .numbers = {{"answer", 42}},
+                      .sentence = "All is well."};
+  const auto [status, out, err] = printed(report, true);
+  const auto json = nlohmann::json::parse(out);
+  EXPECT_EQ(json["answer"], 42);
+  EXPECT_EQ(json["claims"][0]["id"], "one");
+  EXPECT_NE(err.find("An opening."), std::string::npos);
+  EXPECT_NE(err.find("All is well."), std::string::npos);
+}
+
+TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
+  const auto [status, text, err] = kept(
+      [&](StudyLog& log) {
+        EXPECT_TRUE(std::filesystem::exists(out() / "manifest.json")) << "from the start on";
+        log.sample({{"k", 1}});
+        EXPECT_EQ(contents(out() / "samples.jsonl"), "{\"k\":1}\n") << "at once";
+        log.sample({{"k", 2}});
+        return Report{.tables = {{"cells", "A heading", one_cell("a cell"), "A note."}, {"", "", one_cell("shown")}},
+                      .claims = {claim("one", Verdict::holds)},
+                      .pages = {{"page.md", "A page.\n"}},
+                      .data_files = {{"numbers.json", {{"answer", 42}}}}};
+      },
+      true);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(contents(out() / "samples.jsonl"), "{\"k\":1}\n{\"k\":2}\n");
+  const std::string table = contents(out() / "cells.md");
+  for (const char* piece : {"A heading", "a cell", "A note."}) EXPECT_NE(table.find(piece), std::string::npos) << table;
+  EXPECT_EQ(contents(out() / "page.md"), "A page.\n");
+  EXPECT_EQ(json_of(out() / "numbers.json")["answer"], 42);
+  EXPECT_EQ(json_of(out() / "claims.json").size(), 1u);
+  const auto manifest = json_of(out() / "manifest.json");
+  EXPECT_EQ(manifest["quick"], true);
+  EXPECT_TRUE(manifest.contains("finished"));
+  EXPECT_NE(text.find("This was a quick run. 1 claim holds."), std::string::npos) << text;
+  EXPECT_NE(text.find("Written to " + out().string()), std::string::npos) << text;
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(out())) ++files;
+  EXPECT_EQ(files, 7u) << "claims twice, and no file for a table without a name";
+}
+
+TEST_F(Publish, KeepsThePartsOfAFolderWithinAndCountsThemInTheWhole) {
+  kept([](StudyLog& log) {
+    log.finished({.claims = {claim("first", Verdict::holds)}});
+    log.sample({{"k", 1}}, "runs.jsonl", "inner");
+    log.finished({.tables = {{"cells", "A heading", one_cell("a cell")}}}, "inner");
+    log.finished({.claims = {claim("second", Verdict::holds)}}, "inner");
+    return Report{.claims = {claim("third", Verdict::holds)}};
+  });
+  std::vector<std::string> all, inner;
+  for (const auto& c : json_of(out() / "claims.json")) all.push_back(c["id"]);
+  for (const auto& c : json_of(out() / "inner/claims.json")) inner.push_back(c["id"]);
+  EXPECT_EQ(all, (std::vector<std::string>{"first", "second", "third"}));
+  EXPECT_EQ(inner, (std::vector<std::string>{"second"}));
+  EXPECT_TRUE(std::filesystem::exists(out() / "inner/cells.md"));
+  EXPECT_TRUE(std::filesystem::exists(out() / "inner/runs.jsonl"));
+}
+
+TEST_F(Publish, KeepsWhatWasFinishedWhenTheRestFails) {
+  EXPECT_THROW(kept([](StudyLog& log) -> Report {
+                 log.finished({.claims = {claim("first", Verdict::holds)}});
+                 throw std::runtime_error("the rest");
+               }),
+               std::runtime_error);
+  testing::internal::GetCapturedStdout();
+  testing::internal::GetCapturedStderr();
+  EXPECT_EQ(json_of(out() / "claims.json").size(), 1u);
+}
+
+TEST_F(Publish, DrawsThePictures) {
+  Plot plot;
+  plot.title = plot.x_axis = plot.y_axis = "a word";
+  plot.series.resize(1);
+  plot.series[0].points = {{2.0, 3.0}};
+  plot.series[0].colour = "#000000";
+  EXPECT_EQ(kept([&](StudyLog&) { return Report{.pictures = {{"diagram", plot}}}; }).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(out() / "diagram.png"));
+}
+
+}  // namespace
+}  // namespace dartboard
