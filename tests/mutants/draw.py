@@ -1,6 +1,7 @@
 """Draw mutants: a room's share of the sample by its number of sites, each site alike, each change of a site alike."""
 
 import hashlib
+import os
 import random
 
 LEAST_PER_ROOM = 40  # fewer would say nothing about a small room
@@ -26,9 +27,9 @@ def shares(sites, count):
 
 
 def key_of(file, line_text, edits, text):
-    """What names a mutant as long as its line and its change stay, wherever the line moves to."""
+    """What names a mutant as long as its line and its change stay, wherever the line and the file move to."""
     changes = "|".join("%s>%s" % (text[begin:end].decode(), new) for begin, end, new in edits)
-    return hashlib.sha256("\n".join([file, line_text, changes]).encode()).hexdigest()[:12]
+    return hashlib.sha256("\n".join([os.path.basename(file), line_text, changes]).encode()).hexdigest()[:12]
 
 
 def draw(sites, texts, count, seed, spare=0.25):
