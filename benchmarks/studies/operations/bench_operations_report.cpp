@@ -49,7 +49,7 @@ Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies,
       tails += (tails.empty() ? "99th percentile " : " / ") + show(r.quantiles(body, operation, 0.99));
       met = std::min(met, at_most(figure_of(middle), bound_us));
     }
-  Claim c = claim("operation-" + id, fmt::format("{}, with embeddings and six views", fmt::join(names, " / ")),
+  Claim c = claim("operation-" + id, fmt::format("{}, with embeddings and four views", fmt::join(names, " / ")),
                   fmt::format("<= {:g} us", bound_us), measured + " us", tails, met);
   if (measured.empty()) {
     c.verdict = Verdict::not_tested;
@@ -80,7 +80,7 @@ Table operations_table(const OperationFigures& r, const std::vector<std::string>
                {"body"},
                {"map [us]", Align::right},
                {"embeddings [us]", Align::right},
-               {"six views [us]", Align::right},
+               {"four views [us]", Align::right},
                {"all: median [us]", Align::right},
                {"99th percentile [us]", Align::right},
                {"median over a step", Align::right}});
