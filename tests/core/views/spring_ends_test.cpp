@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "core/walks/cell_arrays.h"
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
