@@ -119,13 +119,10 @@ Table views_table(const OperationFigures& r, const std::vector<std::string>& bod
 
 std::string operations_note() {
   return "Wall time of each operation by itself, on the tetrahedral storage: the median and the 99th percentile are "
-         "taken "
-         "within each process, and the median over processes is shown. Each phase includes one reading of the clock, "
-         "some "
-         "0.03 us. 'split off' copies some hundred tetrahedra out, map and embeddings in one; 'undo' is of a "
-         "dissociation, "
-         "by "
-         "the journal, the map alone. A step is one of the classical Runge-Kutta method over the cell arrays.";
+         "taken within each process, and the median over processes is shown. Each phase includes one reading of the "
+         "clock, some 0.03 us. 'split off' copies some hundred tetrahedra out, map and embeddings in one; 'undo' is of "
+         "a dissociation, by the journal, the map alone. A step is one of the classical Runge-Kutta method over the "
+         "cell arrays.";
 }
 
 std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::string>& bodies) {
