@@ -300,7 +300,7 @@ TEST(BenchAblationClaims, SayNothingOfAStairWhoseLowerTaskIsTheSlowerOne) {
 TEST(StudyOperations, TimeEveryPhaseOfEveryOperation) {
   std::size_t operations_seen = 0;
   study_operations(
-      "kuhn-384", {.times = 5},
+      "kuhn-2058", {.times = 5},
       [&](const OperationSample& sample) {
         ++operations_seen;
         ASSERT_EQ(sample.ns.size(), operation_phases().size());

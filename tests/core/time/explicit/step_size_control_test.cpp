@@ -317,8 +317,7 @@ TEST_F(Adaptive, RefusesWhatItCannotMeet) {
 // A frequency beyond all numbers leaves no step to begin with: 2 k / m overflows.
 TEST_F(Adaptive, SaysWhenTheFirstStepIsNone) {
   SpringArrays arrays = a_body(0.0, 0.0);
-  for (std::size_t s = 0; s < arrays.springs.size(); ++s)
-    arrays.springs.change(s, [](Spring& spring) { spring.stiffness = 1e300; });
+  for (Spring& spring : arrays.springs) spring.stiffness = 1e300;
   for (std::size_t i = 0; i < arrays.mass.size(); ++i) {
     arrays.mass[i] = 1e-100;
     arrays.inverse_mass[i] = 1e100;
