@@ -17,8 +17,7 @@ std::vector<std::string> scene_names(const std::filesystem::path& folder = galle
 /// The file meant: the one that is there, else the scene of that name in the gallery.
 ///
 /// throws  InputError for a name that neither has, IoError for a path; both list what is near, of the gallery and of
-/// the
-///         `others` that the verb knows
+///         the `others` that the verb knows
 std::filesystem::path scene_file(const std::string& given, std::span<const std::string> others = {});
 
 }  // namespace dartboard

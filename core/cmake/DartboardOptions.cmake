@@ -45,15 +45,21 @@ if(DARTBOARD_COVERAGE)
   target_link_options(dartboard_options INTERFACE --coverage)
 endif()
 
-# dartboard_precompile(NAME HEADERS...): a precompiled header that the folders added after it, in this room, share: what
-# most of their sources include and what costs most to read.
+# dartboard_precompile(NAME [LIGHT] HEADERS...): a precompiled header that the folders added after it, in this room, share:
+# what most of their sources include and what costs most to read. LIGHT ones, and folders, are compiled with -O1: nothing
+# in them takes time when it runs, and optimising is most of what they would take now.
+set(dartboard_light $<$<CONFIG:Release>:-O1>)
 function(dartboard_precompile name)
+  cmake_parse_arguments(ARG "LIGHT" "" "" ${ARGN})
   if(DARTBOARD_PRECOMPILE)
     file(WRITE ${PROJECT_BINARY_DIR}/${name}.cpp "")
     add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/${name}.cpp)
     target_link_libraries(${name} PRIVATE dartboard_options Eigen3::Eigen fmt::fmt)
     target_precompile_headers(${name} PRIVATE <algorithm> <functional> <map> <span> <string> <vector> <fmt/format.h>
-      <Eigen/Geometry> ${ARGN})
+      <Eigen/Geometry> ${ARG_UNPARSED_ARGUMENTS})
+    if(ARG_LIGHT)
+      target_compile_options(${name} PRIVATE ${dartboard_light})
+    endif()
     set(dartboard_precompiled ${name} PARENT_SCOPE)
   endif()
 endfunction()
@@ -79,19 +85,20 @@ function(dartboard_sees path)
   set_property(GLOBAL APPEND_STRING PROPERTY dartboard_folders "${path}: ${folders}\n")
 endfunction()
 
-# dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [NOT_PRECOMPILED])
+# dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [LIGHT] [NOT_PRECOMPILED])
 #
 # A library of the sources in a folder, not of those below it. SEES says which folders its files may include beside
 # core/plain, which all may; tests/program/includes_test.cpp holds them to it, and each has to stand above it, so that
 # there is no circle.
 function(dartboard_folder path)
-  cmake_parse_arguments(ARG "NOT_PRECOMPILED" "" "SEES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_PRECOMPILED;LIGHT" "" "SEES;LINK" ${ARGN})
   dartboard_sees(${path} ${ARG_SEES})
+  string(REPLACE "/" "_" target dartboard_${path})
+  set_property(GLOBAL APPEND PROPERTY dartboard_targets ${target})
   if(NOT path STREQUAL core/plain)
     list(APPEND ARG_SEES core/plain)
   endif()
   dartboard_libraries(libraries ${ARG_SEES})
-  string(REPLACE "/" "_" target dartboard_${path})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${path}/*.cpp)
   if(NOT sources)
     add_library(${target} INTERFACE)
@@ -102,6 +109,9 @@ function(dartboard_folder path)
   add_library(${target} STATIC ${sources})
   # our flags are for our sources alone, not for those of who links to them
   target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:dartboard_options,INTERFACE_COMPILE_OPTIONS>)
+  if(ARG_LIGHT)
+    target_compile_options(${target} PRIVATE ${dartboard_light})
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PUBLIC ${libraries} ${ARG_LINK})

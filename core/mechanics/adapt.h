@@ -32,8 +32,7 @@ struct ChangedEmbeddings {
 /// the next free ones. Numbers stay dense: when a cell goes away, the last one takes its number.
 ///
 /// pre     every dart holds the embedding numbers; `change` covers all that happened to the map since the last call,
-/// and
-///         the slots of removed darts have not been used again
+///         and the slots of removed darts have not been used again
 /// cost    O(darts of the touched cells), whatever the size of the body
 template <class Map>
 ChangedEmbeddings adapt(MassSpringBody<Map, Held::by_every_dart>& body, const TopologyChange& change);

@@ -79,7 +79,7 @@ struct MassSpringBody {
 
   /// Positions and velocities by mesh point.
   /// throws  InputError when a cut or a removal has left a point with another number of vertices than one (set_state
-  /// too)
+  ///         too)
   PointState state() const;
   /// Fixed vertices take the position and stay at rest.
   void set_state(const PointState& state);

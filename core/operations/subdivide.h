@@ -34,8 +34,7 @@ struct Subdivision {
 /// Subdivide the cell: an edge (i = 1), a face (2) or a volume (3).
 ///
 /// throws  TopologyError, map unchanged, if the dart is dead, a volume around the cell is no tetrahedron, or one of
-/// them
-///         meets the cell more than once
+///         them meets the cell more than once
 /// cost    O(tetrahedra around the cell)
 template <int i, class Map>
 Subdivision subdivide(Map& map, Cell<i> cell);

@@ -1,8 +1,6 @@
 #pragma once
 // The two ends of every spring, by edge number: all that a force loop needs to know of the topology.
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,26 +27,8 @@ class SpringEndsView {
   /// cost    O(changed edges), whatever the size of the body
   template <class Body>
   void apply(const Body& body, const ChangedEmbeddings& changed) {
-    const auto nothing = [](std::uint32_t, const SpringEnds&) {};
-    apply(body, changed, nothing, nothing);
-  }
-
-  /// The same, and tell the difference: gone(edge, ends) for ends that an edge number had, come(edge, ends) for those
-  /// it has. A view of neighbours follows from that without a look at the map.
-  template <class Body, class Gone, class Come>
-  void apply(const Body& body, const ChangedEmbeddings& changed, Gone&& gone, Come&& come) {
-    const std::size_t kept = std::min(ends.size(), changed.edge_count);
-    for (std::size_t k = kept; k < ends.size(); ++k) gone(static_cast<std::uint32_t>(k), ends[k]);
     ends.resize(changed.edge_count);
-    for (const std::uint32_t k : changed.edges) {
-      const SpringEnds now = ends_of(body, k);
-      if (k < kept) {
-        if (now == ends[k]) continue;
-        gone(k, ends[k]);
-      }
-      ends[k] = now;
-      come(k, now);
-    }
+    for (const std::uint32_t k : changed.edges) ends[k] = ends_of(body, k);
   }
 
   std::size_t bytes() const { return sizeof(SpringEnds) * ends.capacity(); }

@@ -3,9 +3,7 @@
 
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
-#include "core/views/sparse_pattern.h"
 #include "core/views/spring_ends.h"
-#include "core/views/vertex_adjacency.h"
 #include "core/walks/cell_arrays.h"
 
 namespace dartboard {
@@ -13,8 +11,6 @@ namespace dartboard {
 struct Views {
   CellArrays cells;
   SpringEndsView ends;
-  VertexAdjacency adjacency;
-  SparsePattern pattern;
   BoundarySurface boundary;
   ComponentLabels components;
 
@@ -25,8 +21,6 @@ struct Views {
   static void for_each(Self& self, F&& f) {
     f("cell arrays", self.cells);
     f("spring ends", self.ends);
-    f("vertex adjacency", self.adjacency);
-    f("sparse pattern", self.pattern);
     f("boundary surface", self.boundary);
     f("component labels", self.components);
   }

@@ -26,7 +26,7 @@ struct MotionAgreement {
 ///
 /// The walks of the core sum in the same order and must give the same bits; the others add the same terms in another
 /// order and must lie within the rounding bound of reference/summation_bound. What is not a number agrees with nothing,
-/// and where the bound is not finite nobody else agrees: it then says nothing.
+///       and where the bound is not finite nobody else agrees: it then says nothing.
 ///
 /// pre     `all` is not empty; the first one is of the core
 std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps,

@@ -61,8 +61,7 @@ SceneReference self_converged(const TradeoffScene& scene, const CpuClock& clock,
   found.states = std::move(coarse.states);
   found.floor = self_converged_floor(change, found.agreement);
   found.what = fmt::format(
-      "self-converged: blanes-moan-4 with {} steps, {:.1e} edges from half as many; dormand-prince-54 with {} is "
-      "{:.1e} "
+      "self-converged: blanes-moan-4 with {} steps, {:.1e} edges from half as many; dormand-prince-54 with {} is {:.1e} "
       "edges away{}",
       steps, change, other_steps, found.agreement,
       found.agreement <= own ? "" : ", and leaves errors below that unconfirmed");

@@ -49,7 +49,7 @@ Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies,
       tails += (tails.empty() ? "99th percentile " : " / ") + show(r.quantiles(body, operation, 0.99));
       met = std::min(met, at_most(figure_of(middle), bound_us));
     }
-  Claim c = claim("operation-" + id, fmt::format("{}, with embeddings and six views", fmt::join(names, " / ")),
+  Claim c = claim("operation-" + id, fmt::format("{}, with embeddings and four views", fmt::join(names, " / ")),
                   fmt::format("<= {:g} us", bound_us), measured + " us", tails, met);
   if (measured.empty()) {
     c.verdict = Verdict::not_tested;
@@ -80,7 +80,7 @@ Table operations_table(const OperationFigures& r, const std::vector<std::string>
                {"body"},
                {"map [us]", Align::right},
                {"embeddings [us]", Align::right},
-               {"six views [us]", Align::right},
+               {"four views [us]", Align::right},
                {"all: median [us]", Align::right},
                {"99th percentile [us]", Align::right},
                {"median over a step", Align::right}});
@@ -119,13 +119,10 @@ Table views_table(const OperationFigures& r, const std::vector<std::string>& bod
 
 std::string operations_note() {
   return "Wall time of each operation by itself, on the tetrahedral storage: the median and the 99th percentile are "
-         "taken "
-         "within each process, and the median over processes is shown. Each phase includes one reading of the clock, "
-         "some "
-         "0.03 us. 'split off' copies some hundred tetrahedra out, map and embeddings in one; 'undo' is of a "
-         "dissociation, "
-         "by "
-         "the journal, the map alone. A step is one of the classical Runge-Kutta method over the cell arrays.";
+         "taken within each process, and the median over processes is shown. Each phase includes one reading of the "
+         "clock, some 0.03 us. 'split off' copies some hundred tetrahedra out, map and embeddings in one; 'undo' is of "
+         "a dissociation, by the journal, the map alone. A step is one of the classical Runge-Kutta method over the "
+         "cell arrays.";
 }
 
 std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::string>& bodies) {

@@ -255,20 +255,19 @@ std::string timing_note(const ReproduceResults& r, const Problem& problem) {
   std::string walks;
   for (const Contender& c : contenders()) walks += fmt::format("- {}: {}\n", c.id, c.what);
   return fmt::format(
-      "{}\nTimes are processor time per RK4 step (four force evaluations, h = {:g} s), medians over processes. Ratios "
-      "are "
-      "paired within rounds; their intervals are distribution-free, over processes.\n\n"
+      "{}\n"
+      "Times are processor time per RK4 step (four force evaluations, h = {:g} s), medians over processes. Ratios are "
+      "paired within rounds; their intervals are distribution-free, over processes.\n"
+      "\n"
       "Against the paper's times (2010, 2.8 GHz, its map library MOKA) full coverage is {:.1f} times as fast when one "
       "dart holds the embedding and {:.1f} times when every dart does, lists {:.1f} and {:.0f} times, cell arrays "
-      "{:.0f} "
-      "and the adjacency graph {:.0f} times: contiguous arrays and lists profit from wider and deeper processors, a "
-      "walk "
-      "waits for one link to know the next. So the ratios to the graph are not the paper's, while the order of the "
-      "walks "
-      "is the same.\n\n"
-      "Cell arrays take {:.1f} ns per spring and force evaluation, everything included.\n\n"
-      "When one dart of an orbit holds the embedding (the paper's choice, section 2.2), a look-up walks the orbit; "
-      "when "
+      "{:.0f} and the adjacency graph {:.0f} times: contiguous arrays and lists profit from wider and deeper "
+      "processors, a walk waits for one link to know the next. So the ratios to the graph are not the paper's, while "
+      "the order of the walks is the same.\n"
+      "\n"
+      "Cell arrays take {:.1f} ns per spring and force evaluation, everything included.\n"
+      "\n"
+      "When one dart of an orbit holds the embedding (the paper's choice, section 2.2), a look-up walks the orbit; when "
       "every dart holds it, coverage costs {:.3g} ms and lists {:.3g} ms.",
       walks, problem.h, 12.0 / r.ms("coverage"), 12.0 / r.ms("coverage-every"), 8.0 / r.ms("lists"),
       8.0 / r.ms("lists-every"), 2.0 / r.ms("arrays"), 2.0 / r.ms("graph"), r.ms("arrays") * 1e6 / (4.0 * springs),

@@ -70,16 +70,10 @@ Table staircase_table(const AblationFigures& r) {
 
 std::string features_note() {
   return "Each feature in a scene of the paper's body, undamped and at rest but for a spin where bare. Ratios are "
-         "paired "
-         "within rounds, intervals are over processes. The map and the watch on stress are those of events that never "
-         "happen "
-         "within the run: nothing but their presence is timed. Frames and diagnostics: every tenth step, in memory. "
-         "Bytes "
-         "are "
-         "asked of the built objects: the elements of all containers at the start. On a map, frames are read off its "
-         "darts; "
-         "with it "
-         "the full scene pays for that too.";
+         "paired within rounds, intervals are over processes. The map and the watch on stress are those of events that "
+         "never happen within the run: nothing but their presence is timed. Frames and diagnostics: every tenth step, "
+         "in memory. Bytes are asked of the built objects: the elements of all containers at the start. On a map, "
+         "frames are read off its darts; with it the full scene pays for that too.";
 }
 
 std::vector<Claim> claims_of(const AblationFigures& r) {

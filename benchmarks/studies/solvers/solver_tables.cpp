@@ -113,12 +113,10 @@ NamedTable updates_table(const SolverResults& results) {
       "Why stretched bodies differ: at rest a spring is one rank-one term, since nothing resists across it; stretched "
       "it is three. Terms: " +
           terms +
-          ". What moves from a vertex to its twin leaves the diagonal blocks of all other vertices as they are, so "
-          "only "
+          ". What moves from a vertex to its twin leaves the diagonal blocks of all other vertices as they are, so only "
           "the rows of the two change, stretched or not: replacing those costs the same in both states. `follows` "
           "chooses by predicted cost. Intervals are over the rounds of one process: they say how steady it was, not "
-          "what "
-          "another process would find."};
+          "what another process would find."};
 }
 
 NamedTable crossover_table(const SolverResults& results) {

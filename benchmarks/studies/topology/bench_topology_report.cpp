@@ -152,17 +152,13 @@ Table peers_table() {
 std::string figures_note() {
   return "Verdicts are for the tetrahedral storage, medians of processor time over processes; ratios are paired within "
          "rounds, their intervals distribution-free over processes. Before each run the map is put back and read "
-         "through "
-         "once, so that what fits the caches is there.\n\n"
+         "through once, so that what fits the caches is there.\n"
+         "\n"
          "CGAL's map carries what the memory counts for all, a number on each vertex and edge, and is_valid() checks "
-         "those "
-         "too; bare CGAL has no attributes, so it compares walks and conditions alone. CGAL's unsew renews the "
-         "attributes "
-         "of "
-         "the cells that came apart, its only way to tell them, while ours reports them, has written a journal and has "
-         "checked the darts it touched. Not in the memory: a mark in use takes 4 bytes per dart of ours, 96 per "
-         "tetrahedron, "
-         "for each mark in use at once; CGAL's marks are in its darts.";
+         "those too; bare CGAL has no attributes, so it compares walks and conditions alone. CGAL's unsew renews the "
+         "attributes of the cells that came apart, its only way to tell them, while ours reports them, has written a "
+         "journal and has checked the darts it touched. Not in the memory: a mark in use takes 4 bytes per dart of "
+         "ours, 96 per tetrahedron, for each mark in use at once; CGAL's marks are in its darts.";
 }
 
 std::vector<Claim> claims_of(const TopologyFigures& r) {

@@ -14,11 +14,10 @@ std::string show(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) 
 
 constexpr std::string_view reading =
     "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
-    "with the "
-    "runs; a run includes all of its factorisations and what its scene does to the body. Between two steps the cost is "
-    "interpolated on the log-log scale. The regret of a fixed choice is its cost over that of the best; '-' where it "
-    "does not reach the error. A point is dominated when another is no less accurate and its slowest repetition is "
-    "faster than the fastest of the point.";
+    "with the runs; a run includes all of its factorisations and what its scene does to the body. Between two steps the "
+    "cost is interpolated on the log-log scale. The regret of a fixed choice is its cost over that of the best; '-' "
+    "where it does not reach the error. A point is dominated when another is no less accurate and its slowest "
+    "repetition is faster than the fastest of the point.";
 
 }  // namespace
 

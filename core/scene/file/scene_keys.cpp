@@ -278,8 +278,7 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
       {Shape::driven, "driven",
-       "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are "
-       "never "
+       "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are never "
        "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
        "work, so energy and momentum of the body change."},
       {Shape::cell_selection, "cell_selection", "Some of the cells: volumes, or the faces of a surface."},
@@ -289,15 +288,13 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::random, "random", "A number of cells, each subset of that size as likely."},
       {Shape::event, "event",
        "What happens, and when. An event is applied between two steps: at time t, at the first multiple n * step that "
-       "is "
-       "not before t. A t within 4 units of rounding of a multiple counts as that multiple."},
+       "is not before t. A t within 4 units of rounding of a multiple counts as that multiple."},
       {Shape::dissociate, "dissociate", "Which faces come apart."},
       {Shape::tear, "tear", "Which fan is torn."},
       {Shape::stress, "stress", "Where stress tears."},
       {Shape::refine, "refine",
        "Which tetrahedra become smaller ones. Mass and momentum stay; a bracing above 0 makes the body a little "
-       "stiffer, "
-       "and without it a vertex at a centre moves freely."},
+       "stiffer, and without it a vertex at a centre moves freely."},
       {Shape::output, "output", "What is recorded. None of it changes a bit of the trajectory."},
       {Shape::probe, "probe",
        "One vertex, wherever it goes: its position and velocity. Of a vertex that comes apart it follows the part that "

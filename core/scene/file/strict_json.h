@@ -9,7 +9,7 @@ namespace dartboard {
 /// The value of a JSON text; members keep the order of the text.
 ///
 /// throws  InputError "NAME:LINE:COLUMN: ..." for what is not JSON, and "NAME: /path: ..." for a key that is given
-/// twice
+///         twice
 nlohmann::ordered_json parse_strict_json(std::string_view text, std::string_view name);
 
 /// `key` as one step of a JSON pointer (RFC 6901): "~" becomes "~0" and "/" becomes "~1".

@@ -23,8 +23,7 @@ class DrivenVertices {
  public:
   DrivenVertices() = default;
   /// throws  InputError "/driven/0...: ..." for a drive of no vertex, of a fixed one, or of one that another drive
-  /// moves
-  ///         at that time
+  ///         moves at that time
   DrivenVertices(const SceneFile& scene, std::span<const Eigen::Vector3d> rest, double step);
 
   /// Set the velocities that are due after n steps.

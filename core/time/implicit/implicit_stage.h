@@ -42,7 +42,7 @@ class ImplicitStage {
   /// Find w, starting from the w given. Fixed vertices keep the velocity they have in vh.
   ///
   /// returns newton_stalled with the residual in the norm of M^-1, not_positive_definite, or nonfinite, when there is
-  /// no solution to use
+  ///         no solution to use
   StepResult solve(const SpringSystem& system, std::span<const Eigen::Vector3d> xh, std::span<const Eigen::Vector3d> vh,
                    double tau, StageForce force, std::span<Eigen::Vector3d> w, WorkCounters& work);
 

@@ -41,7 +41,7 @@ TYPED_TEST(Cells, OfTheKuhnCube) {
   EXPECT_EQ(counts(map), (Counts{8, 19, 18, 6}));
 }
 
-// The golden run of FACTS: 24 = 6 * 4 vertices, 36 = 6 * 6 edges, 24 = 6 * 4 faces.
+// One box of Kuhn: 24 = 6 * 4 vertices, 36 = 6 * 6 edges, 24 = 6 * 4 faces.
 TYPED_TEST(Cells, OfTheKuhnCubeAfterUnsewingEveryFace) {
   auto map = build_map<TypeParam>(kuhn_grid(1, 1, 1, 1.0)).map;
   for (std::uint32_t d = 0; d < map.capacity(); ++d) unsew<3>(map, {d});

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "core/walks/cell_arrays.h"
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
@@ -60,29 +58,6 @@ TEST(SpringEndsOfASurface, FollowEveryOperationUntilNothingIsLeft) {
       expect_ends_of_the_map(view, now);
     });
   }
-}
-
-// The difference told must be enough for someone who has only ever heard of differences.
-TYPED_TEST(SpringEndsOf, TellTheDifference) {
-  auto body = body_of<TypeParam>(kuhn_grid(2, 2, 1, 0.125));
-  SpringEndsView view;
-  view.rebuild(body);
-  using Entry = std::pair<std::uint32_t, SpringEnds>;
-  std::set<Entry> heard;
-  for (std::uint32_t k = 0; k < view.ends.size(); ++k) heard.insert({k, view.ends[k]});
-  operate_at_random(body, 3, 40, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
-    view.apply(
-        now, changed,
-        [&](std::uint32_t k, const SpringEnds& ends) {
-          EXPECT_EQ(heard.erase({k, ends}), 1u);
-        },
-        [&](std::uint32_t k, const SpringEnds& ends) {
-          EXPECT_TRUE(heard.insert({k, ends}).second);
-        });
-    std::set<Entry> held;
-    for (std::uint32_t k = 0; k < view.ends.size(); ++k) held.insert({k, view.ends[k]});
-    ASSERT_EQ(heard, held);
-  });
 }
 
 }  // namespace

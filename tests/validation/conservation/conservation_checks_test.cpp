@@ -78,8 +78,6 @@ TEST(ConservationChecksOfABody, NameEachViewThatIsStale) {
     EXPECT_EQ(stale(spoil).find(std::string("all views: apply = rebuild, ") + name), 0u) << stale(spoil);
   };
   expect("spring ends", [](Views& v) { std::swap(v.ends.ends[0], v.ends.ends[1]); });
-  expect("vertex adjacency", [](Views& v) { v.adjacency = {}; });
-  expect("sparse pattern", [](Views& v) { v.pattern = {}; });
   expect("boundary surface", [](Views& v) { v.boundary = {}; });
   expect("component labels", [](Views& v) { v.components = ComponentLabels(); });
   expect("cell arrays", [](Views& v) { std::swap(v.cells.edges[0].ends[0], v.cells.edges[0].ends[1]); });

@@ -105,7 +105,7 @@ TYPED_TEST(RefinementConservation, FailsWhenACellHasNotItsShareOfTheMass) {
 }
 
 TYPED_TEST(RefinementConservation, FailsWhenAViewIsStale) {
-  const auto what = this->first_violation([](auto&, auto& views) { views.pattern = {}; });
+  const auto what = this->first_violation([](auto&, auto& views) { views.boundary = {}; });
   EXPECT_NE(what.find("views"), std::string::npos) << what;
 }
 

@@ -138,7 +138,7 @@ OperationSample operation(const std::vector<std::int64_t>& ns) {
 
 OperationFigures operation_figures() {
   OperationFigures f;
-  // map, embeddings, six views
+  // map, embeddings, four views
   f.operations["liver564:remove"].assign(3, operation({1000, 2000, 100, 200, 300, 400, 500, 600}));
   f.operations["liver564:dissociate, random"].assign(3, operation({3000, 5000, 10, 20, 30, 40, 50, 60}));
   BodySample body;
@@ -155,7 +155,7 @@ TEST(BenchOperationsTable, HasThePartsOfEachOperationOnEachBody) {
   ASSERT_EQ(table.rows().size(), 2u);  // of what was timed, in the order of operations()
   EXPECT_EQ(table.rows()[0][0], "dissociate, random");
   EXPECT_EQ(labelled(table, 1),
-            (Row{"operation: remove", "body: liver564", "map [us]: 1", "embeddings [us]: 2", "six views [us]: 2.1",
+            (Row{"operation: remove", "body: liver564", "map [us]: 1", "embeddings [us]: 2", "four views [us]: 2.1",
                  "all: median [us]: 5.1", "99th percentile [us]: 51", "median over a step: 0.1"}));
 }
 
@@ -178,7 +178,7 @@ TEST(BenchOperationsClaimsInWords, SayWhatIsAskedAndWhatWasMeasured) {
   EXPECT_EQ(remove.paper_value, "<= 10 us");
   EXPECT_EQ(remove.measured, "5.1 us");
   EXPECT_EQ(remove.bound_or_interval, "99th percentile 51");
-  EXPECT_EQ(remove.text, "remove, with embeddings and six views");
+  EXPECT_EQ(remove.text, "remove, with embeddings and four views");
   EXPECT_EQ(find_claim(claims, "operation-tear-fan").reason, "it was not timed on any body");
   const Claim& step = find_claim(claims, "operation-step-liver564");
   EXPECT_EQ(step.paper_value, "<= 2");

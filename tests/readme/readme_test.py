@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Is README.md true? Its table against the run it cites, its links, its scene with what it prints, and its program.
+
+    readme_test.py PROGRAM BUILD_FOLDER
+
+PROGRAM is the built dartboard, BUILD_FOLDER where find_package is pointed to. Standard library only.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+RUN = "results/2026-11-21-epyc-reproduce"
+
+
+def text_of(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
+
+
+README = text_of("README.md")
+
+
+def block(language):
+    """What stands in the one block of a language."""
+    found = re.findall("^```%s\n(.*?)^```$" % language, README, re.M | re.S)
+    assert len(found) == 1, "README has %d blocks of %s" % (len(found), language)
+    return found[0]
+
+
+def rows_of(table_text):
+    rows = [[cell.strip(" *") for cell in line.strip("|").split("|")]
+            for line in table_text.splitlines() if line.startswith("|")]
+    return rows[2:]  # below the heading and its rule
+
+
+def three_digits(number):
+    return "%.3g" % float(number)
+
+
+class Readme(unittest.TestCase):
+    def test_is_one_page(self):
+        self.assertLessEqual(len(README.splitlines()), 125)
+
+    def test_table_is_that_of_the_run_it_cites(self):
+        measured = {row[0]: row for row in rows_of(text_of(RUN, "timing.md"))}
+        order = ["coverage", "coverage-every", "lists", "lists-every", "arrays", "graph", "cgal-coverage", "cgal-attributes"]
+        section = README.split("## The paper's table")[1].split("\n## ")[0]
+        shown = rows_of(section)
+        self.assertEqual(len(shown), len(order))
+        for row, walk in zip(shown, order):
+            here, ratio = measured[walk][4], measured[walk][6].split(" ")[0]
+            self.assertEqual(row[3], three_digits(here) + " ms", walk)
+            self.assertEqual(row[4], three_digits(ratio) if walk != "graph" else "1", walk)
+            if row[1]:
+                self.assertEqual(row[1], measured[walk][2] + " ms", walk)
+                self.assertEqual(row[2], measured[walk][3], walk)
+        faster = re.search(r"arrays have become (\d+) times as fast", README.replace("\n", " "))[1]
+        self.assertIn("cell arrays %s " % faster, text_of(RUN, "timing.md"))
+
+    def test_links_lead_somewhere(self):
+        for page in ["README.md", "HACKING.md", "results/README.md", "core/README.md", "reference/README.md",
+                     "validation/README.md", "benchmarks/README.md", "tests/README.md"]:
+            for link in re.findall(r"\]\(([^)#]+)\)", re.sub(r"```.*?```", "", text_of(page), flags=re.S)):
+                if not link.startswith("http"):
+                    self.assertTrue(os.path.exists(os.path.join(ROOT, os.path.dirname(page), link)), page + ": " + link)
+
+    def test_scene_prints_what_stands_below_its_command(self):
+        commands = re.findall(r"^    \$ \./dartboard (.*?)\n((?:    [^$\n].*\n)*)", README, re.M)
+        command, printed = next((c, p) for c, p in commands if c.startswith("simulate"))
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "beam.json"), "w", encoding="utf-8") as file:
+                file.write(block("json"))
+            answer = subprocess.run([PROGRAM] + command.split(), cwd=folder, capture_output=True, text=True, check=True)
+            for line in printed.splitlines():
+                self.assertIn(line.strip(), answer.stdout)
+            self.assertTrue(os.path.exists(os.path.join(folder, "beam", "picture.png")))
+
+    def test_program_is_built_from_any_folder_and_cuts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "cut.cpp"), "w", encoding="utf-8") as file:
+                file.write(block("cpp"))
+            lines = block("cmake").replace("path/of/this/folder/build/release", BUILD)
+            with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(cut CXX)\n" + lines)
+            for command in (["cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Release"], ["cmake", "--build", "build"]):
+                answer = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+                self.assertEqual(answer.returncode, 0, answer.stdout + answer.stderr)
+            answer = subprocess.run([os.path.join(folder, "build", "cut")], capture_output=True, text=True)
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            # two triangles for each square of the grid that the plane crosses, and more where it is oblique
+            self.assertRegex(answer.stdout, r"^\d+ faces dissociated, 1 part came loose\n$")
+            self.assertGreater(int(answer.stdout.split()[0]), 2 * 6 * 6)
+
+
+if __name__ == "__main__":
+    PROGRAM, BUILD = [os.path.abspath(path) for path in sys.argv[1:3]]
+    unittest.main(argv=sys.argv[:1])
