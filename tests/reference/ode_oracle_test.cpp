@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -87,6 +88,21 @@ TEST_P(OdeCode, SwingsTwoMassesOnASpring) {
       expect_near(v_of(states[c], 1), exact.v2, "v2");
     }
   }
+}
+
+TEST_P(OdeCode, RefusesAMotionThatGoesBackInTime) {
+  NetworkMotion motion = one_spring(1.0, 0.5, 8.0, 0.0, 1.0);
+  motion.checkpoints = {2.0, 1.0};
+  EXPECT_THROW(GetParam().run(motion), InputError);
+}
+
+// A thread has no more processor time than has gone by; a millisecond for how coarse its clock may be.
+TEST_P(OdeCode, TakesNoMoreTimeThanHasGoneBy) {
+  const auto begin = std::chrono::steady_clock::now();
+  const CodeRun result = GetParam().run(one_spring(1.0, 0.5, 8.0, 0.0, 1.0));
+  const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(result.cpu_s, 0.0);
+  EXPECT_LE(result.cpu_s, gone.count() + 1e-3);
 }
 
 TEST_P(OdeCode, DampsAMassAtAWallUnderCriticallyAndOver) {

@@ -63,9 +63,12 @@ Detection watch_for_divergence(const IntegratorEntry& entry, SpringColumns body,
   return found;
 }
 
+std::vector<double> detection_factors(bool quick) {
+  if (quick) return {1.001, 1.01, 1.1, 2, 1e4};
+  return {1.0001, 1.001, 1.003, 1.01, 1.03, 1.1, 1.2, 1.5, 2, 5, 10, 1e2, 1e4, 1e8};
+}
+
 std::vector<Detection> measure_detection(bool quick) {
-  std::vector<double> factors{1.0001, 1.001, 1.003, 1.01, 1.03, 1.1, 1.2, 1.5, 2, 5, 10, 1e2, 1e4, 1e8};
-  if (quick) factors = {1.001, 1.01, 1.1, 2, 1e4};
   std::vector<Detection> all;
   for (const std::string_view name : extreme_bodies) {
     const FastestMode mode = fastest_mode(extreme_body(name));
@@ -75,7 +78,7 @@ std::vector<Detection> measure_detection(bool quick) {
       for (const IntegratorEntry& entry : integrators()) {
         const Scheme& scheme = entry.make()->scheme();
         if (scheme.implicit || scheme.imaginary_limit == 0.0) continue;
-        for (const double factor : factors) {
+        for (const double factor : detection_factors(quick)) {
           const std::optional<double> theta = unstable_theta(scheme, factor);
           if (!theta) continue;
           Detection found = watch_for_divergence(entry, body, *theta / omega, factor);

@@ -26,6 +26,9 @@ struct Detection {
   bool holds() const { return predicted && above <= 64; }
 };
 
+/// Steps over the longest stable one, ascending.
+std::vector<double> detection_factors(bool quick);
+
 /// Steps of 1.0001 to 1e8 times the limit, every explicit integrator with a limit, four bodies, from a motion in all
 /// modes and from one in the fastest, up to 5000 steps. The energy is summed here after every step, in extended
 /// precision.

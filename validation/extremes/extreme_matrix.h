@@ -20,8 +20,15 @@ class ExtremeMatrix {
  public:
   ExtremeMatrix(std::string_view axis, bool quick) : axis_(axis), quick_(quick) {}
 
+  /// What one value stands for.
+  struct Row {
+    std::string value;
+    SetupMaker make;
+  };
+
   void add(const std::string& value, std::span<const std::string_view> scenes, const SetupMaker& make) {
     if (quick_ && count_++ % 3 != 0) return;
+    rows_.push_back({value, make});
     for (const std::string_view scene : scenes)
       for (const IntegratorEntry& entry : integrators()) {
         ExtremeCase which{axis_, std::string(scene), std::string(entry.name), value, {}};
@@ -39,12 +46,15 @@ class ExtremeMatrix {
     }
   }
   std::vector<ExtremeCase> take() { return std::move(cases_); }
+  /// Those that were added with a maker of setups, in this order.
+  const std::vector<Row>& rows() const { return rows_; }
 
  private:
   std::string axis_;
   bool quick_;
   std::size_t count_ = 0;
   std::vector<ExtremeCase> cases_;
+  std::vector<Row> rows_;
 };
 
 inline constexpr std::string_view extreme_solids[]{"box", "sheet"};

@@ -11,24 +11,6 @@
 namespace dartboard {
 namespace {
 
-/// The first quarter of the checkpoints, at least two; where there are events, up to the checkpoint after the first.
-std::size_t prefix_of(const TradeoffScene& scene) {
-  const auto& times = scene.motion.checkpoints;
-  std::size_t count = std::min(times.size(), std::max<std::size_t>(2, times.size() / 4));
-  if (!scene.motion.events.empty())
-    while (count < times.size() && times[count - 1] <= scene.motion.events[0].time) ++count;
-  return count;
-}
-
-// How the largest error so far grows with time, as a power.
-double growth_of(const std::vector<double>& errors, const std::vector<double>& times) {
-  if (errors.size() < 2) return 1.0;
-  const std::size_t first = (errors.size() - 1) / 2, last = errors.size() - 1;
-  const double early = max_or_nan(std::span(errors).first(first + 1)), late = max_or_nan(errors);
-  if (!(early > 0.0) || !(late > 0.0)) return 1.0;
-  return std::clamp(std::log(late / early) / std::log(times[last] / times[first]), 0.5, 2.0);
-}
-
 /// The power of h that errors are extrapolated with.
 ///
 /// An observed order that is below the method's but near it rises towards it: the mean of both is still on the safe
@@ -61,7 +43,7 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   const TimedRun& finest = runs.back()->run;
   std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
   for (double& e : left) e = richardson(c, e);
-  const double growth = std::pow(1.0 / part, growth_of(left, scene.motion.checkpoints));
+  const double growth = std::pow(1.0 / part, growth_with_time(left, scene.motion.checkpoints));
   c.pilot_h = finest.h;
   c.error_at_pilot = growth * max_or_nan(left);
   c.coarser.clear();
@@ -82,13 +64,29 @@ double farthest_flight(const TradeoffScene& scene) {
 
 }  // namespace
 
+std::size_t pilot_checkpoints(const TradeoffScene& scene) {
+  const auto& times = scene.motion.checkpoints;
+  std::size_t count = std::min(times.size(), std::max<std::size_t>(2, times.size() / 4));
+  if (!scene.motion.events.empty())
+    while (count < times.size() && times[count - 1] <= scene.motion.events[0].time) ++count;
+  return count;
+}
+
+double growth_with_time(const std::vector<double>& errors, const std::vector<double>& times) {
+  if (errors.size() < 2) return 1.0;
+  const std::size_t first = (errors.size() - 1) / 2, last = errors.size() - 1;
+  const double early = max_or_nan(std::span(errors).first(first + 1)), late = max_or_nan(errors);
+  if (!(early > 0.0) || !(late > 0.0)) return 1.0;
+  return std::clamp(std::log(late / early) / std::log(times[last] / times[first]), 0.5, 2.0);
+}
+
 void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double error) {
   // a third of what there is, for three pilots; no run with this method takes less than its largest steps do
   const double steps_in_all = pilots.scene().duration / h;
   const RecommendOptions& options = pilots.options();
   const double run_s = steps_in_all * step_s;
   const double allowed_s = std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s) / 3.0;
-  std::size_t prefix = prefix_of(pilots.scene());
+  std::size_t prefix = pilot_checkpoints(pilots.scene());
   const auto& all_times = pilots.scene().motion.checkpoints;
   double part = all_times[prefix - 1] / pilots.scene().duration;
   std::optional<TradeoffScene> shorter;

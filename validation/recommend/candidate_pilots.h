@@ -1,10 +1,21 @@
 #pragma once
 // The pilots of one candidate, and what is read off them: errors, orders and costs.
 
+#include <cstddef>
+#include <vector>
+
 #include "validation/recommend/pilots.h"
 #include "validation/scenes/scene_features.h"
 
 namespace dartboard {
+
+/// How many checkpoints the pilots of a scene reach: the first quarter, at least two; where there are events, up to the
+/// one after the first.
+std::size_t pilot_checkpoints(const TradeoffScene& scene);
+
+/// The power of time that the largest error so far grows with, between 1/2 and 2: from the middle one of the errors, at
+/// the first of these times, to the last.
+double growth_with_time(const std::vector<double>& errors, const std::vector<double>& times);
 
 /// Pilots with h, h/2 and h/4, up to five where orders do not show, on the first quarter of the scene or up to the
 /// checkpoint after its first event, or on less where that would take too long; sets the candidate's fits, or why it

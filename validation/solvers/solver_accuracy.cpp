@@ -23,14 +23,6 @@ double drawn(double key, double low, double high) {
   return low * std::pow(high / low, 0.5 + 0.5 * random.next_signed());
 }
 
-void spread(SpringColumns& columns, bool masses, bool stiffnesses) {
-  if (masses)
-    for (std::size_t i = 0; i < columns.mass.size(); ++i)
-      columns.set_mass(i, columns.mass[i] * drawn(columns.x[i].x(), 1e-6, 1e6));
-  if (stiffnesses)
-    for (Spring& s : columns.springs) s.stiffness *= drawn(s.rest_length, 1.0, 1e14);
-}
-
 struct System {
   SpringColumns whole, torn;
   double tau = 0.0;
@@ -123,6 +115,14 @@ std::vector<RankOneTerm> terms_to_exact(const SpringColumns& columns, const Solv
 
 }  // namespace
 
+void spread_scales(SpringColumns& columns, bool masses, bool stiffnesses) {
+  if (masses)
+    for (std::size_t i = 0; i < columns.mass.size(); ++i)
+      columns.set_mass(i, columns.mass[i] * drawn(columns.x[i].x(), 1e-6, 1e6));
+  if (stiffnesses)
+    for (Spring& s : columns.springs) s.stiffness *= drawn(s.rest_length, 1.0, 1e14);
+}
+
 std::string_view name(SolvePath path) {
   switch (path) {
     case SolvePath::simplicial: return "simplicial";
@@ -141,8 +141,8 @@ std::vector<SolveCell> solve_accuracy(const SolveAccuracyOptions& options) {
     for (const bool masses : {false, true})
       for (const bool stiffnesses : {false, true}) {
         System system{pairs.whole, pairs.torn.at(0)};
-        spread(system.whole, masses, stiffnesses);
-        spread(system.torn, masses, stiffnesses);
+        spread_scales(system.whole, masses, stiffnesses);
+        spread_scales(system.torn, masses, stiffnesses);
         const double omega = frequency_bound(system.torn.system());
         for (double h_omega = 1e-3; h_omega < 1.001e8; h_omega *= options.h_omega_step) {
           system.tau = h_omega / omega;
@@ -167,7 +167,7 @@ std::vector<IndefiniteCell> indefinite_systems() {
     for (const bool spread_out : {false, true}) {
       DissociationPairs pairs = dissociation_pairs(4, crush, 1);
       SpringColumns& columns = pairs.whole;
-      spread(columns, spread_out, spread_out);
+      spread_scales(columns, spread_out, spread_out);
       const double omega = frequency_bound(columns.system());
       for (double h_omega = 1.0; h_omega < 1.001e8; h_omega *= 10.0) {
         const double tau = h_omega / omega;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/time/solve/cholesky.h"
+#include "validation/scenes/spring_columns.h"
 
 namespace dartboard {
 
@@ -34,6 +35,10 @@ struct SolveAccuracyOptions {
   double h_omega_step = 10.0;  // between 1e-3 and 1e8
   double pcg_tolerance = 1e-10;
 };
+
+/// Multiply masses by 1e-6 to 1e6 and stiffnesses by 1 to 1e14, drawn evenly on a logarithmic scale: the same for the
+/// same place, and for the same rest length.
+void spread_scales(SpringColumns& columns, bool masses, bool stiffnesses);
 
 /// All combinations. Masses and stiffnesses are drawn on a logarithmic scale by place, so that parts of a dissociated
 /// vertex or edge get the same; omega_max is Gershgorin's bound. The body floats: at h omega = 1e8 its inertia is at

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 #include "benchmarks/figures/gnuplot.h"
@@ -103,6 +104,25 @@ TEST_F(PlotTest, AnAxisThatHasNoLogarithmIsRefused) {
   Plot plot = small_plot();
   plot.x_low = 0.0;
   EXPECT_THROW(draw(plot, folder_, "figure"), InputError);
+}
+
+// A decade from tick to tick, and two where there are more than nine; none above the last one, which has a line.
+TEST(PlotText, TicksEndAtTheLastOne) {
+  Plot plot = small_plot();
+  plot.y_low = 2e-5;
+  plot.y_high = 1e3;
+  plot.y_last_tick = 1.0;
+  const std::string script = plot_script(plot, "figure");
+  const auto at = script.find("set ytics ");
+  ASSERT_NE(at, std::string::npos);
+  double first = 0.0, factor = 0.0, last = 0.0;
+  ASSERT_EQ(std::sscanf(script.c_str() + at, "set ytics %lg,%lg,%lg", &first, &factor, &last), 3);
+  EXPECT_DOUBLE_EQ(first, 1e-4);
+  EXPECT_EQ(factor, 10.0);
+  EXPECT_EQ(last, 1.0);
+  EXPECT_NE(script.find("from graph 0, first 1 to graph 1, first 1"), std::string::npos);
+  plot.y_low = 2e-12;
+  EXPECT_NE(plot_script(plot, "figure").find(",100,1\nset mytics 2\n"), std::string::npos);
 }
 
 }  // namespace

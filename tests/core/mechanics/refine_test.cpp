@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
@@ -43,6 +46,17 @@ ChangedEmbeddings refine_any(Body<Map>& body, int dimension, Dart d, double brac
   if (dimension == 1) return refine(body, Edge{d}, bracing);
   if (dimension == 2) return refine(body, Face{d}, bracing);
   return refine(body, Volume{d}, bracing);
+}
+
+/// Do the faces of a cell, walked along alpha_0 alpha_1 from its dart, run clockwise seen from outside?
+template <class Map>
+bool runs_inside_out(const Body<Map>& body, Dart d) {
+  const Map& map = body.map;
+  const auto at = [&](Dart e) { return body.vertices.position[body.vertex(map, e)]; };
+  const Dart next = map.template alpha<0, 1>(d);  // at the next corner of the face
+  const Eigen::Vector3d a = at(d), b = at(next), c = at(map.template alpha<0, 1>(next)),
+                        tip = at(map.template alpha<2, 1, 0>(d));
+  return (b - a).cross(c - a).dot(tip - a) > 0.0;
 }
 
 template <class Body>
@@ -140,6 +154,33 @@ TYPED_TEST(Refine, StaysConsistentThroughRandomRefinementsDissociationsAndRemova
     expect_consistent(body, arrays);
     if (this->HasFatalFailure()) FAIL() << "after operation " << k;
   }
+}
+
+// Cells of both kinds, and refined ones refined again: the walk from the dart of each is told by its corners, too.
+TYPED_TEST(Refine, KnowsWhichWayTheFacesOfACellRun) {
+  Problem problem;
+  problem.mesh = kuhn_grid(1, 1, 1, 1.0);
+  Mesh mirrored;
+  mirrored.points = problem.mesh.points;
+  for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c) {
+    const auto nodes = problem.mesh.cell(c);
+    std::array<std::uint32_t, 4> turned{nodes[0], nodes[1], nodes[2], nodes[3]};
+    if (c % 2 != 0) std::swap(turned[2], turned[3]);
+    mirrored.add_cell(CellKind::tetrahedron, turned);
+  }
+  problem.mesh = mirrored;
+  auto body = build_body<TypeParam, Held::by_every_dart>(problem);
+  SplitMix64 random(3);
+  std::set<bool> seen;
+  for (int k = 0; k < 30; ++k) {
+    refine_any(body, 1 + static_cast<int>(random.below(3)), some_live_dart(body.map, random), 1.0);
+    for (std::size_t c = 0; c < body.cell_dart.size(); ++c) {
+      const bool inside_out = runs_inside_out(body, body.cell_dart[c]);
+      seen.insert(inside_out);
+      ASSERT_EQ(body.cell_inside_out[c] != 0, inside_out) << "cell " << c << " after " << k + 1;
+    }
+  }
+  EXPECT_EQ(seen.size(), 2u);
 }
 
 TYPED_TEST(Refine, KeepsTheCharacteristicsOfTheBody) {

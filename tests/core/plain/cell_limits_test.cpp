@@ -69,6 +69,12 @@ TEST(RequireRoom, LetsALastOneInAndRefusesTheNextWithItsNumberAndTheLimit) {
   } catch (const TopologyError& error) {
     EXPECT_STREQ(error.what(), "cannot add 1 to the 134217728 tetrahedra of a map: it numbers at most 134217728");
   }
+  try {
+    require_room(60, 48, 100, "darts");
+    FAIL() << "accepted";
+  } catch (const TopologyError& error) {
+    EXPECT_STREQ(error.what(), "cannot add 48 to the 60 darts of a map: it numbers at most 100");
+  }
   EXPECT_NO_THROW(require_room(most_darts(3) - 48, 48, most_darts(3), "darts"));
   EXPECT_THROW(require_room(most_darts(3) - 47, 48, most_darts(3), "darts"), TopologyError);
   EXPECT_THROW(require_room(0, std::numeric_limits<std::uint64_t>::max(), most_darts(3), "darts"), TopologyError);

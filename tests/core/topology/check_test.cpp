@@ -151,5 +151,25 @@ TEST(CheckOfTetrahedra, NamesAFaceSewnToATetrahedronBeyondTheSlots) {
   EXPECT_EQ(check(map), "alpha3(d0) = d3000000000, which is dead");
 }
 
+// Each face of each tetrahedron in turn is made 3-free, and its partner is not: any dart of the partner tells, and none
+// of the face itself.
+TEST(CheckOfTetrahedra, NamesAFaceByAnyOfItsDarts) {
+  const auto good = build_map<TetMap>(kuhn_grid(1, 1, 1, 1.0)).map;
+  std::size_t broken = 0;
+  for (std::uint32_t face = 0; face < good.capacity() / 6; ++face) {
+    if (good.is_free<3>({6 * face})) continue;
+    ++broken;
+    auto map = good;
+    map.redo({Change::Kind::link, face, 0, 8 * face});
+    const std::uint32_t partner = good.storage().opposite(face) / 8;
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      EXPECT_EQ(check_dart(good, Dart{6 * partner + k}), "");
+      EXPECT_EQ(check_dart(map, Dart{6 * face + k}), "");
+      EXPECT_NE(check_dart(map, Dart{6 * partner + k}), "") << 6 * partner + k;
+    }
+  }
+  EXPECT_EQ(broken, 12u);  // six faces between six tetrahedra, from both sides
+}
+
 }  // namespace
 }  // namespace dartboard

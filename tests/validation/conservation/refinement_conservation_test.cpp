@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -62,6 +63,8 @@ TYPED_TEST(RefinementConservation, HoldsDownToTheEmptyBodyAndAgain) {
                                                        short_plan(seed, 500));
     EXPECT_EQ(violation_of(result), "none");
     EXPECT_GT(result.refills, 0u);
+    EXPECT_LE(12 * result.refills, result.removals);  // of twelve cells each
+    EXPECT_GT(result.dissociations, result.tears);    // of a hundred operations 45 against 10
     EXPECT_GT(result.refinements, 50u);
     EXPECT_GT(result.tears, 10u);
     EXPECT_GT(result.removals, 50u);
@@ -161,6 +164,80 @@ TYPED_TEST(RefinementConservation, LooksAtWhatASeriesChanged) {
   }
   EXPECT_GT(seen, 3u);
   EXPECT_EQ(operations, (std::set<std::size_t>{1, 2, 3}));
+}
+
+// Nothing pulls at the body or holds it: its centre of mass moves on, and an operation that removes nothing leaves it
+// where it is. Gershgorin's bound by vertex, 2 k / m, where the problem's own step is longer.
+TYPED_TEST(RefinementConservation, MovesInStepsOfTheProblemOrShorterOnesThatAreStable) {
+  for (const double own : {1e-3, 10.0}) {
+    Problem problem =
+        moving_problem(kuhn_box(2, 2, 1, 0.125, 0.2, 3), {.density = 1000.0, .stiffness = 0.3, .damping = 0.0}, 1);
+    problem.fixed.clear();
+    problem.surroundings.gravity = {0, 0, 0};
+    problem.material.viscosity = 0.0;
+    problem.h = own;
+    for (auto& v : problem.initial_velocity) v = {1.0, 0.0, 0.0};
+    const auto centre = [](const VertexColumns& v) {
+      double mass = 0.0, sum = 0.0;
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        mass += v.mass[k];
+        sum += v.mass[k] * v.position[k].x();
+      }
+      return sum / mass;
+    };
+    const auto body = build_body<TypeParam, Held::by_every_dart>(problem);
+    Views views;
+    views.rebuild(body);
+    std::vector<double> stiffness(body.vertices.size(), 0.0);
+    views.cells.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
+      for (const std::uint32_t k : {a, b}) stiffness[k] += body.springs[e].stiffness;
+    });
+    double h = own;
+    for (std::size_t k = 0; k < stiffness.size(); ++k)
+      h = std::min(h, 0.5 / std::sqrt(2.0 * stiffness[k] / body.vertices.mass[k]));
+    EXPECT_EQ(h == own, own < 1.0);
+    std::size_t seen = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const double start = centre(body.vertices);
+      double end = start;
+      const auto result = validate_refinement<TypeParam>(problem, short_plan(seed, 1),
+                                                         [&](auto& moved, auto&) { end = centre(moved.vertices); });
+      if (result.removals > 0 || result.steps == 0) continue;
+      ++seen;
+      EXPECT_NEAR((end - start) / (static_cast<double>(result.steps) * h), 1.0, 1e-9) << seed;
+    }
+    EXPECT_GT(seen, 3u);
+  }
+}
+
+// A vertex that may be off moves what its springs pull at their other ends, and itself by all of that together.
+TEST(SpringForceSums, MoveAVertexByAllOfItsSprings) {
+  Problem problem = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
+  for (auto& x : problem.mesh.points) x *= 1.01;
+  const auto body = build_body<TetMap, Held::by_every_dart>(problem);
+  Views views;
+  views.rebuild(body);
+  const std::uint32_t corners[]{0, 1};
+  const RefinementMeans means(body.vertices, corners);
+  const SpringForceSums sums = spring_force_sums(body, views.cells, 4, &means);
+  ASSERT_GT(sums.springs[4], 1u);
+  double others = 0.0, terms = 0.0;
+  std::size_t ends = 0;
+  for (std::size_t k = 0; k < sums.moved.size(); ++k) {
+    if (k != 4) others += sums.moved[k];
+    terms += sums.terms[k];
+    ends += sums.springs[k];
+  }
+  EXPECT_GT(others, 0.0);
+  EXPECT_NEAR(sums.moved[4], others, 1e-12 * others);
+  EXPECT_EQ(ends, 2 * body.springs.size());
+  double expected = 0.0;
+  views.cells.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
+    const Spring& s = body.springs[e];
+    expected += s.stiffness * ((body.vertices.position[b] - body.vertices.position[a]).norm() + s.rest_length) +
+                s.damping * (body.vertices.velocity[b] - body.vertices.velocity[a]).norm();
+  });
+  EXPECT_NEAR(terms, 2.0 * expected, 1e-12 * terms);
 }
 
 // A refinement changes cells: their masses are compared, three numbers each.

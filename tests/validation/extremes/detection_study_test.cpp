@@ -19,6 +19,16 @@ TEST(Detection, FollowsWithin64StepsWhereverTheEnergyPassesTheBound) {
   EXPECT_GE(passed, all.size() / 2);
 }
 
+TEST(DetectionFactors, AscendFromJustAboveTheLimitToFarBeyond) {
+  for (const bool quick : {false, true}) {
+    const std::vector<double> factors = detection_factors(quick);
+    EXPECT_GT(factors.front(), 1.0);
+    for (std::size_t k = 1; k < factors.size(); ++k) EXPECT_GT(factors[k], factors[k - 1]);
+  }
+  EXPECT_EQ(detection_factors(false).front(), 1.0001);
+  EXPECT_EQ(detection_factors(false).back(), 1e8);
+}
+
 TEST(Detection, HoldsWhereARunIsPredictedAndNotLongAboveTheBound) {
   Detection d{.body = "", .integrator = ""};
   d.steps = 10;

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+
+#include "validation/extremes/frequency_oracle.h"
 
 namespace dartboard {
 namespace {
@@ -90,6 +93,65 @@ TEST(ExtremeVertices, NeedAMassUnlessTheyAreHeld) {
   }
   for (const ExtremeCell& cell : runs_of("vertices", "one held without mass", {"verlet", "rk4", "backward-euler"}))
     EXPECT_EQ(cell.outcome, ExtremeOutcome::ok) << cell.scene << " " << cell.integrator << " " << cell.note;
+}
+
+/// What an axis of numbers sets up, by value.
+std::vector<ExtremeMatrix::Row> rows_of(std::string_view axis) {
+  ExtremeMatrix matrix(axis, false);
+  add_numbers(matrix, axis);
+  EXPECT_FALSE(matrix.rows().empty());
+  return matrix.rows();
+}
+
+/// The number behind "h omega " in the name of a value.
+double theta_of(const std::string& value) { return std::stod(value.substr(value.find("h omega ") + 8)); }
+
+// By Lanczos; the study's own frequency is from below, within a thousandth.
+double theta_of(const ExtremeSetup& setup) { return setup.h * fastest_mode(setup.body).omega; }
+
+TEST(ExtremeNumbers, TakeTheStepsThatTheirValuesName) {
+  for (const ExtremeMatrix::Row& row : rows_of("step"))
+    EXPECT_NEAR(theta_of(row.make("chain")) / std::stod(row.value), 1.0, 2e-3) << row.value;
+  for (const char* axis : {"stiffness", "mass", "damping"})
+    for (const ExtremeMatrix::Row& row : rows_of(axis))
+      EXPECT_NEAR(theta_of(row.make("oscillator")) / theta_of(row.value), 1.0, 2e-3) << axis << " " << row.value;
+}
+
+// A tenth of the time scale of the fastest spring, however fast the body moves: what is asked is whether speed alone
+// does harm. The mode is that of the body at rest, since the moving one is torn far apart.
+TEST(ExtremeNumbers, MoveBodiesFastInStepsThatFitTheirSprings) {
+  for (const ExtremeMatrix::Row& row : rows_of("velocity")) {
+    const ExtremeSetup setup = row.make("oscillator");
+    EXPECT_NEAR(setup.h * 10.0, 0.1, 1e-3) << row.value;
+    double speed = 0.0;
+    for (const auto& v : setup.body.v) speed = std::max(speed, v.norm());
+    EXPECT_GT(speed, 0.0);
+    EXPECT_LE(speed, 1.01 * std::stod(row.value) + 0.03) << row.value;  // beside 0.01 edges at a quarter of 10/s
+  }
+}
+
+TEST(ExtremeNumbers, DampAsTheirValuesName) {
+  for (const ExtremeMatrix::Row& row : rows_of("damping")) {
+    const ExtremeSetup setup = row.make("oscillator");
+    // zeta = c / (2 m omega) of one mass of 1 kg
+    EXPECT_NEAR(setup.body.springs[0].damping / (2.0 * fastest_mode(setup.body).omega), std::stod(row.value),
+                2e-3 * std::stod(row.value))
+        << row.value;
+  }
+}
+
+// Squares of forces overflow at one end and underflow at the other: as far either way.
+TEST(ExtremeNumbers, MultiplyMassesAsFarUpAsDown) {
+  std::multiset<double> up, down;
+  for (const ExtremeMatrix::Row& row : rows_of("mass")) {
+    if (!row.value.starts_with("all times")) continue;
+    const double mass = row.make("oscillator").body.mass[1];
+    (mass > 1.0 ? up : down).insert(mass > 1.0 ? mass : 1.0 / mass);
+    EXPECT_EQ(row.value.substr(0, row.value.find(',')), "all times 2^" + std::to_string(std::ilogb(mass)));
+    EXPECT_FALSE(std::isnormal(mass * mass));
+  }
+  EXPECT_FALSE(up.empty());
+  EXPECT_EQ(up, down);
 }
 
 }  // namespace

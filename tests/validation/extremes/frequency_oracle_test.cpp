@@ -43,6 +43,16 @@ TEST(FrequencyOracle, ProvesNothingOfAMatrixWhoseLargestEigenvalueTheStartMisses
   EXPECT_FALSE(largest_eigenvalue(a).proven);
 }
 
+// One eigenvalue far above 299 others: every step of Lanczos makes the residual a hundred times smaller.
+TEST(FrequencyOracle, StopsWhereTheResidualIsSmallEnough) {
+  Eigen::SparseMatrix<double> a(300, 300);
+  for (int i = 0; i < 300; ++i) a.insert(i, i) = i == 0 ? 100.0 : 0.01 * i;
+  const LargestEigenvalue largest = largest_eigenvalue(a);
+  EXPECT_TRUE(largest.proven);
+  EXPECT_NEAR(largest.value, 100.0, 1e-7);
+  EXPECT_LE(largest.steps, 20);
+}
+
 TEST(FrequencyOracle, LeavesFixedVerticesOut) {
   SpringColumns body = extreme_body("oscillator");
   const FastestMode mode = fastest_mode(body);

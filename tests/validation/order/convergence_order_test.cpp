@@ -235,6 +235,32 @@ TEST(ForceGradient, IsMinusTheForce) {
   EXPECT_GT(compare_forces_with_energy(scene).ratio, 1.0);
 }
 
+// Of the springs around the vertex, with d = 2^-21 edges: the truncation of the difference, the rounding of two
+// energies over 2 d, and that of the forces; beside it the weight.
+TEST(ForceGradient, IsBoundByTruncationAndRounding) {
+  const PreparedScene& scene = stage(OrderCase::undamped).scene;
+  const ForceGradient found = compare_forces_with_energy(scene);
+  const reference::SpringNetwork& network = scene.motion.network;
+  const auto& x = scene.body.vertices.position;
+  const double u = 0x1p-53, w = 0x1p-64, d = 0x1p-21 * reference::mean_rest_length(network);
+  const double weight = network.mass[found.vertex] * network.gravity.norm();
+  double springs = 0.0, truncation = 0.0, energy = 0.0, rounded_lengths = 0.0, pull = 0.0, size = 0.0;
+  for (const reference::Spring& s : network.springs) {
+    if (s.a != found.vertex && s.b != found.vertex) continue;
+    const double l = (x[s.a] - x[s.b]).norm(), e = std::abs(l - s.rest_length);
+    springs += 1.0;
+    truncation += d * d / 6.0 * (2.0 / std::sqrt(3.0)) * s.stiffness * s.rest_length / (l * l);
+    energy += s.stiffness * e * e / 2.0;
+    rounded_lengths += 4.0 * w * l * s.stiffness * e;
+    pull += s.stiffness * e;
+    size += s.stiffness * l;
+  }
+  const double expected = truncation + (rounded_lengths + (springs + 3.0) * w * energy) / d + 3.0 * u * size +
+                          (springs + 14.0) * u * pull + 3.0 * w * weight * x[found.vertex].norm() / d +
+                          4.0 * u * weight;
+  EXPECT_NEAR(found.bound / expected, 1.0, 1e-3);
+}
+
 TEST(CutJump, IsRounding) {
   const PreparedScene& scene = stage(OrderCase::aligned_cut).scene;
   const auto jumps = cut_jumps(scene, *make_integrator("verlet"), 0.5 / scene.fastest_rate);

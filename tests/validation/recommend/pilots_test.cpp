@@ -195,5 +195,34 @@ TEST(Pilots, HaveAFloorAndAPartOfTheCheapestRunLessWhatTheyHaveSpent) {
   EXPECT_DOUBLE_EQ(pilots.left_s(), 0.25 + 1.0 - 0.125);
 }
 
+TEST(PilotCheckpoints, AreAQuarterOrUpToTheOneAfterTheFirstEvent) {
+  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  for (int c = 1; c <= 16; ++c) scene.motion.checkpoints.push_back(c);
+  EXPECT_EQ(pilot_checkpoints(scene), 4u);
+  scene.motion.events.push_back({2.5, {}, {}});
+  scene.motion.events.push_back({9.5, {}, {}});
+  EXPECT_EQ(pilot_checkpoints(scene), 4u);
+  scene.motion.events[0].time = 6.0;  // the state at 6 s is that before it
+  EXPECT_EQ(pilot_checkpoints(scene), 7u);
+  scene.motion.events.clear();
+  scene.motion.checkpoints.resize(3);
+  EXPECT_EQ(pilot_checkpoints(scene), 2u);
+  scene.motion.checkpoints.resize(1);
+  EXPECT_EQ(pilot_checkpoints(scene), 1u);
+}
+
+TEST(GrowthWithTime, IsThePowerThatTheLargestErrorFollows) {
+  const std::vector<double> times{1, 2, 3, 4, 5, 6, 7, 8};
+  for (const double power : {0.5, 1.0, 1.5, 2.0}) {
+    std::vector<double> errors;
+    for (std::size_t k = 0; k < 5; ++k) errors.push_back(1e-3 * std::pow(times[k], power));
+    EXPECT_NEAR(growth_with_time(errors, times), power, 1e-12);  // though there are later times
+  }
+  EXPECT_EQ(growth_with_time({1, 1, 1, 1}, times), 0.5);
+  EXPECT_EQ(growth_with_time({1, 16, 256, 4096}, times), 2.0);
+  EXPECT_EQ(growth_with_time({1.0}, times), 1.0);
+  EXPECT_EQ(growth_with_time({0, 0, 0, 1}, times), 1.0);
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -109,6 +109,21 @@ TEST(SolveForError, StepsThatEndAtEventsAreCounted) {
   EXPECT_DOUBLE_EQ(c.predicted_evaluations, 6.0 * (864.0 + 1.0));
 }
 
+// What rounding leaves goes with the mean step, 8 s / 100 with the tolerance of the pilot, and 100^0.2 as short with a
+// hundredth of it.
+TEST(CandidateError, OfATolerancesHasTheRoundingOfItsMeanStep) {
+  Candidate c;
+  c.adaptive = true;
+  c.pilot_h = 1e-6;
+  c.error_at_pilot = 1e-9;
+  c.pilot_steps = 100.0;
+  c.steps_slope = 0.2;
+  c.duration = 8.0;
+  c.rounding = {.factor = 1e-4, .power = 0.5};
+  EXPECT_NEAR(c.error_at(1e-6), 1e-9 + 1e-4 / std::sqrt(0.08), 1e-12);
+  EXPECT_NEAR(c.error_at(1e-8), 1e-11 + 1e-4 / std::sqrt(0.08 / std::pow(100.0, 0.2)), 1e-12);
+}
+
 TEST(SolveForError, ATolerancePromisesAnErrorAndANumberOfSteps) {
   Candidate c;
   c.adaptive = true;
@@ -223,6 +238,20 @@ TEST(Recommend, EveryIntegratorIsRankedOrLeftOutForAReason) {
     }
   }
   EXPECT_GE(r.one_more_digit, 1.0);
+}
+
+// With fixed steps it would take more than ten, so nobody asks what it takes with others.
+TEST(Recommend, ForetellsNothingOfWhatHadNoPilots) {
+  RecommendOptions options;
+  options.only = "dormand-prince-54";
+  options.most_steps = 10;
+  const Recommendation r = recommend(chain_scene(8, 64.0), 1e-5, ticking(), options);
+  const auto adaptive = std::ranges::find(r.candidates, true, &Candidate::adaptive);
+  ASSERT_NE(adaptive, r.candidates.end());
+  EXPECT_TRUE(adaptive->pruned.starts_with("as with fixed steps")) << adaptive->pruned;
+  EXPECT_EQ(adaptive->tolerance, 0.0);
+  EXPECT_EQ(adaptive->steps, 0u);
+  EXPECT_EQ(adaptive->h, 0.0);
 }
 
 TEST(Recommend, TheBracketOfOmegaHoldsTheKnownOne) {

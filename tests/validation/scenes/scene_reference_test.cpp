@@ -72,6 +72,10 @@ TEST(ReferenceOf, AsksTheOracleWhereARunOfItIsQuickEnough) {
   };
   EXPECT_EQ(kind(1e-9 * evaluations), ReferenceKind::self_converged);
   EXPECT_EQ(kind(1e-6 * evaluations), ReferenceKind::certified);
+  // which takes a tick, and does not say how small disturbances grow unless it is asked
+  const SceneReference found = reference_of(scene, ticking(), {.oracle_s = 1e-6 * evaluations, .gain = true});
+  EXPECT_DOUBLE_EQ(found.cpu_s, 1e-6);
+  EXPECT_GE(found.gain, 1.0);
 }
 
 // A run looks at the clock at its start and at its end, or more often, so that at least half of all time is in runs.

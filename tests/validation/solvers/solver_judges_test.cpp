@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
@@ -11,6 +13,7 @@
 #include "validation/solvers/crossover.h"
 #include "validation/solvers/factor_edits.h"
 #include "validation/solvers/solver_accuracy.h"
+#include "validation/solvers/solver_bodies.h"
 
 namespace dartboard {
 namespace {
@@ -101,6 +104,41 @@ TEST(CrossoverJudge, IsOffByTheShareThatPredictionExceedsMeasurement) {
   costs.explicit_s = 3.0;
   costs.implicit_s = 2.0;
   EXPECT_DOUBLE_EQ(costs.ratio(), 1.5);
+}
+
+TEST(EditPolicies, DoWhatTheirNamesSay) {
+  const std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
+  for (const EditPolicy& policy : edit_policies()) {
+    const auto says = [&](const char* word) { return policy.name.find(word) != std::string::npos; };
+    EXPECT_EQ(policy.refine, says("refinement")) << policy.name;
+    EXPECT_EQ(policy.options.renew_after == never, says("never renewed")) << policy.name;
+    if (says("after ")) {
+      EXPECT_EQ(policy.options.renew_after, std::stoul(policy.name.substr(policy.name.find("after ") + 6)));
+    }
+    if (says("default")) {
+      EXPECT_EQ(policy.options.renew_after, CholeskyOptions{}.renew_after);
+    }
+  }
+}
+
+// Evenly drawn on a logarithmic scale, all but one in 10^9 of several hundred springs come within a decade of either
+// end of fourteen: (13/14)^300 is 2e-10.
+TEST(SpreadScales, CoversTheDecadesThatItNames) {
+  const SpringColumns whole = dissociation_pairs(6, 0.0, 1).whole;
+  ASSERT_GT(whole.springs.size(), 300u);
+  SpringColumns spread = whole;
+  spread_scales(spread, false, true);
+  double least = 1e300, most = 0.0;
+  for (std::size_t s = 0; s < whole.springs.size(); ++s) {
+    const double factor = spread.springs[s].stiffness / whole.springs[s].stiffness;
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+  }
+  EXPECT_GE(least, 1.0);
+  EXPECT_LT(least, 10.0);
+  EXPECT_GT(most, 1e13);
+  EXPECT_LE(most, 1.0001e14);
+  EXPECT_EQ(spread.mass, whole.mass);
 }
 
 }  // namespace

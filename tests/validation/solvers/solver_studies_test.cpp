@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/meshes/generators/mesh_generators.h"
+#include "core/time/integrators.h"
+#include "reference/error_norms.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/solvers/break_even.h"
 #include "validation/solvers/crossover.h"
@@ -98,6 +101,69 @@ TEST(Crossover, SaysWhenThereIsNone) {
   options.error = 1e-2;
   const Crossover found = find_crossover(3, options, ticking());
   EXPECT_FALSE(found.failure.empty());
+}
+
+/// A clock on which every look takes two milliseconds, so that a run looks at it after each step: all steps of all
+/// methods cost the same.
+CpuClock a_look_a_step() {
+  return [t = std::int64_t{0}]() mutable { return t += 2'000'000; };
+}
+
+constexpr CrossoverOptions crossover_options{.error = 1e-3, .pilot_steps = 8};
+
+const Crossover& crossover_of_equal_steps() {
+  static const Crossover found = find_crossover(3, crossover_options, a_look_a_step());
+  return found;
+}
+
+// Verlet takes phase / 1.8 steps, nine tenths of the longest stable ones, and up to an eighth more to end at four
+// checkpoints; the looks before and after all steps are some per cent of all.
+TEST(Crossover, IsWhereBothTakeAsManyStepsWhereAllStepsCostTheSame) {
+  const Crossover& found = crossover_of_equal_steps();
+  ASSERT_EQ(found.failure, "");
+  EXPECT_NEAR(found.measured_phase / 1.8 / found.costs.back().implicit_steps, 1.0, 0.2);
+  // the stiffness goes with the square of the frequency
+  EXPECT_NEAR(found.measured_factor / found.predicted_factor, std::pow(found.measured_phase / found.predicted_phase, 2),
+              1e-12);
+}
+
+// Between the last runs on either side the ratio is a power of the phase.
+TEST(Crossover, IsWhereTheRatioBetweenTwoRunsIsOne) {
+  const Crossover& found = crossover_of_equal_steps();
+  const CostPair *low = nullptr, *high = nullptr;
+  for (const CostPair& costs : found.costs) (costs.ratio() < 1.0 ? low : high) = &costs;
+  ASSERT_TRUE(low != nullptr && high != nullptr);
+  ASSERT_GT(std::abs(std::log(found.costs.back().ratio())), 0.03);  // else it would be at the last run itself
+  const double power = std::log(high->ratio() / low->ratio()) / std::log(high->phase / low->phase);
+  EXPECT_NEAR(low->ratio() * std::pow(found.measured_phase / low->phase, power), 1.0, 1e-12);
+}
+
+TEST(Crossover, PredictsByTheLawFromWhatItSaysOfThePilots) {
+  const Crossover& found = crossover_of_equal_steps();
+  ASSERT_GT(found.predicted_s, 0.0);
+  EXPECT_DOUBLE_EQ(found.predicted_s,
+                   found.overhead * implicit_seconds(found.predicted_steps, found.work, found.prices));
+  EXPECT_DOUBLE_EQ(found.predicted_phase, break_even_phase(2.0, found.explicit_step_s, found.predicted_s));
+}
+
+// The steps lie between two runs on either side of the error, or near it, and their error is a power of them. The
+// study's own reference is Verlet's with half the step: off by a third of what it says of the explicit run.
+TEST(Crossover, ComparesWithTheStepsThatMeetTheError) {
+  for (const CostPair& costs : crossover_of_equal_steps().costs) {
+    const TradeoffScene scene =
+        stiff_scene("", kuhn_box(2, 2, 2, 0.1, 0.25, 1), costs.factor, {.phase = 13.2, .checkpoints = 4});
+    const auto states = [&](std::string_view method, double steps) {
+      return run_timed(scene, *make_integrator(method), {.steps = static_cast<std::uint64_t>(steps)}, ticking()).states;
+    };
+    const auto exact = states("verlet", std::ceil(4.0 * costs.phase));
+    const double few = 4.0 * std::floor(costs.implicit_steps / 4.0);
+    const auto error = [&](double steps) {
+      return reference::motion_errors(scene.motion, states(costs.implicit_method, steps), exact).x;
+    };
+    const double off = costs.explicit_error / 3.0;
+    EXPECT_GT(error(few), 0.9 * crossover_options.error - off) << costs.factor;
+    EXPECT_LT(error(few + 4.0), 1.1 * crossover_options.error + off) << costs.factor;
+  }
 }
 
 }  // namespace

@@ -149,6 +149,19 @@ TEST(LockstepJudge, AddsUpWhatOperationsChange) {
   EXPECT_FALSE(replay_topology(mesh, script).disagreement);
 }
 
+// What only the full comparison asks for: who said what.
+TEST(LockstepJudge, NamesWhoAnswersTheFullComparisonDifferently) {
+  const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
+  const Lies lies{.is_orientable = [](std::optional<bool> truth) { return !*truth; }};
+  const Lockstep lockstep(mesh, ScriptStorage::general, ScriptOracles::none, with_a_liar(lies));
+  const auto found = lockstep.compare_everything();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->what, "orientable");
+  EXPECT_NE(found->ours.find("yes"), std::string::npos) << found->ours;
+  EXPECT_NE(found->theirs.find("liar"), std::string::npos) << found->theirs;
+  EXPECT_NE(found->theirs.find("no"), std::string::npos) << found->theirs;
+}
+
 // It tells the truth until all rows have agreed, and then calls one face free: only isomorphism is asked for after
 // that.
 TEST(LockstepJudge, AsksCgalForIsomorphism) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "core/topology/build.h"
 #include "tests/support/meshes_for_tests.h"
 
@@ -13,6 +16,21 @@ void expect_holds(const ClaimAnswer& answer) { EXPECT_TRUE(answer.holds) << answ
 TEST(TopologyClaims, OperationsCannotLeaveTheClass) {
   expect_holds(try_to_leave_the_class(kuhn_grid(3, 2, 2, 1.0), 400, 7));
 }
+// The first of them removes a cell where its dart is sewn, else tries to sew it; the second dissociates instead.
+TEST(TopologyClaims, SayHowManyOperationsTheyMade) {
+  const auto answers = [](int operations) {
+    std::set<std::string> all;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+      all.insert(try_to_leave_the_class(kuhn_grid(1, 1, 1, 1.0), operations, seed).measured);
+    return all;
+  };
+  const std::string valid = ": valid after each";
+  const std::set<std::string> one = answers(1), two = answers(2);
+  EXPECT_TRUE(one.contains("0 dissociations, 1 removals, 0 sews" + valid));
+  EXPECT_TRUE(two.contains("1 dissociations, 1 removals, 0 sews" + valid));
+  for (const std::string& answer : one) EXPECT_TRUE(answer.starts_with("0 dissociations")) << answer;
+}
+
 TEST(TopologyClaims, NonManifoldInputsAreRefusedOrApart) { expect_holds(try_non_manifold_inputs()); }
 TEST(TopologyClaims, OneGraphBelongsToTwoBodies) { expect_holds(try_same_graph_twice(kuhn_grid(2, 2, 2, 1.0))); }
 TEST(TopologyClaims, OneGraphIsNotFoundTwiceWhereEveryInnerFaceTakesAnEdgeApart) {

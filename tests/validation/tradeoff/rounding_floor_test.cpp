@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/plain/nan_maximum.h"
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
@@ -45,6 +47,18 @@ TEST(RoundingFloor, GrowsWithTheDistanceFromTheOriginAndWithTheRootOfTheSteps) {
   EXPECT_DOUBLE_EQ(near.at(1e-6), 1e3 * near.at(1.0));
   for (auto& x : scene.motion.start.x) x *= 100.0;
   EXPECT_NEAR(rounding_floor(scene, rk4).factor, 100.0 * near.factor, 1e-12 * 100.0 * near.factor);
+}
+
+// Each stage of an explicit splitting rounds the positions once more, and the others round them once, at the end.
+TEST(RoundingFloor, CountsTheStagesThatRoundPositions) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const auto factor = [&](const char* name) { return rounding_floor(scene, make_integrator(name)->scheme()).factor; };
+  const double once = factor("rk4");
+  for (const char* name : {"implicit-midpoint", "backward-euler", "verlet", "dormand-prince-54"})
+    EXPECT_DOUBLE_EQ(factor(name), once) << name;
+  const double stages = make_integrator("blanes-moan-4")->scheme().stages;
+  ASSERT_GT(stages, 1.0);
+  EXPECT_DOUBLE_EQ(factor("blanes-moan-4"), std::sqrt(stages) * once);
 }
 
 }  // namespace

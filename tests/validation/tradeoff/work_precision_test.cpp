@@ -112,6 +112,47 @@ TEST(RunTimed, AToleranceNeedsAnIntegratorThatChoosesItsSteps) {
   EXPECT_EQ(run_timed(scene, *adaptive, {.tolerance = 1e-3}, ticking()).states.size(), 2u);
 }
 
+/// Remembers the lengths of its steps, and moves everything on at its speed.
+class RemembersItsSteps : public Integrator {
+ public:
+  const Scheme& scheme() const override { return real_->scheme(); }
+  StepResult step(const SpringSystem&, Motion motion, double h) override {
+    lengths.push_back(h);
+    for (std::size_t i = 0; i < motion.x.size(); ++i) motion.x[i] += h * motion.v[i];
+    return {};
+  }
+  std::vector<double> lengths;
+
+ private:
+  std::unique_ptr<Integrator> real_ = make_integrator("verlet");
+};
+
+// A tenth of a second is no sum of powers of two, and differences of its multiples are a rounding longer or shorter.
+TEST(RunTimed, MakesStepsOfOneLengthWhereTheyFit) {
+  TradeoffScene scene = chain_scene(4, 8.0, 2);
+  scene.duration = 1.0;
+  scene.motion.checkpoints.clear();
+  for (int c = 1; c <= 10; ++c) scene.motion.checkpoints.push_back(c / 10.0);
+  RemembersItsSteps integrator;
+  run_timed(scene, integrator, {.steps = 10}, ticking());
+  EXPECT_EQ(integrator.lengths, std::vector<double>(10, 0.1));
+}
+
+TEST(RunTimed, MakesShorterStepsWhereTheyDoNotFit) {
+  TradeoffScene scene = chain_scene(4, 8.0, 2);
+  scene.duration = 1.0;
+  scene.motion.checkpoints = {0.125, 0.3125, 1.0};
+  RemembersItsSteps integrator;
+  const TimedRun run = run_timed(scene, integrator, {.steps = 8}, ticking());
+  // 3/16 are two steps, and 11/16 are six
+  std::vector<double> expected{0.125, 0.09375, 0.09375};
+  expected.insert(expected.end(), 6, 0.6875 / 6);
+  EXPECT_EQ(integrator.lengths, expected);
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(run.states[c].x[1].x(),
+                scene.motion.start.x[1].x() + scene.motion.checkpoints[c] * scene.motion.start.v[1].x(), 1e-15);
+}
+
 TEST(RunTimed, ARunThatTakesTooLongIsGivenUpWithADiagnosis) {
   const TradeoffScene scene = chain_scene(4, 64.0, 2);
   const TimedRun run = run_timed(scene, *make_integrator("verlet"), {.steps = 4096}, ticking(), {.cpu_ns = 10'000});
@@ -189,6 +230,18 @@ TEST(ErrorOfRest, IsTheSizeOfTheMotion) {
     expected = std::max(expected, std::sqrt(sum / 8.0) / scene.edge);  // 6 masses and 2 walls, all equal
   }
   EXPECT_NEAR(error_of_rest(scene, reference), expected, 1e-13);
+}
+
+// A run that stays where it was is of no use, nor is one that is an edge off.
+TEST(WorkPrecisionStudy, CallsErrorsUselessFromThatOfRestOnAndFromAnEdgeOn) {
+  TradeoffScene scene = chain_scene(6, 16.0, 4);
+  SceneReference reference = reference_of(scene, ticking());
+  const double rest = error_of_rest(scene, reference);
+  ASSERT_LT(rest, 1.0);
+  EXPECT_EQ(work_precision(scene, reference, {}, ticking(), {}).useless_from, rest);
+  for (PointState& state : reference.states)
+    for (auto& x : state.x) x.y() += 2.0 * scene.edge;
+  EXPECT_EQ(work_precision(scene, reference, {}, ticking(), {}).useless_from, 1.0);
 }
 
 TEST(WorkPrecisionStudy, EveryContenderMeetsItsFailurePointAndConverges) {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "benchmarks/studies/operations/bench_operations_report.h"
+#include "benchmarks/studies/operations/operation_study.h"
 #include "benchmarks/studies/scenes/ablation_study.h"
 #include "benchmarks/studies/scenes/bench_ablation_report.h"
 #include "benchmarks/studies/topology/bench_topology_report.h"
@@ -290,6 +291,37 @@ TEST(BenchAblationClaims, SayNothingOfAStairWhoseLowerTaskIsTheSlowerOne) {
   AblationFigures f = good_ablation();
   set_task(f, "plain loop", 1'010'000);
   EXPECT_EQ(ids_of(claims_of(f), Verdict::not_tested), Ids{"unasked-terms-time"});
+}
+
+// ---- operations
+
+// The map follows first and each view after it: where all views follow each of them takes some time, and the journal
+// knows the map alone.
+TEST(StudyOperations, TimeEveryPhaseOfEveryOperation) {
+  std::size_t operations_seen = 0;
+  study_operations(
+      "kuhn-2058", {.times = 5},
+      [&](const OperationSample& sample) {
+        ++operations_seen;
+        ASSERT_EQ(sample.ns.size(), operation_phases().size());
+        for (std::size_t phase = 0; phase < sample.ns.size(); ++phase) {
+          std::int64_t sum = 0;
+          for (const std::int64_t ns : sample.ns[phase]) {
+            EXPECT_GE(ns, 0);
+            sum += ns;
+          }
+          if (phase == 0 || sample.operation != "undo")
+            EXPECT_GT(sum, 0) << sample.operation << ": " << operation_phases()[phase];
+          else
+            EXPECT_EQ(sum, 0) << operation_phases()[phase];
+        }
+      },
+      [](const BodySample& sample) {
+        EXPECT_EQ(sample.rebuild_ns.size() + 2, operation_phases().size());
+        EXPECT_EQ(sample.step_ns.size(), sample.eventful_step_ns.size());
+        EXPECT_GT(sample.step_ns.size(), 0u);
+      });
+  EXPECT_EQ(operations_seen, operations().size());
 }
 
 }  // namespace

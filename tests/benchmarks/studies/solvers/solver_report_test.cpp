@@ -152,5 +152,13 @@ TEST(SolverSamples, CarryEveryMeasurementUnderTheNameOfItsStudy) {
   EXPECT_EQ(studies, (Ids{"accuracy", "indefinite", "edits", "updates", "steps"}));
 }
 
+// Each solver steps its own copy, and what it steps to solves the equations of the step: else the study throws.
+TEST(TimeImplicitStep, StepsWithEverySolver) {
+  constexpr int rounds = 1;
+  const SolverTimes times = time_implicit_step(1.0, rounds, 1);
+  EXPECT_EQ(times.tasks, (Ids{"conjugate gradients", "fresh factor", "kept factor"}));
+  EXPECT_EQ(times.samples.size(), rounds * times.tasks.size());
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "tests/support/mesh_samples.h"
 
 namespace dartboard {
@@ -52,6 +55,18 @@ TEST(VtkLegacy, RefusesCellsThatItCannotHold) {
             "file:14: found a 10-node tetrahedron; expected elements of first order, with straight edges");
   expect_part(refused(with(vtk4, "5 10 10\n", "5 10 42\n")), "file:14: cell 2 with 4 points has the type 42");
   expect_part(refused(with(vtk4, "5 10 10\n", "5 10 12\n")), "cell 2 is a hexahedron with 4 points; expected 8");
+}
+
+// The volumes of vtkCellType.h with curved edges: quadratic and biquadratic ones, Lagrange's and Bezier's.
+TEST(VtkLegacy, RefusesEveryVolumeWithCurvedEdgesByItsName) {
+  std::set<std::string> names;
+  for (const int type : {24, 25, 26, 27, 29, 31, 32, 33, 37, 71, 72, 73, 74, 78, 79, 80, 81}) {
+    const std::string message = refused(with(vtk4, "5 10 10\n", "5 10 " + std::to_string(type) + "\n"));
+    expect_part(message, "expected elements of first order, with straight edges");
+    EXPECT_TRUE(names.insert(message).second) << type << ": " << message;
+    if (type >= 69) expect_part(message, type < 76 ? "found a Lagrange " : "found a Bezier ");
+    if (type == 74 || type == 81) expect_part(message, "pyramid");
+  }
 }
 
 TEST(VtkLegacy, RefusesAPointOutOfRange) {

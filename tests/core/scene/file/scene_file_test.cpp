@@ -250,6 +250,29 @@ TEST(SceneSchema, NamesEveryKeyOfTheTableAndAllowsNoOther) {
   EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "body", "duration"])"));
 }
 
+// Of a number, where it begins and ends: what has no end has no key for it.
+TEST(SceneSchema, HasTheRangesOfTheTable) {
+  const Json schema = scene_schema();
+  std::size_t ends = 0;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.type != ValueType::real && key.type != ValueType::integer) continue;
+    const Json& shape =
+        key.shape == Shape::scene ? schema : schema.at("$defs").at(std::string(help_of(key.shape).name));
+    const Json& number = shape.at("properties").at(std::string(key.name));
+    const char* least = key.range.above ? "exclusiveMinimum" : "minimum";
+    ASSERT_EQ(number.contains("maximum"), std::isfinite(key.range.most)) << key.name;
+    ASSERT_EQ(number.contains(least), std::isfinite(key.range.least)) << key.name;
+    if (std::isfinite(key.range.most)) {
+      EXPECT_EQ(number.at("maximum").get<double>(), key.range.most) << key.name;
+    }
+    if (std::isfinite(key.range.least)) {
+      EXPECT_EQ(number.at(least).get<double>(), key.range.least) << key.name;
+    }
+    ends += !std::isfinite(key.range.most);
+  }
+  EXPECT_GT(ends, 0u);
+}
+
 TEST(SceneReference, HasALineForEveryKey) {
   const std::string page = scene_reference();
   for (const SceneKey& key : scene_keys()) EXPECT_NE(page.find("| `" + std::string(key.name) + "` |"), page.npos);

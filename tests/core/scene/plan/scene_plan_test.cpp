@@ -9,7 +9,9 @@
 #include <string>
 
 #include "core/scene/file/scene_problem.h"
+#include "core/scene/plan/event_forecast.h"
 #include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/system_arrays.h"
 #include "core/scene/run/scene_run.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
@@ -203,6 +205,28 @@ TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
   EXPECT_EQ(planned.events[1].with_operations, 3.0);
   EXPECT_EQ(planned.events[2].operations, 2.0);
   EXPECT_EQ(planned.events[2].with_operations, 1.0);
+}
+
+// At every step from 0 on, and counted without going through them: more times than could be gone through.
+TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
+  const std::uint64_t steps = std::uint64_t{1} << 42;
+  SceneFile scene = parse(with_events(moving_box(), R"([{"from": 0, "until": 0.01, "remove": {"ids": [3]}}])"));
+  scene.step = 0x1p-10;
+  scene.duration = static_cast<double>(steps) * scene.step;
+  scene.events[0].until = scene.duration;
+  const Mesh mesh = make_mesh(scene);
+  EXPECT_EQ(forecast_events(scene, mesh, tally_of(mesh)).at(0).times, steps + 1);
+}
+
+// Half of each link at either end, of 768 kg/m: 96 kg for a link of 1/8 m.
+TEST(SystemArrays, OfAChainHaveTheMassesOfItsLinks) {
+  const Json json = with_body(moving_box(), {"chain", R"({"chain": {"links": 12, "spacing": 0.125}})"});
+  const Problem problem = make_problem(parse(json));
+  const SystemArrays arrays(problem, tally_of(problem.mesh));
+  ASSERT_EQ(arrays.mass.size(), 13u);
+  for (std::size_t k = 0; k < 13; ++k) EXPECT_DOUBLE_EQ(arrays.mass[k], k == 0 || k == 12 ? 48.0 : 96.0) << k;
+  const Simulation simulation(parse(json));
+  for (std::size_t k = 0; k < 13; ++k) EXPECT_DOUBLE_EQ(arrays.mass[k], simulation.body().system().mass[k]) << k;
 }
 
 // ---- what no item plans

@@ -314,5 +314,19 @@ TEST_F(Adaptive, RefusesWhatItCannotMeet) {
   EXPECT_THROW(integrator.advance(arrays.system(), arrays.motion(), 1.0, {1e-6, std::nan("")}), InputError);
 }
 
+// A frequency beyond all numbers leaves no step to begin with: 2 k / m overflows.
+TEST_F(Adaptive, SaysWhenTheFirstStepIsNone) {
+  SpringArrays arrays = a_body(0.0, 0.0);
+  for (Spring& spring : arrays.springs) spring.stiffness = 1e300;
+  for (std::size_t i = 0; i < arrays.mass.size(); ++i) {
+    arrays.mass[i] = 1e-100;
+    arrays.inverse_mass[i] = 1e100;
+  }
+  const StepResult result = integrator.advance(arrays.system(), arrays.motion(), 1.0, {1e-6, 1e-5});
+  EXPECT_EQ(result.code, StepCode::step_underflow) << to_string(result);
+  EXPECT_EQ(result.value, 0.0);
+  EXPECT_EQ(integrator.work().failed_steps, 1u);
+}
+
 }  // namespace
 }  // namespace dartboard

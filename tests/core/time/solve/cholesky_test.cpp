@@ -310,5 +310,21 @@ TEST(MaxOrNan, OfCoordinatesIsNotANumberWhereverOneIsNone) {
   }
 }
 
+// What is refused is refused before anything is changed.
+TEST(Cholesky, KeepsItsFactorWhenATermIsNotANumber) {
+  const BodyMatrix body(disturbed_grid());
+  for (const bool in_weight : {true, false}) {
+    Cholesky cholesky;
+    ASSERT_EQ(cholesky.factorise(body.blocks), SolveStatus::ok);
+    RankOneTerm bad{9, NodePattern::none, {1, 0, 0}, 1.0};
+    (in_weight ? bad.weight : bad.direction.y()) = NAN;
+    const RankOneTerm good{4, NodePattern::none, {0, 1, 0}, 1.0};
+    EXPECT_EQ(cholesky.update(std::vector{good, bad}), SolveStatus::not_finite);
+    ASSERT_TRUE(cholesky.has_factor());
+    EXPECT_EQ(cholesky.counters().rank_one_updates, 0u);
+    EXPECT_LT(solved_error(cholesky, body.blocks), 20 * epsilon);
+  }
+}
+
 }  // namespace
 }  // namespace dartboard
