@@ -150,13 +150,14 @@ TEST_F(Publish, KeepsThePartsOfAFolderWithinAndCountsThemInTheWhole) {
     log.sample({{"k", 1}}, "runs.jsonl", "inner");
     log.finished({.tables = {{"cells", "A heading", one_cell("a cell")}}}, "inner");
     log.finished({.claims = {claim("second", Verdict::holds)}}, "inner");
-    return Report{.claims = {claim("third", Verdict::holds)}};
+    log.finished({.claims = {claim("third", Verdict::holds)}}, "inner");
+    return Report{.claims = {claim("fourth", Verdict::holds)}};
   });
   std::vector<std::string> all, inner;
   for (const auto& c : json_of(out() / "claims.json")) all.push_back(c["id"]);
   for (const auto& c : json_of(out() / "inner/claims.json")) inner.push_back(c["id"]);
-  EXPECT_EQ(all, (std::vector<std::string>{"first", "second", "third"}));
-  EXPECT_EQ(inner, (std::vector<std::string>{"second"}));
+  EXPECT_EQ(all, (std::vector<std::string>{"first", "second", "third", "fourth"}));
+  EXPECT_EQ(inner, (std::vector<std::string>{"second", "third"}));
   EXPECT_TRUE(std::filesystem::exists(out() / "inner/cells.md"));
   EXPECT_TRUE(std::filesystem::exists(out() / "inner/runs.jsonl"));
 }
