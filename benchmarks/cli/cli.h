@@ -5,13 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace dartboard {
+#include "benchmarks/harness/exit_codes.h"
 
-// Exit codes: the run agrees, it disagrees, the command line is wrong, reading or writing failed.
-inline constexpr int exit_agrees = 0;
-inline constexpr int exit_disagrees = 1;
-inline constexpr int exit_usage = 2;
-inline constexpr int exit_io = 3;
+namespace dartboard {
 
 /// The outcome of the verb that ran; main returns it.
 struct Outcome {

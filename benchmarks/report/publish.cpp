@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "benchmarks/harness/exit_codes.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/run_folder.h"
@@ -17,12 +18,10 @@
 namespace dartboard {
 
 int exit_code(const Report& report) {
-  return report.disagreements.empty() ? exit_code(std::span<const Claim>(report.claims)) : 1;
+  return report.disagreements.empty() ? exit_code(std::span<const Claim>(report.claims)) : exit_disagrees;
 }
 
 namespace {
-
-constexpr int picture_missing = 3;
 
 class Publisher : public StudyLog {
  public:
@@ -58,27 +57,27 @@ class Publisher : public StudyLog {
 
   void finished(const Report& report, const std::string& folder) override {
     if (!report.silent) show(report);
-    if (folder_) write(report, part(folder));
     std::ranges::copy(report.claims, std::back_inserter(all_.claims));
     std::ranges::copy(report.disagreements, std::back_inserter(all_.disagreements));
     std::ranges::copy(report.troubles, std::back_inserter(all_.troubles));
-    if (folder_ && !all_.claims.empty()) folder_->write_claims(all_.claims);
+    if (folder_) write(report, folder);
   }
 
   int end(const Report& last) {
     finished(last, "");
     if (folder_) {
+      manifest_.update(nlohmann::json(last.facts));
       finish_manifest(manifest_);
       folder_->write_manifest(manifest_);
     }
     if (how_.json) tell("{}\n", json_text(numbers(last), 2));
-    std::string words = last.sentence;
-    if (words.empty() && !all_.claims.empty()) words = in_words(all_.claims);
-    if (how_.quick && folder_ && last.sentence.empty()) words = "This was a quick run. " + words;
-    if (folder_) words += fmt::format("{}Written to {}.", words.empty() ? "" : "\n", folder_->path().string());
-    if (!words.empty()) say(words);
-    if (exit_code(all_) != 0) return 1;
-    return all_.troubles.empty() ? 0 : picture_missing;
+    if (!last.sentence.empty())
+      say(last.sentence);
+    else if (!all_.claims.empty())
+      say((how_.quick ? "This was a quick run. " : "") + in_words(all_.claims));
+    if (folder_) say(fmt::format("Written to {}.", folder_->path().string()));
+    if (exit_code(all_) != 0) return exit_disagrees;
+    return all_.troubles.empty() ? exit_agrees : exit_io;
   }
 
  private:
@@ -95,11 +94,16 @@ class Publisher : public StudyLog {
     for (const std::string& trouble : report.troubles) tell(stderr, "{}\n", trouble);
   }
 
-  /// A folder within that of the run, or that itself, and what has gone there.
+  /// A folder within that of the run, or that itself, and what has gone there; that of the run has all claims.
   struct Part {
     RunFolder folder;
     std::map<std::string, JsonLines> lines{};
     std::vector<Claim> claims{};
+    void add(const std::vector<Claim>& more) {
+      if (more.empty()) return;
+      std::ranges::copy(more, std::back_inserter(claims));
+      folder.write_claims(claims);
+    }
   };
   Part& part(const std::string& name) {
     const auto known = parts_.find(name);
@@ -107,14 +111,14 @@ class Publisher : public StudyLog {
     return parts_.emplace(name, Part{name.empty() ? *folder_ : RunFolder(folder_->path() / name)}).first->second;
   }
 
-  void write(const Report& report, Part& to) {
-    const RunFolder& folder = to.folder;
+  void write(const Report& report, const std::string& name) {
+    const RunFolder& folder = part(name).folder;
     for (const NamedTable& t : report.tables)
       if (!t.name.empty()) folder.write_table(t.name, t.heading, t.table, t.note);
     for (const auto& [file, text] : report.pages) folder.write(file, text);
     for (const auto& [file, value] : report.data_files) folder.write_json(file, value);
-    std::ranges::copy(report.claims, std::back_inserter(to.claims));
-    if (!to.claims.empty()) folder.write_claims(to.claims);
+    part("").add(report.claims);
+    if (!name.empty()) part(name).add(report.claims);
     for (const Picture& picture : report.pictures) {
       const std::string trouble =
           std::visit([&](const auto& what) { return draw(what, folder.path(), picture.name); }, picture.what);

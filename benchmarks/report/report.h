@@ -30,6 +30,7 @@ struct Report {
   std::vector<Picture> pictures{};
   std::vector<std::pair<std::string, std::string>> pages{};                  // file names and texts
   std::vector<std::pair<std::string, nlohmann::ordered_json>> data_files{};  // file names and values
+  nlohmann::ordered_json facts = nlohmann::ordered_json::object();           // of the run, for its manifest
   nlohmann::ordered_json numbers{};          // for programs; null where claims and tables say it all
   std::vector<std::string> disagreements{};  // each in words, beyond the claims that fall short
   std::vector<std::string> troubles{};       // pictures that were asked for and could not be made

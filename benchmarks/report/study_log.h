@@ -15,7 +15,7 @@ class StudyLog {
  public:
   virtual ~StudyLog() = default;
 
-  /// A sentence on what comes next.
+  /// A sentence on what comes next; ends the work that was begun.
   virtual void say(const std::string& /*sentence*/) {}
   /// Something measured. It is kept at once, so that a run that dies keeps what it had.
   virtual void sample(const nlohmann::json& /*sample*/, const std::string& /*file*/ = "samples.jsonl",

@@ -111,6 +111,7 @@ Report conservation_study(const ConservationStudyPlan& plan, StudyLog& log) {
     if (!hold) break;
   }
   report.numbers["holds"] = hold;
+  report.data_files = {{"conservation.json", report.numbers}};
   if (hold)
     report.sentence = "All is conserved.";
   else

@@ -86,6 +86,7 @@ Report topology_study(const TopologyStudyPlan& plan, StudyLog& log) {
   Report report;
   report.numbers = {{"agrees", agree}, {"seed", plan.seed}, {"operations", plan.operations}};
   for (const TopologyVerdict& v : verdicts) report.numbers["meshes"].push_back(to_json(v));
+  report.data_files = {{"topology.json", report.numbers}};
   if (verdicts.size() == 1) report.tables.push_back({"", "", rest_table(verdicts[0].at_rest)});
   report.tables.push_back({"", "", summary_table(verdicts)});
   std::string differences;

@@ -85,7 +85,7 @@ Report audit_study(std::uint64_t seed, bool quick, StudyLog& log) {
     log.advance(drawn.scene.what);
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
-  report.numbers["cpu_s"] = cpu_s;
+  report.facts["cpu_s"] = cpu_s;
   report.tables = {{"scenes", "The scenes", audited_scenes_table(pairs)},
                    {"audit", "Recommendations and what happened", audit_table(pairs), std::string(reading)}};
   report.claims = audit_claims(pairs);

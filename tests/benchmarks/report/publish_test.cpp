@@ -124,7 +124,8 @@ TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
         return Report{.tables = {{"cells", "A heading", one_cell("a cell"), "A note."}, {"", "", one_cell("shown")}},
                       .claims = {claim("one", Verdict::holds)},
                       .pages = {{"page.md", "A page.\n"}},
-                      .data_files = {{"numbers.json", {{"answer", 42}}}}};
+                      .data_files = {{"numbers.json", {{"answer", 42}}}},
+                      .facts = {{"cpu_s", 3}}};
       },
       true);
   EXPECT_EQ(status, 0);
@@ -137,6 +138,7 @@ TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
   const auto manifest = json_of(out() / "manifest.json");
   EXPECT_EQ(manifest["quick"], true);
   EXPECT_TRUE(manifest.contains("finished"));
+  EXPECT_EQ(manifest["cpu_s"], 3);
   EXPECT_NE(text.find("This was a quick run. 1 claim holds."), std::string::npos) << text;
   EXPECT_NE(text.find("Written to " + out().string()), std::string::npos) << text;
   std::size_t files = 0;
