@@ -16,8 +16,7 @@ namespace dartboard {
 namespace {
 
 void check_scene(const std::string& given) {
-  const std::string file = scene_file(given).string();
-  SceneFile scene = read_scene(file);
+  SceneFile scene = read_named_scene(given);
   if (scene.accuracy) {
     // all but the step can be checked; any will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
@@ -29,7 +28,7 @@ void check_scene(const std::string& given) {
   const std::string steps = scene.accuracy
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
                                 : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
-  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(file),
+  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(scene.file),
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
 }

@@ -17,7 +17,6 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulate_report.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
@@ -25,6 +24,7 @@
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -78,7 +78,7 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
 }
 
 void simulate(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(scene_file(options.scene));
+  SceneFile scene = read_named_scene(options.scene);
   const bool other_cells = options.seed && reseed(scene, *options.seed);
   const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
   Simulation simulation(scene);

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "benchmarks/harness/table.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/simulation.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 
