@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
@@ -57,6 +59,12 @@ SceneFile read_named_scene(const std::string& given) {
   if (scene.body.loaded)
     for (const std::string& notice : scene.body.loaded->notices) tell(stderr, "notice: /body/mesh: {}\n", notice);
   return scene;
+}
+
+std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet) {
+  Progress progress("choosing a step", 0, quiet);
+  return settle_accuracy(scene, thread_cpu_ns,
+                         [&progress](const std::string& integrator) { progress.advance(integrator); });
 }
 
 }  // namespace dartboard

@@ -2,11 +2,13 @@
 // The scenes of the gallery by their names, for every verb that takes a scene file.
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/scene/file/scene_file.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 
@@ -26,5 +28,8 @@ std::filesystem::path scene_file(const std::string& given, std::span<const std::
 ///
 /// throws  as scene_file and read_scene
 SceneFile read_named_scene(const std::string& given);
+
+/// settle_accuracy, with progress on standard error.
+std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet);
 
 }  // namespace dartboard

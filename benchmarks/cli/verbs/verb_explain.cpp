@@ -71,7 +71,7 @@ double measured_ns(const SceneFile& scene, Pace& pace, double estimated_at) {
 
 void explain(const Options& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
-  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
   Pace pace(problem, plan.counts);

@@ -23,7 +23,7 @@ struct Options {
 
 void explain_dt(const Options& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
-  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const StepExplanation explanation = explain_step(scene);
   outcome.exit_code = scene.step <= explanation.limit.stable ? exit_agrees : exit_disagrees;
   if (options.json) {

@@ -10,6 +10,7 @@
 #include "core/plain/counted.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/file/scene_pages.h"
+#include "core/scene/run/scene_warnings.h"
 #include "core/scene/run/simulation.h"
 
 namespace dartboard {
@@ -31,6 +32,8 @@ void check_scene(const std::string& given) {
   tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(scene.file),
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
+  if (!scene.accuracy)
+    for (const std::string& warning : warnings_of(scene, simulation)) tell(stderr, "warning: {}\n", warning);
 }
 
 }  // namespace
