@@ -52,6 +52,12 @@ TEST(VtuClaims, OfMoreBytesThanTheFileHasAreRefused) {
   }
 }
 
+// Four bytes more than the length says, as a whole group of base64 after the last.
+TEST(VtuClaims, OfFewerBytesThanAnArrayHasAreRefused) {
+  const std::string types = stored("\x0a\x0a", {});
+  expect_part(refused(with(vtu({}), types, types + "AAAA")), "'types': more data than its header says");
+}
+
 TEST(VtuClaims, OfAnotherSizeThanABlockHasAreRefused) {
   for (const char* compressor : {"ZLib", "LZ4", "LZMA"}) {
     const VtuVariant v{.encoding = "raw", .compressor = compressor};
