@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/meshes/text/text_scanner.h"
+
 namespace dartboard {
 
 std::size_t CellTagsBuilder::column(std::string_view name, bool zero_is_none) {
@@ -38,7 +40,8 @@ std::vector<CellTags> CellTagsBuilder::finish(std::span<const std::uint32_t> cel
       tags.values.push_back(static_cast<std::int32_t>(value));
     }
     if (beyond != 0) {
-      notices.push_back(fmt::format("left out '{}' of the cells: {} does not fit in 32 bits", column.name, beyond));
+      notices.push_back(
+          fmt::format("left out {} of the cells: {} does not fit in 32 bits", in_quotes(column.name), beyond));
       continue;
     }
     if (column.zero_is_none && std::ranges::count(tags.values, 0) == std::ssize(tags.values)) continue;
