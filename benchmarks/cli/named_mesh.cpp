@@ -6,7 +6,7 @@
 
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/meshes/mesh_io.h"
+#include "core/scene/file/load_mesh.h"
 #include "validation/cgal/delaunay_ball.h"
 
 namespace dartboard {
@@ -14,7 +14,7 @@ namespace {
 
 MeshSource file_source(const std::filesystem::path& path) {
   return {path.string(), [path] {
-            LoadedMesh loaded = read_mesh(path);
+            LoadedMesh loaded = read_body_mesh({.mesh = path, .scale = 1.0, .translate = {0, 0, 0}});
             for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}: {}\n", path.string(), notice);
             return std::move(loaded.mesh);
           }};

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 
+#include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/progress.h"
+#include "benchmarks/harness/tell.h"
+#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_check.h"
 #include "core/scene/file/scene_keys.h"
@@ -48,6 +52,19 @@ fs::path scene_file(const std::string& given, std::span<const std::string> other
   if (bare && stem == given)
     throw InputError(fmt::format("'{}' is neither a scene file nor the name of a scene; there are {}", given, hint));
   throw IoError(fmt::format("{}: there is no such file; expected a scene{}", given, bare ? ", or one of " + hint : ""));
+}
+
+SceneFile read_named_scene(const std::string& given) {
+  SceneFile scene = read_scene(scene_file(given));
+  if (scene.body.loaded)
+    for (const std::string& notice : scene.body.loaded->notices) tell(stderr, "notice: /body/mesh: {}\n", notice);
+  return scene;
+}
+
+std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet) {
+  Progress progress("choosing a step", 0, quiet);
+  return settle_accuracy(scene, thread_cpu_ns,
+                         [&progress](const std::string& integrator) { progress.advance(integrator); });
 }
 
 }  // namespace dartboard

@@ -2,9 +2,13 @@
 // The scenes of the gallery by their names, for every verb that takes a scene file.
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/scene/file/scene_file.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 
@@ -19,5 +23,13 @@ std::vector<std::string> scene_names(const std::filesystem::path& folder = galle
 /// throws  InputError for a name that neither has, IoError for a path; both list what is near, of the gallery and of
 ///         the `others` that the verb knows
 std::filesystem::path scene_file(const std::string& given, std::span<const std::string> others = {});
+
+/// The scene in it; what was noticed while its mesh was read is told on stderr.
+///
+/// throws  as scene_file and read_scene
+SceneFile read_named_scene(const std::string& given);
+
+/// settle_accuracy, with progress on standard error.
+std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet);
 
 }  // namespace dartboard

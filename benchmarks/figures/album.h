@@ -18,8 +18,9 @@ class Album {
     const std::uint64_t n = simulation.steps_done();
     if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
   }
-  /// The last good state of a run that ended before its time.
+  /// The last good state of a run that ended before its time, and none after it.
   void ended(const Simulation& simulation) {
+    while (panels_.size() > 1 && panels_.back().frame.time > simulation.time()) panels_.pop_back();
     if (panels_.back().frame.time < simulation.time()) take(simulation);
   }
   const std::vector<BodyPanel>& panels() const { return panels_; }

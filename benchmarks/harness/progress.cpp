@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -30,7 +31,7 @@ std::size_t terminal_width() {
 }  // namespace
 
 Progress::Progress(std::string label, std::size_t total, bool quiet)
-    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(is_terminal()) {}
+    : label_(std::move(label)), total_(total), quiet_(quiet), terminal_(is_terminal()), start_ns_(steady_wall_ns()) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
@@ -45,9 +46,18 @@ void Progress::advance(std::string_view detail) {
   print(detail);
 }
 
+std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
+  if (done == 0 || done >= total || elapsed_s < 0.5) return "";
+  const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);
+  return left_s < 100.0 ? fmt::format(", about {:.0f} s left", std::max(1.0, left_s))
+                        : fmt::format(", about {:.0f} min left", left_s / 60.0);
+}
+
 void Progress::print(std::string_view detail) {
-  std::string line =
-      terminal_text(fmt::format("{}: {}/{}{}{}", label_, done_, total_, detail.empty() ? "" : "  ", detail));
+  const double elapsed_s = 1e-9 * static_cast<double>(steady_wall_ns() - start_ns_);
+  const std::string counted = total_ > 0 ? fmt::format("{}/{}{}", done_, total_, time_left(done_, total_, elapsed_s))
+                                         : fmt::format("{} done in {:.0f} s", done_, elapsed_s);
+  std::string line = terminal_text(fmt::format("{}: {}{}{}", label_, counted, detail.empty() ? "" : "  ", detail));
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;

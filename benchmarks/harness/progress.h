@@ -8,8 +8,8 @@
 
 namespace dartboard {
 
-/// Counts steps up to `total`. A log gets at most one line every two seconds, a terminal ten updates a second; the last
-/// step is always shown.
+/// Counts steps up to `total`, and says how long the rest will take; counts alone where the total is not known and 0. A
+/// log gets at most one line every two seconds, a terminal ten updates a second; the last step is always shown.
 class Progress {
  public:
   Progress(std::string label, std::size_t total, bool quiet = false);
@@ -27,7 +27,10 @@ class Progress {
   std::string label_;
   std::size_t total_, done_ = 0;
   bool quiet_, terminal_, line_open_ = false;
-  std::int64_t next_print_ns_ = 0;
+  std::int64_t start_ns_, next_print_ns_ = 0;
 };
+
+/// ", about 40 s left", once there is something to go by: half a second and a step.
+std::string time_left(std::size_t done, std::size_t total, double elapsed_s);
 
 }  // namespace dartboard

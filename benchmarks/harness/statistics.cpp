@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/plain/error.h"
+#include "core/plain/median.h"
 
 namespace dartboard {
 namespace {
@@ -30,7 +31,7 @@ double quantile_of_sorted(std::span<const double> values, double p) {
 
 }  // namespace
 
-double median(std::span<const double> sample) { return quantile(sample, 0.5); }
+double median(std::span<const double> sample) { return median_of(sorted(sample)); }
 
 double quantile(std::span<const double> sample, double p) {
   if (!(p >= 0.0 && p <= 1.0)) throw InputError(fmt::format("quantile {} is not in 0..1", p));

@@ -49,25 +49,6 @@ Numbers below(std::size_t count, const List& numbers) {
   return list;
 }
 
-/// Put the last element in place k and drop the last. A column that is empty has been left out (duplicate too).
-template <class... Column>
-void move_last(std::uint32_t k, Column&... columns) {
-  const auto move = [k](auto& column) {
-    if (column.empty()) return;
-    column[k] = column.back();
-    column.pop_back();
-  };
-  (move(columns), ...);
-}
-
-template <class... Column>
-void duplicate(std::uint32_t k, Column&... columns) {
-  const auto copy = [k](auto& column) {
-    if (!column.empty()) column.push_back(column[k]);
-  };
-  (copy(columns), ...);
-}
-
 /// One dart for each place of a cell: what a single walk around it finds, and all that its embedding follows from.
 using Places = boost::container::small_vector<Dart, 192>;
 
@@ -125,7 +106,8 @@ void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, 
       touched.insert(*hole);
     }
     move_last_columns(*hole);
-    move_last(*hole, dart_of);
+    dart_of[*hole] = dart_of.back();
+    dart_of.pop_back();
     moved.push_back({last, *hole});
   }
 }
@@ -160,7 +142,7 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   }
   close_gaps<n>(map, body.cell, n == 3 ? change.removed_volumes : change.removed_faces, body.cell_dart, cells,
                 changed.moved_cells,
-                [&](std::uint32_t k) { move_last(k, body.cell_mass, body.node_share, body.cell_inside_out); });
+                [&](std::uint32_t k) { move_last_element(body, Body<Map>::embedded_in_cells(), k); });
 
   separate<1>(
       map, body.edge, change.edges, body.edge_dart, edges,
@@ -176,17 +158,13 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
   // Vertices last: the springs around a renumbered one have another number at this end, and now they have their own.
   separate<0>(
       map, body.vertex, change.vertices, v.dart, vertices,
-      [&](std::uint32_t k) {
-        duplicate(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
-      },
+      [&](std::uint32_t k) { add_part_of_element(v, VertexColumns::embedded(), k); },
       [&](std::uint32_t k, const Places& places, bool is_new) {
         body.set_mass(k, body.mass_of({places.data(), places.size()}));
         if (is_new) add_edges(body, places, edges_at_renumbered);
       });
   close_gaps<0>(map, body.vertex, change.removed_vertices, v.dart, vertices, changed.moved_vertices,
-                [&](std::uint32_t k) {
-                  move_last(k, v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point);
-                });
+                [&](std::uint32_t k) { move_last_element(v, VertexColumns::embedded(), k); });
   for (const auto& [from, to] : changed.moved_vertices)
     if (to < v.size()) {
       Places places;

@@ -79,14 +79,13 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     VertexColumns& columns = body.vertices;
     const std::uint32_t p = point_of(v.dart);
     body.vertex.attach(map, v, static_cast<std::uint32_t>(columns.size()));
-    for (auto* column : {&columns.mass, &columns.inverse_mass, &columns.viscosity}) column->push_back(0.0);
+    add_element(columns, VertexColumns::embedded(), columns.size());
     body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(v));
-    columns.position.push_back(mesh.points[p]);
-    columns.velocity.push_back(problem.initial_velocity.empty() ? Eigen::Vector3d(0, 0, 0)
-                                                                : problem.initial_velocity[p]);
-    columns.force.emplace_back(0, 0, 0);
-    columns.fixed.push_back(0);
-    columns.point.push_back(p);
+    columns.position.back() = mesh.points[p];
+    columns.velocity.back().setZero();
+    if (!problem.initial_velocity.empty()) columns.velocity.back() = problem.initial_velocity[p];
+    columns.force.back().setZero();
+    columns.point.back() = p;
     columns.dart.push_back(v.dart);
   });
   require_one_vertex_per_point(body.vertices, mesh.points.size());

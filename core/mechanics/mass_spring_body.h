@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/forces/springs.h"
+#include "core/mechanics/columns.h"
 #include "core/mechanics/embedding.h"
 #include "core/plain/problem.h"
 #include "core/topology/generalized_map.h"
@@ -31,7 +32,23 @@ struct VertexColumns {
   std::vector<Dart> dart;  // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
+
+  /// Every column but the darts, which are the cells themselves.
+  static constexpr auto embedded() {
+    using V = VertexColumns;
+    return std::tuple{EmbeddedColumn{"mass", &V::mass, Adapts::recomputed},
+                      EmbeddedColumn{"inverse mass", &V::inverse_mass, Adapts::recomputed},
+                      EmbeddedColumn{"viscosity", &V::viscosity, Adapts::proportional},
+                      EmbeddedColumn{"position", &V::position, Adapts::duplicated},
+                      EmbeddedColumn{"velocity", &V::velocity, Adapts::duplicated},
+                      EmbeddedColumn{"force", &V::force, Adapts::duplicated},
+                      EmbeddedColumn{"fixed", &V::fixed, Adapts::duplicated},
+                      EmbeddedColumn{"point", &V::point, Adapts::duplicated}};
+  }
 };
+static_assert(sizeof(VertexColumns) ==
+                  (std::tuple_size_v<decltype(VertexColumns::embedded())> + 1) * sizeof(std::vector<double>),
+              "a column of vertices is missing in embedded()");
 
 /// A body on a map of type Map, its embeddings held by one dart of each orbit or by every dart.
 template <class Map, Held held>
@@ -57,6 +74,14 @@ struct MassSpringBody {
   // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
   // the body is refined.
   std::vector<double> edge_share;
+
+  /// The columns of cells, but for their darts. Cells come and go whole: none is dissociated.
+  static constexpr auto embedded_in_cells() {
+    using B = MassSpringBody;
+    return std::tuple{EmbeddedColumn{"cell mass", &B::cell_mass, Adapts::recomputed},
+                      EmbeddedColumn{"node share", &B::node_share, Adapts::recomputed},
+                      EmbeddedColumn{"inside out", &B::cell_inside_out, Adapts::duplicated}};
+  }
 
   Material material;
   Surroundings surroundings;

@@ -84,12 +84,12 @@ class Refinement {
         velocity += v.velocity[k];
         fixed = fixed && v.fixed[k];
       }
-    for (auto* column : {&v.mass, &v.inverse_mass, &v.viscosity}) column->push_back(0.0);
-    v.position.push_back(position / count());
-    v.velocity.push_back(velocity / count());
-    if (!v.force.empty()) v.force.emplace_back(0, 0, 0);
-    if (!v.fixed.empty()) v.fixed.push_back(fixed);
-    v.point.push_back(no_point);
+    add_element(v, VertexColumns::embedded(), vertex_);
+    v.position.back() = position / count();
+    v.velocity.back() = velocity / count();
+    if (!v.force.empty()) v.force.back().setZero();
+    if (!v.fixed.empty()) v.fixed.back() = fixed;
+    v.point.back() = no_point;
     v.dart.push_back(s_.vertex());
   }
 
@@ -108,9 +108,8 @@ class Refinement {
         turned_ = (at - parent.darts.begin()) % 2 != 0;
       } else {
         number = static_cast<std::uint32_t>(body_.cell_mass.size());
-        for (auto* column : {&body_.cell_mass, &body_.node_share}) column->push_back(0.0);
+        add_element(body_, Body<Map>::embedded_in_cells(), number);
         body_.cell_dart.push_back(no_dart);
-        body_.cell_inside_out.push_back(0);
       }
       body_.cell_mass[number] = whole_mass_ / count();
       body_.node_share[number] = body_.cell_mass[number] / 4.0;

@@ -26,22 +26,12 @@ class Copy {
   Body<Map> run() {
     constexpr int n = Map::dimension;
     const Numbers vertices = copy_numbers<0>(from_.vertex, part_.vertex, from_.vertices.dart, part_.vertices.dart);
-    const VertexColumns& v = from_.vertices;
-    VertexColumns& p = part_.vertices;
-    copy(vertices, v.mass, p.mass);
-    copy(vertices, v.inverse_mass, p.inverse_mass);
-    copy(vertices, v.viscosity, p.viscosity);
-    copy(vertices, v.position, p.position);
-    copy(vertices, v.velocity, p.velocity);
-    copy(vertices, v.force, p.force);
-    copy(vertices, v.fixed, p.fixed);
-    copy(vertices, v.point, p.point);
-    copy(copy_numbers<1>(from_.edge, part_.edge, from_.edge_dart, part_.edge_dart), from_.springs, part_.springs);
+    copy_elements(from_.vertices, part_.vertices, VertexColumns::embedded(), vertices);
+    for (const std::uint32_t k : copy_numbers<1>(from_.edge, part_.edge, from_.edge_dart, part_.edge_dart))
+      part_.springs.push_back(from_.springs[k]);
     if constexpr (n == 3) copy_numbers<2>(from_.face, part_.face, from_.face_dart, part_.face_dart);
     const Numbers cells = copy_numbers<n>(from_.cell, part_.cell, from_.cell_dart, part_.cell_dart);
-    copy(cells, from_.cell_mass, part_.cell_mass);
-    copy(cells, from_.node_share, part_.node_share);
-    copy(cells, from_.cell_inside_out, part_.cell_inside_out);
+    copy_elements(from_, part_, Body<Map>::embedded_in_cells(), cells);
     if (!from_.edge_share.empty()) {
       part_.edge_share.resize(part_.map.template slot_count<1>());
       for (const Dart d : darts_)
@@ -90,11 +80,6 @@ class Copy {
       to.attach(part_.map, Cell<i>{new_dart_of.back()}, k);
     }
     return old;
-  }
-
-  template <class Column>
-  static void copy(const Numbers& numbers, const Column& from, Column& to) {
-    for (const std::uint32_t k : numbers) to.push_back(from[k]);
   }
 
   const Body<Map>& from_;

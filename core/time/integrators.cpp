@@ -13,12 +13,9 @@
 #include "core/time/explicit/explicit_euler.h"
 #include "core/time/explicit/symplectic_euler.h"
 #include "core/time/explicit/verlet.h"
-#include "core/time/implicit/backward_euler.h"
 #include "core/time/implicit/baraff_witkin.h"
 #include "core/time/implicit/bdf2.h"
-#include "core/time/implicit/energy_momentum.h"
-#include "core/time/implicit/implicit_midpoint.h"
-#include "core/time/implicit/local_global.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/implicit/ros2.h"
 #include "core/time/implicit/sdirk2.h"
 

@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <ostream>
 #include <string>
 
 #include "tests/determinism/state_hashes.h"
 
 namespace dartboard {
+
+void PrintTo(const HashedRun& run, std::ostream* out) { *out << run.name; }
+
 namespace {
 
 struct StateHash : testing::TestWithParam<HashedRun> {};

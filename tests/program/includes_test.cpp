@@ -150,8 +150,7 @@ TEST(Sources, PrintThroughTellAlone) {
 TEST(Sources, WriteJsonThroughJsonTextAlone) {
   // of numbers, and of a scene made in memory
   EXPECT_EQ(users_of("benchmarks", {".dump("},
-                     {"benchmarks/harness/json_text.h", "benchmarks/studies/tradeoff/settle_accuracy.cpp",
-                      "benchmarks/studies/scenes/ablation_study.cpp"}),
+                     {"benchmarks/harness/json_text.h", "benchmarks/studies/scenes/ablation_study.cpp"}),
             Files{});
 }
 TEST(Sources, StartNoShell) {

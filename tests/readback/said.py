@@ -44,7 +44,7 @@ class Said(unittest.TestCase):
 
     def print_(self, scene, *options):
         return subprocess.run([self.program, "simulate", self.scene(scene), *options], stdout=subprocess.PIPE,
-                              stderr=subprocess.DEVNULL, text=True, check=False)
+                              stderr=subprocess.PIPE, text=True, check=False)
 
     # Ten squares of a tenth of a kilogram (1.6 kg/m^2 * 1/16 m^2, and 1.6 is 16 times what 0.1 is as a double). Tenths do
     # not add up: 0.1 ten times is 0.9999999999999999, three times 0.30000000000000004, seven times 0.7 or a little less.
@@ -90,7 +90,8 @@ class Said(unittest.TestCase):
     def test_the_first_lines_name_the_scene_and_how_it_is_run(self):
         for events, storage in (([], "no map"), ([{"at": 0.001, "remove": {"ids": [0]}}], "tetrahedral 3-g-map")):
             lines = self.print_(box(events=events, integrator="verlet")).stdout.splitlines()
-            self.assertEqual(lines[:2], ["x", "%s, verlet, h = 0.001 s" % storage])
+            self.assertEqual(lines[0], "x")
+            self.assertRegex(lines[1], r"^%s, verlet, h = 0\.001 s \(0\.\d+ of the longest stable step\)$" % storage)
 
     def test_the_last_lines_say_what_was_written_and_where(self):
         out = os.path.join(self.folder, "written")
@@ -109,22 +110,25 @@ class Said(unittest.TestCase):
     def test_a_step_that_is_too_long_and_an_event_that_is_idle_are_warned_of(self):
         scene = box(material={"density": 1, "stiffness": 5e5}, step=0.0005, duration=0.001,
                     events=[{"at": 0.0005, "remove": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}}])
-        run, said = self.run_(scene).printed, self.print_(scene).stdout
-        warning = r"at the start: a step of 0\.0005 s is too long for rk4; \S+ s is stable"
-        self.assertRegex(run["warning"], "^%s$" % warning)
-        self.assertRegex(said, "(?m)^warning: %s$" % warning)
+        run, said = self.run_(scene).printed, self.print_(scene)
+        step = (r"at the start: a step of 0\.0005 s is too long for rk4; (\S+) s is stable; set /step to at most (\S+), "
+                r"\"unstable_step\" to \"substep\", or take an implicit integrator")
+        idle = "the event at /events/0 never did anything"
+        self.assertRegex(run["warnings"][0], "^%s$" % step)
+        self.assertEqual(run["warnings"][1:], [idle])
+        self.assertRegex(said.stderr, "(?m)^warning: %s$" % step)
+        self.assertNotIn("too long", said.stdout)  # once, before the run
         self.assertEqual(run["idle_events"], ["/events/0"])
-        self.assertIn("warning: the event at /events/0 never did anything\n", said)
+        self.assertIn("warning: %s\n" % idle, said.stdout)
         sound = self.run_(box()).printed
-        self.assertNotIn("warning", sound)
-        self.assertNotIn("coordinate_warning", sound)
         self.assertEqual((sound["warnings"], sound["idle_events"]), ([], []))
+        self.assertNotIn("warning", self.print_(box()).stderr)
         self.assertNotIn("warning", self.print_(box()).stdout)
 
     def test_coordinates_that_are_too_large_are_warned_of(self):
         scene = box(body={"generate": {"box": {"cells": [2, 1, 1], "spacing": 0.25}}, "translate": [0, 1e10, 0]})
-        self.assertIn("move the body to the origin", self.run_(scene).printed["coordinate_warning"])
-        self.assertIn("move the body to the origin", self.print_(scene).stdout)
+        self.assertIn("move the body to the origin (/body/translate)", self.run_(scene).printed["warnings"][0])
+        self.assertIn("move the body to the origin (/body/translate)", self.print_(scene).stderr)
 
     # ---- what is judged
 

@@ -6,6 +6,7 @@
 PROGRAM is the built dartboard, BUILD_FOLDER where find_package is pointed to. Standard library only.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -95,6 +96,32 @@ class Readme(unittest.TestCase):
             # two triangles for each square of the grid that the plane crosses, and more where it is oblique
             self.assertRegex(answer.stdout, r"^\d+ faces dissociated, 1 part came loose\n$")
             self.assertGreater(int(answer.stdout.split()[0]), 2 * 6 * 6)
+
+
+    def test_core_is_added_to_another_project_without_the_rest(self):
+        """Configured, and what the program itself needs compiled; all of core would take minutes."""
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "cut.cpp"), "w", encoding="utf-8") as file:
+                file.write(block("cpp"))
+            own = block("cmake").splitlines()[1:]
+            added = re.search(r"`(add_subdirectory\(path/of/this/folder dartboard\))`", README)[1]
+            with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(cut CXX)\n"
+                           + added.replace("path/of/this/folder", ROOT) + "\n" + "\n".join(own) + "\n")
+            build = os.path.join(folder, "build")
+            not_wanted = ["-DCMAKE_DISABLE_FIND_PACKAGE_" + name + "=ON" for name in
+                          ("CGAL", "CLI11", "GTest", "rapidcheck", "benchmark", "BLAS", "PkgConfig")]
+            for command in (["cmake", "-S", folder, "-B", build, "-G", "Ninja", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"] + not_wanted,
+                            ["cmake", "--build", build, "--target", "CMakeFiles/cut.dir/cut.cpp.o", "dartboard_core_topology_storage"]):
+                answer = subprocess.run(command, capture_output=True, text=True)
+                self.assertEqual(answer.returncode, 0, answer.stdout + answer.stderr)
+            with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+                commands = {os.path.relpath(entry["file"], ROOT): entry["command"] for entry in json.load(file)}
+            mine = next(command for name, command in commands.items() if name.endswith("cut.cpp"))
+            for flag in ("-W", "-ffp-contract", "-U__AVX__", "-fno-tree-slp-vectorize", "CGAL"):
+                self.assertNotIn(flag, mine)
+            rooms = {name.split("/")[0] for name in commands if not name.startswith("..")}
+            self.assertEqual(rooms, {"core"})
 
 
 if __name__ == "__main__":

@@ -45,6 +45,8 @@ std::vector<Code> codes_there_are() {
   return there;
 }
 
+void PrintTo(const Code& code, std::ostream* out) { *out << code.name; }
+
 struct OdeCode : testing::TestWithParam<Code> {
   // The states at the checkpoints; none, and the test has failed, when the code gave up.
   std::vector<std::vector<long double>> run(const NetworkMotion& motion) {

@@ -97,12 +97,14 @@ void ConservationChecks<Map>::columns_fit(const CountsByDimension& predicted) {
   ledger_.equal(euler, euler_of(n), euler_of(predicted), "dimension", Map::dimension);
   const LiveBody<Map>& body = at_.body;
   const VertexColumns& v = body.vertices;
-  for (const std::size_t size : {v.inverse_mass.size(), v.viscosity.size(), v.position.size(), v.velocity.size(),
-                                 v.force.size(), v.fixed.size(), v.point.size(), v.dart.size()})
-    ledger_.equal(counts, size, n[0], "column of dimension", 0);
+  for_each_column(v, VertexColumns::embedded(), [&](const auto& column, const auto&) {
+    ledger_.equal(counts, column.size(), n[0], "column of dimension", 0);
+  });
+  ledger_.equal(counts, v.dart.size(), n[0], "column of dimension", 0);
   ledger_.equal(counts, body.edge_dart.size(), n[1], "column of dimension", 1);
-  for (const std::size_t size : {body.cell_mass.size(), body.node_share.size()})
-    ledger_.equal(counts, size, n[Map::dimension], "column of dimension", Map::dimension);
+  for_each_column(body, LiveBody<Map>::embedded_in_cells(), [&](const auto& column, const auto&) {
+    ledger_.equal(counts, column.size(), n[Map::dimension], "column of dimension", Map::dimension);
+  });
   // the sums below read the arrays
   const CellArrays& arrays = at_.views.cells;
   const CountsByDimension seen{arrays.vertices.size(), arrays.edges.size(), arrays.faces.size(), arrays.volumes.size()};

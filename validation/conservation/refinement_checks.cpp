@@ -93,9 +93,10 @@ template <class Map>
 void RefinementChecks<Map>::changed_cells(const ChangedEmbeddings& changed) {
   const LiveBody<Map>& body = at_.body;
   const VertexColumns& v = body.vertices;
-  for (const std::size_t size : {v.inverse_mass.size(), v.viscosity.size(), v.position.size(), v.velocity.size(),
-                                 v.force.size(), v.fixed.size(), v.point.size(), v.dart.size()})
-    ledger_.equal(counts, size, v.size(), "column of dimension", 0);
+  for_each_column(v, VertexColumns::embedded(), [&](const auto& column, const auto&) {
+    ledger_.equal(counts, column.size(), v.size(), "column of dimension", 0);
+  });
+  ledger_.equal(counts, v.dart.size(), v.size(), "column of dimension", 0);
   ledger_.equal(counts, body.edge_dart.size(), body.springs.size(), "column of dimension", 1);
   ledger_.equal(counts, body.cell_dart.size(), at_.cells.count(), "dimension", 3);
   for (const std::uint32_t k : changed.vertices) {

@@ -2,6 +2,7 @@
 // What is predicted of one method on one scene: its errors, its costs, and the setting for an error.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -16,14 +17,15 @@
 namespace dartboard {
 
 struct RecommendOptions {
-  double safety = 0.93;        // of the step
-  double stability = 0.95;     // of the limit of stability
-  double pilot_part = 0.1;     // of the cheapest predicted run that all pilots together may take,
-  double pilot_floor_s = 0.5;  // beyond this
-  double most_pilot_s = 4.0;   // of one pilot, as long as nothing is predicted
-  double most_steps = 1e9;     // of a run; what needs more is left out
-  bool adaptive = true;        // may the method choose its steps?
-  std::string only{};          // the one integrator to consider; empty for all
+  double safety = 0.93;                             // of the step
+  double stability = 0.95;                          // of the limit of stability
+  double pilot_part = 0.1;                          // of the cheapest predicted run that all pilots together may take,
+  double pilot_floor_s = 0.5;                       // beyond this
+  double most_pilot_s = 4.0;                        // of one pilot, as long as nothing is predicted
+  double most_steps = 1e9;                          // of a run; what needs more is left out
+  bool adaptive = true;                             // may the method choose its steps?
+  std::string only{};                               // the one integrator to consider; empty for all
+  std::function<void(const std::string&)> tells{};  // whose pilot has run, after each
 };
 
 /// How far a prediction can be trusted.

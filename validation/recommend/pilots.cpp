@@ -51,6 +51,7 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
   // no step is cheaper than its force evaluations
   pilot.step_cost = std::max(1e9 * least_s / force_ns_, static_cast<double>(work.force_evaluations)) /
                     static_cast<double>(std::max<std::uint64_t>(work.steps, 1));
+  if (options_.tells) options_.tells(candidate.contender);
   return pilot;
 }
 

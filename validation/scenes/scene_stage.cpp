@@ -18,34 +18,29 @@ SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
   }
   const reference::SpringNetwork& network = scene.motion.network;
   if (!scene.motion.events.empty()) throw InputError("a network without a body has no events");
-  for (const reference::Spring& s : network.springs) {
-    columns_.ends.push_back({s.a, s.b});
-    columns_.springs.push_back({s.rest_length, s.stiffness, s.damping});
+  const PointState& start = scene.motion.start;
+  for (std::size_t i = 0; i < network.mass.size(); ++i) {
+    columns_.add_vertex(network.mass[i], start.x[i], start.v[i], network.fixed[i] != 0);
+    columns_.viscosity.back() = network.viscosity * network.mass[i];
   }
-  columns_.mass = network.mass;
-  for (const double m : network.mass) {
-    columns_.inverse_mass.push_back(1.0 / m);
-    columns_.viscosity.push_back(network.viscosity * m);
-  }
-  columns_.fixed = network.fixed;
+  for (const reference::Spring& s : network.springs)
+    columns_.add_spring(s.a, s.b, s.stiffness, s.rest_length, s.damping);
   columns_.gravity = network.gravity;
-  columns_.state = scene.motion.start;
 }
 
 SpringSystem SceneStage::system() const {
   if (body_) return system_of(*body_, ends_);
-  const Columns& c = columns_;
-  return {c.ends, c.springs, c.mass, c.inverse_mass, c.viscosity, c.fixed, c.gravity};
+  return columns_.system();
 }
 
 Motion SceneStage::motion() {
   if (body_) return {body_->vertices.position, body_->vertices.velocity};
-  return {columns_.state.x, columns_.state.v};
+  return columns_.motion();
 }
 
 PointState SceneStage::state() const {
   if (body_) return {body_->vertices.position, body_->vertices.velocity};
-  return columns_.state;
+  return {columns_.x, columns_.v};
 }
 
 void SceneStage::pass_event() {

@@ -9,6 +9,7 @@
 
 #include "core/time/method/integrator.h"
 #include "core/time/system/accelerations.h"
+#include "validation/scenes/spring_columns.h"
 #include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
@@ -29,20 +30,11 @@ class SceneStage {
   void pass_event();
 
  private:
-  struct Columns {
-    std::vector<SpringEnds> ends;
-    std::vector<Spring> springs;
-    std::vector<double> mass, inverse_mass, viscosity;
-    std::vector<std::uint8_t> fixed;
-    Eigen::Vector3d gravity;
-    PointState state;
-  };
-
   const TradeoffScene* scene_;
   std::size_t next_event_ = 0;
   std::optional<TetBody> body_;  // one of the two
   SpringEndsView ends_;
-  Columns columns_;
+  SpringColumns columns_;
 };
 
 /// How a run goes: in equal steps, or, of an AdaptiveIntegrator, within a tolerance.

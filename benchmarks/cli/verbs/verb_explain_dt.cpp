@@ -11,7 +11,7 @@
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/step_explanation.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -22,8 +22,8 @@ struct Options {
 };
 
 void explain_dt(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(scene_file(options.scene));
-  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  SceneFile scene = read_named_scene(options.scene);
+  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const StepExplanation explanation = explain_step(scene);
   outcome.exit_code = scene.step <= explanation.limit.stable ? exit_agrees : exit_disagrees;
   if (options.json) {

@@ -10,14 +10,14 @@
 #include "core/plain/counted.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/file/scene_pages.h"
+#include "core/scene/run/scene_warnings.h"
 #include "core/scene/run/simulation.h"
 
 namespace dartboard {
 namespace {
 
 void check_scene(const std::string& given) {
-  const std::string file = scene_file(given).string();
-  SceneFile scene = read_scene(file);
+  SceneFile scene = read_named_scene(given);
   if (scene.accuracy) {
     // all but the step can be checked; any will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
@@ -29,9 +29,11 @@ void check_scene(const std::string& given) {
   const std::string steps = scene.accuracy
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
                                 : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
-  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(file),
+  tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(scene.file),
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
+  if (!scene.accuracy)
+    for (const std::string& warning : warnings_of(scene, simulation)) tell(stderr, "warning: {}\n", warning);
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulate_report.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
@@ -25,6 +24,8 @@
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
+#include "core/scene/run/scene_warnings.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -78,9 +79,9 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
 }
 
 void simulate(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_scene(scene_file(options.scene));
+  SceneFile scene = read_named_scene(options.scene);
   const bool other_cells = options.seed && reseed(scene, *options.seed);
-  const std::optional<SettledAccuracy> settled = settle_accuracy(scene, thread_cpu_ns);
+  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   Simulation simulation(scene);
   simulation.watch_events(true);
   // the folder comes last: a scene that is wrong leaves nothing behind
@@ -96,6 +97,9 @@ void simulate(const Options& options, Outcome& outcome) {
     write_manifest();
   }
 
+  const std::vector<std::string> told = warnings_of(scene, simulation);
+  for (const std::string& warning : told) tell(stderr, "warning: {}\n", warning);
+  const std::string words = step_in_words(simulation, scene);
   const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
   const double removed_at_start = simulation.body().removed_mass();
@@ -121,7 +125,9 @@ void simulate(const Options& options, Outcome& outcome) {
                           .folder = output ? output->folder().string() : "",
                           .frames = output ? output->frame_count() : 0,
                           .picture = "",
-                          .removed_at_start = removed_at_start};
+                          .removed_at_start = removed_at_start,
+                          .step_in_words = words,
+                          .told = told};
   if (result.interrupted)
     report.unjudged =
         fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",

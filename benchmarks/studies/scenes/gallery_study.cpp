@@ -7,10 +7,10 @@
 #include "benchmarks/figures/album.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/scenes/gallery_report.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/plain/escape.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/plain/counted.h"
 #include "core/scene/output/scene_output.h"
-#include "core/time/watch/preflight.h"
+#include "core/scene/run/scene_warnings.h"
 
 namespace dartboard {
 namespace {
@@ -52,8 +53,8 @@ std::string to_text(const SimulationReport& r) {
   const auto say = [&said]<class... T>(fmt::format_string<T...> format, T&&... arguments) {
     said += fmt::format(format, std::forward<T>(arguments)...);
   };
-  say("{}\n{}, {}, h = {:.6g} s\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(), r.scene.integrator,
-      r.scene.step, to_text(summary_of(r)));
+  say("{}\n{}, {}, h = {:.6g} s ({})\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(),
+      r.scene.integrator, r.scene.step, r.step_in_words, to_text(summary_of(r)));
   if (r.settled) {
     say("{}\n", to_string(*r.settled));
     for (const std::string& omission : r.settled->omissions) say("  {}\n", omission);
@@ -70,11 +71,8 @@ std::string to_text(const SimulationReport& r) {
         counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
         drift_text(jumps.momentum), drift_text(jumps.energy));
   say("hash of the last state {:016x}\n", r.simulation.body().state_hash());
-  if (const auto& warning = r.simulation.step_warning())
-    say("warning: {}\n", to_string(*warning, r.scene.step, r.scene.integrator));
-  if (const auto& warning = r.simulation.coordinate_warning()) say("warning: {}\n", to_string(*warning));
-  for (const StepResult& warning : r.simulation.warnings()) say("warning: {}\n", explained(warning));
-  for (const std::string& path : r.simulation.idle_events()) say("warning: the event at {} never did anything\n", path);
+  for (const std::string& warning : warnings_of(r.scene, r.simulation))
+    if (std::ranges::find(r.told, warning) == r.told.end()) say("warning: {}\n", warning);
   if (r.result.divergence)
     say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
         to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
@@ -115,11 +113,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                           {"kept_step", r.kept_step()},
                           {"kept_time", r.result.last.time},
                           {"value", fmt::format("{:.17g}", d->value)}};
-  if (const auto& warning = r.simulation.step_warning())
-    json["warning"] = to_string(*warning, r.scene.step, r.scene.integrator);
-  if (const auto& warning = r.simulation.coordinate_warning()) json["coordinate_warning"] = to_string(*warning);
-  json["warnings"] = nlohmann::ordered_json::array();
-  for (const StepResult& w : r.simulation.warnings()) json["warnings"].push_back(explained(w));
+  json["warnings"] = warnings_of(r.scene, r.simulation);
   json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "benchmarks/harness/table.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/simulation.h"
+#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 
@@ -43,6 +43,8 @@ struct SimulationReport {
     return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
+  std::string step_in_words{};      // beside the step
+  std::vector<std::string> told{};  // the warnings that were told before the first step
 };
 
 /// What there was at the start and at the end.

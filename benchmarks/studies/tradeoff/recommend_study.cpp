@@ -19,7 +19,10 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
   Report report{.numbers = nlohmann::ordered_json::array()};
   std::vector<Recommendation> all;
   for (const double error : plan.errors) {
-    all.push_back(recommend(scene, error, clock));
+    RecommendOptions options;
+    options.tells = [&log](const std::string& integrator) { log.advance(integrator); };
+    log.begin(fmt::format("short runs for an error of {:g} edges", error), 0);
+    all.push_back(recommend(scene, error, clock, options));
     log.say(text_of(all.back(), plan.realtime, scene.duration));
     report.numbers.push_back(nlohmann::ordered_json(json_of(all.back())));
     if (all.back().pick() == nullptr)
@@ -29,6 +32,7 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
           fmt::format("An error of {:g} edges is not met as fast as the motion itself.", error));
   }
   if (plan.verify) {
+    log.say(fmt::format("computing a reference: runs of up to {:.0f} s each", ReferenceOptions{}.oracle_s));
     const SceneReference reference = reference_of(scene, clock, {.gain = false});
     log.say(
         fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
@@ -50,7 +54,9 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
     how.most_s = longest;
     how.fewest_repetitions = 2;
     how.repetitions_s = 0.1;
-    const WorkPrecision sweep = work_precision(scene, reference, contenders, clock, how);
+    log.begin(fmt::format("sweep of {} methods", contenders.size()), 0);
+    const WorkPrecision sweep = work_precision(scene, reference, contenders, clock, how,
+                                               [&log](const WorkPoint& p) { log.advance(p.contender); });
     std::vector<FollowedPick> followed;
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (all[k].pick() == nullptr) continue;

@@ -40,9 +40,11 @@ Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, Stud
   log.say(fmt::format("{}: {}; T omega_max = {:.4g}", one_line(scene.name), one_line(scene.what, 400),
                       scene.duration * scene.fastest_rate));
   const CpuClock clock = thread_cpu_ns;
-  const SceneReference reference = reference_of(
-      scene, clock,
-      {.oracle_s = plan.quick ? 6.0 : 60.0, .self_converged_s = plan.quick ? 4.0 : 40.0, .gain = !plan.quick});
+  const ReferenceOptions effort{
+      .oracle_s = plan.quick ? 6.0 : 60.0, .self_converged_s = plan.quick ? 4.0 : 40.0, .gain = !plan.quick};
+  log.say(fmt::format("computing a reference: runs of up to {:.0f} s each",
+                      std::max(effort.oracle_s, effort.self_converged_s)));
+  const SceneReference reference = reference_of(scene, clock, effort);
   log.say(fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
 
   WorkPrecisionOptions how;
@@ -52,8 +54,12 @@ Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, Stud
     how.fewest_repetitions = 2;
     how.repetitions_s = 0.05;
   }
-  WorkPrecision study = work_precision(scene, reference, contenders_of(plan), clock, how,
-                                       [&](const WorkPoint& p) { log.sample(json_of(scene.name, p)); });
+  const auto contenders = contenders_of(plan);
+  log.begin(fmt::format("runs of {} methods", contenders.size()), 0);
+  WorkPrecision study = work_precision(scene, reference, contenders, clock, how, [&](const WorkPoint& p) {
+    log.sample(json_of(scene.name, p));
+    log.advance(p.contender);
+  });
   if (reference.gain > 0.0) log.say(fmt::format("a small disturbance grows by {:.3g}", reference.gain));
   if (!plan.solvers)
     study.omissions.emplace_back(

@@ -94,17 +94,16 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   gravity_ = body.surroundings.gravity;
   density_ = body.material.density;
   // columns that grew by doubling give back what they do not use
-  VertexColumns& v = vertices_;
+  for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-  fit(v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point, v.dart, springs_, ends_);
+  fit(vertices_.dart, springs_, ends_);
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
 }
 
 MemoryReport BodyOfColumns::memory() const {
-  const VertexColumns& v = vertices_;
-  return {{Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force, v.dart)},
-          {Part::viscosity, bytes_of(v.viscosity)},
-          {Part::fixed, bytes_of(v.fixed)},
+  return {{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
+          {Part::viscosity, bytes_of(vertices_.viscosity)},
+          {Part::fixed, bytes_of(vertices_.fixed)},
           {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
           {Part::damping, springs_.damping_bytes()},
           {Part::output_cells,

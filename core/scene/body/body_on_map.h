@@ -162,7 +162,7 @@ class BodyOnMap final : public SimulatedBody {
                               bytes_of(body_.edge_share)},
             {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
                                    (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
-            {Part::vertices, bytes_of(v.mass, v.inverse_mass, v.position, v.velocity, v.point, v.force)},
+            {Part::vertices, bytes_of_vertices(v)},
             {Part::viscosity, bytes_of(v.viscosity)},
             {Part::fixed, bytes_of(v.fixed)},
             {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
@@ -173,10 +173,10 @@ class BodyOnMap final : public SimulatedBody {
   /// Columns that grew by doubling give back what they do not use.
   void fit_columns() {
     const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-    VertexColumns& v = body_.vertices;
-    fit(v.mass, v.inverse_mass, v.viscosity, v.position, v.velocity, v.force, v.fixed, v.point, v.dart);
-    fit(body_.springs, body_.edge_dart, body_.face_dart, body_.cell_mass, body_.node_share, body_.cell_dart);
-    fit(body_.cell_inside_out, mesh_cell_);
+    const auto fit_column = [](auto& column, const auto&) { column.shrink_to_fit(); };
+    for_each_column(body_.vertices, VertexColumns::embedded(), fit_column);
+    for_each_column(body_, Body::embedded_in_cells(), fit_column);
+    fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_);
   }
 
   /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is

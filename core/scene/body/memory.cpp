@@ -1,5 +1,8 @@
 #include "core/scene/body/memory.h"
 
+#include "core/mechanics/mass_spring_body.h"
+#include "core/plain/bytes.h"
+
 namespace dartboard {
 
 std::string_view name(Part part) {
@@ -29,6 +32,13 @@ std::string_view name(Part part) {
     case Part::diagnostics: return "diagnostics";
   }
   return "?";
+}
+
+std::size_t bytes_of_vertices(const VertexColumns& vertices) {
+  std::size_t bytes = 0;
+  for_each_column(vertices, VertexColumns::embedded(),
+                  [&bytes](const auto& column, const auto&) { bytes += bytes_of(column); });
+  return bytes - bytes_of(vertices.viscosity, vertices.fixed);
 }
 
 }  // namespace dartboard

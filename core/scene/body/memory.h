@@ -7,6 +7,8 @@
 
 namespace dartboard {
 
+struct VertexColumns;
+
 /// Bytes are those of the elements of every container that lives as long as the run: its size times that of an element
 /// (core/plain/bytes.h), and the numbers of a factor. Objects of fixed size are not counted, nor what containers and
 /// libraries set aside beyond that. It is the memory at the start, before the first operation, after a step that had
@@ -44,5 +46,8 @@ struct MemoryItem {
   std::size_t event = 0;  // of Part::event: which one
 };
 using MemoryReport = std::vector<MemoryItem>;
+
+/// Of Part::vertices: the columns that are no part of their own.
+std::size_t bytes_of_vertices(const VertexColumns& vertices);
 
 }  // namespace dartboard

@@ -12,7 +12,7 @@
 
 #include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
-#include "core/scene/file/point_numbers.h"
+#include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_check.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/file/strict_json.h"
@@ -97,7 +97,7 @@ class Reader {
   }
 
   BodySource body(const Json& json) const {
-    BodySource source{{}, json.at("scale"), point(json.at("translate"))};
+    BodySource source{{}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split"};
     if (json.contains("mesh")) {
       source.mesh = folder_ / json.at("mesh").get<std::string>();
       return source;
@@ -364,7 +364,7 @@ SceneFile read_scene(const fs::path& path) {
   text << in.rdbuf();
   if (!in) throw IoError(fmt::format("{}: cannot be read; expected a scene", path.string()));
   SceneFile scene = parse_scene(text.str(), path.string(), path.parent_path());
-  number_points_as_kept(scene);
+  load_mesh(scene);
   return scene;
 }
 

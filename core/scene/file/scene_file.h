@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@
 #include "core/scene/file/selection.h"
 
 namespace dartboard {
+
+struct LoadedMesh;
 
 inline constexpr double speed_of_light = 299792458.0;  // [m/s]
 
@@ -45,6 +48,8 @@ struct BodySource {
   std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh> mesh;
   double scale;
   Eigen::Vector3d translate;
+  bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
+  std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
 };
 
 /// v(x) = constant + linear (x - centre)

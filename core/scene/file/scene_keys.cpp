@@ -70,6 +70,10 @@ std::vector<SceneKey> make_keys() {
        .help = "factor on all coordinates, applied first"},
       {.shape = body, .name = "translate", .type = point, .unit = "m", .standard = "[0, 0, 0]",
        .help = "added to all points, after scaling"},
+      {.shape = body, .name = "touching", .type = choice, .choices = {"split", "refuse"}, .standard = "\"split\"",
+       .help = "what is done where cells of a mesh file touch in a point or an edge without sharing a face: nothing holds "
+               "them together there, and a point becomes as many vertices as it has groups of cells; or the scene is "
+               "refused"},
       {.shape = generate, .name = "box", .type = object, .of = box_mesh, .help = "a box with a corner at the origin"},
       {.shape = generate, .name = "sheet", .type = object, .of = sheet_mesh,
        .help = "a rectangle in the plane z = 0 with a corner at the origin"},

@@ -7,8 +7,8 @@
 #include <new>
 
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
+#include "core/scene/file/load_mesh.h"
 
 namespace dartboard {
 namespace {
@@ -32,8 +32,6 @@ Mesh generate(const ChainMesh& chain) {
   for (int k = 0; k <= chain.links; ++k) mesh.points.emplace_back(k * chain.spacing, 0, 0);
   return mesh;
 }
-Mesh generate(const fs::path& file) { return read_mesh(file).mesh; }
-
 /// Nothing moves faster.
 void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v) {
   const double speed = v.stableNorm();
@@ -49,7 +47,14 @@ Mesh make_mesh(const SceneFile& scene) {
   Mesh mesh;
   const bool from_file = std::holds_alternative<fs::path>(scene.body.mesh);
   try {
-    mesh = std::visit([](const auto& source) { return generate(source); }, scene.body.mesh);
+    mesh = std::visit(
+        [&scene](const auto& source) {
+          if constexpr (requires { generate(source); })
+            return generate(source);
+          else
+            return scene.body.loaded ? scene.body.loaded->mesh : read_body_mesh(scene.body).mesh;
+        },
+        scene.body.mesh);
   } catch (const IoError& problem) {
     throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
   } catch (const InputError& problem) {

@@ -33,18 +33,16 @@ MemoryReport measured_memory(const SceneFile& scene) {
   return simulation.memory();
 }
 
-MeasuredPlan measured_plan(const SceneFile& scene, const ScenePlan& plan) {
-  MeasuredPlan measured{std::vector<std::size_t>(plan.items.size(), 0), {}};
-  for (const MemoryItem& found : measured_memory(scene)) {
-    const auto item = std::ranges::find_if(plan.items, [&found](const PlanItem& planned) {
-      return planned.part == found.part && planned.event == found.event;
+void add_bytes(ScenePlan& plan, const MemoryReport& found) {
+  for (const MemoryItem& memory : found) {
+    const auto item = std::ranges::find_if(plan.items, [&memory](const PlanItem& planned) {
+      return planned.part == memory.part && planned.event == memory.event;
     });
     if (item != plan.items.end())
-      measured.bytes[static_cast<std::size_t>(item - plan.items.begin())] += found.bytes;
-    else if (found.bytes > 0)
-      measured.unplanned.push_back(found);
+      item->bytes += memory.bytes;
+    else if (memory.bytes > 0)
+      plan.unplanned.push_back(memory);
   }
-  return measured;
 }
 
 }  // namespace dartboard

@@ -14,13 +14,7 @@ SceneFile with_events_held_back(SceneFile scene);
 /// throws  InputError as Simulation does
 MemoryReport measured_memory(const SceneFile& scene);
 
-/// What there is of the items of a plan, and beside them.
-struct MeasuredPlan {
-  std::vector<std::size_t> bytes;  // by item
-  MemoryReport unplanned;          // parts with bytes that no item plans
-};
-
-/// throws  InputError as Simulation does
-MeasuredPlan measured_plan(const SceneFile& scene, const ScenePlan& plan);
+/// Write what was found into the items of a plan, and what none of them names beside them.
+void add_bytes(ScenePlan& plan, const MemoryReport& found);
 
 }  // namespace dartboard

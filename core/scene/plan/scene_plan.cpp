@@ -4,18 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/plain/bytes.h"
 #include "core/scene/file/scene_keys.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/run/driven_vertices.h"
-#include "core/time/integrator_memory.h"
 #include "core/time/watch/divergence.h"
 
 namespace dartboard {
 namespace {
-
-constexpr std::size_t number = sizeof(std::uint32_t), real = sizeof(double), vector = sizeof(Eigen::Vector3d);
 
 /// Is this the value that the key has when it is left out?
 bool is_default(Shape shape, std::string_view key, const nlohmann::json& value) {
@@ -46,10 +42,6 @@ std::string output_reason(std::string_view key, const std::optional<std::uint64_
   return fmt::format("/output: without '{}', the first and the last state", key);
 }
 
-/// Darts of marks that are in use at once while a body is built: those of a coverage, of a cell met by it, and of the
-/// cells around that.
-constexpr std::size_t marks_at_once = 3;
-
 class Planner {
  public:
   Planner(const SceneFile& scene, const Problem& problem) : scene_(scene), problem_(problem) {
@@ -79,8 +71,8 @@ class Planner {
   }
 
  private:
-  void add(Part part, std::string what, std::string why, std::size_t bytes = 0) {
-    plan_.items.push_back({.part = part, .what = std::move(what), .why = std::move(why), .bytes = bytes});
+  void add(Part part, std::string what, std::string why) {
+    plan_.items.push_back({.part = part, .what = std::move(what), .why = std::move(why)});
   }
   void leave_out(std::string what, std::string why) { plan_.left_out.push_back({std::move(what), std::move(why)}); }
 
@@ -88,28 +80,19 @@ class Planner {
     const MeshTally& n = plan_.counts;
     const Storage storage = plan_.needs.body.storage;
     const bool tetrahedra = storage == Storage::tetrahedra;
-    const std::size_t dimension = storage == Storage::surface ? 2 : 3;
     const std::string changed =
         fmt::format("{}/{}: changes the topology", scene_.events[0].path, key_of(scene_.events[0].action));
     const std::string kind = tetrahedra                    ? "tetrahedra alone"
                              : storage == Storage::surface ? "a surface"
                                                            : "cells other than tetrahedra";
     add(Part::map, fmt::format("{}, {} darts", map_name(storage), n.darts),
-        fmt::format("{}; {}: {}", changed, source_of(scene_), kind),
-        tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number);
-    add(Part::marks, fmt::format("{} marks of {} bytes per dart, for walks", marks_at_once, number), changed,
-        marks_at_once * n.darts * number);
-    // places for the numbers of vertices, edges, faces and cells: of a tetrahedron 4, 6, 4 and 1
-    add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed,
-        tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number);
-    const std::size_t facets = dimension == 3 ? n.faces : 0;
-    add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed,
-        (n.vertices + n.edges + facets + n.cells) * number);
-    add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed,
-        n.cells * (2 * real + 1 + number));
+        fmt::format("{}; {}: {}", changed, source_of(scene_), kind));
+    add(Part::marks, "marks by dart, for walks", changed);
+    add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
+    add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed);
+    add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
-        changed + "; /output: frames and diagnostics tell the components",
-        n.cells * number + n.components * (2 * number + sizeof(std::size_t)));
+        changed + "; /output: frames and diagnostics tell the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
     if (!plan_.needs.refinement)
@@ -120,20 +103,19 @@ class Planner {
 
   void columns() {
     const MeshTally& n = plan_.counts;
-    add(Part::vertices, "mass, 1/mass, position, velocity and mesh point by vertex", source_of(scene_),
-        n.vertices * (2 * real + 2 * vector + number));
+    add(Part::vertices, "mass, 1/mass, position, velocity and mesh point by vertex", source_of(scene_));
     const bool on_map = plan_.needs.body.topology_changes;
     const std::string viscosity =
         told("/material/viscosity", Shape::material, "viscosity", problem_.material.viscosity);
     if (plan_.needs.body.viscosity)
-      add(Part::viscosity, "drag by vertex, and its term in the force loop", viscosity, n.vertices * real);
+      add(Part::viscosity, "drag by vertex, and its term in the force loop", viscosity);
     else if (on_map)
-      add(Part::viscosity, "drag by vertex, zero", "changes of the map follow it; " + viscosity, n.vertices * real);
+      add(Part::viscosity, "drag by vertex, zero", "changes of the map follow it; " + viscosity);
     if (!plan_.needs.body.viscosity)
       leave_out(on_map ? "term of viscosity" : "column and term of viscosity", viscosity);
     if (plan_.needs.body.fixed)
       add(Part::fixed, fmt::format("{} of {} vertices are held still or driven", problem_.fixed.size(), n.vertices),
-          fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()), n.vertices);
+          fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()));
     else
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
@@ -153,19 +135,17 @@ class Planner {
     plan_.driven_springs = detector.driven_springs();
     add(Part::driven,
         fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(), plan_.driven_springs),
-        fmt::format("/driven: {} selections", scene_.driven.size()), vertices.bytes() + detector.driven_bytes());
+        fmt::format("/driven: {} selections", scene_.driven.size()));
   }
 
   void forces() {
     const MeshTally& n = plan_.counts;
     add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
         source_of(scene_) + "; " +
-            told("/material/stiffness", Shape::material, "stiffness", problem_.material.stiffness),
-        n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds)));
+            told("/material/stiffness", Shape::material, "stiffness", problem_.material.stiffness));
     const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
     if (plan_.needs.damping)
-      add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping,
-          n.edges * sizeof(Spring::damping));
+      add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
     else
       leave_out("damping of springs, its term or sweep", damping);
     const Eigen::Vector3d& g = scene_.gravity;
@@ -177,15 +157,12 @@ class Planner {
   }
 
   void integrator() {
-    const SystemArrays arrays(problem_, plan_.counts);
     const bool standard = !scene_.accuracy && scene_.integrator == standard_integrator;
     const std::string why = fmt::format("{}: {}{}", scene_.accuracy ? "/accuracy" : "/integrator", scene_.integrator,
                                         standard ? " (the default)" : "");
-    add(Part::integrator, "stages and trial state by vertex", why,
-        predicted_integrator_bytes(scene_.integrator, counts_of(arrays.system())));
+    add(Part::integrator, "stages and trial state by vertex", why);
     if (plan_.needs.solver)
-      add(Part::solver, "matrix by spring and by entry, pattern, factor", why + " is implicit",
-          predicted_solver_bytes(scene_.integrator, arrays.system()));
+      add(Part::solver, "matrix by spring and by entry, pattern, factor", why + " is implicit");
     else
       leave_out("Jacobian, pattern and factor", why + " is explicit");
   }
@@ -194,8 +171,7 @@ class Planner {
     constexpr const char* choices[] = {"warn", "refuse", "substep"};
     const std::string unstable =
         told("/unstable_step", Shape::scene, "unstable_step", choices[static_cast<std::size_t>(scene_.unstable_step)]);
-    add(Part::detector, "the last good state, to go back to", "always: no run goes on without sense",
-        plan_.counts.vertices * 2 * vector);
+    add(Part::detector, "the last good state, to go back to", "always: no run goes on without sense");
     add(Part::speed_check, "no vertex is faster than light, in every sixteenth step",
         "always: no run goes on without sense");
     add(Part::step_check, "the longest stable step, at the start and after operations", unstable);
@@ -205,45 +181,21 @@ class Planner {
     const SceneEvent& e = scene_.events[k];
     const EventForecast& f = plan_.events[k];
     std::string what = fmt::format("{}, {} times", key_of(e.action), f.times);
-    std::size_t bytes = 0;
-    const auto of_cells = [&bytes](const CellSelection& cells) {
-      if (const auto* by_id = std::get_if<IdSelection>(&cells)) {
-        auto once = by_id->ids;
-        std::ranges::sort(once);
-        once.erase(std::ranges::unique(once).begin(), once.end());
-        bytes += bytes_of(by_id->ids, once);
-      }
-    };
-    if (const auto* remove = std::get_if<Remove>(&e.action)) of_cells(remove->cells);
-    if (const auto* refine = std::get_if<Refine>(&e.action)) of_cells(refine->cells);
-    if (const auto* dissociate = std::get_if<Dissociate>(&e.action))
-      if (const auto* faces = std::get_if<0>(&dissociate->faces)) bytes += faces->size() * sizeof(DartId);
-    if (const auto* stress = std::get_if<TearWhereStressed>(&e.action)) {
-      what += ": the stress of every vertex";
-      bytes += plan_.counts.vertices * sizeof(Eigen::Matrix3d);
-      const std::size_t places =
-          plan_.needs.body.storage == Storage::tetrahedra ? 4 * plan_.counts.cells : plan_.counts.darts;
-      if (stress->seam) bytes += (places + 7) / 8;
-    } else {
-      what += fmt::format(", some {:.0f} operations", f.operations);
-    }
-    add(Part::event, std::move(what), fmt::format("{}/{}", e.path, key_of(e.action)), bytes);
+    what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
+                                                                : fmt::format(", some {:.0f} operations", f.operations);
+    add(Part::event, std::move(what), fmt::format("{}/{}", e.path, key_of(e.action)));
     plan_.items.back().event = k;
   }
 
   void output() {
-    const MeshTally& n = plan_.counts;
     if (scene_.is_chain())
-      add(Part::output_cells, "masses of links", "/output: diagnostics tell mass", n.edges * real + 2 * number);
+      add(Part::output_cells, "masses of links", "/output: diagnostics tell mass");
     else if (!plan_.needs.body.topology_changes)
       add(Part::output_cells, "cells, their masses and the boundary by vertex numbers",
-          "/output: frames show the cells, diagnostics tell mass and boundary",
-          n.cells * (sizeof(CellKind) + number + real + number) + number + problem_.mesh.nodes.size() * number +
-              (n.boundary_facets + 1 + n.boundary_corners) * number);
+          "/output: frames show the cells, diagnostics tell mass and boundary");
     add(Part::frames, "the cells where they are", output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
-      add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes",
-          scene_.probes.size() * number);
+      add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
     add(Part::diagnostics, "energies, momenta, boundary, largest stress",
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
@@ -260,6 +212,7 @@ class Planner {
 std::size_t ScenePlan::bytes() const {
   std::size_t sum = 0;
   for (const PlanItem& item : items) sum += item.bytes;
+  for (const MemoryItem& item : unplanned) sum += item.bytes;
   return sum;
 }
 

@@ -18,7 +18,7 @@ struct PlanItem {
   Part part;
   std::string what;       // "48 bytes of mass, position ... by vertex"
   std::string why;        // "/material/damping: 0.05"
-  std::size_t bytes = 0;  // as Part says; exact
+  std::size_t bytes = 0;  // as Part says; of the built body (add_bytes)
   double ns = 0.0;        // per step, averaged over the run; an estimate (unit_costs.h)
   double ns_below = 0.0;  // where it was too little to be measured: it is less than this, and ns is 0
   std::size_t event = 0;  // of Part::event: which one
@@ -52,15 +52,16 @@ struct ScenePlan {
   std::size_t driven_springs = 0;  // at driven vertices that move at the start
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
+  MemoryReport unplanned;  // parts with bytes that no item names: none, if the plan is right
 
   std::size_t bytes() const;
   double ns() const;
 };
 
-/// Everything but the times.
+/// Everything but the bytes (measured_plan.h) and the times (unit_costs.h).
 ///
 /// throws  InputError as make_problem does
-/// cost    a pass over the mesh; of an implicit integrator, ordering and analysing its matrix
+/// cost    a pass over the mesh
 ScenePlan plan_scene(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

@@ -35,6 +35,19 @@ void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
   if (lacks(probe_steps)) watcher.probes(simulation.probes());
 }
 
+/// When what was handed out last was [s].
+struct LastTimes {
+  double frame = 0.0, diagnostics = 0.0;
+};
+
+/// The last good state of a motion that has diverged, unless it was handed out, or one after it, or it is none.
+void hand_out_what_is_kept(const Simulation& simulation, const Diagnostics& kept, const LastTimes& handed_out,
+                           RunWatcher& watcher) {
+  if (!is_finite(kept)) return;
+  if (simulation.time() > handed_out.frame) watcher.frame(simulation.frame());
+  if (simulation.time() > handed_out.diagnostics) watcher.diagnostics(kept);
+}
+
 }  // namespace
 
 double mass_unaccounted_for(double start, double removed, double end) {
@@ -47,6 +60,7 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   const std::optional<std::uint64_t> probe_steps = plan.probe_steps ? plan.probe_steps : plan.diagnostic_steps;
   const std::uint64_t end = std::min(simulation.step_count(), most_steps.value_or(simulation.step_count()));
   RunResult result;
+  LastTimes handed_out;
   result.first = result.last = simulation.diagnostics();
   EnergyDrift drift(result.first);
   watcher.frame(simulation.frame());
@@ -63,8 +77,7 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     }
     if (result.divergence) {
       result.last = simulation.diagnostics();
-      const std::uint64_t kept = simulation.steps_done() - result.divergence->taken_back;
-      result.last.time = static_cast<double>(kept) * simulation.step();
+      hand_out_what_is_kept(simulation, result.last, handed_out, watcher);
       break;
     }
     const std::uint64_t n = simulation.steps_done();
@@ -72,9 +85,13 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     const auto due = [&](const std::optional<std::uint64_t>& every) {
       return n == end || result.interrupted || (every && n % *every == 0);
     };
-    if (due(plan.frame_steps)) watcher.frame(simulation.frame());
+    if (due(plan.frame_steps)) {
+      watcher.frame(simulation.frame());
+      handed_out.frame = simulation.time();
+    }
     if (due(plan.diagnostic_steps)) {
       result.last = simulation.diagnostics();
+      handed_out.diagnostics = simulation.time();
       drift.add(result.last);
       watcher.diagnostics(result.last);
     }

@@ -32,8 +32,7 @@ struct RunResult {
 double mass_unaccounted_for(double start, double removed, double end);
 
 /// Run to the end, to `most_steps`, until the watcher interrupts it or a StopRequest (stop_request.h) a step, or until
-/// the motion diverges. The first state is always handed out, and the last if it is good: what was handed out last
-/// before a divergence stays.
+/// the motion diverges. The first state is always handed out, and the last; after a divergence the last good one.
 RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,
                     std::optional<std::uint64_t> most_steps = {});
 

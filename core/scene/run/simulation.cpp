@@ -86,6 +86,7 @@ Simulation::Simulation(const SceneFile& scene)
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
+  for (const CellKind kind : problem.mesh.kinds) ++cell_kinds_[kind];
   try {
     body_ = make_simulated_body(problem, needs_of(scene, problem).body);
   } catch (const InputError& error) {
@@ -197,7 +198,8 @@ void Simulation::look_before_run() {
   if (found.warns_of(StepCode::coordinate_precision)) look_at_coordinates();
   warnings_ = found.warnings;
   std::erase_if(warnings_, [](const StepResult& w) {
-    return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision;
+    return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision ||
+           w.quantity == step_times_frequency;
   });
 }
 
@@ -226,7 +228,7 @@ Divergence Simulation::failure(const StepResult& result) {
 }
 
 // To the state kept last; a step that the integrator could not take is one that the detector has not seen.
-std::uint64_t Simulation::go_back() { return done_ - watched_ + detector_.restore(body_->motion()); }
+std::uint64_t Simulation::go_back() { return taken_back_ = done_ - watched_ + detector_.restore(body_->motion()); }
 
 // An event may throw: what those before it have done counts, and the integrator has to know.
 void Simulation::happen() {

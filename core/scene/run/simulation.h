@@ -2,6 +2,7 @@
 // A scene that runs: body, integrator and events, one step at a time.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -64,8 +65,8 @@ class Simulation {
   std::uint64_t step_count() const { return step_count_; }
   std::uint64_t steps_done() const { return done_; }
   double step() const { return step_; }  // [s]
-  /// [s] steps_done() * step
-  double time() const { return static_cast<double>(done_) * step_; }
+  /// [s] steps_done() * step; after a divergence, of the state that the body has gone back to
+  double time() const { return static_cast<double>(done_ - taken_back_) * step_; }
 
   /// One step, then the events due at its end, then the velocities of driven vertices.
   ///
@@ -91,12 +92,15 @@ class Simulation {
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
   /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that
-  /// rounding loses, motions that a stable step does not resolve (check_before_run).
+  /// rounding loses (check_before_run). That a stable step does not resolve the fastest motions is true of most sound
+  /// runs, and no warning.
   std::span<const StepResult> warnings() const { return warnings_; }
 
   const SimulatedBody& body() const { return *body_; }
   /// Of the cells: 3, 2 of a surface, 0 of a chain.
   int dimension() const { return dimension_; }
+  /// How many cells of each kind there were at the start.
+  const std::map<CellKind, std::size_t>& cell_kinds() const { return cell_kinds_; }
   std::size_t operations() const { return operations_; }
   /// The paths of the events that have been due and never changed anything.
   std::vector<std::string> idle_events() const;
@@ -133,7 +137,7 @@ class Simulation {
   Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
 
   double step_;
-  std::uint64_t step_count_, done_ = 0;
+  std::uint64_t step_count_, done_ = 0, taken_back_ = 0;
   Horizon horizon_;
   std::unique_ptr<SimulatedBody> body_;
   DrivenVertices driven_;
@@ -155,6 +159,7 @@ class Simulation {
   DivergenceDetector detector_;
   std::uint64_t watched_ = 0;  // steps that the detector has seen
   int dimension_ = 0;
+  std::map<CellKind, std::size_t> cell_kinds_;
 };
 
 }  // namespace dartboard

@@ -22,11 +22,6 @@ class ImplicitIntegrator : public Integrator {
   const ImplicitOptions& options() const { return stage_.options(); }
 
  protected:
-  /// One stage of h, and there: v1 = w, x1 = x0 + h w.
-  StepResult euler_step(const SpringSystem& system, Motion motion, double h);
-  /// One stage of h/2 to the midpoint, and on by reflection: v1 = 2 w - v0, x1 = x0 + h w.
-  StepResult midpoint_step(const SpringSystem& system, Motion motion, double h, StageForce force);
-
   StepResult fail(const StepResult& result) {
     ++work_.failed_steps;
     return result;
@@ -34,10 +29,6 @@ class ImplicitIntegrator : public Integrator {
 
   ImplicitStage stage_;
   TrialState end_;
-
- private:
-  /// The velocities w of one stage of tau from the start of the step, into end_.v.
-  StepResult solve_one_stage(const SpringSystem& system, Motion motion, double tau, StageForce force);
 };
 
 }  // namespace dartboard

@@ -15,7 +15,6 @@ namespace {
 
 // Energies are sums of products of three numbers: beyond this a square is too close to the largest double.
 constexpr double largest_size = 1e120;
-constexpr std::string_view step_times_frequency = "step times highest frequency";
 
 StepResult at_vertex(StepCode code, std::size_t i, std::string_view quantity, double value) {
   return {code, Witness::vertex, static_cast<std::uint32_t>(i), quantity, value};

@@ -2,12 +2,16 @@
 // What can be said of a run before its first step.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/time/method/integrator.h"
 #include "core/time/watch/stable_step.h"
 
 namespace dartboard {
+
+/// What a warning is about where a stable step does not resolve the fastest motions.
+inline constexpr std::string_view step_times_frequency = "step times highest frequency";
 
 /// Diagnoses of a system, a motion and a step: `refused` keep a run from starting, `warnings` do not.
 struct Preflight {

@@ -8,10 +8,10 @@
 #include <map>
 #include <string>
 
-#include "core/time/implicit/backward_euler.h"
 #include "core/time/implicit/bdf2.h"
-#include "core/time/integrator_memory.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/integrators.h"
+#include "tests/support/integrator_memory.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
 namespace dartboard {
@@ -213,20 +213,20 @@ TEST_P(EveryIntegrator, SaysThatAStepHasFailedAndCountsIt) {
 }
 
 // Of six springs one is held at both ends, two at one.
-TEST(SystemCounts, TellSpringsBetweenFreeVerticesFromThoseHeldAtOneEnd) {
+TEST(MemoryOracle, TellSpringsBetweenFreeVerticesFromThoseHeldAtOneEnd) {
   SpringArrays body;
   for (int i = 0; i < 6; ++i) body.add_vertex(1.0, {1.0 * i, 0, 0}, {0, 0, 0}, i == 0 || i == 1);
   for (std::uint32_t i = 0; i < 5; ++i) body.add_spring(i, i + 1, 1.0, 1.0);
   body.add_spring(0, 5, 1.0, 5.0);
-  const SystemCounts counts = counts_of(body.system());
+  const memory::SystemCounts counts = memory::counts_of(body.system());
   EXPECT_EQ(counts.vertices, 6u);
   EXPECT_EQ(counts.springs, 6u);
   EXPECT_EQ(counts.links, 3u);
   EXPECT_EQ(counts.anchors, 2u);
 }
 
-// Scenes are planned with it.
-TEST_P(EveryIntegrator, HoldsTheColumnsThatArePredicted) {
+// `explain` tells them.
+TEST_P(EveryIntegrator, HoldsTheColumnsThatItMust) {
   for (const bool damped : {false, true})
     for (const bool viscous : {false, true}) {
       SpringArrays body = falling_grid();
@@ -235,7 +235,8 @@ TEST_P(EveryIntegrator, HoldsTheColumnsThatArePredicted) {
       const auto own = make_integrator(GetParam());
       EXPECT_EQ(own->bytes(), own->solver_bytes());  // none before the first step
       run(*own, body, 1e-3, 2);
-      EXPECT_EQ(own->bytes() - own->solver_bytes(), predicted_integrator_bytes(GetParam(), counts_of(body.system())))
+      EXPECT_EQ(own->bytes() - own->solver_bytes(),
+                memory::predicted_integrator_bytes(GetParam(), memory::counts_of(body.system())))
           << damped << viscous;
     }
 }

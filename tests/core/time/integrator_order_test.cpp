@@ -106,6 +106,8 @@ void expect_order(const Case& c, bool damped, Event event) {
   }
 }
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 struct IntegratorOrder : testing::TestWithParam<Case> {};
 
 TEST_P(IntegratorOrder, IsTheSchemesWithoutDamping) { expect_order(GetParam(), false, Event::none); }

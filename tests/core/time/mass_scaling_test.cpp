@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/time/implicit/backward_euler.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/preflight.h"
 #include "core/time/watch/stable_step.h"

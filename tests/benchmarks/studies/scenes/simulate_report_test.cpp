@@ -49,7 +49,8 @@ class SimulateReport : public ::testing::Test {
             .cpu_s = 0.75,
             .folder = "",
             .frames = 5,
-            .picture = ""};
+            .picture = "",
+            .step_in_words = "short enough"};
   }
   void diverge() {
     Divergence d;
@@ -93,8 +94,8 @@ TEST_F(SimulateReport, SetsTheStartBesideTheEnd) {
 
 TEST_F(SimulateReport, SaysWhatTheRunTookAndWhatItWasToCome) {
   const SimulationReport r = report();
-  expect_words(r, "box\n" + simulation_.body().map_name() + ", " + scene_.integrator + ", h = 0.001 s\n\n" +
-                      to_text(summary_of(r)) + "\n");
+  expect_words(r, "box\n" + simulation_.body().map_name() + ", " + scene_.integrator +
+                      ", h = 0.001 s (short enough)\n\n" + to_text(summary_of(r)) + "\n");
   expect_words(r, "\nwall 1.5 s, processor 0.75 s, 2.5e+05 microseconds per step, events and output included\n");
   expect_words(r, fmt::format("\nhash of the last state {:016x}\n", simulation_.body().state_hash()));
   Table expected({{"expected"}, {"by the scene", Align::right}, {"found", Align::right}, {"holds"}});

@@ -7,12 +7,12 @@
 
 #include "benchmarks/cli/scene_names.h"
 #include "benchmarks/studies/scenes/step_explanation.h"
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 #include "core/scene/run/scene_run.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
+#include "validation/recommend/settle_accuracy.h"
 #include "validation/scenes/scene_features.h"
 #include "validation/scenes/scene_of_file.h"
 

@@ -20,8 +20,14 @@ Problem moving(Mesh mesh) {
   return problem;
 }
 
-struct Bodies : testing::TestWithParam<Mesh> {
-  Problem problem = moving(GetParam());
+struct Kind {
+  const char* name;
+  Mesh mesh;
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+
+struct Bodies : testing::TestWithParam<Kind> {
+  Problem problem = moving(GetParam().mesh);
   std::unique_ptr<SimulatedBody> with = make_simulated_body(problem, true),
                                  without = make_simulated_body(problem, false);
 };
@@ -56,8 +62,10 @@ TEST_P(Bodies, ShowTheSameCellsInAFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryKind, Bodies,
-                         testing::Values(kuhn_box(2, 2, 2, 0.25, 0.2, 1), hexahedron_box(2, 2, 1, 0.25),
-                                         mixed_box(2, 2, 2, 0.25), triangle_sheet(3, 2, 0.25)));
+                         testing::Values(Kind{"tetrahedra", kuhn_box(2, 2, 2, 0.25, 0.2, 1)},
+                                         Kind{"hexahedra", hexahedron_box(2, 2, 1, 0.25)},
+                                         Kind{"mixed", mixed_box(2, 2, 2, 0.25)},
+                                         Kind{"triangles", triangle_sheet(3, 2, 0.25)}));
 
 TEST(BodyOfColumns, HoldsNoDart) {
   const BodyOfColumns body(moving(kuhn_box(2, 2, 2, 0.25)));

@@ -6,12 +6,9 @@
 #include <memory>
 
 #include "core/time/explicit/classical_runge_kutta.h"
-#include "core/time/implicit/backward_euler.h"
 #include "core/time/implicit/baraff_witkin.h"
 #include "core/time/implicit/bdf2.h"
-#include "core/time/implicit/energy_momentum.h"
-#include "core/time/implicit/implicit_midpoint.h"
-#include "core/time/implicit/local_global.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/implicit/ros2.h"
 #include "core/time/implicit/sdirk2.h"
 #include "core/time/integrators.h"

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/time/implicit/backward_euler.h"
 #include "core/time/implicit/baraff_witkin.h"
 #include "core/time/implicit/bdf2.h"
-#include "core/time/implicit/energy_momentum.h"
-#include "core/time/implicit/implicit_midpoint.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/implicit/ros2.h"
 #include "core/time/implicit/sdirk2.h"
 #include "core/time/system/accelerations.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "validation/recommend/settle_accuracy.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,7 +70,8 @@ double step_fitting_times(const SceneFile& scene, double largest) {
   return scene.duration / least;
 }
 
-std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock) {
+std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock,
+                                               const std::function<void(const std::string&)>& tells) {
   if (!scene.accuracy) return {};
   SettledAccuracy settled;
   settled.accuracy = *scene.accuracy;
@@ -80,6 +81,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     RecommendOptions options;
     options.adaptive = false;  // a simulation has one step throughout
     options.only = scene.integrator;
+    options.tells = tells;
     const Recommendation r = recommend(studied, *scene.accuracy, clock, options);
     const Candidate* pick = r.pick();
     if (pick == nullptr && std::isfinite(r.best_error))

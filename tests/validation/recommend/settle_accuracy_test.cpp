@@ -1,4 +1,4 @@
-#include "benchmarks/studies/tradeoff/settle_accuracy.h"
+#include "validation/recommend/settle_accuracy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 // A scene may ask for an accuracy: the step is chosen for it, and the integrator where none is named.
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -35,9 +36,11 @@ void to_json(nlohmann::json& json, const SettledAccuracy& settled);
 /// pre  duration > 0 and largest > 0
 double step_fitting_times(const SceneFile& scene, double largest);
 
-/// Give a scene that asks for an accuracy its step, by `recommend`; does nothing to others.
+/// Give a scene that asks for an accuracy its step, by `recommend`, which tells whose pilot has run; does nothing to
+/// others.
 ///
 /// throws  InputError as scene_of_file, and when no step of the integrator is found to meet the accuracy
-std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock);
+std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock,
+                                               const std::function<void(const std::string&)>& tells = {});
 
 }  // namespace dartboard

@@ -1,4 +1,6 @@
-#include "core/time/integrator_memory.h"
+#pragma once
+// What an integrator must hold between its steps, reckoned by hand from the counts of a system: the oracle of
+// Integrator::bytes.
 
 #include <fmt/format.h>
 
@@ -6,14 +8,13 @@
 #include <optional>
 
 #include "core/plain/error.h"
-#include "core/time/implicit/local_global.h"
+#include "core/time/implicit/one_stage.h"
 #include "core/time/integrators.h"
 #include "core/time/solve/step_solver.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/node_pattern.h"
 
-namespace dartboard {
-namespace {
+namespace dartboard::memory {
 
 constexpr std::size_t vector = sizeof(Eigen::Vector3d), block = sizeof(Eigen::Matrix3d);
 
@@ -29,7 +30,7 @@ struct Columns {
 
 // The columns of the classes of these names; an implicit stage has residual, direction and trial, and every method the
 // position and velocity it ends with.
-constexpr std::array table{
+constexpr std::array integrator_columns{
     Columns{"explicit-euler", 2},
     Columns{"symplectic-euler", 3, 0, true, true},
     Columns{"verlet", 3, 0, true, true},
@@ -48,9 +49,15 @@ constexpr std::array table{
     Columns{.integrator = "bdf2", .vectors = 9, .numbers = 1},
 };
 
-}  // namespace
+/// The counts that an integrator's memory follows from.
+struct SystemCounts {
+  std::size_t vertices = 0, springs = 0;
+  std::size_t links = 0;    // springs between two free vertices
+  std::size_t anchors = 0;  // springs between a free and a fixed vertex
+  bool damping = false, viscosity = false;
+};
 
-SystemCounts counts_of(const SpringSystem& system) {
+inline SystemCounts counts_of(const SpringSystem& system) {
   const Terms terms = terms_of(system);
   SystemCounts counts{.vertices = system.vertex_count(),
                       .springs = system.springs.size(),
@@ -63,8 +70,9 @@ SystemCounts counts_of(const SpringSystem& system) {
   return counts;
 }
 
-std::size_t predicted_integrator_bytes(std::string_view integrator, const SystemCounts& c) {
-  for (const Columns& columns : table) {
+/// Bytes after the first step that had something to solve; no matrix and no factor of an implicit method.
+inline std::size_t predicted_integrator_bytes(std::string_view integrator, const SystemCounts& c) {
+  for (const Columns& columns : integrator_columns) {
     if (columns.integrator != integrator) continue;
     const bool damped = c.damping || c.viscosity;
     std::size_t bytes = c.vertices * (vector * columns.vectors + sizeof(double) * columns.numbers);
@@ -78,7 +86,8 @@ std::size_t predicted_integrator_bytes(std::string_view integrator, const System
   throw InputError(fmt::format("the memory of an integrator '{}' is not known", integrator));
 }
 
-std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSystem& system) {
+/// Bytes of the matrices, the factor and what solves with it; 0 for an explicit method.
+inline std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSystem& system) {
   if (!make_integrator(integrator)->scheme().implicit) return 0;
   const bool scalar = integrator == "local-global";
   const ImplicitOptions options = scalar ? LocalGlobal::with_iterations(20) : ImplicitOptions{};
@@ -99,4 +108,4 @@ std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSyst
   return bytes + sizeof(double) * Cholesky::predicted_nonzeros(pattern, rows, options.cholesky);
 }
 
-}  // namespace dartboard
+}  // namespace dartboard::memory

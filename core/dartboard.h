@@ -1,0 +1,34 @@
+#pragma once
+// All that a program needs to build a body, change its topology and move it.
+//
+//   mesh     mesh_generators.h, mesh_io.h      from a generator or a file
+//   body     mass_spring_body.h                a map whose cells carry mass, stiffness, position, velocity
+//   change   dissociate_*.h, remove_*.h        topological operations ...
+//            adapt.h, refine.h, split_off.h    ... and how embeddings follow
+//   tear     seam.h, tearing.h, stress.h       along a plane, or where the stress is too high
+//   follow   views.h                           arrays that keep up with changes
+//   move     integrators.h, runge_kutta_4.h    every integrator, by name; the paper's, over its walks
+//   scene    simulation.h, scene_run.h         what the program does with a scene file
+
+#include "core/mechanics/adapt.h"
+#include "core/mechanics/fracture/seam.h"
+#include "core/mechanics/fracture/stress.h"
+#include "core/mechanics/fracture/tearing.h"
+#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/refine.h"
+#include "core/mechanics/split_off.h"
+#include "core/meshes/generators/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
+#include "core/operations/dissociate_all.h"
+#include "core/operations/dissociate_face.h"
+#include "core/operations/remove_component.h"
+#include "core/operations/remove_face.h"
+#include "core/operations/remove_volume.h"
+#include "core/operations/subdivide.h"
+#include "core/operations/tear_fan.h"
+#include "core/scene/run/scene_run.h"
+#include "core/scene/run/simulation.h"
+#include "core/time/integrators.h"
+#include "core/topology/check.h"
+#include "core/views/views.h"
+#include "core/walks/runge_kutta_4.h"

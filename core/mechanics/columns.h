@@ -1,0 +1,71 @@
+#pragma once
+// Columns of embeddings, and how each follows a topological change: declared once, asked by all that runs over them.
+
+#include <cstddef>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace dartboard {
+
+/// How an embedding adapts when its cell is dissociated (section 4.3).
+enum class Adapts {
+  duplicated,    // every part has what the cell had
+  recomputed,    // from the cells around each part, eq. (1)
+  proportional,  // to what is recomputed
+};
+
+/// One column of `Owner`.
+template <class Owner, class T>
+struct EmbeddedColumn {
+  std::string_view name;
+  std::vector<T> Owner::*values;
+  Adapts adapts;
+};
+template <class Owner, class T>
+EmbeddedColumn(const char*, std::vector<T> Owner::*, Adapts) -> EmbeddedColumn<Owner, T>;
+
+/// Visit the columns in a table: visit(column, its row). A column that is empty has been left out.
+template <class Owner, class Table, class Visit>
+void for_each_column(Owner& owner, const Table& table, Visit&& visit) {
+  std::apply([&](const auto&... row) { (visit(owner.*(row.values), row), ...); }, table);
+}
+
+/// A part of element k, at the end: what is duplicated is there, what is recomputed has to be.
+template <class Owner, class Table>
+void add_part_of_element(Owner& owner, const Table& table, std::size_t k) {
+  for_each_column(owner, table, [k](auto& column, const auto& row) {
+    if (column.empty()) return;
+    column.emplace_back();
+    if (row.adapts == Adapts::duplicated) column.back() = column[k];
+  });
+}
+
+/// Put the last element in place k and drop the last.
+template <class Owner, class Table>
+void move_last_element(Owner& owner, const Table& table, std::size_t k) {
+  for_each_column(owner, table, [k](auto& column, const auto&) {
+    if (column.empty()) return;
+    column[k] = column.back();
+    column.pop_back();
+  });
+}
+
+/// Room for one more, to be filled; not in columns that have been left out beside `size` others.
+template <class Owner, class Table>
+void add_element(Owner& owner, const Table& table, std::size_t size) {
+  for_each_column(owner, table, [size](auto& column, const auto&) {
+    if (column.size() == size) column.emplace_back();
+  });
+}
+
+/// Copy the elements with these numbers to the end of another owner's columns.
+template <class Owner, class Table, class Numbers>
+void copy_elements(const Owner& from, Owner& to, const Table& table, const Numbers& numbers) {
+  for_each_column(from, table, [&](const auto& column, const auto& row) {
+    if (column.empty()) return;
+    for (const auto k : numbers) (to.*(row.values)).push_back(column[k]);
+  });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,154 @@
+#include "core/scene/file/load_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "core/meshes/touching.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+using Visit = std::function<void(std::uint32_t&, const std::string& path)>;
+
+void visit_ids(VertexSelection& selection, const std::string& path, const Visit& visit) {
+  auto* by_id = std::get_if<IdSelection>(&selection);
+  if (by_id == nullptr) return;
+  for (std::size_t k = 0; k < by_id->ids.size(); ++k) visit(by_id->ids[k], fmt::format("{}/ids/{}", path, k));
+}
+
+/// Every number of a point in the scene, with the path of its key.
+void visit_points(SceneFile& scene, const Visit& visit) {
+  for (std::size_t k = 0; k < scene.fixed.size(); ++k) visit_ids(scene.fixed[k], fmt::format("/fixed/{}", k), visit);
+  for (SceneDrive& drive : scene.driven) visit_ids(drive.vertices, drive.path, visit);
+  for (Probe& probe : scene.probes)
+    if (auto* point = std::get_if<std::uint32_t>(&probe.vertex)) visit(*point, probe.path + "/vertex");
+  for (SceneEvent& event : scene.events) {
+    if (auto* tear = std::get_if<Tear>(&event.action)) {
+      if (auto* point = std::get_if<std::uint32_t>(&tear->vertex)) visit(*point, event.path + "/tear/vertex");
+    } else if (auto* dissociate = std::get_if<Dissociate>(&event.action)) {
+      auto* faces = std::get_if<0>(&dissociate->faces);
+      for (std::size_t k = 0; faces != nullptr && k < faces->size(); ++k)
+        for (std::size_t j = 0; j < (*faces)[k].size(); ++j)
+          visit((*faces)[k][j], fmt::format("{}/dissociate/points/{}/{}", event.path, k, j));
+    }
+  }
+}
+
+/// The points of a mesh in the place of one of its file: itself, and those split off it.
+class Places {
+ public:
+  Places(const LoadedMesh& loaded, const TouchingCells& touching) : mesh_(loaded.mesh) {
+    const auto kept = static_cast<std::uint32_t>(mesh_.points.size() - touching.copied.size());
+    for (std::uint32_t k = 0; k < touching.copied.size(); ++k) copies_.push_back({touching.copied[k], kept + k});
+    std::ranges::sort(copies_);
+  }
+  bool any() const { return !copies_.empty(); }
+
+  void add_all(std::vector<std::uint32_t>& points) const {
+    const std::size_t named = points.size();
+    for (std::size_t k = 0; k < named; ++k)
+      for (const auto& [of, copy] : copies_)
+        if (of == points[k]) points.push_back(copy);
+  }
+
+  /// The face of the mesh that has these points, or others in their places, in place of them; left alone if none has.
+  void find_face(std::vector<std::uint32_t>& points) const {
+    if (std::ranges::none_of(points, [this](std::uint32_t p) { return is_copied(p); })) return;
+    auto places = points;
+    std::ranges::sort(places);
+    for (std::size_t c = 0; c < mesh_.cell_count(); ++c) {
+      const auto node = mesh_.cell(c);
+      const bool solid = dimension(mesh_.kinds[c]) == 3;
+      for (const std::vector<int>& cycle : faces_of(mesh_.kinds[c]))
+        for (std::size_t first = 0; first < (solid ? 1 : cycle.size()); ++first) {
+          std::vector<std::uint32_t> face;
+          for (std::size_t k = 0; k < (solid ? cycle.size() : 2); ++k)
+            face.push_back(node[static_cast<std::size_t>(cycle[(first + k) % cycle.size()])]);
+          std::vector<std::uint32_t> there;
+          for (const std::uint32_t p : face) there.push_back(place_of(p));
+          std::ranges::sort(there);
+          if (there != places) continue;
+          points = face;
+          return;
+        }
+    }
+  }
+
+ private:
+  bool is_copied(std::uint32_t p) const {
+    return std::ranges::any_of(copies_, [p](const auto& pair) { return pair.first == p; });
+  }
+  std::uint32_t place_of(std::uint32_t p) const {
+    for (const auto& [of, copy] : copies_)
+      if (copy == p) return of;
+    return p;
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  // (point, one split off it), ascending
+};
+
+void renumber(SceneFile& scene, const std::vector<std::uint32_t>& place) {
+  visit_points(scene, [&](std::uint32_t& point, const std::string& path) {
+    const auto fail = [&](const std::string& expected) {
+      throw InputError(fmt::format("{}: {}: is {}; expected {}", scene.file, path, point, expected));
+    };
+    if (point >= place.size()) fail(fmt::format("a point of the mesh, less than {}", place.size()));
+    if (place[point] == LoadedMesh::dropped) fail("a point that belongs to a cell: this one of the mesh does not");
+    point = place[point];
+  });
+}
+
+void name_all_vertices(SceneFile& scene, const Places& places) {
+  const auto all_of = [&places](VertexSelection& selection) {
+    if (auto* by_id = std::get_if<IdSelection>(&selection)) places.add_all(by_id->ids);
+  };
+  for (VertexSelection& selection : scene.fixed) all_of(selection);
+  for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
+  for (SceneEvent& event : scene.events)
+    if (auto* dissociate = std::get_if<Dissociate>(&event.action))
+      if (auto* faces = std::get_if<0>(&dissociate->faces))
+        for (auto& points : *faces) places.find_face(points);
+}
+
+std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
+  const auto& file = std::get<std::filesystem::path>(body.mesh);
+  LoadedMesh loaded = read_mesh(file);
+  const std::size_t points = loaded.mesh.points.size();
+  TouchingCells touching = split_touching_points(loaded.mesh);
+  if (touching.any()) {
+    if (loaded.place_of_point.empty()) {
+      loaded.place_of_point.resize(points);
+      std::iota(loaded.place_of_point.begin(), loaded.place_of_point.end(), 0u);
+    }
+    const std::string notice = to_string(touching, loaded.place_of_point);
+    if (!body.split_touching)
+      throw IoError(fmt::format("{}: {}; expected none, or \"touching\": \"split\"", file.string(), notice));
+    loaded.notices.push_back(notice);
+  }
+  return {std::move(loaded), std::move(touching)};
+}
+
+}  // namespace
+
+LoadedMesh read_body_mesh(const BodySource& body) { return read_and_split(body).first; }
+
+void load_mesh(SceneFile& scene) {
+  if (!std::holds_alternative<std::filesystem::path>(scene.body.mesh)) return;
+  try {
+    auto [loaded, touching] = read_and_split(scene.body);
+    if (!loaded.place_of_point.empty()) renumber(scene, loaded.place_of_point);
+    if (const Places places(loaded, touching); places.any()) name_all_vertices(scene, places);
+    scene.body.loaded = std::make_shared<LoadedMesh>(std::move(loaded));
+  } catch (const IoError&) {
+    return;
+  }
+}
+
+}  // namespace dartboard

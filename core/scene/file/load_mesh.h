@@ -1,0 +1,22 @@
+#pragma once
+// The mesh file of a scene, read once, and the points of the scene by the numbers that the body has them by.
+
+#include "core/meshes/mesh_io.h"
+#include "core/scene/file/scene_file.h"
+
+namespace dartboard {
+
+/// The mesh in the file of a body, with a point for each vertex of its map.
+///
+/// throws  IoError as read_mesh, and, where the body says so, for cells that touch without sharing a face
+LoadedMesh read_body_mesh(const BodySource& body);
+
+/// Read the mesh file of a scene, if it has one, and replace the point numbers of the scene, which are those of the
+/// file, by the places of the points in the body.
+///
+/// A point that cells only touch at is several vertices: what is fixed or driven there is all of them, a probe or a
+/// tear the first, and of a face those that it has. A mesh that cannot be read is left to who makes the body.
+/// throws  InputError "FILE: /fixed/0/ids/1: ..." for a number that is no point of the file, or one of no cell
+void load_mesh(SceneFile& scene);
+
+}  // namespace dartboard

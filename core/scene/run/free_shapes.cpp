@@ -1,0 +1,64 @@
+#include "core/scene/run/free_shapes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <array>
+#include <set>
+#include <vector>
+
+namespace dartboard {
+namespace {
+
+// A cell of each kind in no special position, in the node order of faces_of: what holds for it holds for almost all.
+std::vector<Eigen::Vector3d> sample(CellKind kind) {
+  std::vector<Eigen::Vector3d> nodes;
+  for (const auto& [x, y, z] : std::array<std::array<double, 3>, 8>{{{0, 0, 0},
+                                                                     {1.1, 0.1, 0.05},
+                                                                     {1.2, 1.05, -0.1},
+                                                                     {0.1, 0.9, 0.15},
+                                                                     {0.05, -0.1, 1},
+                                                                     {0.95, 0.15, 1.1},
+                                                                     {1.15, 1.2, 0.9},
+                                                                     {-0.1, 1.1, 1.05}}})
+    nodes.emplace_back(x, y, z);
+  nodes.resize(static_cast<std::size_t>(node_count(kind)));
+  return nodes;
+}
+
+}  // namespace
+
+std::size_t free_shapes(CellKind kind) {
+  const auto x = sample(kind);
+  std::set<std::array<int, 2>> edges;
+  for (const std::vector<int>& cycle : faces_of(kind))
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+      const int a = cycle[k], b = cycle[(k + 1) % cycle.size()];
+      edges.insert({std::min(a, b), std::max(a, b)});
+    }
+  const auto columns = static_cast<Eigen::Index>(3 * x.size());
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(edges.size()), columns);
+  Eigen::Index row = 0;
+  for (const auto& [a, b] : edges) {
+    const Eigen::Vector3d along = x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)];
+    directions.block<1, 3>(row, 3 * a) = -along.transpose();
+    directions.block<1, 3>(row, 3 * b) = along.transpose();
+    ++row;
+  }
+  return static_cast<std::size_t>(columns - Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(directions).rank() - 6);
+}
+
+std::string free_shapes_of(const std::map<CellKind, std::size_t>& counts) {
+  std::string cells;
+  for (const auto& [kind, count] : counts) {
+    if (count == 0 || node_count(kind) < 5) continue;
+    cells += fmt::format("{}{} of kind {} in {} ways", cells.empty() ? "" : ", ", count, name(kind), free_shapes(kind));
+  }
+  if (cells.empty()) return "";
+  return fmt::format(
+      "edges of cells alone carry springs, so some cells can change their shape without a force ({}): the body may shear "
+      "and fall like a chain; take tetrahedra where that matters (/body/generate/box/kind, or another mesh)",
+      cells);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,44 @@
+#include "core/scene/run/scene_warnings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/scene/run/free_shapes.h"
+#include "core/time/integrators.h"
+#include "core/time/watch/preflight.h"
+
+namespace dartboard {
+namespace {
+
+std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene) {
+  if (warning.parts > 1) return "";
+  return fmt::format("; set {} to at most {:.3g}, \"unstable_step\" to \"substep\", or take an implicit integrator",
+                     scene.accuracy ? "'step' in place of /accuracy" : "/step", warning.stable);
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& simulation) {
+  std::vector<std::string> said;
+  if (const auto& warning = simulation.step_warning())
+    said.push_back(to_string(*warning, simulation.step(), scene.integrator) + what_to_do_about(*warning, scene));
+  if (const auto& coarse = simulation.coordinate_warning()) said.push_back(to_string(*coarse) + " (/body/translate)");
+  for (const StepResult& warning : simulation.warnings()) said.push_back(explained(warning));
+  if (const std::string shapes = free_shapes_of(simulation.cell_kinds()); !shapes.empty()) said.push_back(shapes);
+  for (const std::string& path : simulation.idle_events())
+    said.push_back(fmt::format("the event at {} never did anything", path));
+  return said;
+}
+
+std::string step_in_words(const Simulation& simulation, const SceneFile& scene) {
+  if (make_integrator(scene.integrator)->scheme().implicit)
+    return fmt::format("motions faster than {:.3g} Hz are not resolved",
+                       1.0 / (2.0 * std::numbers::pi * simulation.step()));
+  const double longest = simulation.step_limit().stable;
+  return std::isfinite(longest) ? fmt::format("{:.2g} of the longest stable step", simulation.step() / longest)
+                                : "every step is stable";
+}
+
+}  // namespace dartboard

@@ -1,0 +1,130 @@
+// Cells that touch without sharing a face: what is found, and that the map of the split mesh has a vertex for each
+// point.
+
+#include "core/meshes/touching.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/meshes/generators/mesh_generators.h"
+#include "core/topology/build.h"
+#include "core/topology/cells.h"
+
+namespace dartboard {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+using Edges = std::vector<std::array<std::uint32_t, 2>>;
+
+Mesh tetrahedra(std::size_t points, std::initializer_list<std::array<std::uint32_t, 4>> cells) {
+  Mesh mesh;
+  // on the moment curve, where any four points are the corners of a tetrahedron
+  for (std::size_t p = 0; p < points; ++p) {
+    const auto t = static_cast<double>(p);
+    mesh.points.emplace_back(t, t * t, t * t * t);
+  }
+  for (const auto& cell : cells) mesh.add_cell(CellKind::tetrahedron, cell);
+  return mesh;
+}
+
+template <class Map>
+std::size_t vertices_of(const Mesh& mesh) {
+  std::size_t count = 0;
+  const auto built = build_map<Map>(mesh);
+  for_each_cell<0>(built.map, [&count](Vertex) { ++count; });
+  return count;
+}
+
+TEST(TouchingCells, AreNoneWhereAllCellsAreJoinedByFaces) {
+  for (const Mesh& sound : {kuhn_box(2, 2, 2, 1.0), mixed_box(2, 1, 1, 1.0), triangle_sheet(3, 2, 1.0)}) {
+    Mesh mesh = sound;
+    EXPECT_FALSE(split_touching_points(mesh).any());
+    EXPECT_EQ(mesh.nodes, sound.nodes);
+    EXPECT_EQ(mesh.points, sound.points);
+  }
+}
+
+TEST(TouchingCells, AtAPointGetOneEach) {
+  Mesh mesh = tetrahedra(7, {{0, 1, 2, 3}, {3, 4, 5, 6}});
+  const TouchingCells touching = split_touching_points(mesh);
+  EXPECT_EQ(touching.points, (Numbers{3}));
+  EXPECT_TRUE(touching.edges.empty());
+  EXPECT_EQ(touching.copied, (Numbers{3}));
+  EXPECT_EQ(mesh.nodes, (Numbers{0, 1, 2, 3, 7, 4, 5, 6}));
+  EXPECT_EQ(mesh.points.at(7), mesh.points.at(3));
+}
+
+TEST(TouchingCells, AtAnEdgeGetTwoPointsEach) {
+  Mesh mesh = tetrahedra(6, {{0, 1, 2, 3}, {2, 3, 4, 5}});
+  const TouchingCells touching = split_touching_points(mesh);
+  EXPECT_EQ(touching.points, (Numbers{2, 3}));
+  EXPECT_EQ(touching.edges, (Edges{{2, 3}}));
+  EXPECT_EQ(touching.copied, (Numbers{2, 3}));
+  EXPECT_EQ(mesh.nodes, (Numbers{0, 1, 2, 3, 6, 7, 4, 5}));
+}
+
+TEST(TouchingCells, ThreeAtAPointGetThree) {
+  Mesh mesh = tetrahedra(10, {{0, 1, 2, 3}, {0, 4, 5, 6}, {0, 7, 8, 9}});
+  EXPECT_EQ(split_touching_points(mesh).copied, (Numbers{0, 0}));
+  EXPECT_EQ(vertices_of<TetMap>(mesh), mesh.points.size());
+}
+
+// Cells are joined around points 0 and 1 by ways of their own, but not around the edge between them: A and B have it,
+// the chain of cells at each end goes round it.
+TEST(TouchingCells, AtAnEdgeWhoseEndsAreOneVertexEachStayTwoEdges) {
+  Mesh mesh = tetrahedra(6, {{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 2, 3, 4}, {0, 3, 4, 5}, {1, 2, 3, 5}, {1, 2, 4, 5}});
+  const Mesh before = mesh;
+  const TouchingCells touching = split_touching_points(mesh);
+  EXPECT_TRUE(touching.points.empty());
+  // and where the two chains touch each other
+  EXPECT_EQ(touching.edges, (Edges{{0, 1}, {2, 4}, {3, 5}}));
+  EXPECT_EQ(mesh.nodes, before.nodes);
+  const auto built = build_map<TetMap>(mesh);
+  std::size_t edges_between = 0;
+  for_each_cell<1>(built.map, [&](Edge e) {
+    const auto point = [&](Dart d) { return built.point[TetMap::slot<0>(d)]; };
+    edges_between += point(e.dart) + point(built.map.alpha<0>(e.dart)) == 1;
+  });
+  EXPECT_EQ(edges_between, 2u);
+}
+
+TEST(TouchingCells, OfASurfaceAreJoinedByEdges) {
+  Mesh mesh;
+  for (int p = 0; p < 5; ++p) mesh.points.emplace_back(p, p * p, 0);
+  for (const auto& triangle : {std::array<std::uint32_t, 3>{0, 1, 2}, std::array<std::uint32_t, 3>{2, 3, 4}})
+    mesh.add_cell(CellKind::triangle, triangle);
+  EXPECT_EQ(split_touching_points(mesh).points, (Numbers{2}));
+  EXPECT_EQ(vertices_of<Map2>(mesh), 6u);
+}
+
+TEST(TouchingCells, OfRandomPiecesOfABoxBecomeAVertexForEachPoint) {
+  const Mesh box = kuhn_box(3, 3, 3, 1.0);
+  for (std::uint32_t part = 2; part < 8; ++part) {
+    Mesh mesh;
+    mesh.points = box.points;
+    // every part-th cell, scattered by a step that shares no factor with their number
+    for (std::size_t k = 0; k < box.cell_count() / part; ++k)
+      mesh.add_cell(CellKind::tetrahedron, box.cell(k * 61 % box.cell_count()));
+    std::vector<bool> used(mesh.points.size(), false);
+    for (const std::uint32_t p : mesh.nodes) used[p] = true;
+    const auto unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    split_touching_points(mesh);
+    EXPECT_EQ(vertices_of<TetMap>(mesh), mesh.points.size() - unused) << part;
+  }
+}
+
+TEST(TouchingCells, AreToldByTheNumbersOfTheFile) {
+  Mesh mesh = tetrahedra(6, {{0, 1, 2, 3}, {2, 3, 4, 5}});
+  const TouchingCells touching = split_touching_points(mesh);
+  const Numbers place{0, 0xFFFFFFFF, 1, 2, 3, 4, 5};  // point 1 of the file has no cell
+  EXPECT_EQ(to_string(touching, place)
+                .find("cells touch at 2 points and 1 edge without sharing a face (points 3, 4; edge "
+                      "3-4); "),
+            0u)
+      << to_string(touching, place);
+  EXPECT_EQ(to_string(TouchingCells{}, place), "");
+}
+
+}  // namespace
+}  // namespace dartboard

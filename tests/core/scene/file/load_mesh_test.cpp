@@ -1,0 +1,136 @@
+// A scene counts the points of its mesh file; a body has none without a cell, and one for each of its vertices.
+
+#include "core/scene/file/load_mesh.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "core/plain/error.h"
+#include "core/scene/run/simulation.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Points 1, 2, 4 and 5 of six are the corners of the unit tetrahedron.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / (std::to_string(getpid()) + "-point-numbers");
+  explicit Folder(const std::string& keys) {
+    fs::create_directories(path);
+    std::ofstream(path / "gaps.mesh") << "MeshVersionFormatted 2\nDimension 3\nVertices\n6\n9 9 9 0\n0 0 0 0\n1 0 0 0\n"
+                                         "8 8 8 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n2 3 5 6 0\nEnd\n";
+    std::ofstream(path / "scene.json")
+        << R"({"name": "x", "body": {"mesh": "gaps.mesh"}, "step": 0.001, "duration": 0.01, )" << keys << "}";
+  }
+  ~Folder() { fs::remove_all(path); }
+  SceneFile scene() const { return read_scene(path / "scene.json"); }
+};
+
+TEST(PointNumbers, AreThoseOfTheFileInEveryKey) {
+  const Folder folder(R"("fixed": [{"ids": [1, 5]}], "driven": [{"ids": [4], "velocity": [0, 0, 1]}],
+      "events": [{"at": 0.005, "tear": {"vertex": 2, "direction": [1, 0, 0]}},
+                 {"at": 0.005, "dissociate": {"points": [[1, 2, 5]]}}],
+      "output": {"probes": [{"name": "p", "vertex": 4}]})");
+  const SceneFile scene = folder.scene();
+  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0)).ids, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(std::get<IdSelection>(scene.driven.at(0).vertices).ids, (std::vector<std::uint32_t>{2}));
+  EXPECT_EQ(std::get<std::uint32_t>(std::get<Tear>(scene.events.at(0).action).vertex), 1u);
+  EXPECT_EQ(std::get<0>(std::get<Dissociate>(scene.events.at(1).action).faces).at(0),
+            (std::vector<std::uint32_t>{0, 1, 3}));
+}
+
+TEST(PointNumbers, LeadToThePlaceThatTheFileGivesThePoint) {
+  const Folder folder(R"("output": {"probes": [{"name": "p", "vertex": 4}]})");
+  EXPECT_EQ(Simulation(folder.scene()).probes().probes.at(0)->position, Eigen::Vector3d(0, 1, 0));
+}
+
+TEST(PointNumbers, OfPointsThatBelongToNoCellAreRefused) {
+  const Folder folder(R"("output": {"probes": [{"name": "p", "vertex": 3}]})");
+  try {
+    folder.scene();
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/output/probes/0/vertex: is 3; expected a point that belongs to a cell"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// Two tetrahedra that touch at point 0, the second with the corner of its right angle there.
+struct TouchingFolder {
+  fs::path path = fs::temp_directory_path() / (std::to_string(getpid()) + "-touching");
+  explicit TouchingFolder(const std::string& keys, const std::string& touching = "split") {
+    fs::create_directories(path);
+    std::ofstream(path / "two.mesh")
+        << "MeshVersionFormatted 2\nDimension 3\nVertices\n7\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+           "0 0 1 0\n-1 0 0 0\n0 -1 0 0\n0 0 -1 0\nTetrahedra\n2\n1 2 3 4 0\n1 6 5 7 0\nEnd\n";
+    std::ofstream(path / "scene.json") << R"({"name": "x", "body": {"mesh": "two.mesh", "touching": ")" << touching
+                                       << R"("}, "step": 0.001, "duration": 0.01)" << keys << "}";
+  }
+  ~TouchingFolder() { fs::remove_all(path); }
+  SceneFile scene() const { return read_scene(path / "scene.json"); }
+};
+
+TEST(TouchingScene, RunsAsTheSeveralVerticesThatThePointIs) {
+  const TouchingFolder folder("");
+  Simulation simulation(folder.scene());
+  const CellCounts counts = simulation.body().counts();
+  EXPECT_EQ(counts.vertices, 8u);
+  EXPECT_EQ(counts.components, 2u);
+  while (simulation.steps_done() < simulation.step_count()) ASSERT_FALSE(simulation.advance());
+}
+
+TEST(TouchingScene, SaysSoOnceByTheNumbersOfTheFile) {
+  const TouchingFolder folder("");
+  const SceneFile scene = folder.scene();
+  ASSERT_EQ(scene.body.loaded->notices.size(), 1u);
+  EXPECT_EQ(scene.body.loaded->notices[0].find("cells touch at 1 point without sharing a face (point 0)"), 0u)
+      << scene.body.loaded->notices[0];
+}
+
+TEST(TouchingScene, IsRefusedWhereItAsksForThat) {
+  const TouchingFolder folder("", "refuse");
+  try {
+    Simulation simulation(folder.scene());
+    FAIL() << "no error";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("two.mesh: cells touch at 1 point"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("expected none, or \"touching\": \"split\""), std::string::npos);
+  }
+}
+
+TEST(TouchingScene, HoldsAllVerticesInThePlaceOfAPoint) {
+  const TouchingFolder folder(R"(, "fixed": [{"ids": [0]}])");
+  const Simulation simulation(folder.scene());
+  std::size_t held = 0;
+  for (const auto fixed : simulation.body().system().fixed) held += fixed;
+  EXPECT_EQ(held, 2u);
+}
+
+TEST(TouchingScene, KnowsAFaceByThePointsOfTheFile) {
+  const TouchingFolder folder(R"(, "events": [{"at": 0, "dissociate": {"points": [[0, 4, 5]]}}])");
+  const SceneFile scene = folder.scene();
+  auto points = std::get<0>(std::get<Dissociate>(scene.events.at(0).action).faces).at(0);
+  std::ranges::sort(points);
+  EXPECT_EQ(points, (std::vector<std::uint32_t>{4, 5, 7}));
+}
+
+TEST(TouchingScene, DoesNotTakeTheNumberOfASplitPointForOneOfTheFile) {
+  const TouchingFolder folder(R"(, "fixed": [{"ids": [7]}])");
+  try {
+    folder.scene();
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/fixed/0/ids/0: is 7; expected a point of the mesh, less than 7"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,58 @@
+// A run that diverges leaves its last good state: handed out, at its own time, and nothing after it.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/scene/run/scene_run.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+
+struct Keeper : RunWatcher {
+  std::vector<Frame> frames;
+  std::vector<double> times_of_diagnostics;
+  void frame(const Frame& f) override { frames.push_back(f); }
+  void diagnostics(const Diagnostics& d) override { times_of_diagnostics.push_back(d.time); }
+};
+
+/// Sound for a while, since its energy has to grow from rounding: the step is above the limit by a hundredth.
+Json slowly_unstable() {
+  Json json = moving_box();
+  json["step"] = 1.01 * Simulation(parse(json)).step_limit().stable;
+  json["duration"] = 1e4 * json["step"].get<double>();
+  return json;
+}
+
+TEST(LastGoodState, IsTheLastFrame) {
+  const SceneFile scene = parse(slowly_unstable());
+  Simulation simulation(scene);
+  Keeper keeper;
+  const RunResult result = run_scene(simulation, scene.output, keeper);
+  ASSERT_TRUE(result.divergence);
+  const auto kept = static_cast<double>(result.divergence->step - result.divergence->taken_back) * scene.step;
+  ASSERT_GT(kept, 0.0);
+  ASSERT_EQ(keeper.frames.size(), 2u);
+  EXPECT_EQ(keeper.frames[1].time, kept);
+  EXPECT_EQ(keeper.frames[1].mesh.points, simulation.body().vertices().position);
+  EXPECT_EQ(keeper.times_of_diagnostics, (std::vector<double>{0.0, kept}));
+  EXPECT_EQ(result.last.time, kept);
+  EXPECT_EQ(simulation.time(), kept);
+}
+
+TEST(LastGoodState, IsNotHandedOutAfterALaterOne) {
+  Json json = slowly_unstable();
+  json["output"] = {{"frames_every_steps", 1}, {"diagnostics_every_steps", 1}};
+  const SceneFile scene = parse(json);
+  Simulation simulation(scene);
+  Keeper keeper;
+  ASSERT_TRUE(run_scene(simulation, scene.output, keeper).divergence);
+  for (std::size_t k = 1; k < keeper.frames.size(); ++k)
+    ASSERT_GT(keeper.frames[k].time, keeper.frames[k - 1].time) << k;
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,59 @@
+// What a run is warned of before its first step, and what is no warning.
+
+#include "core/scene/run/scene_warnings.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/scene/run/free_shapes.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+
+// 3 n coordinates less 6 rigid motions less the springs of the edges, which are independent: 24 - 6 - 12, 18 - 6 - 9,
+// 15 - 6 - 8, 12 - 6 - 6.
+TEST(FreeShapes, AreWhatEdgesAloneDoNotHold) {
+  EXPECT_EQ(free_shapes(CellKind::hexahedron), 6u);
+  EXPECT_EQ(free_shapes(CellKind::prism), 3u);
+  EXPECT_EQ(free_shapes(CellKind::pyramid), 1u);
+  EXPECT_EQ(free_shapes(CellKind::tetrahedron), 0u);
+}
+
+TEST(SceneWarnings, NameTheCellsThatCanShearWithoutAForce) {
+  Json json = moving_box();
+  EXPECT_TRUE(warnings_of(parse(json), Simulation(parse(json))).empty());
+  json["body"] = Json::parse(R"({"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.125, "kind": "hexahedra"}}})");
+  const auto said = warnings_of(parse(json), Simulation(parse(json)));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("(8 of kind hexahedron in 6 ways)"), std::string::npos) << said[0];
+}
+
+TEST(SceneWarnings, OfAStepSayWhichKeyToChangeToWhat) {
+  Json json = moving_box();
+  json["material"]["stiffness"] = 1e6;
+  const Simulation simulation(parse(json));
+  const auto said = warnings_of(parse(json), simulation);
+  ASSERT_EQ(said.size(), 1u);
+  const std::string advice = fmt::format("set /step to at most {:.3g}", simulation.step_warning()->stable);
+  EXPECT_NE(said[0].find(advice), std::string::npos) << said[0];
+}
+
+TEST(SceneWarnings, SayHowLongAStepIsBesideWhatIsStable) {
+  Json json = moving_box();
+  const double longest = Simulation(parse(json)).step_limit().stable;
+  json["step"] = longest / 4;
+  EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)), "0.25 of the longest stable step");
+}
+
+// 1 / (2 pi 0.001 s) = 159.2 Hz
+TEST(SceneWarnings, SayWhatAnImplicitStepDoesNotResolve) {
+  Json json = moving_box();
+  json["integrator"] = "backward-euler";
+  EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)), "motions faster than 159 Hz are not resolved");
+}
+
+}  // namespace
+}  // namespace dartboard

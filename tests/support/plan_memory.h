@@ -1,0 +1,86 @@
+#pragma once
+// What each part of a plan must take, reckoned by hand from the mesh: the oracle of SimulatedBody::memory.
+
+#include <algorithm>
+
+#include "core/plain/bytes.h"
+#include "core/scene/plan/scene_plan.h"
+#include "core/scene/run/driven_vertices.h"
+#include "core/time/watch/divergence.h"
+#include "tests/support/integrator_memory.h"
+
+namespace dartboard::memory {
+
+/// Of an event: what it looks up at the start.
+inline std::size_t predicted_event_bytes(const SceneEvent& e, const ScenePlan& plan) {
+  const auto of_cells = [](const CellSelection& cells) -> std::size_t {
+    const auto* by_id = std::get_if<IdSelection>(&cells);
+    if (by_id == nullptr) return 0;
+    auto once = by_id->ids;
+    std::ranges::sort(once);
+    once.erase(std::ranges::unique(once).begin(), once.end());
+    return bytes_of(by_id->ids, once);
+  };
+  if (const auto* remove = std::get_if<Remove>(&e.action)) return of_cells(remove->cells);
+  if (const auto* refine = std::get_if<Refine>(&e.action)) return of_cells(refine->cells);
+  if (const auto* dissociate = std::get_if<Dissociate>(&e.action)) {
+    const auto* faces = std::get_if<0>(&dissociate->faces);
+    return faces == nullptr ? 0 : faces->size() * sizeof(DartId);
+  }
+  if (const auto* stress = std::get_if<TearWhereStressed>(&e.action)) {
+    const std::size_t places =
+        plan.needs.body.storage == Storage::tetrahedra ? 4 * plan.counts.cells : plan.counts.darts;
+    return plan.counts.vertices * sizeof(Eigen::Matrix3d) + (stress->seam ? (places + 7) / 8 : 0);
+  }
+  return 0;
+}
+
+inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& problem, const ScenePlan& plan,
+                                   const PlanItem& item) {
+  constexpr std::size_t number = sizeof(std::uint32_t), real = sizeof(double);
+  const MeshTally& n = plan.counts;
+  const Storage storage = plan.needs.body.storage;
+  const bool tetrahedra = storage == Storage::tetrahedra;
+  const std::size_t dimension = storage == Storage::surface ? 2 : 3;
+  SystemArrays arrays(problem, n);
+  switch (item.part) {
+    case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
+    // three are in use at once while a body is built: those of a coverage, of a cell met by it, of the cells around
+    // that
+    case Part::marks: return 3 * n.darts * number;
+    // places for the numbers of vertices, edges, faces and cells: of a tetrahedron 4, 6, 4 and 1
+    case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
+    case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;
+    case Part::cells: return n.cells * (2 * real + 1 + number);
+    case Part::components: return n.cells * number + n.components * (2 * number + sizeof(std::size_t));
+    case Part::vertices: return n.vertices * (2 * real + 2 * vector + number);
+    case Part::viscosity: return n.vertices * real;
+    case Part::fixed: return n.vertices;
+    case Part::driven: {
+      DrivenVertices vertices(scene, problem.mesh.points, scene.step);
+      vertices.apply(0, n.point, arrays.v);
+      DivergenceDetector detector;
+      detector.start(arrays.system(), arrays.motion(), scene.step);
+      return vertices.bytes() + detector.driven_bytes();
+    }
+    case Part::springs: return n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds));
+    case Part::damping: return n.edges * sizeof(Spring::damping);
+    case Part::integrator: return predicted_integrator_bytes(scene.integrator, counts_of(arrays.system()));
+    case Part::solver: return predicted_solver_bytes(scene.integrator, arrays.system());
+    case Part::detector: return n.vertices * 2 * vector;
+    case Part::event: return predicted_event_bytes(scene.events.at(item.event), plan);
+    case Part::output_cells:
+      if (scene.is_chain()) return n.edges * real + 2 * number;
+      return n.cells * (sizeof(CellKind) + number + real + number) + number + problem.mesh.nodes.size() * number +
+             (n.boundary_facets + 1 + n.boundary_corners) * number;
+    case Part::probes: return scene.probes.size() * number;
+    case Part::gravity:
+    case Part::speed_check:
+    case Part::step_check:
+    case Part::frames:
+    case Part::diagnostics: return 0;
+  }
+  return 0;
+}
+
+}  // namespace dartboard::memory
