@@ -10,6 +10,7 @@
 #include "core/meshes/formats/mesh_builder.h"
 #include "core/meshes/formats/mesh_check.h"
 #include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/gmsh/gmsh.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/text_scanner.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/meshes/formats/gmsh_elements.h"
+#include "core/meshes/gmsh/gmsh_elements.h"
 #include "tests/support/mesh_samples.h"
 
 namespace dartboard {

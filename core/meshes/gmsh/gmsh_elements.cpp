@@ -1,4 +1,4 @@
-#include "core/meshes/formats/gmsh_elements.h"
+#include "core/meshes/gmsh/gmsh_elements.h"
 
 namespace dartboard {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/meshes/bytes/file_numbers.h"
-#include "core/meshes/formats/gmsh_elements.h"
 #include "core/meshes/formats/mesh_builder.h"
+#include "core/meshes/gmsh/gmsh_elements.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/meshes/formats/gmsh_reader.h"
+#include "core/meshes/gmsh/gmsh_reader.h"
 
 namespace dartboard {
 namespace {

@@ -1,7 +1,8 @@
+#include "core/meshes/gmsh/gmsh.h"
+
 #include <fmt/format.h>
 
-#include "core/meshes/formats/gmsh_reader.h"
-#include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/gmsh/gmsh_reader.h"
 #include "core/plain/counted.h"
 
 namespace dartboard {

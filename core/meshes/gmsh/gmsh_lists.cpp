@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/meshes/formats/gmsh_reader.h"
+#include "core/meshes/gmsh/gmsh_reader.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/meshes/formats/gmsh_reader.h"
+#include "core/meshes/gmsh/gmsh_reader.h"
 
 #include <fmt/format.h>
 
