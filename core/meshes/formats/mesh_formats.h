@@ -1,5 +1,6 @@
 #pragma once
-// One reader per format of volumes; Gmsh has a folder of its own. Each hands what it finds to a builder and returns the exact name of the format.
+// One reader per format of volumes; Gmsh has a folder of its own. Each hands what it finds to a builder and returns the
+// exact name of the format.
 
 #include <string>
 #include <string_view>
