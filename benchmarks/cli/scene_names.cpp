@@ -57,7 +57,9 @@ fs::path scene_file(const std::string& given, std::span<const std::string> other
 SceneFile read_named_scene(const std::string& given) {
   SceneFile scene = read_scene(scene_file(given));
   if (scene.body.loaded)
-    for (const std::string& notice : scene.body.loaded->notices) tell(stderr, "notice: /body/mesh: {}\n", notice);
+    for (const std::string& notice : scene.body.loaded->notices)
+      if (!notice.starts_with("skipped "))  // of a lower dimension, and no part of a body: `mesh info` tells them
+        tell(stderr, "notice: /body/mesh: {}\n", notice);
   return scene;
 }
 

@@ -74,9 +74,12 @@ class Scout {
       const Dart start = starting_face(body_, *vertex, tear->direction);
       return start == no_dart ? std::vector<Dart>{} : fan(body_.map, start);
     }
-    const auto& faces = std::get<Dissociate>(event.action).faces;
-    if (const auto* plane = std::get_if<PlaneSelection>(&faces))
-      return faces_on_plane(body_, plane->point, plane->normal);
+    const auto& [faces, within] = std::get<Dissociate>(event.action);
+    if (const auto* plane = std::get_if<PlaneSelection>(&faces)) {
+      std::vector<Dart> seam = faces_on_plane(body_, plane->point, plane->normal);
+      std::erase_if(seam, [&](Dart d) { return within && !contains(*within, facet_centre(body_, d)); });
+      return seam;
+    }
     std::vector<Dart> found;
     for (const auto& points : std::get<0>(faces)) {
       if (points.size() != 3)

@@ -10,6 +10,7 @@
 #include "core/plain/counted.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/file/scene_pages.h"
+#include "core/scene/run/body_in_words.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/scene/run/simulation.h"
 
@@ -32,6 +33,7 @@ void check_scene(const std::string& given) {
   tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(scene.file),
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
+  tell("{}\n", in_words(simulation.body()));
   if (!scene.accuracy)
     for (const std::string& warning : warnings_of(scene, simulation)) tell(stderr, "warning: {}\n", warning);
 }

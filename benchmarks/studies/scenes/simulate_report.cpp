@@ -95,7 +95,6 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
   nlohmann::ordered_json json{{"scene", r.scene.name},
                               {"map", r.simulation.body().map_name()},
                               {"integrator", r.scene.integrator},
-                              {"holds", r.holds()},
                               {"steps", r.simulation.steps_done()},
                               {"first", to_json(r.result.first)},
                               {"last", to_json(r.result.last)},
@@ -104,6 +103,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                               {"cpu_s", r.cpu_s},
                               {"mass_drift", r.mass_drift()},
                               {"jumps", to_json(r.simulation.jumps())}};
+  if (!r.expected.empty() || r.result.divergence) json["holds"] = r.holds();
   if (const auto& d = r.result.divergence)
     json["divergence"] = {{"step", d->step},
                           {"time", d->time},

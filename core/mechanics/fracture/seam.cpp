@@ -36,9 +36,9 @@ Numbers vertices_of(const Body<Map>& body, Cell<i> cell) {
 }
 
 /// The mean of the vertices' positions [m].
-template <class Map>
-Eigen::Vector3d middle(const Body<Map>& body, Dart cell) {
-  const Numbers nodes = vertices_of(body, Cell<Map::dimension>{cell});
+template <int i, class Map>
+Eigen::Vector3d middle(const Body<Map>& body, Dart d) {
+  const Numbers nodes = vertices_of(body, Cell<i>{d});
   Eigen::Vector3d sum(0, 0, 0);
   for (const std::uint32_t k : nodes) sum += body.vertices.position[k];
   return sum / static_cast<double>(nodes.size());
@@ -54,7 +54,7 @@ std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& 
                     point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()));
   std::vector<bool> in_front(body.cell_dart.size());
   for (std::size_t c = 0; c < in_front.size(); ++c)
-    in_front[c] = (middle(body, body.cell_dart[c]) - point).dot(normal) >= 0.0;
+    in_front[c] = (middle<n>(body, body.cell_dart[c]) - point).dot(normal) >= 0.0;
   std::vector<Dart> seam;
   for_each_interior_facet(body.map, [&](Dart d) {
     const Dart opposite = body.map.template alpha<n>(d);
@@ -108,6 +108,11 @@ std::vector<Dart> facets_of_points(const Body<Map>& body, std::span<const std::a
 }  // namespace
 
 template <class Map>
+Eigen::Vector3d facet_centre(const Body<Map>& body, Dart d) {
+  return middle<Map::dimension - 1>(body, d);
+}
+
+template <class Map>
 FaceSet::FaceSet(const Map& map, std::span<const Dart> faces) : in_(map.template slot_count<2>(), false) {
   for (const Dart face : faces)
     for_each_dart_of(map, Face{face}, [this](Dart d) { in_[Map::template slot<2>(d)] = true; });
@@ -137,5 +142,6 @@ std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart
 
 DARTBOARD_SEAMS(, Map3)
 DARTBOARD_SEAMS(, TetMap)
+template Eigen::Vector3d facet_centre(const Body<Map2>&, Dart);
 
 }  // namespace dartboard

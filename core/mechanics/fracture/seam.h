@@ -40,6 +40,10 @@ template <class Map>
 std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);
 
+/// The mean of the positions of a face's vertices [m]; in a surface of an edge's two.
+template <class Map>
+Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>& body, Dart d);
+
 /// The interior faces that have three given mesh points among their vertices: one dart of each face, its lowest,
 /// ascending. Three points tell a quadrilateral too. Where several faces have the same three points, all of them.
 ///
@@ -57,13 +61,15 @@ std::vector<Dart> edges_on_plane(const MassSpringBody<Map2, Held::by_every_dart>
 std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart>& body,
                                   std::span<const std::array<std::uint32_t, 2>> pairs);
 
-#define DARTBOARD_SEAMS(prefix, Map)                                                                 \
-  prefix template FaceSet::FaceSet(const Map&, std::span<const Dart>);                               \
-  prefix template std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>&,  \
-                                                   const Eigen::Vector3d&, const Eigen::Vector3d&);  \
-  prefix template std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>&, \
+#define DARTBOARD_SEAMS(prefix, Map)                                                                   \
+  prefix template FaceSet::FaceSet(const Map&, std::span<const Dart>);                                 \
+  prefix template Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>&, Dart); \
+  prefix template std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>&,    \
+                                                   const Eigen::Vector3d&, const Eigen::Vector3d&);    \
+  prefix template std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>&,   \
                                                     std::span<const std::array<std::uint32_t, 3>>);
 DARTBOARD_SEAMS(extern, Map3)
 DARTBOARD_SEAMS(extern, TetMap)
+extern template Eigen::Vector3d facet_centre(const MassSpringBody<Map2, Held::by_every_dart>&, Dart);
 
 }  // namespace dartboard

@@ -93,15 +93,18 @@ std::vector<Dart> seam_on(const BodyOnMap<Map>& on, const PlaneSelection& plane)
 template <class Map>
 class ReadyPlane : public ReadyEvent {
  public:
-  ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane) : on_(on), plane_(plane) {}
+  ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane, const std::optional<CutRegion>& within)
+      : on_(on), plane_(plane), within_(within) {}
   std::size_t apply() override {
-    const std::vector<Dart> seam = seam_on(on_, plane_);
+    std::vector<Dart> seam = seam_on(on_, plane_);
+    if (within_) std::erase_if(seam, [this](Dart d) { return !contains(*within_, facet_centre(on_.body(), d)); });
     return follow_dissociation(on_, dissociate_all(on_.body().map, seam));
   }
 
  private:
   BodyOnMap<Map>& on_;
   PlaneSelection plane_;
+  std::optional<CutRegion> within_;
 };
 
 // ---- remove
@@ -337,7 +340,7 @@ template <class Map>
 std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& on, const SceneEvent& event) {
   if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
     if (const auto* plane = std::get_if<PlaneSelection>(&dissociate->faces))
-      return std::make_unique<ReadyPlane<Map>>(on, *plane);
+      return std::make_unique<ReadyPlane<Map>>(on, *plane, dissociate->within);
     return std::make_unique<ReadyFaces<Map>>(on, std::get<0>(dissociate->faces), event.path + "/dissociate/points");
   }
   if (const auto* remove = std::get_if<Remove>(&event.action))

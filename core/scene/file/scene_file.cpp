@@ -151,8 +151,10 @@ class Reader {
 
   template <class Selection>
   std::optional<Selection> region(const Json& json, const std::string& path) const {
-    if (json.contains("ids")) return IdSelection{json.at("ids").get<std::vector<std::uint32_t>>()};
-    if (json.contains("plane")) return plane(json.at("plane"), path + "/plane");
+    if constexpr (std::is_constructible_v<Selection, IdSelection>) {
+      if (json.contains("ids")) return IdSelection{json.at("ids").get<std::vector<std::uint32_t>>()};
+      if (json.contains("plane")) return plane(json.at("plane"), path + "/plane");
+    }
     if (json.contains("sphere"))
       return SphereSelection{point(json.at("sphere").at("centre")), json.at("sphere").at("radius")};
     if (!json.contains("box")) return {};
@@ -226,8 +228,11 @@ class Reader {
     if (json.contains("remove")) return Remove{cells(json.at("remove"), path + "/remove")};
     if (json.contains("dissociate")) {
       const Json& faces = json.at("dissociate");
-      if (faces.contains("plane")) return Dissociate{plane(faces.at("plane"), path + "/dissociate/plane")};
-      return Dissociate{faces.at("points").get<std::vector<std::vector<std::uint32_t>>>()};
+      if (!faces.contains("plane"))
+        return Dissociate{faces.at("points").get<std::vector<std::vector<std::uint32_t>>>()};
+      Dissociate cut{plane(faces.at("plane"), path + "/dissociate/plane")};
+      if (faces.contains("within")) cut.within = region<CutRegion>(faces.at("within"), path + "/dissociate/within");
+      return cut;
     }
     if (json.contains("tear")) {
       const Json& tear = json.at("tear");

@@ -75,6 +75,7 @@ struct SceneDrive {
 
 struct Dissociate {
   std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection> faces;  // by the points around each; or a seam
+  std::optional<CutRegion> within{};  // of a seam, the faces with their centre there
 };
 struct Remove {
   CellSelection cells;

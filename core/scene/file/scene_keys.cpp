@@ -62,6 +62,8 @@ std::vector<SceneKey> make_keys() {
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},
       {.shape = scene, .name = "expect", .type = object, .of = expect, .standard = "{}",
        .help = "what must be true at the end, so that the scene is its own test"},
+      {.shape = scene, .name = "$schema", .type = text, .standard = "\"\"",
+       .help = "where an editor finds the schema of scenes ('dartboard scene --schema' prints it); nothing reads it here"},
 
       // ---- the body
       {.shape = body, .name = "mesh", .type = text, .help = "mesh file, relative to the scene file"},
@@ -186,7 +188,12 @@ std::vector<SceneKey> make_keys() {
        .help = "faces, each by three of its points in the mesh, counted from 0 in the order of the file; in a surface "
                "edges, each by its two ends"},
       {.shape = dissociate, .name = "plane", .type = object, .of = plane,
-       .help = "the faces between cells whose centroids are on different sides of a plane at that time"},
+       .help = "the faces between cells whose centroids are on different sides of a plane at that time; a cut follows faces "
+               "of the mesh, so refine along it first for a smoother one"},
+      {.shape = dissociate, .name = "within", .type = object, .of = within,
+       .help = "only those of them whose centre is in this region at that time, as a blade cuts that ends inside the body"},
+      {.shape = within, .name = "box", .type = object, .of = box, .help = "a box"},
+      {.shape = within, .name = "sphere", .type = object, .of = sphere, .help = "a sphere"},
       {.shape = tear, .name = "vertex", .type = integer, .range = number,
        .help = "at this point of the mesh, counted from 0 in the order of the file"},
       {.shape = tear, .name = "near", .type = point, .unit = "m", .help = "at the vertex nearest to this place"},
@@ -294,6 +301,7 @@ std::span<const ShapeHelp> scene_shapes() {
        "What happens, and when. An event is applied between two steps: at time t, at the first multiple n * step that "
        "is not before t. A t within 4 units of rounding of a multiple counts as that multiple."},
       {Shape::dissociate, "dissociate", "Which faces come apart."},
+      {Shape::within, "within", "How far a cut reaches."},
       {Shape::tear, "tear", "Which fan is torn."},
       {Shape::stress, "stress", "Where stress tears."},
       {Shape::refine, "refine",
@@ -329,6 +337,8 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine"}},
       {excludes, Shape::event, {"at", "every", "from", "until"}},
       {exactly_one, Shape::dissociate, {"points", "plane"}},
+      {excludes, Shape::dissociate, {"points", "within"}},
+      {exactly_one, Shape::within, {"box", "sphere"}},
       {exactly_one, Shape::tear, {"vertex", "near"}},
       {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
       {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},

@@ -30,6 +30,7 @@ enum class Shape {
   random,
   event,
   dissociate,
+  within,
   tear,
   stress,
   refine,

@@ -20,6 +20,10 @@ bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
   return (x - sphere.centre).norm() <= sphere.radius;
 }
 
+bool contains(const CutRegion& region, const Eigen::Vector3d& x) {
+  return std::visit([&x](const auto& of_a_kind) { return contains(of_a_kind, x); }, region);
+}
+
 namespace {
 
 void choose(const VertexSelection& selection, std::span<const Eigen::Vector3d> points, std::string_view path,
@@ -55,8 +59,19 @@ std::vector<std::uint32_t> numbers_of(const std::vector<bool>& chosen) {
 
 }  // namespace
 
-void require_some(std::span<const std::uint32_t> points, std::string_view path) {
+void require_some(std::span<const std::uint32_t> selected, std::string_view path,
+                  std::span<const Eigen::Vector3d> points) {
+  if (!selected.empty()) return;
   if (points.empty()) throw InputError(fmt::format("{}: selects no vertex; expected at least one", path));
+  Eigen::Array3d low = points[0].array(), high = low;
+  for (const Eigen::Vector3d& p : points) {
+    low = low.min(p.array());
+    high = high.max(p.array());
+  }
+  throw InputError(
+      fmt::format("{}: selects no vertex; expected at least one of the body, which is from [{:.4g}, {:.4g}, {:.4g}] to "
+                  "[{:.4g}, {:.4g}, {:.4g}]",
+                  path, low[0], low[1], low[2], high[0], high[1], high[2]));
 }
 
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
@@ -72,7 +87,7 @@ std::vector<std::uint32_t> select_points(std::span<const VertexSelection> select
   for (std::size_t s = 0; s < selections.size(); ++s) {
     const std::string at = fmt::format("{}/{}", path, s);
     const auto selected = select_points(selections[s], points, at);
-    require_some(selected, at);
+    require_some(selected, at, points);
     for (const std::uint32_t p : selected) chosen[p] = true;
   }
   return numbers_of(chosen);

@@ -33,12 +33,15 @@ struct RandomSelection {
   std::uint64_t seed;
 };
 
+/// Where a cut reaches.
+using CutRegion = std::variant<BoxSelection, SphereSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection>;
 using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, RandomSelection>;
 
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
+bool contains(const CutRegion& region, const Eigen::Vector3d& x);
 
 /// The numbers of the points in the selection at `path`, ascending, each once.
 ///
@@ -51,7 +54,8 @@ std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
                                          std::span<const Eigen::Vector3d> points, std::string_view path = "/fixed");
 
-/// throws  InputError "PATH: ..." if there are none
-void require_some(std::span<const std::uint32_t> points, std::string_view path);
+/// throws  InputError "PATH: ..." if none of the points is selected; it says where they are
+void require_some(std::span<const std::uint32_t> selected, std::string_view path,
+                  std::span<const Eigen::Vector3d> points);
 
 }  // namespace dartboard

@@ -32,10 +32,14 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
       selection);
 }
 
-double facets_across(const PlaneSelection& plane, const Mesh& mesh, const MeshTally& counts) {
+// Between the centroids of the two cells of a face is about where the face is.
+double facets_across(const PlaneSelection& plane, const std::optional<CutRegion>& within, const Mesh& mesh,
+                     const MeshTally& counts) {
   double count = 0.0;
-  for (const auto& [a, b] : counts.cells_of_facet)
-    count += contains(plane, centroid(mesh, a)) != contains(plane, centroid(mesh, b));
+  for (const auto& [a, b] : counts.cells_of_facet) {
+    const Eigen::Vector3d from = centroid(mesh, a), to = centroid(mesh, b);
+    count += contains(plane, from) != contains(plane, to) && (!within || contains(*within, (from + to) / 2.0));
+  }
   return count;
 }
 
@@ -82,8 +86,8 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
       of_cells(refine->cells, static_cast<double>(counts.cells) * times);
     } else if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
       const auto* plane = std::get_if<PlaneSelection>(&dissociate->faces);
-      f.operations =
-          plane ? facets_across(*plane, mesh, counts) : static_cast<double>(std::get<0>(dissociate->faces).size());
+      f.operations = plane ? facets_across(*plane, dissociate->within, mesh, counts)
+                           : static_cast<double>(std::get<0>(dissociate->faces).size());
       f.with_operations = f.operations > 0.0 ? std::min(times, 1.0) : 0.0;
     } else if (std::holds_alternative<Tear>(event.action)) {
       f.operations = f.with_operations = times;

@@ -97,8 +97,6 @@ class Planner {
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
     if (!plan_.needs.refinement)
       leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
-    leave_out("forces by vertex, which walks over the map need", "/integrator: works on arrays");
-    leave_out("cell arrays, neighbour lists, matrix pattern and boundary as views", "/events: no event reads one");
   }
 
   void columns() {
@@ -199,7 +197,6 @@ class Planner {
     add(Part::diagnostics, "energies, momenta, boundary, largest stress",
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
-    leave_out("normals and contact", "no key asks for them");
   }
 
   const SceneFile& scene_;

@@ -12,7 +12,7 @@ DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Ve
   for (const SceneDrive& from : scene.driven) {
     Drive drive;
     drive.points = select_points(from.vertices, rest, from.path);
-    require_some(drive.points, from.path);
+    require_some(drive.points, from.path, rest);
     for (const std::uint32_t p : drive.points) drive.velocity.push_back(from.velocity.at(rest[p]));
     drive.first = step_of_time(from.from, step);
     drive.last = from.until ? step_of_time(*from.until, step) : EventClock::never;

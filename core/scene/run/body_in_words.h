@@ -1,0 +1,17 @@
+#pragma once
+// A body in figures that a person can check against what was meant.
+
+#include <string>
+
+#include "core/scene/body/simulated_body.h"
+
+namespace dartboard {
+
+/// "6 m along x, 1 m along y, 1 m along z; 36.6 tonnes; edges of 0.5 to 0.87 m; springs of 64 to 384 N/m", as it is
+/// now.
+std::string in_words(const SimulatedBody& body);
+
+/// "36.6 tonnes", "2.5 kg", "40 g"
+std::string mass_in_words(double kg);
+
+}  // namespace dartboard
