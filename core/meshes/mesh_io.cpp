@@ -10,24 +10,23 @@
 #include "core/meshes/formats/mesh_builder.h"
 #include "core/meshes/formats/mesh_check.h"
 #include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/gmsh/gmsh.h"
+#include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;
 namespace {
 
-struct Extension {
-  std::string_view text;
-  MeshFormat format;
-};
-
-constexpr Extension extensions[] = {
-    {".mesh", MeshFormat::medit}, {".node", MeshFormat::tetgen},    {".ele", MeshFormat::tetgen},
-    {".msh", MeshFormat::gmsh},   {".vtk", MeshFormat::vtk_legacy}, {".vtu", MeshFormat::vtu},
-};
-
-constexpr std::string_view known_extensions =
-    ".mesh (Medit), .node or .ele (TetGen), .msh (Gmsh), .vtk (legacy VTK) or .vtu (VTK XML)";
+/// ".mesh (Medit), .node or .ele (TetGen), ... or .off (OFF)".
+std::string known_extensions() {
+  std::string known;
+  for (const MeshFormatInfo& info : mesh_formats()) {
+    if (!known.empty()) known += info.format == mesh_formats().back().format ? " or " : ", ";
+    known += fmt::format("{} ({})", fmt::join(info.extensions, " or "), info.name);
+  }
+  return known;
+}
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -37,8 +36,8 @@ std::string lower(std::string text) {
 
 std::optional<MeshFormat> format_of(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
-  for (const auto& known : extensions)
-    if (extension == known.text) return known.format;
+  for (const MeshFormatInfo& info : mesh_formats())
+    if (std::ranges::find(info.extensions, extension) != info.extensions.end()) return info.format;
   return std::nullopt;
 }
 
@@ -98,13 +97,13 @@ LoadedMesh read_mesh(const fs::path& path) {
   const bool is_file = is_there(path) && !is_folder(path);
   if (is_file && !format)
     fail_at(path.string(), 0, fmt::format("the extension {} is unknown", in_quotes(path.extension().string())),
-            known_extensions);
+            known_extensions());
   if (is_file && format == MeshFormat::tetgen) {
     const fs::path stem = fs::path(path).replace_extension();
     return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"))
                                                        : read_tetgen_files(with(stem, ".node"), path);
   }
-  const std::string text = read_file(path, fmt::format("a mesh file: {}", known_extensions));
+  const std::string text = read_file(path, fmt::format("a mesh file: {}", known_extensions()));
   return parse_mesh(text, *format, path.string());
 }
 
@@ -117,6 +116,10 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
     case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
     case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
     case MeshFormat::vtu: exact = read_vtu(text, builder); break;
+    case MeshFormat::stl: exact = read_stl(text, builder); break;
+    case MeshFormat::obj: exact = read_obj(text, builder); break;
+    case MeshFormat::ply: exact = read_ply(text, builder); break;
+    case MeshFormat::off: exact = read_off(text, builder); break;
     case MeshFormat::tetgen: {
       TextScanner both(text, name, '#');
       exact = read_tetgen(both, both, builder);

@@ -1,7 +1,8 @@
 #pragma once
-// Meshes from and to files: Medit, TetGen, Gmsh, legacy VTK and VTU. Every error names file, line and expectation.
+// Meshes from and to files. Every error names file, line (or byte, or array) and expectation.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,10 +10,21 @@
 
 namespace dartboard {
 
-enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu };
+enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu, stl, obj, ply, off };
 
-/// Read and check the mesh in a file whose format is told by its extension: .mesh, .node or .ele, .msh, .vtk, .vtu.
-/// For TetGen either file, or the stem of both, will do.
+/// A format as `dartboard mesh --formats` lists it, and as the reader finds it.
+struct MeshFormatInfo {
+  MeshFormat format;
+  std::string_view name;
+  std::span<const std::string_view> extensions;  // in small letters, with their points
+  std::string_view read, written;                // the variants; `written` is empty for none
+};
+
+/// All formats that are read.
+std::span<const MeshFormatInfo> mesh_formats();
+
+/// Read and check the mesh in a file whose format is told by its extension (mesh_formats). For TetGen either file, or
+/// the stem of both, will do.
 ///
 /// The cells are the volumes of the file, or its polygons where it has no volumes; all that has a lower dimension is
 /// skipped, points of no cell are dropped, and inverted volumes are reordered, each with a notice. Cells are numbered

@@ -49,6 +49,8 @@ FILE_NAMES = [
     b"-rf {x}_{y} @z ](a) <script>",
 ]
 
+TETRAHEDRON_OF_GMSH = (b'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 "%s"\n$EndPhysicalNames\n$Nodes\n4\n'
+                       b'1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n')
 TETRAHEDRON = """MeshVersionFormatted 1
 Dimension 3
 Vertices
@@ -198,8 +200,20 @@ def file_names(run):
         run("explain", scene)
         run("mesh", "info", mesh)
         json.loads(run("mesh", "info", mesh, "--json"))
+    region_names(run)
     run("validate", "topology", mesh, "--operations", "20")
     run("validate", "conservation", mesh, "--operations", "20", statuses=(0, 1, 2, 3))
+
+
+def region_names(run):
+    """Names of regions come from a file, too."""
+    mesh = os.path.join(run.folder, "regions.msh")
+    for name in NAMES + [ALL_IN_ONE]:
+        name = name.replace("\0", "").replace("\n", " ").replace("\r", " ")
+        with open(mesh, "wb") as stream:
+            stream.write(TETRAHEDRON_OF_GMSH % name.encode("utf-8", "surrogateescape"))
+        run("mesh", "info", mesh)
+        json.loads(run("mesh", "info", mesh, "--json"))
 
 
 def errors(run):

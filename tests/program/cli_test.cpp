@@ -105,6 +105,42 @@ TEST(MeshInfo, OfAFaceSharedByThreeTetrahedraIsRefused) {
   EXPECT_NE(answer.out.find("share"), std::string::npos) << answer.out;
 }
 
+TEST(MeshInfo, ListsRegionsWithTheirNamesAndHowManyCellsTheyHave) {
+  const TemporaryFile file("regions.msh",
+                           "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 5 \"soft\"\n$EndPhysicalNames\n"
+                           "$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n"
+                           "$Elements\n2\n1 4 2 5 1 1 2 3 4\n2 4 2 6 1 2 3 4 5\n$EndElements\n");
+  const auto json = nlohmann::json::parse(run("mesh info --json " + file.path.string(), "").out);
+  EXPECT_EQ(json.at("regions").at(0), nlohmann::json::parse(R"({"name": "physical group", "distinct": 2, "values":
+            [{"value": 5, "cells": 1, "name": "soft"}, {"value": 6, "cells": 1}]})"));
+  const std::string text = run("mesh info " + file.path.string()).out;
+  EXPECT_NE(text.find("regions         physical group\n                5 'soft': 1 cell\n                6: 1 cell\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(Mesh, AloneNamesWhatItNeeds) {
+  const Answer answer = run("mesh");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_NE(answer.out.find("mesh needs a subcommand, info FILE, or --formats"), std::string::npos) << answer.out;
+}
+
+TEST(MeshFormats, AreThoseThatTheReaderNames) {
+  const Answer answer = run("mesh --formats --json", "");
+  ASSERT_EQ(answer.status, 0);
+  const TemporaryFile file("a.unknown", "nothing");
+  const std::string known = run("mesh info " + file.path.string()).out;
+  std::size_t extensions = 0;
+  for (const auto& format : nlohmann::json::parse(answer.out))
+    for (const std::string extension : format.at("extensions")) {
+      ++extensions;
+      EXPECT_NE(known.find(extension + " "), std::string::npos) << extension << " is not in " << known;
+      EXPECT_NE(run("mesh --formats").out.find(extension), std::string::npos) << extension;
+    }
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(extensions),
+            std::count(known.begin(), known.end(), '(') + 1);  // TetGen has two
+}
+
 TEST(List, NamesTheWalksOfThePaper) {
   const auto json = nlohmann::json::parse(run("list contenders --json", "").out);
   std::vector<std::string> ids;

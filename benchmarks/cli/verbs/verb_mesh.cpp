@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,8 +9,10 @@
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/mesh_io.h"
+#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
+#include "core/topology/storage/hash.h"
 #include "core/topology/summary.h"
 
 namespace dartboard {
@@ -16,6 +20,35 @@ namespace {
 
 MapSummary summary_of(const Mesh& mesh) {
   return mesh.dimension() == 2 ? summarize(build_map<Map2>(mesh).map) : summarize(build_map<Map3>(mesh).map);
+}
+
+constexpr std::size_t most_values = 50;  // listed of one column: numbers of cells would be as many as these
+
+/// Equal for meshes of the same points, kinds and nodes, to the last bit.
+std::string hash_of(const Mesh& mesh) {
+  Hash hash;
+  hash.add_bytes(mesh.points.data(), mesh.points.size() * sizeof(mesh.points[0]));
+  hash.add(mesh.kinds);
+  hash.add(mesh.nodes);
+  return fmt::format("{:016x}", hash.value());
+}
+
+/// Each column of numbers of cells: the values that occur, what they are called, and how many cells have them.
+nlohmann::ordered_json regions_of(const LoadedMesh& loaded) {
+  auto regions = nlohmann::ordered_json::array();
+  for (const CellTags& tags : loaded.tags) {
+    std::map<std::int32_t, std::size_t> cells;
+    for (const std::int32_t value : tags.values) ++cells[value];
+    auto values = nlohmann::ordered_json::array();
+    for (const auto& [value, count] : cells) {
+      if (values.size() == most_values) break;
+      nlohmann::ordered_json row{{"value", value}, {"cells", count}};
+      if (const auto name = tags.names.find(value); name != tags.names.end()) row["name"] = name->second;
+      values.push_back(std::move(row));
+    }
+    regions.push_back({{"name", tags.name}, {"distinct", cells.size()}, {"values", std::move(values)}});
+  }
+  return regions;
 }
 
 nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded, const MapSummary& s) {
@@ -29,8 +62,52 @@ nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded
   json["orientable"] = s.orientable;
   json["valid"] = s.violation.empty();
   if (!s.violation.empty()) json["violation"] = s.violation;
+  json["hash"] = hash_of(loaded.mesh);
+  json["regions"] = regions_of(loaded);
   json["notices"] = loaded.notices;
   return json;
+}
+
+void tell_regions(const nlohmann::ordered_json& regions) {
+  for (const auto& column : regions) {
+    tell("regions         {}\n", terminal_text(column["name"].get<std::string>()));
+    for (const auto& row : column["values"]) {
+      const std::string name = row.contains("name") ? " '" + row["name"].get<std::string>() + "'" : "";
+      tell("{:15} {}{}: {}\n", "", row["value"].get<std::int32_t>(), terminal_text(name),
+           counted(row["cells"].get<std::size_t>(), "cell"));
+    }
+    if (const auto left = column["distinct"].get<std::size_t>() - column["values"].size(); left != 0)
+      tell("{:15} and {} more\n", "", left);
+  }
+}
+
+void tell_info(const nlohmann::ordered_json& json) {
+  for (const auto& [key, value] : json.items())
+    if (key == "regions")
+      tell_regions(value);
+    else if (key != "notices")
+      tell("{:15} {}\n", key, value.is_string() ? terminal_text(value.get<std::string>()) : json_text(value));
+}
+
+void tell_formats(bool as_json) {
+  auto json = nlohmann::ordered_json::array();
+  for (const MeshFormatInfo& format : mesh_formats()) {
+    json.push_back({{"name", format.name},
+                    {"extensions", std::vector<std::string_view>(format.extensions.begin(), format.extensions.end())},
+                    {"read", format.read}});
+    if (!format.written.empty()) json.back()["written"] = format.written;
+    if (as_json) continue;
+    tell("{} ({})\n  read: {}\n", format.name, fmt::join(format.extensions, ", "), format.read);
+    if (!format.written.empty()) tell("  written: {}\n", format.written);
+  }
+  if (as_json) tell("{}\n", json_text(json, 2));
+}
+
+std::string known_extensions() {
+  std::string known;
+  for (const MeshFormatInfo& format : mesh_formats())
+    known += fmt::format("{}{} {}", known.empty() ? "" : ", ", format.name, fmt::join(format.extensions, "/"));
+  return known;
 }
 
 }  // namespace
@@ -38,15 +115,23 @@ nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded
 void add_mesh(CLI::App& app, Outcome& outcome) {
   struct Options {
     std::string file;
-    bool json = false;
+    bool json = false, formats = false;
   };
   auto options = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("mesh", "Look at a mesh file.");
-  verb->require_subcommand(1);
-  auto* info = verb->add_subcommand("info", "Build the map of a mesh and count its cells.");
-  info->add_option("FILE", options->file, "Medit .mesh, TetGen .node/.ele, Gmsh .msh, VTK .vtk or .vtu")->required();
+  auto* verb = app.add_subcommand("mesh", "Look at a mesh file, or at the formats that are read.");
+  verb->require_subcommand(0, 1);
+  auto* formats = verb->add_flag("--formats", options->formats, "list the formats that are read and written");
+  verb->add_flag("--json", options->json, "print JSON")->needs(formats);
+  auto* info = verb->add_subcommand("info", "Build the map of a mesh, count its cells, and list its regions.");
+  info->add_option("FILE", options->file, known_extensions())->required();
   info->add_flag("--json", options->json, "print JSON");
+  verb->callback([options, verb] {
+    if (options->formats && verb->get_subcommands().empty()) return tell_formats(options->json);
+    if (options->formats) throw InputError("mesh --formats takes no subcommand");
+    if (verb->get_subcommands().empty()) throw InputError("mesh needs a subcommand, info FILE, or --formats");
+  });
   info->callback([options, &outcome] {
+    if (options->formats) return;  // refused by the verb
     const LoadedMesh loaded = read_mesh(options->file);
     MapSummary summary;
     try {
@@ -58,9 +143,7 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
     if (options->json) {
       tell("{}\n", json_text(json, 2));
     } else {
-      for (const auto& [key, value] : json.items())
-        if (key != "notices")
-          tell("{:15} {}\n", key, value.is_string() ? terminal_text(value.get<std::string>()) : json_text(value));
+      tell_info(json);
       for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}\n", notice);
     }
     outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <optional>
-#include <type_traits>
+#include <span>
 
 #include "core/meshes/formats/mesh_formats.h"
 
@@ -12,24 +11,25 @@ namespace {
 struct Section {
   std::string_view keyword;
   CellKind kind;
+  int nodes;                      // corners first
+  std::string_view element = {};  // of higher order
 };
 
 constexpr Section cell_sections[] = {
-    {"Triangles", CellKind::triangle},     {"Quadrilaterals", CellKind::quadrilateral},
-    {"Tetrahedra", CellKind::tetrahedron}, {"Pyramids", CellKind::pyramid},
-    {"Prisms", CellKind::prism},           {"Pentahedra", CellKind::prism},
-    {"Hexahedra", CellKind::hexahedron},   {"Hexaedra", CellKind::hexahedron},
-};
-
-struct HigherOrderSection {
-  std::string_view keyword, element;
-  int dimension;
-};
-
-constexpr HigherOrderSection higher_order_sections[] = {
-    {"TrianglesP2", "6-node triangle", 2},      {"QuadrilateralsQ2", "9-node quadrilateral", 2},
-    {"TetrahedraP2", "10-node tetrahedron", 3}, {"PyramidsP2", "14-node pyramid", 3},
-    {"PrismsP2", "18-node prism", 3},           {"HexahedraQ2", "27-node hexahedron", 3},
+    {"Triangles", CellKind::triangle, 3},
+    {"Quadrilaterals", CellKind::quadrilateral, 4},
+    {"Tetrahedra", CellKind::tetrahedron, 4},
+    {"Pyramids", CellKind::pyramid, 5},
+    {"Prisms", CellKind::prism, 6},
+    {"Pentahedra", CellKind::prism, 6},
+    {"Hexahedra", CellKind::hexahedron, 8},
+    {"Hexaedra", CellKind::hexahedron, 8},
+    {"TrianglesP2", CellKind::triangle, 6, "6-node triangle"},
+    {"QuadrilateralsQ2", CellKind::quadrilateral, 9, "9-node quadrilateral"},
+    {"TetrahedraP2", CellKind::tetrahedron, 10, "10-node tetrahedron"},
+    {"PyramidsP2", CellKind::pyramid, 14, "14-node pyramid"},
+    {"PrismsP2", CellKind::prism, 18, "18-node prism"},
+    {"HexahedraQ2", CellKind::hexahedron, 27, "27-node hexahedron"},
 };
 
 // nothing in them changes the mesh
@@ -48,6 +48,13 @@ constexpr std::string_view ignored_sections[] = {
     "TangentAtVertices",
     "TangentAtEdges",
     "EdgesP2",
+    "EdgesP2Ordering",
+    "TrianglesP2Ordering",
+    "QuadrilateralsQ2Ordering",
+    "TetrahedraP2Ordering",
+    "PyramidsP2Ordering",
+    "PrismsP2Ordering",
+    "HexahedraQ2Ordering",
     "SubDomainFromMesh",
     "SubDomainFromGeom",
     "AngleOfCornerBound",
@@ -58,12 +65,10 @@ constexpr std::string_view ignored_sections[] = {
     "VertexOnGeometricEdge",
 };
 
-template <class Sections>
-auto find_section(const Sections& sections, std::string_view keyword) {
-  std::optional<std::decay_t<decltype(sections[0])>> found;
-  for (const auto& section : sections)
-    if (section.keyword == keyword) found = section;
-  return found;
+const Section* find_section(std::string_view keyword) {
+  for (const auto& section : cell_sections)
+    if (section.keyword == keyword) return &section;
+  return nullptr;
 }
 
 bool is_ignored(std::string_view keyword) {
@@ -84,18 +89,20 @@ void read_vertices(TextScanner& scan, int dimension, MeshBuilder& builder) {
   }
 }
 
-void read_cells(TextScanner& scan, CellKind kind, MeshBuilder& builder) {
-  const std::string kind_name(name(kind));
+void read_cells(TextScanner& scan, const Section& section, MeshBuilder& builder) {
+  const std::string kind_name(section.element.empty() ? name(section.kind) : section.element);
   const std::string node = fmt::format("a vertex of {}", kind_name);
   const std::string reference = fmt::format("the reference of {}", kind_name);
+  const std::size_t column = builder.tags().column("reference", true);
   const std::uint64_t count = scan.count("the number of cells");
-  std::array<std::uint64_t, 8> points{};
-  const auto nodes = std::span(points).first(static_cast<std::size_t>(node_count(kind)));
+  std::array<std::uint64_t, 27> points{};
+  const auto nodes = std::span(points).first(static_cast<std::size_t>(section.nodes));
+  const auto corners = nodes.first(static_cast<std::size_t>(node_count(section.kind)));
   for (std::uint64_t i = 1; i <= count; ++i) {
     for (auto& p : nodes) p = scan.count({node, i});
     const std::size_t line = scan.line();
-    scan.integer({reference, i});
-    builder.add_cell(kind, nodes, line);
+    builder.tags().set(column, builder.cell_count(), scan.integer({reference, i}));
+    builder.add_cell(section.kind, corners, line, section.element);
   }
 }
 
@@ -127,12 +134,8 @@ std::string read_medit(std::string_view text, MeshBuilder& builder) {
       if (has_vertices) scan.fail("found Vertices again", "one section of vertices");
       read_vertices(scan, static_cast<int>(dimension), builder);
       has_vertices = true;
-    } else if (const auto cells = find_section(cell_sections, keyword)) {
-      read_cells(scan, cells->kind, builder);
-    } else if (const auto higher = find_section(higher_order_sections, keyword)) {
-      if (const std::uint64_t count = scan.count("the number of cells"); count != 0)
-        builder.add_higher_order(higher->element, higher->dimension, scan.line(), count);
-      skip_section(scan);
+    } else if (const Section* const cells = find_section(keyword)) {
+      read_cells(scan, *cells, builder);
     } else if (keyword == "Edges") {
       const std::uint64_t count = scan.count("the number of edges");
       for (std::uint64_t i = 0; i < 3 * count; ++i) scan.integer("a vertex or the reference of an edge");

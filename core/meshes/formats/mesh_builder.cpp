@@ -36,20 +36,16 @@ void MeshBuilder::add_point(std::uint64_t number, const Eigen::Vector3d& x, std:
   point_lines_.push_back(narrow_line(line));
 }
 
-void MeshBuilder::add_cell(CellKind kind, std::span<const std::uint64_t> points, std::size_t line) {
-  if (cell_points_.size() + points.size() > none)
+void MeshBuilder::add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line,
+                           std::string_view element) {
+  if (cell_points_.size() + corners.size() > none)
     fail_at(cell_file_, line, "found cells with 2^32 nodes altogether", "fewer: nodes are counted in 32 bits");
+  const auto known = std::ranges::find(element_names_, element);
+  elements_.push_back(static_cast<std::uint8_t>(known - element_names_.begin()));
+  if (known == element_names_.end()) element_names_.emplace_back(element);
   kinds_.push_back(kind);
-  cell_points_.insert(cell_points_.end(), points.begin(), points.end());
+  cell_points_.insert(cell_points_.end(), corners.begin(), corners.end());
   all_cell_lines_.push_back(narrow_line(line));
-}
-
-void MeshBuilder::add_higher_order(std::string_view name, int dimension, std::size_t line, std::uint64_t count) {
-  const auto at = higher_order_.find(name);
-  if (at == higher_order_.end())
-    higher_order_.emplace(std::string(name), HigherOrder{dimension, line, count});
-  else
-    at->second.count += count;
 }
 
 /// The points in ascending order of their numbers; empty when they are numbered one after the other already.
@@ -64,7 +60,9 @@ std::vector<std::uint32_t> MeshBuilder::number_points() {
   for (std::size_t k = 1; k < order.size(); ++k)
     if (point_numbers_[order[k]] == point_numbers_[order[k - 1]])
       fail_at(point_file_, point_lines_[order[k]],
-              fmt::format("point {} occurs already in line {}", point_numbers_[order[k]], point_lines_[order[k - 1]]),
+              point_lines_[order[k - 1]] == 0 ? fmt::format("point {} occurs already", point_numbers_[order[k]])
+                                              : fmt::format("point {} occurs already in line {}",
+                                                            point_numbers_[order[k]], point_lines_[order[k - 1]]),
               "every point number once");
   return order;
 }
@@ -79,22 +77,23 @@ std::uint32_t MeshBuilder::find_point(std::uint64_t number, std::span<const std:
   return at != by_number.end() && point_numbers_[*at] == number ? *at : none;
 }
 
-void MeshBuilder::check_order(int dimension) const {
-  for (const auto& [element, found] : higher_order_)
-    if (found.dimension >= dimension)
-      fail_at(cell_file_, found.line, fmt::format("found a {}", element),
-              "elements of first order, with straight edges");
+/// How many cells there are of each name of an element of higher order.
+std::map<std::string_view, std::size_t> MeshBuilder::count_elements(auto&& is_counted) const {
+  std::map<std::string_view, std::size_t> counts;
+  for (std::size_t c = 0; c < kinds_.size(); ++c)
+    if (elements_[c] != 0 && is_counted(kinds_[c])) ++counts[element_names_[elements_[c]]];
+  return counts;
 }
 
 std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {
+  const auto is_skipped = [&](CellKind kind) { return dartboard::dimension(kind) < dimension; };
   std::array<std::size_t, 2> polygons{};  // triangles, quadrilaterals
-  if (dimension == 3)
-    for (CellKind kind : kinds_)
-      if (dartboard::dimension(kind) == 2) ++polygons[kind == CellKind::triangle ? 0 : 1];
+  for (std::size_t c = 0; c < kinds_.size(); ++c)
+    if (elements_[c] == 0 && is_skipped(kinds_[c])) ++polygons[kinds_[c] == CellKind::triangle ? 0 : 1];
   std::vector<std::string> parts;
   if (polygons[0] != 0) parts.push_back(counted(polygons[0], name(CellKind::triangle)));
   if (polygons[1] != 0) parts.push_back(counted(polygons[1], name(CellKind::quadrilateral)));
-  for (const auto& [element, found] : higher_order_) parts.push_back(counted(found.count, element));
+  for (const auto& [element, count] : count_elements(is_skipped)) parts.push_back(counted(count, element));
   if (skipped_[1] != 0) parts.push_back(counted(skipped_[1], "edge"));
   if (skipped_[0] != 0) parts.push_back(counted(skipped_[0], "point element"));
   if (parts.empty()) return "";
@@ -102,10 +101,18 @@ std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {
                      counted(kept, dimension == 3 ? "volume" : "polygon"));
 }
 
+std::string MeshBuilder::straightened_notice(int dimension) const {
+  std::vector<std::string> parts;
+  for (const auto& [element, count] :
+       count_elements([&](CellKind kind) { return dartboard::dimension(kind) == dimension; }))
+    parts.push_back(counted(count, element));
+  return parts.empty() ? ""
+                       : fmt::format("took {} by their corners: edges of a body are straight", fmt::join(parts, ", "));
+}
+
 LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   int dimension = 0;
   for (CellKind kind : kinds_) dimension = std::max(dimension, dartboard::dimension(kind));
-  check_order(std::max(dimension, 2));
   if (dimension == 0)
     fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
   CountsByKind counts{};
@@ -115,10 +122,10 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
   const auto by_number = number_points();
 
-  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = {}, .place_of_point = {}};
+  LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = std::move(notices_), .place_of_point = {}};
   Mesh& mesh = loaded.mesh;
   std::vector<bool> used(points_.size(), false);
-  std::vector<std::uint32_t> cell;
+  std::vector<std::uint32_t> cell, places;
   std::size_t first = 0;
   for (std::size_t c = 0; c < kinds_.size(); ++c) {
     const auto numbers = std::span(cell_points_).subspan(first, static_cast<std::size_t>(node_count(kinds_[c])));
@@ -135,9 +142,12 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     }
     mesh.add_cell(kinds_[c], cell);
     cell_lines_.push_back(all_cell_lines_[c]);
+    places.push_back(static_cast<std::uint32_t>(c));
   }
   if (auto notice = skipped_notice(dimension, mesh.cell_count()); !notice.empty())
     loaded.notices.push_back(std::move(notice));
+  if (auto notice = straightened_notice(dimension); !notice.empty()) loaded.notices.push_back(std::move(notice));
+  loaded.tags = tags_.finish(places, dimension, loaded.notices);
 
   // keep the points that cells use, in the order of the file
   std::vector<std::uint32_t> kept(points_.size(), none);

@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/meshes/formats/cell_tags_builder.h"
 #include "core/meshes/formats/loaded_mesh.h"
 #include "core/plain/mesh.h"
 
@@ -27,40 +29,41 @@ class MeshBuilder {
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
-  void add_cell(CellKind kind, std::span<const std::uint64_t> points, std::size_t line);
+  /// Add a cell by its corners; `element` is what it is called when it has more nodes than those. A line of 0 is none.
+  void add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line, std::string_view element = {});
+  std::size_t cell_count() const { return kinds_.size(); }
   /// Count elements of dimension 0 or 1, which no body is made of.
   void skip(int dimension, std::uint64_t count = 1) { skipped_.at(static_cast<std::size_t>(dimension)) += count; }
-  /// Note an element of second or higher order; an error unless it is of lower dimension than the body.
-  void add_higher_order(std::string_view name, int dimension, std::size_t line, std::uint64_t count = 1);
+  void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }
+  /// What is said of cells, by their places in the order in which they were added.
+  CellTagsBuilder& tags() { return tags_; }
 
   /// The mesh of the cells with the highest dimension, with its notices; `last_line` is where "no cells" is reported.
   ///
-  /// throws  IoError for an undefined or twice defined point, elements of higher order, and a mesh without cells
+  /// throws  IoError for an undefined or twice defined point, and a mesh without cells
   LoadedMesh finish(std::string format, std::size_t last_line);
   /// The line of each cell of the finished mesh.
   const std::vector<std::uint32_t>& cell_lines() const { return cell_lines_; }
 
  private:
-  struct HigherOrder {
-    int dimension;
-    std::size_t line;
-    std::uint64_t count;
-  };
-
   std::vector<std::uint32_t> number_points();
   std::uint32_t find_point(std::uint64_t number, std::span<const std::uint32_t> by_number) const;
-  void check_order(int dimension) const;
   std::string skipped_notice(int dimension, std::size_t kept) const;
+  std::string straightened_notice(int dimension) const;
+  std::map<std::string_view, std::size_t> count_elements(auto&& is_counted) const;
 
   std::string point_file_, cell_file_;
   std::vector<std::uint64_t> point_numbers_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> point_lines_;
   std::vector<CellKind> kinds_;
-  std::vector<std::uint64_t> cell_points_;  // back to back
+  std::vector<std::uint8_t> elements_;          // of each cell what it is called, or 0
+  std::vector<std::string> element_names_{""};  // of higher order
+  std::vector<std::uint64_t> cell_points_;      // back to back
   std::vector<std::uint32_t> all_cell_lines_, cell_lines_;
   std::array<std::uint64_t, 2> skipped_{};  // points, edges
-  std::map<std::string, HigherOrder, std::less<>> higher_order_;
+  std::vector<std::string> notices_;
+  CellTagsBuilder tags_;
 };
 
 }  // namespace dartboard

@@ -1,5 +1,6 @@
 #pragma once
-// One reader per format. Each hands what it finds to a builder and returns the exact name of the format.
+// One reader per format of volumes; Gmsh has a folder of its own. Each hands what it finds to a builder and returns the
+// exact name of the format.
 
 #include <string>
 #include <string_view>
@@ -10,7 +11,6 @@
 namespace dartboard {
 
 std::string read_medit(std::string_view text, MeshBuilder& builder);
-std::string read_gmsh(std::string_view text, MeshBuilder& builder);
 std::string read_vtk_legacy(std::string_view text, MeshBuilder& builder);
 std::string read_vtu(std::string_view text, MeshBuilder& builder);
 /// The builder's point file is `node`'s and its cell file is `ele`'s; both may be one scanner over one text.

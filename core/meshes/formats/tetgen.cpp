@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "core/meshes/formats/mesh_formats.h"
 
@@ -34,6 +35,14 @@ void read_nodes(TextScanner& node, MeshBuilder& builder) {
   }
 }
 
+/// The first attribute of a cell is its region, where it is a whole number.
+void read_attribute(TextScanner& ele, std::uint64_t cell, std::uint64_t k, MeshBuilder& builder) {
+  const double value = ele.real({"an attribute of cell", cell});
+  constexpr double most = 9007199254740992.0;  // 2^53
+  if (k != 0 || value != std::trunc(value) || std::abs(value) > most) return;
+  builder.tags().set(builder.tags().column("region", true), builder.cell_count(), static_cast<std::int64_t>(value));
+}
+
 }  // namespace
 
 std::string read_tetgen(TextScanner& node, TextScanner& ele, MeshBuilder& builder) {
@@ -46,10 +55,8 @@ std::string read_tetgen(TextScanner& node, TextScanner& ele, MeshBuilder& builde
   const std::uint64_t count = ele.count("the number of cells");
   const std::uint64_t size = optional_count(ele, "the number of points of a cell", 4);
   const std::uint64_t attributes = optional_count(ele, "the number of attributes", 0);
-  if (size == 6) builder.add_higher_order("6-node triangle", 2, ele.line(), count);
-  if (size == 10) builder.add_higher_order("10-node tetrahedron", 3, ele.line(), count);
   if (size != 3 && size != 4 && size != 6 && size != 10)
-    ele.fail(fmt::format("cells of {} points", size), "3 (triangles) or 4 (tetrahedra)");
+    ele.fail(fmt::format("cells of {} points", size), "3 or 6 (triangles), 4 or 10 (tetrahedra)");
 
   std::array<std::uint64_t, 10> points{};
   const auto nodes = std::span(points).first(static_cast<std::size_t>(size));
@@ -57,9 +64,11 @@ std::string read_tetgen(TextScanner& node, TextScanner& ele, MeshBuilder& builde
     const std::uint64_t number = ele.count("the number of a cell");
     const std::size_t line = ele.line();
     for (auto& p : nodes) p = ele.count({"a point of cell", number});
-    for (std::uint64_t k = 0; k < attributes; ++k) ele.real({"an attribute of cell", number});
-    if (size == 3) builder.add_cell(CellKind::triangle, nodes, line);
-    if (size == 4) builder.add_cell(CellKind::tetrahedron, nodes, line);
+    for (std::uint64_t k = 0; k < attributes; ++k) read_attribute(ele, number, k, builder);
+    if (size == 3 || size == 6)
+      builder.add_cell(CellKind::triangle, nodes.first(3), line, size == 6 ? "6-node triangle" : "");
+    else
+      builder.add_cell(CellKind::tetrahedron, nodes.first(4), line, size == 10 ? "10-node tetrahedron" : "");
   }
   if (!ele.at_end()) {
     const auto extra = ele.token("nothing");

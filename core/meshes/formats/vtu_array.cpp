@@ -2,100 +2,60 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
-#include "core/meshes/text/base64.h"
+#include "core/meshes/formats/vtu_bytes.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "binary arrays are copied as they are");
-
-struct Source {
-  const VtuArray& array;
-  const VtuEncoding& encoding;
-  const std::string& file;
-
-  [[noreturn]] void fail(std::string_view found, std::string_view expected) const {
-    fail_at(file, array.tag.line, fmt::format("<DataArray> {}: {}", in_quotes(array.name), found), expected);
-  }
-};
-
-template <class T>
-T load(std::string_view bytes, std::size_t at) {
-  T value;
-  std::memcpy(&value, bytes.data() + at, sizeof(T));
-  return value;
+template <class Value>
+Scalar type_of(const VtuArray& array, const std::string& file) {
+  const std::string_view name = array.tag->attribute("type").value_or("");
+  const auto type = scalar_of_vtu(name);
+  constexpr bool may_be_real = std::is_same_v<Value, double>;
+  if (!type || (!may_be_real && is_real(*type)))
+    fail_in_array(array, file, fmt::format("type {}", in_quotes(name)),
+                  may_be_real ? "Float32, Float64 or an integer type" : "an integer type, Int8 to UInt64");
+  return *type;
 }
 
-/// The data of a binary array, without the length that stands before it.
-std::string decode(const Source& source) {
-  const VtuEncoding& encoding = source.encoding;
-  if (!encoding.compressor.empty())
-    source.fail(fmt::format("compressed with {}", in_quotes(encoding.compressor)), "uncompressed data, or ASCII");
-  if (encoding.big_endian) source.fail("binary data in big-endian order", "little-endian order, or ASCII");
-  auto bytes = decode_base64(source.array.text);
-  if (!bytes) source.fail("malformed base64", "groups of four characters from A-Z a-z 0-9 + / and = at the end");
-  const std::size_t header = encoding.header_bytes;
-  if (bytes->size() < header)
-    source.fail(fmt::format("{} bytes", bytes->size()), fmt::format("a header of {}", header));
-  const std::uint64_t length = header == 4 ? load<std::uint32_t>(*bytes, 0) : load<std::uint64_t>(*bytes, 0);
-  if (bytes->size() - header != length)
-    source.fail(fmt::format("{} bytes of data", bytes->size() - header), fmt::format("{} as its header says", length));
-  return bytes->substr(header);
-}
-
-template <class Stored, class Value>
-std::vector<Value> convert(const Source& source, std::string_view bytes) {
-  if (bytes.size() % sizeof(Stored) != 0)
-    source.fail(fmt::format("{} bytes", bytes.size()), fmt::format("a multiple of {}", sizeof(Stored)));
+template <class Value>
+std::vector<Value> stored_values(const VtuArray& array, const VtuEncoding& encoding, const std::string& file) {
+  const Scalar type = type_of<Value>(array, file);
+  const std::string bytes = vtu_bytes(array, encoding, file);
+  const std::size_t size = size_of(type);
+  if (bytes.size() % size != 0)
+    fail_in_array(array, file, fmt::format("{} bytes", bytes.size()), fmt::format("a multiple of {}", size));
   std::vector<Value> values;
-  values.reserve(bytes.size() / sizeof(Stored));
-  for (std::size_t at = 0; at < bytes.size(); at += sizeof(Stored)) {
-    const Stored value = load<Stored>(bytes, at);
-    if constexpr (std::is_floating_point_v<Stored>)
-      if (!std::isfinite(value)) source.fail(fmt::format("value {} is {}", values.size(), value), "finite values");
-    values.push_back(static_cast<Value>(value));
+  values.reserve(bytes.size() / size);
+  for (std::size_t at = 0; at < bytes.size(); at += size) {
+    const std::string_view stored(bytes.data() + at, size);
+    if constexpr (std::is_same_v<Value, double>) {
+      const double value = real_of(type, stored, encoding.big_endian);
+      if (!std::isfinite(value))
+        fail_in_array(array, file, fmt::format("value {} is {}", values.size(), value), "finite values");
+      values.push_back(value);
+    } else {
+      values.push_back(integer_of(type, stored, encoding.big_endian));
+    }
   }
   return values;
 }
 
 template <class Value>
-std::vector<Value> convert(const Source& source, std::string_view type, std::string_view bytes) {
-  if (type == "Int8") return convert<std::int8_t, Value>(source, bytes);
-  if (type == "UInt8") return convert<std::uint8_t, Value>(source, bytes);
-  if (type == "Int16") return convert<std::int16_t, Value>(source, bytes);
-  if (type == "UInt16") return convert<std::uint16_t, Value>(source, bytes);
-  if (type == "Int32") return convert<std::int32_t, Value>(source, bytes);
-  if (type == "UInt32") return convert<std::uint32_t, Value>(source, bytes);
-  if (type == "Int64") return convert<std::int64_t, Value>(source, bytes);
-  if (type == "UInt64") return convert<std::uint64_t, Value>(source, bytes);
-  if constexpr (std::is_same_v<Value, double>) {
-    if (type == "Float32") return convert<float, Value>(source, bytes);
-    if (type == "Float64") return convert<double, Value>(source, bytes);
-    source.fail(fmt::format("type {}", in_quotes(type)), "Float32, Float64 or an integer type");
-  }
-  source.fail(fmt::format("type {}", in_quotes(type)), "an integer type, Int8 to UInt64");
-}
-
-template <class Value>
-std::vector<Value> values_of(const Source& source) {
-  const auto format = source.array.tag.attribute("format");
-  if (format == "binary") {
-    const std::string bytes = decode(source);
-    return convert<Value>(source, source.array.tag.attribute("type").value_or(""), bytes);
-  }
+std::vector<Value> values_of(const VtuArray& array, const VtuEncoding& encoding, const std::string& file) {
+  const auto format = array.tag->attribute("format");
+  if (format == "binary" || format == "appended") return stored_values<Value>(array, encoding, file);
   if (format && format != "ascii")
-    source.fail(fmt::format("format {}", in_quotes(*format)), "format 'ascii' or 'binary' (inline, not appended)");
+    fail_in_array(array, file, fmt::format("format {}", in_quotes(*format)), "format 'ascii', 'binary' or 'appended'");
 
-  TextScanner scan(source.array.text, source.file, TextScanner::no_comment, source.array.text_line);
-  const std::string what = fmt::format("<DataArray> {}: value", in_quotes(source.array.name));
+  TextScanner scan(array.tag->text, file, TextScanner::no_comment, array.tag->text_line);
+  const std::string what = fmt::format("<DataArray> {}: value", in_quotes(array.name));
   std::vector<Value> values;
-  values.reserve(scan.plausible(source.array.text.size(), 4));
+  values.reserve(scan.plausible(array.tag->text.size(), 4));
   while (!scan.at_end()) {
     const Wanted wanted{what, values.size()};
     if constexpr (std::is_same_v<Value, double>)
@@ -108,12 +68,26 @@ std::vector<Value> values_of(const Source& source) {
 
 }  // namespace
 
+std::optional<Scalar> scalar_of_vtu(std::string_view name) {
+  if (name == "Int8") return Scalar::int8;
+  if (name == "UInt8") return Scalar::uint8;
+  if (name == "Int16") return Scalar::int16;
+  if (name == "UInt16") return Scalar::uint16;
+  if (name == "Int32") return Scalar::int32;
+  if (name == "UInt32") return Scalar::uint32;
+  if (name == "Int64") return Scalar::int64;
+  if (name == "UInt64") return Scalar::uint64;
+  if (name == "Float32") return Scalar::float32;
+  if (name == "Float64") return Scalar::float64;
+  return std::nullopt;
+}
+
 std::vector<double> real_values(const VtuArray& array, const VtuEncoding& encoding, const std::string& file) {
-  return values_of<double>({array, encoding, file});
+  return values_of<double>(array, encoding, file);
 }
 
 std::vector<std::int64_t> integer_values(const VtuArray& array, const VtuEncoding& encoding, const std::string& file) {
-  return values_of<std::int64_t>({array, encoding, file});
+  return values_of<std::int64_t>(array, encoding, file);
 }
 
 }  // namespace dartboard

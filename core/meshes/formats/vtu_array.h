@@ -2,32 +2,42 @@
 // The numbers of a <DataArray> of an XML VTK file.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/meshes/text/xml_scanner.h"
+#include "core/meshes/bytes/scalar.h"
+#include "core/meshes/text/xml_elements.h"
 
 namespace dartboard {
 
-/// What <VTKFile> says about all binary arrays of its file.
+/// What comes after the underscore of <AppendedData>.
+struct VtuAppended {
+  std::string_view data;
+  bool is_raw = false;  // or base64
+};
+
+/// What a file says about all binary arrays in it.
 struct VtuEncoding {
   bool big_endian = false;
   std::size_t header_bytes = 4;
-  std::string compressor;  // empty for none
+  std::string compressor = {};  // empty for none
+  std::optional<VtuAppended> appended = {};
 };
 
 struct VtuArray {
-  XmlTag tag;
+  const XmlElement* tag;
   std::string name;  // as in errors: "Points" for the one that has no name of its own
-  std::string_view text;
-  std::size_t text_line = 0;
 };
 
-/// All values of an ASCII or inline base64 array.
+/// The type of VTK's name for it, as in Float64.
+std::optional<Scalar> scalar_of_vtu(std::string_view name);
+
+/// All values of an array: ASCII, base64 or raw, inline or appended, compressed or not.
 ///
-/// throws  IoError for another format, compressed or big-endian binary data, malformed data, and values that are not
-///         finite; for integers, when the array is of a floating-point type
+/// throws  IoError for malformed data, data that claim to be more than they can be, and values that are not finite; for
+///         integers, when the array is of a floating-point type
 std::vector<double> real_values(const VtuArray& array, const VtuEncoding& encoding, const std::string& file);
 std::vector<std::int64_t> integer_values(const VtuArray& array, const VtuEncoding& encoding, const std::string& file);
 

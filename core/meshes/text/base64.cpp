@@ -31,28 +31,55 @@ std::string encode_base64(std::string_view bytes) {
   return text;
 }
 
-std::optional<std::string> decode_base64(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
+void Base64Reader::skip_blank() {
+  while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t'))
+    ++at_;
+}
+
+bool Base64Reader::decode_group() {
   std::uint32_t group = 0;
-  int read = 0, padding = 0;
-  for (char c : text) {
-    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+  int padding = 0;
+  for (int read = 0; read < 4; ++read) {
+    skip_blank();
+    if (at_ == text_.size()) return false;
+    const char c = text_[at_++];
     // of four characters the last one or two may be padding
     if (c == '=' && read >= 2) {
       ++padding;
       group <<= 6;
-    } else {
-      const int bits = six_bits(c);
-      if (bits < 0 || padding != 0) return std::nullopt;
-      group = group << 6 | static_cast<std::uint32_t>(bits);
+      continue;
     }
-    if (++read < 4) continue;
-    for (int k = 0; k < 3 - padding; ++k) bytes += static_cast<char>(group >> (16 - 8 * k) & 0xFF);
-    group = 0;
-    read = padding = 0;
+    const int bits = six_bits(c);
+    if (bits < 0 || padding != 0) return false;
+    group = group << 6 | static_cast<std::uint32_t>(bits);
   }
-  if (read != 0) return std::nullopt;
+  for (int k = 0; k < 3; ++k) group_[k] = static_cast<char>(group >> (16 - 8 * k) & 0xFF);
+  first_ = 0;
+  end_ = static_cast<std::size_t>(3 - padding);
+  return true;
+}
+
+bool Base64Reader::take(std::size_t count, std::string& out) {
+  if (count > most_left()) return false;
+  out.reserve(out.size() + count);
+  for (; count > 0; --count) {
+    if (first_ == end_ && !decode_group()) return false;
+    out += group_[first_++];
+  }
+  return true;
+}
+
+bool Base64Reader::at_end() {
+  skip_blank();
+  return first_ == end_ && at_ == text_.size();
+}
+
+std::optional<std::string> decode_base64(std::string_view text) {
+  Base64Reader reader(text);
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  while (!reader.at_end())
+    if (!reader.take(1, bytes)) return std::nullopt;
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Bytes written as text (RFC 4648), as XML VTK files hold them.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,5 +14,28 @@ std::string encode_base64(std::string_view bytes);
 /// The bytes of a base64 text, white space aside; nothing when it is malformed. Padding may also stand inside: some
 /// writers encode the length of a block and the block itself one after the other.
 std::optional<std::string> decode_base64(std::string_view text);
+
+/// Takes bytes from a base64 text, from its beginning on, without reading further than it must: where the text ends
+/// may be told by its own first bytes. White space and padding are as for decode_base64.
+class Base64Reader {
+ public:
+  explicit Base64Reader(std::string_view text) : text_(text) {}
+
+  /// Append the next `count` bytes; false when the text is malformed before them, or ends.
+  bool take(std::size_t count, std::string& out);
+  /// Nothing is left but white space.
+  bool at_end();
+  /// No more bytes than these can be left.
+  std::size_t most_left() const { return (text_.size() - at_) / 4 * 3 + 3; }
+
+ private:
+  void skip_blank();
+  bool decode_group();
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  char group_[3] = {};  // decoded bytes of which those from first_ to end_ are not yet taken
+  std::size_t first_ = 0, end_ = 0;
+};
 
 }  // namespace dartboard

@@ -35,6 +35,10 @@ void fail_at(const std::string& file, std::size_t line, std::string_view found, 
   throw IoError(fmt::format("{}: {}; expected {}", place, found, expected));
 }
 
+void fail_at_byte(const std::string& file, std::size_t byte, std::string_view found, std::string_view expected) {
+  throw IoError(fmt::format("{}: byte {}: {}; expected {}", file, byte, found, expected));
+}
+
 std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 40;
   std::string out = "'";
@@ -78,6 +82,12 @@ bool TextScanner::at_end() {
 bool TextScanner::more_on_line() {
   while (at_ < text_.size() && text_[at_] != '\n' && is_blank(text_[at_])) ++at_;
   return at_ < text_.size() && text_[at_] != '\n' && (comment_ == no_comment || text_[at_] != comment_);
+}
+
+bool TextScanner::at_line_of_blanks() const {
+  std::size_t at = at_;
+  while (at < text_.size() && text_[at] != '\n' && is_blank(text_[at])) ++at;
+  return at == text_.size() || text_[at] == '\n';
 }
 
 std::string_view TextScanner::peek() {
@@ -144,6 +154,28 @@ void TextScanner::keyword(std::string_view word) {
   const std::string wanted = fmt::format("the word {}", word);
   const std::string_view found = token(wanted.c_str());
   if (found != word) fail(fmt::format("found {}", in_quotes(found)), wanted);
+}
+
+void TextScanner::line_end() {
+  while (at_ < text_.size() && text_[at_] != '\n' && is_blank(text_[at_])) ++at_;
+  if (at_ == text_.size() || text_[at_] != '\n')
+    fail(fmt::format("{} follows", in_quotes(text_.substr(at_, 1))), "the end of the line, and binary data after it");
+  advance(at_ + 1);
+}
+
+std::string_view TextScanner::bytes(std::uint64_t size, Wanted wanted) {
+  if (size > left()) fail_at_byte(file_, at_, fmt::format("{} bytes are left", left()), wanted.text());
+  const std::string_view found = text_.substr(at_, static_cast<std::size_t>(size));
+  advance(at_ + found.size());
+  return found;
+}
+
+void TextScanner::skip_to(std::string_view text) { advance(std::min(text_.find(text, at_), text_.size())); }
+
+// editors count the line ends among bytes too
+void TextScanner::advance(std::size_t to) {
+  line_ += static_cast<std::size_t>(std::ranges::count(text_.substr(at_, to - at_), '\n'));
+  at_ = to;
 }
 
 std::size_t TextScanner::plausible(std::uint64_t declared, std::size_t characters) const {

@@ -12,6 +12,10 @@ namespace dartboard {
 /// Throw IoError "FILE:LINE: found; expected expected"; a line of 0 is left out.
 [[noreturn]] void fail_at(const std::string& file, std::size_t line, std::string_view found, std::string_view expected);
 
+/// The same "FILE: byte PLACE: ..." for what is no text; bytes are counted from 0.
+[[noreturn]] void fail_at_byte(const std::string& file, std::size_t byte, std::string_view found,
+                               std::string_view expected);
+
 /// A token as messages print it: in quotes, shortened, with unprintable bytes as \xNN.
 std::string in_quotes(std::string_view token);
 
@@ -40,6 +44,8 @@ class TextScanner {
   bool at_end();
   /// Something is left before the end of the line that the last token stands on.
   bool more_on_line();
+  /// Nothing but white space is on this line, and no comment.
+  bool at_line_of_blanks() const;
   /// The next token, which stays where it is; empty at the end.
   std::string_view peek();
 
@@ -54,6 +60,13 @@ class TextScanner {
   /// Exactly this word.
   void keyword(std::string_view word);
 
+  /// The end of the line that the last token stands on, after which bytes begin that are no text.
+  void line_end();
+  /// So many bytes from here on, whatever they are.
+  std::string_view bytes(std::uint64_t size, Wanted wanted);
+  /// Go to where this text begins next, or to the end.
+  void skip_to(std::string_view text);
+
   /// How much to reserve for `declared` things of at least `characters` each: never more than the text can hold,
   /// so that a small file cannot ask for a large amount of memory.
   std::size_t plausible(std::uint64_t declared, std::size_t characters) const;
@@ -61,11 +74,15 @@ class TextScanner {
   const std::string& file() const { return file_; }
   /// The line of the token taken last.
   std::size_t line() const { return token_line_; }
+  /// How many bytes lie behind, and how many are left.
+  std::size_t place() const { return at_; }
+  std::size_t left() const { return text_.size() - at_; }
 
   [[noreturn]] void fail(std::string_view found, std::string_view expected) const;
 
  private:
   void skip_blank();
+  void advance(std::size_t to);
   std::size_t token_end() const;
 
   std::string_view text_;

@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "tests/support/binary_mesh_samples.h"
 #include "tests/support/mesh_samples.h"
 
 #ifndef DARTBOARD_FUZZ_ROUNDS
@@ -31,11 +32,32 @@ struct Sample {
 };
 
 std::vector<Sample> all_samples() {
-  return {{std::string(medit), MeshFormat::medit},     {tetgen(), MeshFormat::tetgen},
-          {std::string(gmsh1), MeshFormat::gmsh},      {std::string(gmsh2), MeshFormat::gmsh},
-          {std::string(gmsh4), MeshFormat::gmsh},      {std::string(vtk4), MeshFormat::vtk_legacy},
-          {std::string(vtk5), MeshFormat::vtk_legacy}, {std::string(vtu_ascii), MeshFormat::vtu},
-          {std::string(vtu_base64), MeshFormat::vtu},  {std::string(vtu_base64_wide), MeshFormat::vtu}};
+  std::vector<Sample> all{{std::string(medit), MeshFormat::medit},
+                          {tetgen(), MeshFormat::tetgen},
+                          {std::string(gmsh1), MeshFormat::gmsh},
+                          {std::string(gmsh2), MeshFormat::gmsh},
+                          {std::string(gmsh4), MeshFormat::gmsh},
+                          {gmsh2_binary(false), MeshFormat::gmsh},
+                          {gmsh2_binary(true), MeshFormat::gmsh},
+                          {gmsh41_binary(), MeshFormat::gmsh},
+                          {std::string(vtk4), MeshFormat::vtk_legacy},
+                          {std::string(vtk5), MeshFormat::vtk_legacy},
+                          {vtk_binary(), MeshFormat::vtk_legacy},
+                          {vtk_binary_offsets(), MeshFormat::vtk_legacy},
+                          {std::string(vtu_ascii), MeshFormat::vtu},
+                          {std::string(vtu_base64), MeshFormat::vtu},
+                          {std::string(vtu_base64_wide), MeshFormat::vtu},
+                          {stl_binary(), MeshFormat::stl},
+                          {std::string(stl_text), MeshFormat::stl},
+                          {std::string(obj), MeshFormat::obj},
+                          {std::string(ply_text), MeshFormat::ply},
+                          {ply_binary(false), MeshFormat::ply},
+                          {ply_binary(true), MeshFormat::ply},
+                          {std::string(off), MeshFormat::off}};
+  for (const auto& [encoding, compressor] : {std::pair{"raw", ""}, {"raw", "ZLib"}, {"base64", "LZ4"}, {"raw", "LZMA"}})
+    for (const bool wide : {false, true})
+      all.push_back({vtu({.encoding = encoding, .compressor = compressor, .wide = wide}), MeshFormat::vtu});
+  return all;
 }
 
 class Mutator {
@@ -52,14 +74,23 @@ class Mutator {
 
   void mutate_once(std::string& text) {
     const std::size_t at = below(text.size()), length = below(std::min<std::size_t>(text.size() - at, 40) + 1);
-    switch (below(7)) {
+    switch (below(8)) {
       case 0: flip_bit(text, at); break;
       case 1: text.erase(at, length); break;
       case 2: text.insert(at, text.substr(at, length)); break;
       case 3: text.insert(at, text.substr(below(text.size() + 1), length)); break;
       case 4: text.resize(at); break;
+      case 5: text.replace(at, below(8), extreme_bytes()); break;
       default: replace_number(text, at); break;
     }
+  }
+
+  /// Four or eight bytes of a number that is very large, or small, or negative.
+  std::string extreme_bytes() {
+    std::string bytes(below(2) == 0 ? 4 : 8, below(2) == 0 ? '\0' : '\xff');
+    if (below(2) == 0) bytes.front() = static_cast<char>(below(256));
+    if (below(2) == 0) bytes.back() = static_cast<char>(below(128));
+    return bytes;
   }
 
   void flip_bit(std::string& text, std::size_t at) {

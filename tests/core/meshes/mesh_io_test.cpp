@@ -74,9 +74,9 @@ TEST_F(MeshIo, RefusesAnEmptyFile) {
 }
 
 TEST_F(MeshIo, ListsTheKnownExtensionsWhenOneIsUnknown) {
-  expect_part(refused(write("a.stl", medit)),
-              "a.stl: the extension '.stl' is unknown; expected .mesh (Medit), .node or .ele (TetGen), .msh (Gmsh), "
-              ".vtk (legacy VTK) or .vtu (VTK XML)");
+  expect_part(refused(write("a.step", medit)),
+              "a.step: the extension '.step' is unknown; expected .mesh (Medit), .node or .ele (TetGen), .msh (Gmsh), "
+              ".vtk (legacy VTK), .vtu (VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
 }
 
 TEST_F(MeshIo, WritesMeditThatReadsBackWithTheSameBits) {

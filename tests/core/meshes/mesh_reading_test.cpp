@@ -149,9 +149,9 @@ TEST(VtuValues, HaveTheSignOfTheirType) {
     std::string bytes{static_cast<char>(size), 0, 0, 0};
     for (int k = 0; k < size; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xff);
     const std::string text = encode_base64(bytes);
-    const VtuArray array{.tag = {.name = "DataArray", .attributes = {{"type", type}, {"format", "binary"}}},
-                         .name = "one",
-                         .text = text};
+    const XmlElement tag{
+        .name = "DataArray", .attributes = {{"type", type}, {"format", "binary"}}, .text = text, .text_line = 1};
+    const VtuArray array{.tag = &tag, .name = "one"};
     EXPECT_EQ(integer_values(array, {}, "file"), std::vector<std::int64_t>{value}) << type;
     EXPECT_EQ(real_values(array, {}, "file"), std::vector<double>{static_cast<double>(value)}) << type;
   }
@@ -159,14 +159,14 @@ TEST(VtuValues, HaveTheSignOfTheirType) {
 
 TEST(VtuTags, HaveEachAttributeOnce) {
   expect_part(refused_vtu(with(vtu_ascii, "type=\"UnstructuredGrid\"", "type=\"UnstructuredGrid\" type=\"PolyData\"")),
-              "file:3: found 'type' twice");
+              "file:3: this is not XML: duplicate attribute");
 }
 
 TEST(VtuTags, InACommentAreNone) {
   expect_two_tetrahedra(
-      parse_mesh(with(vtu_ascii, "<Points>", "<!-- <Piece> </Points> & < -- > --><Points>"), MeshFormat::vtu, "file"));
+      parse_mesh(with(vtu_ascii, "<Points>", "<!-- <Piece> </Points> & < > --><Points>"), MeshFormat::vtu, "file"));
   expect_part(refused_vtu(with(vtu_ascii, "<Points>", "<!-- <Points>")),
-              ": the text ends inside a comment or declaration; expected --> to end it");
+              ": this is not XML: unclosed token; expected the end of <Piece>, begun in line 5");
 }
 
 // The examples of RFC 4648, section 10.

@@ -75,8 +75,11 @@ TEST(Medit, RefusesAHugeCountWithoutAllocatingForIt) {
   expect_part(refused("MeshVersionFormatted 2 Dimension 3 Vertices 9000000000000000000 0 0 0"), "the text ends here");
 }
 
-TEST(Medit, RefusesElementsOfSecondOrderUnlessTheyAreSkippedAnyway) {
-  expect_part(refused(with(medit, "End", "TetrahedraP2 1 1 2 3 4 5 6 7 8 9 10 0 End")), "found a 10-node tetrahedron");
+TEST(Medit, TakesElementsOfSecondOrderByTheirCornersUnlessTheyAreSkippedAnyway) {
+  const auto curved =
+      parse(with(medit, "2\n1 2 3 4 0\n2 3 4 5 0", "1\n1 2 3 4 0 TetrahedraP2 1 2 3 4 5 1 1 1 1 1 1 0"));
+  expect_two_tetrahedra(curved);
+  EXPECT_EQ(curved.notices.at(1), "took 1 10-node tetrahedron by their corners: edges of a body are straight");
   const auto loaded = parse(with(medit, "End", "TrianglesP2 1 1 2 3 4 5 6 0 End"));
   EXPECT_EQ(loaded.notices.at(0), "skipped 1 triangle, 1 6-node triangle: the body is made of its 2 volumes");
 }

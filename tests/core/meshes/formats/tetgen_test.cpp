@@ -32,9 +32,10 @@ TEST(TetGen, RefusesPointsNumberedFromTwo) {
             "file:3: the first point is 2; expected points numbered from 0 or 1");
 }
 
-TEST(TetGen, RefusesCellsOfSecondOrder) {
-  expect_part(refused(with(tetgen(), "2 4 1\n0 0 1 2 3 7\n1 1 2 3 4 7", "1 10 0\n0 0 1 2 3 4 0 1 2 3 4")),
-              "file:8: found a 10-node tetrahedron");
+TEST(TetGen, TakesCellsOfSecondOrderByTheirCorners) {
+  const auto text =
+      with(tetgen(), "2 4 1\n0 0 1 2 3 7\n1 1 2 3 4 7", "2 10 0\n0 0 1 2 3 4 0 1 2 3 4\n1 1 2 3 4 0 0 0 0 0 0");
+  expect_two_tetrahedra(parse_mesh(text, MeshFormat::tetgen, "file"));
 }
 
 TEST(TetGen, RefusesTwoBoundaryMarkers) {

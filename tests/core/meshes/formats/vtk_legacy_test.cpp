@@ -44,28 +44,61 @@ TEST(VtkLegacy, TurnsAWedgeOfVtkIntoARightHandedPrism) {
   EXPECT_TRUE(wedge.notices.empty());
 }
 
-TEST(VtkLegacy, RefusesBinaryFilesAndOtherDataSets) {
-  expect_part(refused(with(vtk4, "ASCII", "BINARY")), "file:3: found a BINARY file");
+TEST(VtkLegacy, RefusesOtherEncodingsAndOtherDataSets) {
+  expect_part(refused(with(vtk4, "ASCII", "HEX")), "file:3: found 'HEX'; expected the word ASCII or BINARY");
   expect_part(refused(with(vtk4, "UNSTRUCTURED_GRID", "POLYDATA")), "file:4: found the data set 'POLYDATA'");
   expect_part(refused(with(vtk4, "# vtk", "# VTX")), "file:1: found '# VTX DataFile Version 3.0'");
 }
 
 TEST(VtkLegacy, RefusesCellsThatItCannotHold) {
-  EXPECT_EQ(refused(with(vtk4, "5 10 10\n", "5 10 24\n")),
-            "file:14: found a 10-node tetrahedron; expected elements of first order, with straight edges");
+  expect_part(refused(with(vtk4, "5 10 10\n", "5 10 24\n")),
+              "file:14: cell 2 is a 10-node tetrahedron with 4 points; expected 10");
   expect_part(refused(with(vtk4, "5 10 10\n", "5 10 42\n")), "file:14: cell 2 with 4 points has the type 42");
   expect_part(refused(with(vtk4, "5 10 10\n", "5 10 12\n")), "cell 2 is a hexahedron with 4 points; expected 8");
 }
 
-// The volumes of vtkCellType.h with curved edges: quadratic and biquadratic ones, Lagrange's and Bezier's.
-TEST(VtkLegacy, RefusesEveryVolumeWithCurvedEdgesByItsName) {
+// The volumes of vtkCellType.h with curved edges: quadratic and biquadratic ones, Lagrange's and Bezier's. Their
+// corners come first, those of wedges with the first triangle turned inward.
+TEST(VtkLegacy, TakesEveryVolumeWithCurvedEdgesByItsCorners) {
+  struct Curved {
+    int type;
+    std::size_t points;
+    CellKind kind;
+  };
+  using enum CellKind;
   std::set<std::string> names;
-  for (const int type : {24, 25, 26, 27, 29, 31, 32, 33, 37, 71, 72, 73, 74, 78, 79, 80, 81}) {
-    const std::string message = refused(with(vtk4, "5 10 10\n", "5 10 " + std::to_string(type) + "\n"));
-    expect_part(message, "expected elements of first order, with straight edges");
-    EXPECT_TRUE(names.insert(message).second) << type << ": " << message;
-    if (type >= 69) expect_part(message, type < 76 ? "found a Lagrange " : "found a Bezier ");
-    if (type == 74 || type == 81) expect_part(message, "pyramid");
+  for (const auto& [type, size, kind] : {Curved{24, 10, tetrahedron},
+                                         {25, 20, hexahedron},
+                                         {26, 15, prism},
+                                         {27, 13, pyramid},
+                                         {29, 27, hexahedron},
+                                         {31, 12, prism},
+                                         {32, 18, prism},
+                                         {33, 24, hexahedron},
+                                         {37, 19, pyramid},
+                                         {71, 10, tetrahedron},
+                                         {72, 64, hexahedron},
+                                         {73, 18, prism},
+                                         {74, 14, pyramid},
+                                         {78, 20, tetrahedron},
+                                         {79, 27, hexahedron},
+                                         {80, 40, prism},
+                                         {81, 14, pyramid}}) {
+    const char* corners = kind == tetrahedron ? "0 0 0 1 0 0 0 1 0 0 0 1"
+                          : kind == pyramid   ? "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1"
+                          : kind == prism     ? "0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1"
+                                              : "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1";
+    std::string points = corners, cell = std::to_string(size);
+    for (std::size_t k = static_cast<std::size_t>(node_count(kind)); k < size; ++k) points += " 9 9 9";
+    for (std::size_t k = 0; k < size; ++k) cell += " " + std::to_string(k);
+    const LoadedMesh loaded = parse(grid(std::to_string(size) + " float " + points,
+                                         "1 " + std::to_string(size + 1) + " " + cell, "1 " + std::to_string(type)));
+    EXPECT_EQ(loaded.mesh.kinds, std::vector{kind}) << type;
+    EXPECT_GT(signed_measure(loaded.mesh, 0), 0.16) << type;
+    ASSERT_EQ(loaded.notices.size(), 2u) << type;  // taken by its corners, and other points dropped: not turned
+    EXPECT_TRUE(names.insert(loaded.notices[0]).second) << type << ": " << loaded.notices[0];
+    expect_part(loaded.notices[0], "by their corners");
+    if (type >= 69) expect_part(loaded.notices[0], type < 76 ? "took 1 Lagrange " : "took 1 Bezier ");
   }
 }
 

@@ -14,7 +14,9 @@ struct GmshElement {
   int dimension;
   int nodes;
   std::string_view name;
-  std::optional<CellKind> kind;  // none for points, edges and elements of higher order
+  std::optional<CellKind> kind;  // none for points and edges; its corners come first among the nodes
+
+  bool is_first_order() const { return !kind || nodes == node_count(*kind); }
 };
 
 /// The element of this type number, or nullptr for the rarer ones that no mesh of ours can hold.

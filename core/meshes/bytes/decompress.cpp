@@ -1,0 +1,68 @@
+#include "core/meshes/bytes/decompress.h"
+
+#include <lz4.h>
+#include <lzma.h>
+#include <zlib.h>
+
+#include <limits>
+
+namespace dartboard {
+namespace {
+
+bool inflate_zlib(std::string_view block, char* to, std::size_t size) {
+  uLongf written = size;
+  uLong used = block.size();
+  const int status =
+      uncompress2(reinterpret_cast<Bytef*>(to), &written, reinterpret_cast<const Bytef*>(block.data()), &used);
+  return status == Z_OK && written == size && used == block.size();
+}
+
+bool inflate_lz4(std::string_view block, char* to, std::size_t size) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (block.size() > most || size > most) return false;
+  return LZ4_decompress_safe(block.data(), to, static_cast<int>(block.size()), static_cast<int>(size)) ==
+         static_cast<int>(size);
+}
+
+bool inflate_lzma(std::string_view block, char* to, std::size_t size) {
+  // the highest preset of xz has a dictionary of 64 MiB
+  std::uint64_t memory = std::uint64_t{80} << 20;
+  std::size_t used = 0, written = 0;
+  const lzma_ret status =
+      lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(block.data()), &used,
+                                block.size(), reinterpret_cast<std::uint8_t*>(to), &written, size);
+  return status == LZMA_OK && used == block.size() && written == size;
+}
+
+}  // namespace
+
+std::optional<Compressor> compressor_of_vtk(std::string_view name) {
+  if (name == "vtkZLibDataCompressor") return Compressor::zlib;
+  if (name == "vtkLZ4DataCompressor") return Compressor::lz4;
+  if (name == "vtkLZMADataCompressor") return Compressor::lzma;
+  return std::nullopt;
+}
+
+// Deflate: 258 bytes for two bits. LZ4: 255 for a byte of a length. LZMA: a match of 273 bytes takes 14 decisions of at
+// least log2(2048/2017) = 0.022 bits each, so 7100 for a byte. Each with some more for its last match.
+std::uint64_t largest_expansion(Compressor compressor, std::uint64_t compressed) {
+  const std::uint64_t each = compressor == Compressor::zlib ? 1032 : compressor == Compressor::lz4 ? 255 : 7100;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  return compressed >= most / each - 1 ? most : (compressed + 1) * each;
+}
+
+bool decompress(Compressor compressor, std::string_view block, std::size_t size, std::string& out) {
+  const std::size_t before = out.size();
+  out.resize(before + size);
+  char* const to = out.data() + before;
+  bool whole = false;
+  switch (compressor) {
+    case Compressor::zlib: whole = inflate_zlib(block, to, size); break;
+    case Compressor::lz4: whole = inflate_lz4(block, to, size); break;
+    case Compressor::lzma: whole = inflate_lzma(block, to, size); break;
+  }
+  if (!whole) out.resize(before);
+  return whole;
+}
+
+}  // namespace dartboard

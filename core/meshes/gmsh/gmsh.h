@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/meshes/formats/mesh_builder.h"
+
+namespace dartboard {
+
+/// Hands what a Gmsh file of any version holds to a builder and returns the exact name of the format.
+std::string read_gmsh(std::string_view text, MeshBuilder& builder);
+
+}  // namespace dartboard

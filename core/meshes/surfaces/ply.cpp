@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <optional>
+#include <vector>
+
+#include "core/meshes/bytes/file_numbers.h"
+#include "core/meshes/surfaces/surface_formats.h"
+#include "core/meshes/text/text_scanner.h"
+
+namespace dartboard {
+namespace {
+
+struct Property {
+  std::string name;
+  Scalar type;
+  std::optional<Scalar> length = {};  // of the number before a list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count;
+  std::vector<Property> properties = {};
+
+  bool is_vertex() const { return name == "vertex"; }
+  bool is_face() const { return name == "face"; }
+};
+
+struct Header {
+  std::string format;
+  std::vector<Element> elements;
+};
+
+Scalar read_type(TextScanner& scan) {
+  const std::string_view name = scan.token("the type of a property");
+  if (name == "char" || name == "int8") return Scalar::int8;
+  if (name == "uchar" || name == "uint8") return Scalar::uint8;
+  if (name == "short" || name == "int16") return Scalar::int16;
+  if (name == "ushort" || name == "uint16") return Scalar::uint16;
+  if (name == "int" || name == "int32") return Scalar::int32;
+  if (name == "uint" || name == "uint32") return Scalar::uint32;
+  if (name == "int64") return Scalar::int64;
+  if (name == "uint64") return Scalar::uint64;
+  if (name == "float" || name == "float32") return Scalar::float32;
+  if (name != "double" && name != "float64")
+    scan.fail(fmt::format("the type {}", in_quotes(name)), "char, short, int, float, double or the like");
+  return Scalar::float64;
+}
+
+void read_property(TextScanner& scan, Header& header) {
+  if (header.elements.empty()) scan.fail("found property", "an element before it");
+  Property property{};
+  if (scan.peek() == "list") {
+    scan.token("list");
+    property.length = read_type(scan);
+    if (is_real(*property.length)) scan.fail("the length of a list is a real number", "an integer type");
+  }
+  property.type = read_type(scan);
+  property.name = scan.token("the name of a property");
+  header.elements.back().properties.push_back(std::move(property));
+}
+
+Header read_header(TextScanner& scan) {
+  Header header;
+  scan.keyword("ply");
+  for (;;) {
+    const std::string_view word = scan.token("a line of the header, or end_header");
+    if (word == "end_header") break;
+    if (word == "format") {
+      header.format = scan.token("the format");
+      if (header.format != "ascii" && header.format != "binary_little_endian" && header.format != "binary_big_endian")
+        scan.fail(fmt::format("the format {}", in_quotes(header.format)),
+                  "ascii, binary_little_endian or binary_big_endian");
+      scan.token("the version of the format");
+    } else if (word == "element") {
+      std::string name(scan.token("the name of an element"));
+      header.elements.push_back({.name = std::move(name), .count = scan.count("the number of elements")});
+    } else if (word == "property") {
+      read_property(scan, header);
+    } else if (word == "comment" || word == "obj_info") {
+      scan.rest_of_line();
+    } else {
+      scan.fail(fmt::format("found {}", in_quotes(word)), "format, element, property, comment or end_header");
+    }
+  }
+  if (header.format.empty()) scan.fail("the header has no format", "a line format before end_header");
+  return header;
+}
+
+void check_vertex(const TextScanner& scan, const Element& element) {
+  int axes = 0;
+  for (const auto& p : element.properties) axes += (p.name == "x" || p.name == "y" || p.name == "z") && !p.length;
+  if (axes != 3) scan.fail("vertices without one property each of x, y and z", "three coordinates");
+}
+
+void read_vertex(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
+  const std::uint64_t number = builder.point_count();
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  for (const Property& property : element.properties) {
+    const bool is_axis = property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
+    if (property.length)
+      numbers.skip(property.type, numbers.count(*property.length, "the length of a list"), "a property of a vertex");
+    else if (is_axis)
+      x[property.name[0] - 'x'] = numbers.real(property.type, {"a coordinate of vertex", number});
+    else
+      numbers.skip(property.type, 1, "a property of a vertex");
+  }
+  builder.add_point(number, x, numbers.line());
+}
+
+/// A face, or another element, of which nothing is kept. Lists of corners go by two names.
+void read_element(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
+  std::vector<std::uint64_t> corners;
+  std::size_t line = 0;
+  const std::uint64_t cell = builder.cell_count();
+  for (const Property& property : element.properties) {
+    const std::uint64_t length = property.length ? numbers.count(*property.length, "the length of a list") : 1;
+    const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    if (!element.is_face() || !property.length || !is_corners) {
+      numbers.skip(property.type, length, "a property");
+      continue;
+    }
+    if (is_real(property.type)) numbers.fail("corners that are real numbers", "an integer type");
+    line = numbers.line();
+    for (std::uint64_t k = 0; k < length; ++k)
+      corners.push_back(numbers.count(property.type, {"a corner of face", cell}));
+  }
+  if (element.is_face()) add_polygon(builder, corners, line);
+}
+
+}  // namespace
+
+std::string read_ply(std::string_view text, MeshBuilder& builder) {
+  TextScanner scan(text, builder.cell_file());
+  const Header header = read_header(scan);
+  FileNumbers numbers(scan);
+  if (header.format != "ascii") {
+    numbers.set_binary(header.format == "binary_big_endian");
+    numbers.begin();
+  }
+  for (const Element& element : header.elements) {
+    if (element.is_vertex()) check_vertex(scan, element);
+    if (element.properties.empty() && element.count != 0 && !element.is_face()) continue;
+    for (std::uint64_t k = 0; k < element.count; ++k)
+      element.is_vertex() ? read_vertex(numbers, element, builder) : read_element(numbers, element, builder);
+  }
+  if (!scan.at_end()) {
+    const auto extra = scan.token("nothing");
+    scan.fail(fmt::format("{} follows the last element", in_quotes(extra)), "as many elements as the header announces");
+  }
+  return header.format == "ascii" ? "PLY" : "PLY " + header.format.substr(0, header.format.rfind('_'));
+}
+
+}  // namespace dartboard

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+
+#include "core/meshes/bytes/file_numbers.h"
+#include "core/meshes/surfaces/surface_formats.h"
+#include "core/meshes/text/text_scanner.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::size_t header_bytes = 84, facet_bytes = 50;
+
+/// The points of a surface that has none of its own: equal corners are one.
+class Corners {
+ public:
+  explicit Corners(MeshBuilder& builder) : builder_(builder) {}
+
+  std::uint64_t number(const Eigen::Vector3d& x, std::size_t line) {
+    const auto [at, is_new] = numbers_.try_emplace({x[0], x[1], x[2]}, builder_.point_count());
+    if (is_new) builder_.add_point(at->second, x, line);
+    return at->second;
+  }
+
+ private:
+  MeshBuilder& builder_;
+  std::map<std::array<double, 3>, std::uint64_t> numbers_;
+};
+
+void read_facet(TextScanner& scan, Corners& corners, MeshBuilder& builder) {
+  const std::size_t line = scan.line();
+  scan.keyword("normal");
+  // some writers have nan here, for facets without area; what the corners say goes
+  for (int k = 0; k < 3; ++k) scan.token("a component of a normal");
+  scan.keyword("outer");
+  scan.keyword("loop");
+  std::array<std::uint64_t, 3> nodes{};
+  for (auto& node : nodes) {
+    scan.keyword("vertex");
+    Eigen::Vector3d x;
+    for (int k = 0; k < 3; ++k) x[k] = scan.real({"a coordinate of facet", builder.cell_count()});
+    node = corners.number(x, scan.line());
+  }
+  scan.keyword("endloop");
+  scan.keyword("endfacet");
+  add_polygon(builder, nodes, line);
+}
+
+/// A file may hold several solids, one after the other; each becomes a region of its own, with its name.
+std::string read_text(std::string_view text, MeshBuilder& builder) {
+  TextScanner scan(text, builder.cell_file());
+  Corners corners(builder);
+  const std::size_t column = builder.tags().column("solid", false);
+  for (std::int64_t solid = 1; !scan.at_end(); ++solid) {
+    scan.keyword("solid");
+    builder.tags().name_value(column, 2, solid, std::string(scan.rest_of_line()));
+    for (;;) {
+      const std::string_view word = scan.token("facet or endsolid");
+      if (word == "endsolid") break;
+      if (word != "facet") scan.fail(fmt::format("found {}", in_quotes(word)), "facet or endsolid");
+      builder.tags().set(column, builder.cell_count(), solid);
+      read_facet(scan, corners, builder);
+    }
+    scan.rest_of_line();  // the name again
+  }
+  return "STL";
+}
+
+std::string read_binary(std::string_view text, MeshBuilder& builder) {
+  TextScanner scan(text, builder.cell_file());
+  FileNumbers numbers(scan);
+  numbers.set_binary(false);
+  numbers.skip(Scalar::uint8, header_bytes - 4, "the header of a binary STL file");
+  const std::uint64_t count = numbers.count(Scalar::uint32, "the number of facets");
+  if (const std::uint64_t left = scan.left(); left != count * facet_bytes)
+    numbers.fail(fmt::format("{} facets in {} bytes", count, left), fmt::format("{} bytes for each", facet_bytes));
+  Corners corners(builder);
+  for (std::uint64_t f = 0; f < count; ++f) {
+    numbers.skip(Scalar::float32, 3, "a normal");
+    std::array<std::uint64_t, 3> nodes{};
+    for (auto& node : nodes) {
+      Eigen::Vector3d x;
+      for (int k = 0; k < 3; ++k) x[k] = numbers.real(Scalar::float32, {"a coordinate of facet", f});
+      node = corners.number(x, 0);
+    }
+    numbers.skip(Scalar::uint16, 1, "the attribute of a facet");
+    add_polygon(builder, nodes, 0);
+  }
+  return "STL binary";
+}
+
+/// Of the size that its number of facets asks for. The word solid tells nothing: binary files may begin with it too.
+bool is_binary(std::string_view text) {
+  if (text.size() < header_bytes) return false;
+  return text.size() ==
+         header_bytes + facet_bytes * std::size_t{load<std::uint32_t>(text.substr(header_bytes - 4), false)};
+}
+
+}  // namespace
+
+std::string read_stl(std::string_view text, MeshBuilder& builder) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const bool begins_as_text = begin != text.npos && text.substr(begin).starts_with("solid");
+  return is_binary(text) || !begins_as_text ? read_binary(text, builder) : read_text(text, builder);
+}
+
+}  // namespace dartboard

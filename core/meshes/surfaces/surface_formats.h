@@ -1,0 +1,24 @@
+#pragma once
+// One reader per format of surfaces. Each hands what it finds to a builder and returns the exact name of the format.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/meshes/formats/mesh_builder.h"
+
+namespace dartboard {
+
+/// Corners that are equal number for number become one point: the format has no others.
+std::string read_stl(std::string_view text, MeshBuilder& builder);
+std::string read_obj(std::string_view text, MeshBuilder& builder);
+std::string read_ply(std::string_view text, MeshBuilder& builder);
+std::string read_off(std::string_view text, MeshBuilder& builder);
+
+/// Add a triangle or a quadrilateral.
+///
+/// throws  IoError for a polygon of another size
+void add_polygon(MeshBuilder& builder, std::span<const std::uint64_t> corners, std::size_t line);
+
+}  // namespace dartboard
