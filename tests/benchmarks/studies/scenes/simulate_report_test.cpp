@@ -147,8 +147,8 @@ TEST_F(SimulateReport, InJsonHasEveryFigure) {
   r.unjudged = "cut short";
   result_.interrupted = true;
   nlohmann::ordered_json expected = nlohmann::ordered_json::parse(R"({"scene": "box", "map": "", "integrator": "",
-    "holds": false, "steps": 3, "first": {}, "last": {}, "hash": "", "wall_s": 1.5, "cpu_s": 0.75, "mass_drift": 0.0,
-    "jumps": {}, "warnings": [], "idle_events": [],
+    "steps": 3, "first": {}, "last": {}, "hash": "", "wall_s": 1.5, "cpu_s": 0.75, "mass_drift": 0.0,
+    "jumps": {}, "holds": false, "warnings": [], "idle_events": [],
     "expected": [{"what": "vertices", "expected": "27", "actual": "28", "holds": false},
       {"what": "cells", "expected": "48", "actual": "48", "holds": true}],
     "unjudged": "cut short", "interrupted": true, "folder": "out"})");
@@ -160,6 +160,14 @@ TEST_F(SimulateReport, InJsonHasEveryFigure) {
   expected["mass_drift"] = mass_unaccounted_for(16.0, 0.0, simulation_.body().mass());
   expected["jumps"] = to_json(simulation_.jumps());
   EXPECT_EQ(to_json(r), expected);
+}
+
+TEST_F(SimulateReport, InJsonHoldsNothingWhereNothingWasExpected) {
+  SimulationReport r = report();
+  r.expected.clear();
+  EXPECT_FALSE(to_json(r).contains("holds"));
+  diverge();
+  EXPECT_EQ(to_json(r).at("holds"), false);
 }
 
 }  // namespace
