@@ -42,7 +42,7 @@ RUNS = {
     "explain": [(["sheet_cut"], AGREES), (["sheet_cut", "--measure", "--json"], AGREES)],
     "explain-dt": [(["sheet_cut"], AGREES), (["sheet_cut", "--json"], AGREES)],
     "gallery": [(["--json", "--out", "OUT"], AGREES)],
-    "mesh info": [(["LIVER"], AGREES), (["LIVER", "--json"], AGREES)],
+    "mesh info": [(["LIVER"], AGREES), (["LIVER", "--out", "OUT"], AGREES), (["LIVER", "--json"], AGREES)],
     "list": [([], AGREES), (["--json"], AGREES)],
 }
 

@@ -4,13 +4,20 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <span>
 
 #include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/figures/body_picture.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
+#include "core/meshes/mesh_facts.h"
 #include "core/meshes/mesh_io.h"
+#include "core/meshes/touching.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
+#include "core/plain/folder_claim.h"
 #include "core/topology/build.h"
 #include "core/topology/storage/hash.h"
 #include "core/topology/summary.h"
@@ -22,6 +29,7 @@ MapSummary summary_of(const Mesh& mesh) {
   return mesh.dimension() == 2 ? summarize(build_map<Map2>(mesh).map) : summarize(build_map<Map3>(mesh).map);
 }
 
+using Cells = std::vector<std::uint32_t>;
 constexpr std::size_t most_values = 50;  // listed of one column: numbers of cells would be as many as these
 
 /// Equal for meshes of the same points, kinds and nodes, to the last bit.
@@ -51,18 +59,48 @@ nlohmann::ordered_json regions_of(const LoadedMesh& loaded) {
   return regions;
 }
 
-nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded, const MapSummary& s) {
-  nlohmann::ordered_json json{
-      {"file", file},     {"format", loaded.format}, {"dimension", s.dimension}, {"points", loaded.mesh.points.size()},
-      {"darts", s.darts}, {"vertices", s.cells[0]},  {"edges", s.cells[1]},      {"faces", s.cells[2]}};
+nlohmann::ordered_json json_of(const std::optional<OfCell>& figure, const char* unit) {
+  if (!figure) return nullptr;
+  return {{unit, figure->value}, {"cell", figure->cell}};
+}
+
+/// Size, edges, worst cells and boundary of the mesh with a point for each vertex of its map.
+void add_facts(nlohmann::ordered_json& json, const MeshFacts& facts, int dimension) {
+  const auto point = [](const Eigen::Vector3d& x) { return nlohmann::ordered_json{x.x(), x.y(), x.z()}; };
+  json["from"] = point(facts.low);
+  json["to"] = point(facts.high);
+  json[dimension == 3 ? "volume" : "area"] = facts.measure;
+  json["edge_lengths"] = {{"least", facts.least_edge}, {"median", facts.median_edge}, {"largest", facts.largest_edge}};
+  json["smallest_angle"] = json_of(facts.smallest_angle, "degrees");
+  json["largest_angle"] = json_of(facts.largest_angle, "degrees");
+  if (facts.least_radius_ratio) json["least_radius_ratio"] = json_of(facts.least_radius_ratio, "ratio");
+  const auto shown = std::min<std::size_t>(facts.flat.size(), 10);
+  json["flat_cells"] = {{"count", facts.flat.size()},
+                        {"first", Cells(facts.flat.begin(), facts.flat.begin() + static_cast<std::ptrdiff_t>(shown))}};
+  json["boundary_parts"] = facts.boundary_parts;
+  if (facts.genus) json["genus"] = *facts.genus;
+}
+
+nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded, const MapSummary& s,
+                               const MeshFacts& facts, const TouchingCells& touching, const std::string& hash) {
+  nlohmann::ordered_json json{{"file", file},
+                              {"format", loaded.format},
+                              {"dimension", s.dimension},
+                              {"points", loaded.mesh.points.size() - touching.copied.size()},
+                              {"darts", s.darts},
+                              {"vertices", s.cells[0]},
+                              {"edges", s.cells[1]},
+                              {"faces", s.cells[2]}};
   if (s.dimension == 3) json["volumes"] = s.cells[3];
   json["components"] = s.components;
   json[s.dimension == 3 ? "boundary_faces" : "boundary_edges"] = s.boundary_facets;
   json["euler"] = s.euler;
+  add_facts(json, facts, s.dimension);
+  json["touching"] = {{"points", touching.points.size()}, {"edges", touching.edges.size()}};
   json["orientable"] = s.orientable;
   json["valid"] = s.violation.empty();
   if (!s.violation.empty()) json["violation"] = s.violation;
-  json["hash"] = hash_of(loaded.mesh);
+  json["hash"] = hash;
   json["regions"] = regions_of(loaded);
   json["notices"] = loaded.notices;
   return json;
@@ -70,15 +108,28 @@ nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded
 
 void tell_regions(const nlohmann::ordered_json& regions) {
   for (const auto& column : regions) {
-    tell("regions         {}\n", terminal_text(column["name"].get<std::string>()));
+    tell("{:18} {}\n", "regions", terminal_text(column["name"].get<std::string>()));
     for (const auto& row : column["values"]) {
       const std::string name = row.contains("name") ? " '" + row["name"].get<std::string>() + "'" : "";
-      tell("{:15} {}{}: {}\n", "", row["value"].get<std::int32_t>(), terminal_text(name),
+      tell("{:18} {}{}: {}\n", "", row["value"].get<std::int32_t>(), terminal_text(name),
            counted(row["cells"].get<std::size_t>(), "cell"));
     }
     if (const auto left = column["distinct"].get<std::size_t>() - column["values"].size(); left != 0)
-      tell("{:15} and {} more\n", "", left);
+      tell("{:18} and {} more\n", "", left);
   }
+}
+
+/// "least 0.0216, median 0.238, largest 0.971": a value as people read it.
+std::string shown(const nlohmann::ordered_json& value) {
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  if (value.is_string()) return terminal_text(value.get<std::string>());
+  if (!value.is_structured()) return json_text(value);
+  std::string text;
+  for (const auto& [key, part] : value.items()) {
+    if (part.is_array() && part.empty()) continue;
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", value.is_object() ? key + " " : "", shown(part));
+  }
+  return text;
 }
 
 void tell_info(const nlohmann::ordered_json& json) {
@@ -86,7 +137,7 @@ void tell_info(const nlohmann::ordered_json& json) {
     if (key == "regions")
       tell_regions(value);
     else if (key != "notices")
-      tell("{:15} {}\n", key, value.is_string() ? terminal_text(value.get<std::string>()) : json_text(value));
+      tell("{:18} {}\n", key, shown(value));
 }
 
 void tell_formats(bool as_json) {
@@ -114,7 +165,7 @@ std::string known_extensions() {
 
 void add_mesh(CLI::App& app, Outcome& outcome) {
   struct Options {
-    std::string file;
+    std::string file, out;
     bool json = false, formats = false;
   };
   auto options = std::make_shared<Options>();
@@ -122,8 +173,10 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
   verb->require_subcommand(0, 1);
   auto* formats = verb->add_flag("--formats", options->formats, "list the formats that are read and written");
   verb->add_flag("--json", options->json, "print JSON")->needs(formats);
-  auto* info = verb->add_subcommand("info", "Build the map of a mesh, count its cells, and list its regions.");
+  auto* info = verb->add_subcommand(
+      "info", "Build the map of a mesh: its cells, size, edges, worst cells, boundary and regions.");
   info->add_option("FILE", options->file, known_extensions())->required();
+  info->add_option("--out", options->out, "folder for a picture of it, new or empty [nothing is drawn]");
   info->add_flag("--json", options->json, "print JSON");
   verb->callback([options, verb] {
     if (options->formats && verb->get_subcommands().empty()) return tell_formats(options->json);
@@ -132,21 +185,36 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
   });
   info->callback([options, &outcome] {
     if (options->formats) return;  // refused by the verb
-    const LoadedMesh loaded = read_mesh(options->file);
+    LoadedMesh loaded = read_mesh(options->file);
+    const std::string hash = hash_of(loaded.mesh);
+    const TouchingCells touching = split_touching_points(loaded.mesh);
+    if (touching.any()) loaded.notices.push_back(to_string(touching, loaded.place_of_point));
     MapSummary summary;
     try {
       summary = summary_of(loaded.mesh);
     } catch (const InputError& error) {  // the mesh, not the command line, is at fault
       throw IoError(fmt::format("{}: {}", options->file, error.what()));
     }
-    const auto json = to_json(options->file, loaded, summary);
+    const auto json = to_json(options->file, loaded, summary, facts_of(loaded.mesh), touching, hash);
+    if (!options->out.empty()) {
+      const FolderClaim claim(options->out);
+      Frame frame;
+      frame.mesh = loaded.mesh;
+      frame.component.assign(loaded.mesh.cell_count(), 0);
+      std::vector<std::uint32_t> point(loaded.mesh.points.size());
+      std::iota(point.begin(), point.end(), 0u);
+      const BodyPanel panel{frame, point};
+      picture_missing(outcome,
+                      draw_bodies(std::span(&panel, 1), std::filesystem::path(options->file).filename().string(),
+                                  options->out, "mesh"));
+    }
     if (options->json) {
       tell("{}\n", json_text(json, 2));
     } else {
       tell_info(json);
       for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}\n", notice);
     }
-    outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;
+    if (outcome.exit_code != exit_io) outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;
   });
 }
 
