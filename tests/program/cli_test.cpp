@@ -81,6 +81,9 @@ TEST(MeshInfo, CountsTheCellsOfThePapersBody) {
   EXPECT_EQ(json.at("euler"), 1);
   EXPECT_EQ(json.at("orientable"), true);
   EXPECT_EQ(json.at("valid"), true);
+  EXPECT_EQ(json.at("boundary_parts"), 1);
+  EXPECT_EQ(json.at("genus"), 0);
+  EXPECT_EQ(json.at("touching").at("points"), 0);
 }
 
 TEST(MeshInfo, OfAMissingFileNamesItAndExitsWithThree) {
@@ -114,8 +117,10 @@ TEST(MeshInfo, ListsRegionsWithTheirNamesAndHowManyCellsTheyHave) {
   EXPECT_EQ(json.at("regions").at(0), nlohmann::json::parse(R"({"name": "physical group", "distinct": 2, "values":
             [{"value": 5, "cells": 1, "name": "soft"}, {"value": 6, "cells": 1}]})"));
   const std::string text = run("mesh info " + file.path.string()).out;
-  EXPECT_NE(text.find("regions         physical group\n                5 'soft': 1 cell\n                6: 1 cell\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "regions            physical group\n                   5 'soft': 1 cell\n                   6: 1 cell\n"),
+      std::string::npos)
       << text;
 }
 
