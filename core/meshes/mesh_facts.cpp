@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 
+#include "core/plain/disjoint_sets.h"
 #include "core/plain/median.h"
 
 namespace dartboard {
@@ -93,27 +93,6 @@ void keep_less(std::optional<OfCell>& least, double value, std::size_t cell) {
   if (!least || !(value >= least->value)) least = {value, static_cast<std::uint32_t>(cell)};
 }
 
-/// Sets of facets that hang together.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : above_(count), parts_(count) { std::iota(above_.begin(), above_.end(), 0u); }
-  std::uint32_t of(std::uint32_t k) {
-    while (above_[k] != k) k = above_[k] = above_[above_[k]];
-    return k;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parts_ -= a != b;
-    above_[std::max(a, b)] = std::min(a, b);
-  }
-  std::size_t count() const { return parts_; }
-
- private:
-  std::vector<std::uint32_t> above_;
-  std::size_t parts_;
-};
-
 /// Faces of volumes, or edges of polygons, that one cell has.
 std::vector<Points> boundary_facets(const Mesh& mesh) {
   std::map<Points, std::pair<Points, int>> met;
@@ -138,7 +117,7 @@ std::vector<Points> boundary_facets(const Mesh& mesh) {
 void add_boundary(const Mesh& mesh, MeshFacts& facts) {
   const std::vector<Points> facets = boundary_facets(mesh);
   if (facets.empty()) return;
-  Parts parts(facets.size());
+  DisjointSets parts(facets.size());
   // facets are joined by edges, the edges of a surface by points
   const bool solid = facets[0].size() > 2;
   std::map<Pair, std::vector<std::uint32_t>> around;
@@ -160,7 +139,7 @@ void add_boundary(const Mesh& mesh, MeshFacts& facts) {
   // parts that share a point are one here and two in the formula
   std::map<std::uint32_t, std::set<std::uint32_t>> parts_at;
   for (std::uint32_t f = 0; f < facets.size(); ++f)
-    for (const std::uint32_t p : facets[f]) parts_at[p].insert(parts.of(f));
+    for (const std::uint32_t p : facets[f]) parts_at[p].insert(parts.set_of(f));
   std::size_t vertices = 0;
   for (const auto& [point, of] : parts_at) vertices += of.size();
   // V - E + F = 2 (parts - handles)

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "core/plain/counted.h"
+#include "core/plain/disjoint_sets.h"
 
 namespace dartboard {
 namespace {
@@ -14,24 +14,6 @@ namespace {
 using Pair = std::array<std::uint32_t, 2>;
 
 Pair ascending(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// Sets of items that were joined, each known by its lowest item.
-class Joined {
- public:
-  explicit Joined(std::size_t items) : above_(items) { std::iota(above_.begin(), above_.end(), 0u); }
-  std::uint32_t set_of(std::uint32_t k) {
-    while (above_[k] != k) k = above_[k] = above_[above_[k]];
-    return k;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = set_of(a);
-    b = set_of(b);
-    above_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> above_;
-};
 
 /// The edges of all cells, one after the other.
 struct CellEdges {
@@ -100,7 +82,7 @@ std::uint32_t corner_of(const Mesh& mesh, std::uint32_t cell, std::uint32_t poin
 
 /// The values, ascending, that stand beside more than one set.
 template <class Value>
-std::vector<Value> of_several_sets(const std::vector<Value>& values, Joined& sets) {
+std::vector<Value> of_several_sets(const std::vector<Value>& values, DisjointSets& sets) {
   std::vector<std::pair<Value, std::uint32_t>> pairs;
   for (std::uint32_t k = 0; k < values.size(); ++k)
     if (sets.set_of(k) == k) pairs.push_back({values[k], k});
@@ -126,7 +108,7 @@ std::string first_three(std::string_view what, const Items& items, Show&& show) 
 TouchingCells split_touching_points(Mesh& mesh) {
   TouchingCells touching;
   const CellEdges edges(mesh);
-  Joined corners(mesh.nodes.size()), sides(edges.ends.size());
+  DisjointSets corners(mesh.nodes.size()), sides(edges.ends.size());
   const std::vector<Facet> facets = facets_by_points(mesh);
   for (std::size_t k = 1; k < facets.size(); ++k) {
     const Facet &a = facets[k - 1], &b = facets[k];

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "core/plain/disjoint_sets.h"
+
 namespace dartboard {
 namespace {
 
@@ -37,28 +39,6 @@ class FirstMet {
   std::vector<Met> met_;
 };
 
-/// Sets of cells that hang together by facets.
-class Together {
- public:
-  explicit Together(std::size_t cells) : above_(cells), sets_(cells) { std::iota(above_.begin(), above_.end(), 0u); }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return;
-    above_[a] = b;
-    --sets_;
-  }
-  std::size_t sets() const { return sets_; }
-
- private:
-  std::uint32_t find(std::uint32_t c) {
-    while (above_[c] != c) c = above_[c] = above_[above_[c]];
-    return c;
-  }
-  std::vector<std::uint32_t> above_;
-  std::size_t sets_;
-};
-
 MeshTally tally_of_chain(const Mesh& mesh) {
   MeshTally t;
   t.vertices = mesh.points.size();
@@ -81,7 +61,7 @@ MeshTally tally_of(const Mesh& mesh) {
   std::vector<std::uint32_t> vertex_of(mesh.points.size(), none), last_cell;  // last_cell: by edge
   FirstMet<2> edges(mesh.points.size());
   FirstMet<4> faces(mesh.points.size());
-  Together together(t.cells);
+  DisjointSets together(t.cells);  // by facets
   const bool solid = t.cells > 0 && dimension(mesh.kinds[0]) == 3;
 
   struct Facet {
@@ -134,7 +114,7 @@ MeshTally tally_of(const Mesh& mesh) {
   t.vertices = t.point.size();
   t.edges = t.ends.size();
   t.faces = solid ? facets.size() : t.cells;
-  t.components = together.sets();
+  t.components = together.count();
   t.edge_on_boundary.assign(t.edges, 0);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     if (facets[f].cells != 1) continue;

@@ -14,8 +14,9 @@ namespace dartboard {
 /// The counts of the map of a mesh, and its edges by the numbers that a body will give them.
 ///
 /// Bodies number vertices and edges by their lowest dart (`build_body`), and darts are made cell by cell in the order
-/// of `faces_of`: so these numbers are those of a first meeting. It is a count of points and not of vertices of the
-/// map; where a point is several vertices, the mesh makes no body.
+/// of `faces_of`: so these numbers are those of a first meeting. Points and pairs of them are counted:
+/// the mesh of a body has a point for each vertex (split_touching_points), and two edges between the same two are one
+/// here.
 struct MeshTally {
   std::size_t vertices = 0, edges = 0, faces = 0, cells = 0;  // cells: volumes, or the faces of a surface
   std::size_t darts = 0;
