@@ -110,6 +110,15 @@ Box box_of(const BodyPanel& panel) {
 
 }  // namespace
 
+std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Vector3d& up_now) {
+  std::vector<BodyPanel> turned(panels.begin(), panels.end());
+  if (up_now.isZero(0.0) || up_now.normalized() == Vector3d::UnitZ()) return turned;
+  const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(up_now, Vector3d::UnitZ()).toRotationMatrix();
+  for (BodyPanel& panel : turned)
+    for (Vector3d& x : panel.frame.mesh.points) x = turn * x;
+  return turned;
+}
+
 std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first) {
   std::set<Key> skin;
   for (const Facet& facet : facets_of(first.frame.mesh)) skin.insert(origin_of(facet, first));

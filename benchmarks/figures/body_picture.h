@@ -30,6 +30,9 @@ struct DrawnFacet {
   std::uint32_t colour = 0;              // 0xrrggbb
 };
 
+/// The same bodies turned so that `up` is z, which pictures show upwards; as they are where `up` is z already, or zero.
+std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Eigen::Vector3d& up);
+
 /// What is seen of a body from the front, a little from the right and above, z upwards: its boundary, the farthest
 /// facet first. Each component has a colour of its own, and facets that were inside the body of `first` another one.
 std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first);

@@ -142,7 +142,8 @@ void simulate(const Options& options, Outcome& outcome) {
   outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
   if (album) {
     album->ended(simulation);
-    const std::string trouble = draw_bodies(album->panels(), scene.name, output->folder(), "picture");
+    const std::string trouble =
+        draw_bodies(upright(album->panels(), -scene.gravity), scene.name, output->folder(), "picture");
     report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
     picture_missing(outcome, trouble);
   }

@@ -46,7 +46,7 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
     if (row.holds) ++shown.held;
   }
   album.ended(simulation);
-  return {shown, {album.panels(), shown.scene.name}};
+  return {shown, {upright(album.panels(), -shown.scene.gravity), shown.scene.name}};
 }
 
 }  // namespace

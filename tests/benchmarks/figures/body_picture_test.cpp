@@ -293,5 +293,26 @@ TEST_F(BodyPictureFiles, HaveABodyThatFliesFarInTheMiddleOfItsPanel) {
   EXPECT_NEAR((drawn[6][0] - drawn[0][0]).y(), 0.0, 4e-5);
 }
 
+TEST(Upright, TurnsWhatIsUpToZAndKeepsLengths) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0, 0, 0}, {0, 3, 0}, {1, 0, 0}, {0, 0, 2}};
+  const std::vector<BodyPanel> turned = upright(std::span(&panel, 1), {0, 9.81, 0});
+  const auto& x = turned.at(0).frame.mesh.points;
+  // a rotation of numbers of size 3: a few roundings
+  EXPECT_LT((x[1] - Eigen::Vector3d(0, 0, 3)).norm(), 1e-14);
+  for (std::size_t a = 0; a < x.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_NEAR((x[a] - x[b]).norm(), (panel.frame.mesh.points[a] - panel.frame.mesh.points[b]).norm(), 1e-14);
+  // no mirror image
+  EXPECT_NEAR((x[2] - x[0]).cross(x[1] - x[0]).dot(x[3] - x[0]), 6.0, 1e-13);
+}
+
+TEST(Upright, LeavesWhatIsUprightOrHasNoUp) {
+  BodyPanel panel;
+  panel.frame.mesh.points = {{0.1, 0.2, 0.3}};
+  for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 9.81), Eigen::Vector3d(0, 0, 0)})
+    EXPECT_EQ(upright(std::span(&panel, 1), up).at(0).frame.mesh.points, panel.frame.mesh.points);
+}
+
 }  // namespace
 }  // namespace dartboard
