@@ -18,6 +18,15 @@ std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene)
                      scene.accuracy ? "'step' in place of /accuracy" : "/step", warning.stable);
 }
 
+/// Of what stress tears: how far from that it is.
+std::string why_idle(const std::string& path, const SceneFile& scene, const Simulation& simulation) {
+  for (const SceneEvent& event : scene.events)
+    if (const auto* tear = std::get_if<TearWhereStressed>(&event.action); tear != nullptr && event.path == path)
+      return fmt::format(": the largest stress is {:.4g}, its threshold {:.4g}", simulation.body().largest_stress(),
+                         tear->threshold);
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& simulation) {
@@ -27,8 +36,10 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
   if (const auto& coarse = simulation.coordinate_warning()) said.push_back(to_string(*coarse) + " (/body/translate)");
   for (const StepResult& warning : simulation.warnings()) said.push_back(explained(warning));
   if (const std::string shapes = free_shapes_of(simulation.cell_kinds()); !shapes.empty()) said.push_back(shapes);
+  // an event that was due at the start may have its time yet
+  if (simulation.steps_done() == 0 && simulation.step_count() > 0) return said;
   for (const std::string& path : simulation.idle_events())
-    said.push_back(fmt::format("the event at {} never did anything", path));
+    said.push_back(fmt::format("the event at {} never did anything{}", path, why_idle(path, scene, simulation)));
   return said;
 }
 

@@ -55,5 +55,17 @@ TEST(SceneWarnings, SayWhatAnImplicitStepDoesNotResolve) {
   EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)), "motions faster than 159 Hz are not resolved");
 }
 
+TEST(SceneWarnings, OfATearThatNeverHappensSayHowFarTheStressIsFromIt) {
+  const SceneFile scene = parse(with_events(moving_box(), R"([{"tear_where_stressed": {"threshold": 1e9}}])"));
+  Simulation simulation(scene);
+  EXPECT_TRUE(warnings_of(scene, simulation).empty());  // it may tear yet
+  EXPECT_FALSE(simulation.advance());
+  const auto said = warnings_of(scene, simulation);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0],
+            fmt::format("the event at /events/0 never did anything: the largest stress is {:.4g}, its threshold 1e+09",
+                        simulation.body().largest_stress()));
+}
+
 }  // namespace
 }  // namespace dartboard
