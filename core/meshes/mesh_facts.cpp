@@ -153,11 +153,10 @@ void add_boundary(const Mesh& mesh, MeshFacts& facts) {
 MeshFacts facts_of(const Mesh& mesh) {
   MeshFacts facts;
   if (mesh.points.empty()) return facts;
-  facts.low = facts.high = mesh.points[0];
-  for (const Eigen::Vector3d& x : mesh.points) {
-    facts.low = facts.low.cwiseMin(x);
-    facts.high = facts.high.cwiseMax(x);
-  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : mesh.points) box.extend(x);
+  facts.low = box.min();
+  facts.high = box.max();
   std::set<Pair> edges;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     facts.measure += std::abs(signed_measure(mesh, c));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <string>
 
 #include "core/plain/error.h"
@@ -63,11 +64,9 @@ void require_some(std::span<const std::uint32_t> selected, std::string_view path
                   std::span<const Eigen::Vector3d> points) {
   if (!selected.empty()) return;
   if (points.empty()) throw InputError(fmt::format("{}: selects no vertex; expected at least one", path));
-  Eigen::Array3d low = points[0].array(), high = low;
-  for (const Eigen::Vector3d& p : points) {
-    low = low.min(p.array());
-    high = high.max(p.array());
-  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  const Eigen::Vector3d &low = box.min(), &high = box.max();
   throw InputError(
       fmt::format("{}: selects no vertex; expected at least one of the body, which is from [{:.4g}, {:.4g}, {:.4g}] to "
                   "[{:.4g}, {:.4g}, {:.4g}]",

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -34,12 +35,9 @@ std::string in_words(const SimulatedBody& body) {
   const SpringSystem system = body.system();
   const auto& x = body.vertices().position;
   if (x.empty()) return "nothing";
-  Eigen::Array3d low = x[0].array(), high = low;
-  for (const Eigen::Vector3d& p : x) {
-    low = low.min(p.array());
-    high = high.max(p.array());
-  }
-  const Eigen::Array3d size = high - low;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : x) box.extend(p);
+  const Eigen::Vector3d size = box.sizes();
   std::string text = fmt::format("{:.3g} m along x, {:.3g} m along y, {:.3g} m along z; {}", size[0], size[1], size[2],
                                  mass_in_words(body.mass()));
   if (system.springs.size() == 0) return text;
