@@ -36,13 +36,14 @@ std::string reason_to_omit(const SceneEvent& event, double duration) {
   if (std::holds_alternative<TearWhereStressed>(event.action)) return "when it happens depends on the motion";
   if (std::holds_alternative<Remove>(event.action)) return "certified trajectories do not remove cells";
   if (std::holds_alternative<Refine>(event.action)) return "certified trajectories do not refine";
+  if (std::holds_alternative<Release>(event.action)) return "certified trajectories let go of nothing";
   if (event.from != event.until || event.every) return "it repeats";
   return {};
 }
 
 bool depends_on_positions(const SceneEvent& event) {
   const auto* dissociate = std::get_if<Dissociate>(&event.action);
-  return dissociate == nullptr || std::holds_alternative<PlaneSelection>(dissociate->faces);
+  return dissociate == nullptr || dissociate->faces.index() != 0;
 }
 
 /// The body on its way from event to event, to find the faces that each of them takes.
@@ -74,14 +75,16 @@ class Scout {
       const Dart start = starting_face(body_, *vertex, tear->direction);
       return start == no_dart ? std::vector<Dart>{} : fan(body_.map, start);
     }
-    const auto& [faces, within] = std::get<Dissociate>(event.action);
-    if (const auto* plane = std::get_if<PlaneSelection>(&faces)) {
+    const auto& cut = std::get<Dissociate>(event.action);
+    if (const auto* plane = std::get_if<PlaneSelection>(&cut.faces)) {
       std::vector<Dart> seam = faces_on_plane(body_, plane->point, plane->normal);
-      std::erase_if(seam, [&](Dart d) { return within && !contains(*within, facet_centre(body_, d)); });
+      std::erase_if(seam, [&](Dart d) { return cut.within && !contains(*cut.within, facet_centre(body_, d)); });
       return seam;
     }
+    if (const auto* blade = std::get_if<BladeSweep>(&cut.faces))
+      return facets_on_sweep(body_, blade->path, blade->depth);
     std::vector<Dart> found;
-    for (const auto& points : std::get<0>(faces)) {
+    for (const auto& points : std::get<0>(cut.faces)) {
       if (points.size() != 3)
         throw InputError(fmt::format("{}/dissociate/points: has {} points; expected three points of a face", event.path,
                                      points.size()));

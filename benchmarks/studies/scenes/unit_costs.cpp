@@ -288,9 +288,9 @@ double event_ns(const SceneEvent& event, const EventForecast& f, const UnitCosts
   if (const auto* remove = std::get_if<Remove>(&event.action)) return choosing(remove->cells) + f.operations * c.remove;
   if (const auto* refine = std::get_if<Refine>(&event.action)) return choosing(refine->cells) + f.operations * c.refine;
   if (const auto* dissociate = std::get_if<Dissociate>(&event.action))
-    return (std::holds_alternative<PlaneSelection>(dissociate->faces) ? times * mean.cells * c.across : 0.0) +
-           f.operations * c.dissociate;
+    return (dissociate->faces.index() != 0 ? times * mean.cells * c.across : 0.0) + f.operations * c.dissociate;
   if (std::holds_alternative<Tear>(event.action)) return times * c.tear;
+  if (std::holds_alternative<Release>(event.action)) return 0.0;  // one pass over the vertices, once
   return times * mean.springs * c.stress;
 }
 

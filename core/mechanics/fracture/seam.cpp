@@ -63,6 +63,20 @@ std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& 
   return seam;
 }
 
+/// Does the segment from a to b cross the parallelogram at `corner` along u and w? Its border, to rounding, is part of
+/// it, so that nothing slips through where two of them meet.
+bool crosses(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& corner,
+             const Eigen::Vector3d& u, const Eigen::Vector3d& w) {
+  const Eigen::Vector3d normal = u.cross(w);
+  const double above_a = (a - corner).dot(normal), above_b = (b - corner).dot(normal);
+  if ((above_a >= 0.0) == (above_b >= 0.0)) return false;
+  const Eigen::Vector3d there = a + above_a / (above_a - above_b) * (b - a) - corner;
+  const double s = there.cross(w).dot(normal) / normal.squaredNorm(),
+               t = u.cross(there).dot(normal) / normal.squaredNorm();
+  constexpr double slack = 1e-12;
+  return std::min(s, t) >= -slack && std::max(s, t) <= 1.0 + slack;
+}
+
 // Call f(choice) for every way to choose N of the ascending numbers, each choice ascending.
 template <std::size_t N, class F>
 void for_each_choice(const Numbers& numbers, F&& f, std::array<std::uint32_t, N> choice = {}, std::size_t chosen = 0,
@@ -112,6 +126,29 @@ Eigen::Vector3d facet_centre(const Body<Map>& body, Dart d) {
   return middle<Map::dimension - 1>(body, d);
 }
 
+bool crosses_sweep(std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth, const Eigen::Vector3d& a,
+                   const Eigen::Vector3d& b) {
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg)
+    if (crosses(a, b, path[leg], path[leg + 1] - path[leg], depth)) return true;
+  return false;
+}
+
+template <class Map>
+std::vector<Dart> facets_on_sweep(const Body<Map>& body, std::span<const Eigen::Vector3d> path,
+                                  const Eigen::Vector3d& depth) {
+  constexpr int n = Map::dimension;
+  std::vector<Eigen::Vector3d> centre;
+  centre.reserve(body.cell_dart.size());
+  for (const Dart d : body.cell_dart) centre.push_back(middle<n>(body, d));
+  std::vector<Dart> seam;
+  for_each_interior_facet(body.map, [&](Dart d) {
+    const Eigen::Vector3d &a = centre[body.cell(body.map, d)],
+                          &b = centre[body.cell(body.map, body.map.template alpha<n>(d))];
+    if (crosses_sweep(path, depth, a, b)) seam.push_back(d);
+  });
+  return seam;
+}
+
 template <class Map>
 FaceSet::FaceSet(const Map& map, std::span<const Dart> faces) : in_(map.template slot_count<2>(), false) {
   for (const Dart face : faces)
@@ -143,5 +180,6 @@ std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart
 DARTBOARD_SEAMS(, Map3)
 DARTBOARD_SEAMS(, TetMap)
 template Eigen::Vector3d facet_centre(const Body<Map2>&, Dart);
+template std::vector<Dart> facets_on_sweep(const Body<Map2>&, std::span<const Eigen::Vector3d>, const Eigen::Vector3d&);
 
 }  // namespace dartboard

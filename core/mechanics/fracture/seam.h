@@ -40,6 +40,23 @@ template <class Map>
 std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);
 
+/// Does the segment from a to b cross what a blade sweeps that goes along a path and reaches from it as far as `depth`:
+/// a parallelogram on each leg? An end on a leg's plane counts as in front of it.
+///
+/// pre     no leg is of length 0 or along the depth
+bool crosses_sweep(std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth, const Eigen::Vector3d& a,
+                   const Eigen::Vector3d& b);
+
+/// The interior faces, of a surface edges, between cells that the sweep of a blade separates: one dart of each, its
+/// lowest, ascending.
+///
+/// A face is on the sweep if the segment between the means of the vertices of its two cells crosses it.
+/// pre     as crosses_sweep
+/// cost    O(darts + faces legs)
+template <class Map>
+std::vector<Dart> facets_on_sweep(const MassSpringBody<Map, Held::by_every_dart>& body,
+                                  std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth);
+
 /// The mean of the positions of a face's vertices [m]; in a surface of an edge's two.
 template <class Map>
 Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>& body, Dart d);
@@ -61,15 +78,19 @@ std::vector<Dart> edges_on_plane(const MassSpringBody<Map2, Held::by_every_dart>
 std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart>& body,
                                   std::span<const std::array<std::uint32_t, 2>> pairs);
 
-#define DARTBOARD_SEAMS(prefix, Map)                                                                   \
-  prefix template FaceSet::FaceSet(const Map&, std::span<const Dart>);                                 \
-  prefix template Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>&, Dart); \
-  prefix template std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>&,    \
-                                                   const Eigen::Vector3d&, const Eigen::Vector3d&);    \
-  prefix template std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>&,   \
+#define DARTBOARD_SEAMS(prefix, Map)                                                                           \
+  prefix template FaceSet::FaceSet(const Map&, std::span<const Dart>);                                         \
+  prefix template Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>&, Dart);         \
+  prefix template std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>&,            \
+                                                   const Eigen::Vector3d&, const Eigen::Vector3d&);            \
+  prefix template std::vector<Dart> facets_on_sweep(const MassSpringBody<Map, Held::by_every_dart>&,           \
+                                                    std::span<const Eigen::Vector3d>, const Eigen::Vector3d&); \
+  prefix template std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>&,           \
                                                     std::span<const std::array<std::uint32_t, 3>>);
 DARTBOARD_SEAMS(extern, Map3)
 DARTBOARD_SEAMS(extern, TetMap)
 extern template Eigen::Vector3d facet_centre(const MassSpringBody<Map2, Held::by_every_dart>&, Dart);
+extern template std::vector<Dart> facets_on_sweep(const MassSpringBody<Map2, Held::by_every_dart>&,
+                                                  std::span<const Eigen::Vector3d>, const Eigen::Vector3d&);
 
 }  // namespace dartboard

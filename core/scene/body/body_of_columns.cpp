@@ -10,6 +10,7 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
+#include "core/scene/body/release.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
@@ -121,7 +122,9 @@ SpringSystem BodyOfColumns::system() const {
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
-  throw InputError(event.path + ": the body was built for a scene without events");
+  if (const auto* release = std::get_if<Release>(&event.action))
+    return std::make_unique<ReadyRelease>(vertices_, *release, event.path + "/release");
+  throw InputError(event.path + ": the body was built for a scene whose events leave the topology as it is");
 }
 
 double BodyOfColumns::mass() const {

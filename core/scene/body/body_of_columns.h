@@ -27,7 +27,7 @@ class BodyOfColumns final : public SimulatedBody {
   const VertexColumns& vertices() const override { return vertices_; }
   SpringSystem system() const override;
   Motion motion() override { return {vertices_.position, vertices_.velocity}; }
-  /// throws  InputError: nothing can happen to this body
+  /// throws  InputError for an event that would change the topology
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override;
 
   double mass() const override;

@@ -19,6 +19,7 @@
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/body_on_map.h"
+#include "core/scene/body/release.h"
 
 namespace dartboard {
 namespace {
@@ -105,6 +106,21 @@ class ReadyPlane : public ReadyEvent {
   BodyOnMap<Map>& on_;
   PlaneSelection plane_;
   std::optional<CutRegion> within_;
+};
+
+template <class Map>
+class ReadyBlade : public ReadyEvent {
+ public:
+  ReadyBlade(BodyOnMap<Map>& on, const BladeSweep& blade) : on_(on), blade_(blade) {}
+  std::size_t apply() override {
+    return follow_dissociation(on_,
+                               dissociate_all(on_.body().map, facets_on_sweep(on_.body(), blade_.path, blade_.depth)));
+  }
+  std::size_t bytes() const override { return bytes_of(blade_.path); }
+
+ private:
+  BodyOnMap<Map>& on_;
+  BladeSweep blade_;
 };
 
 // ---- remove
@@ -341,8 +357,12 @@ std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& on, const SceneEven
   if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
     if (const auto* plane = std::get_if<PlaneSelection>(&dissociate->faces))
       return std::make_unique<ReadyPlane<Map>>(on, *plane, dissociate->within);
+    if (const auto* blade = std::get_if<BladeSweep>(&dissociate->faces))
+      return std::make_unique<ReadyBlade<Map>>(on, *blade);
     return std::make_unique<ReadyFaces<Map>>(on, std::get<0>(dissociate->faces), event.path + "/dissociate/points");
   }
+  if (const auto* release = std::get_if<Release>(&event.action))
+    return std::make_unique<ReadyRelease>(on.body().vertices, *release, event.path + "/release");
   if (const auto* remove = std::get_if<Remove>(&event.action))
     return std::make_unique<ReadyRemoval<Map>>(on, remove->cells, event.path + "/remove");
   if (const auto* refine = std::get_if<Refine>(&event.action)) {

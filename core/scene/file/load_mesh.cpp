@@ -31,6 +31,8 @@ void visit_points(SceneFile& scene, const Visit& visit) {
   for (SceneEvent& event : scene.events) {
     if (auto* tear = std::get_if<Tear>(&event.action)) {
       if (auto* point = std::get_if<std::uint32_t>(&tear->vertex)) visit(*point, event.path + "/tear/vertex");
+    } else if (auto* release = std::get_if<Release>(&event.action)) {
+      visit_ids(release->vertices, event.path + "/release", visit);
     } else if (auto* dissociate = std::get_if<Dissociate>(&event.action)) {
       auto* faces = std::get_if<0>(&dissociate->faces);
       for (std::size_t k = 0; faces != nullptr && k < faces->size(); ++k)
@@ -111,10 +113,12 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   };
   for (VertexSelection& selection : scene.fixed) all_of(selection);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
-  for (SceneEvent& event : scene.events)
+  for (SceneEvent& event : scene.events) {
+    if (auto* release = std::get_if<Release>(&event.action)) all_of(release->vertices);
     if (auto* dissociate = std::get_if<Dissociate>(&event.action))
       if (auto* faces = std::get_if<0>(&dissociate->faces))
         for (auto& points : *faces) places.find_face(points);
+  }
 }
 
 std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {

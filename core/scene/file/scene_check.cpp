@@ -102,6 +102,9 @@ class Checker {
       case ValueType::point: return list(key, value, path, 3, 3, false);
       case ValueType::integer_pair: return list(key, value, path, 2, 2, true);
       case ValueType::integer_triple: return list(key, value, path, 3, 3, true);
+      case ValueType::points:
+        return each(key, value, path, key.least_size, many,
+                    [&](const Json& one, const std::string& at) { return list(key, one, at, 3, 3, false); });
       case ValueType::matrix:
         return each(key, value, path, 3, 3,
                     [&](const Json& row, const std::string& at) { return list(key, row, at, 3, 3, false); });

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "core/plain/cell_limits.h"
@@ -88,6 +90,12 @@ class Reader {
     return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
   }
 
+  static std::vector<Eigen::Vector3d> points(const Json& json) {
+    std::vector<Eigen::Vector3d> all;
+    for (const Json& one : json) all.push_back(point(one));
+    return all;
+  }
+
   // What a map keeps is numbered in 32 bits.
   void require_room(const Json& cells, const std::string& path, std::uint64_t most) const {
     double count = 1.0;
@@ -96,8 +104,17 @@ class Reader {
       fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {} in all", most));
   }
 
+  Eigen::Matrix3d rotation(const Json& body) const {
+    if (!body.contains("rotate")) return Eigen::Matrix3d::Identity();
+    const Json& rotate = body.at("rotate");
+    const double degrees = rotate.at("degrees");
+    return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180.0), direction(rotate.at("axis"), "/body/rotate/axis"))
+        .toRotationMatrix();
+  }
+
   BodySource body(const Json& json) const {
-    BodySource source{{}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split"};
+    BodySource source{
+        {}, json.at("scale"), rotation(json), point(json.at("translate")), json.at("touching") == "split"};
     if (json.contains("mesh")) {
       source.mesh = folder_ / json.at("mesh").get<std::string>();
       return source;
@@ -224,14 +241,36 @@ class Reader {
     return event;
   }
 
+  BladeSweep sweep(const Json& json, const std::string& path) const {
+    BladeSweep sweep{points(json.at("path")), point(json.at("depth"))};
+    for (std::size_t k = 0; k + 1 < sweep.path.size(); ++k) {
+      const Eigen::Vector3d leg = sweep.path[k + 1] - sweep.path[k];
+      // of a parallelogram thinner than this no side can be told
+      if (!(leg.cross(sweep.depth).norm() > 1e-12 * leg.norm() * sweep.depth.norm()))
+        fail(fmt::format("{}/path/{}", path, k + 1), "is where the point before it is, or along the depth from there",
+             "a leg that the blade sweeps an area on");
+    }
+    return sweep;
+  }
+
   Action action(const Json& json, const std::string& path) const {
+    if (json.contains("release"))
+      return Release{region<VertexSelection>(json.at("release"), path + "/release").value()};
     if (json.contains("remove")) return Remove{cells(json.at("remove"), path + "/remove")};
     if (json.contains("dissociate")) {
       const Json& faces = json.at("dissociate");
-      if (!faces.contains("plane"))
+      if (faces.contains("points"))
         return Dissociate{faces.at("points").get<std::vector<std::vector<std::uint32_t>>>()};
-      Dissociate cut{plane(faces.at("plane"), path + "/dissociate/plane")};
-      if (faces.contains("within")) cut.within = region<CutRegion>(faces.at("within"), path + "/dissociate/within");
+      if (faces.contains("blade")) return Dissociate{sweep(faces.at("blade"), path + "/dissociate/blade")};
+      const PlaneSelection seam = plane(faces.at("plane"), path + "/dissociate/plane");
+      Dissociate cut{seam};
+      if (faces.contains("within")) {
+        const Json& within = faces.at("within");
+        if (within.contains("polygon"))
+          cut.within = PolygonSelection{seam.normal, points(within.at("polygon"))};
+        else
+          cut.within = region<CutRegion>(within, path + "/dissociate/within");
+      }
       return cut;
     }
     if (json.contains("tear")) {
@@ -252,13 +291,8 @@ class Reader {
     return tear;
   }
 
-  static std::string_view key_of(const Action& action) {
-    constexpr std::string_view keys[] = {"dissociate", "remove", "tear", "tear_where_stressed", "refine"};
-    return keys[action.index()];
-  }
-
-  // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex between driven ones would
-  // have no path of its own.
+  // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex that it puts between driven
+  // ones would have no path of its own, and one between fixed ones would be let go by nobody.
   void require_consistent(const SceneFile& scene) const {
     if (scene.accuracy) {
       // a step is found by comparison with references, which know neither
@@ -267,18 +301,22 @@ class Reader {
       if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
         fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
     }
-    const SceneEvent *seam = nullptr, *refinement = nullptr;
+    const SceneEvent *seam = nullptr, *refinement = nullptr, *release = nullptr;
     for (const SceneEvent& event : scene.events) {
-      if (scene.is_chain())
+      if (scene.is_chain() && changes_topology(event.action))
         fail(fmt::format("{}/{}", event.path, key_of(event.action)), "is meant for cells, and a chain has none",
-             "no events");
+             "no such event");
       const auto* stress = std::get_if<TearWhereStressed>(&event.action);
       if (stress != nullptr && stress->seam) seam = &event;
       if (std::holds_alternative<Refine>(event.action)) refinement = &event;
+      if (std::holds_alternative<Release>(event.action)) release = &event;
     }
     if (seam != nullptr && refinement != nullptr)
       fail(refinement->path + "/refine", fmt::format("stands beside {}/tear_where_stressed/plane", seam->path),
            "no refinement where a seam is given");
+    if (refinement != nullptr && release != nullptr)
+      fail(refinement->path + "/refine", fmt::format("stands beside {}/release", release->path),
+           "no refinement where fixed vertices are let go");
     if (refinement != nullptr && !scene.driven.empty())
       fail(refinement->path + "/refine", "stands beside /driven", "no refinement where vertices are driven");
   }
@@ -333,6 +371,13 @@ class Reader {
 };
 
 }  // namespace
+
+bool changes_topology(const Action& action) { return !std::holds_alternative<Release>(action); }
+
+std::string_view key_of(const Action& action) {
+  constexpr std::string_view keys[] = {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"};
+  return keys[action.index()];
+}
 
 OutputPlan OutputPlan::in_steps_of(double step) const {
   const auto steps = [step](const std::optional<std::uint64_t>& given, const std::optional<double>& time) {

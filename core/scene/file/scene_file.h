@@ -43,10 +43,11 @@ struct ChainMesh {
   double spacing;
 };
 
-/// The mesh of a body: a file or a generator, then scaled, then moved.
+/// The mesh of a body: a file or a generator, then scaled, then turned, then moved.
 struct BodySource {
   std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh> mesh;
   double scale;
+  Eigen::Matrix3d rotate;
   Eigen::Vector3d translate;
   bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
   std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
@@ -74,8 +75,9 @@ struct SceneDrive {
 // ---- events
 
 struct Dissociate {
-  std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection> faces;  // by the points around each; or a seam
-  std::optional<CutRegion> within{};  // of a seam, the faces with their centre there
+  // by the points around each; on a plane; or where a blade sweeps
+  std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection, BladeSweep> faces;
+  std::optional<CutRegion> within{};  // of those on a plane, the faces with their centre there
 };
 struct Remove {
   CellSelection cells;
@@ -95,7 +97,15 @@ struct Refine {
   double bracing;
 };
 
-using Action = std::variant<Dissociate, Remove, Tear, TearWhereStressed, Refine>;
+/// Vertices held still are let go.
+struct Release {
+  VertexSelection vertices;  // by where they are at rest
+};
+
+using Action = std::variant<Dissociate, Remove, Tear, TearWhereStressed, Refine, Release>;
+bool changes_topology(const Action& action);
+/// "dissociate": the key that an event tells its action by.
+std::string_view key_of(const Action& action);
 
 /// What happens, and at which steps: an event that is due at n happens after n steps.
 struct SceneEvent {

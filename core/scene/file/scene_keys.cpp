@@ -70,8 +70,13 @@ std::vector<SceneKey> make_keys() {
       {.shape = body, .name = "generate", .type = object, .of = generate, .help = "a mesh made on the spot"},
       {.shape = body, .name = "scale", .type = real, .range = positive, .standard = "1",
        .help = "factor on all coordinates, applied first"},
+      {.shape = body, .name = "rotate", .type = object, .of = rotation,
+       .help = "turned about an axis through the origin, after scaling"},
       {.shape = body, .name = "translate", .type = point, .unit = "m", .standard = "[0, 0, 0]",
-       .help = "added to all points, after scaling"},
+       .help = "added to all points, after scaling and turning"},
+      {.shape = rotation, .name = "axis", .type = point, .required = true, .help = "of any length but 0"},
+      {.shape = rotation, .name = "degrees", .type = real, .required = true,
+       .help = "the angle; with the thumb of the right hand along the axis, the fingers show which way"},
       {.shape = body, .name = "touching", .type = choice, .choices = {"split", "refuse"}, .standard = "\"split\"",
        .help = "what is done where cells of a mesh file touch in a point or an edge without sharing a face: nothing holds "
                "them together there, and a point becomes as many vertices as it has groups of cells; or the scene is "
@@ -184,6 +189,8 @@ std::vector<SceneKey> make_keys() {
       {.shape = event, .name = "tear_where_stressed", .type = object, .of = stress,
        .help = "tear wherever the stress is too large"},
       {.shape = event, .name = "refine", .type = object, .of = refine, .help = "subdivide tetrahedra"},
+      {.shape = event, .name = "release", .type = object, .of = vertex_selection,
+       .help = "let go of fixed vertices, by where they are at rest"},
       {.shape = dissociate, .name = "points", .type = integer_lists, .range = number,
        .help = "faces, each by three of its points in the mesh, counted from 0 in the order of the file; in a surface "
                "edges, each by its two ends"},
@@ -192,6 +199,14 @@ std::vector<SceneKey> make_keys() {
                "of the mesh, so refine along it first for a smoother one"},
       {.shape = dissociate, .name = "within", .type = object, .of = within,
        .help = "only those of them whose centre is in this region at that time, as a blade cuts that ends inside the body"},
+      {.shape = dissociate, .name = "blade", .type = object, .of = blade,
+       .help = "the faces between cells whose centroids are on different sides of what a blade sweeps, at that time"},
+      {.shape = blade, .name = "path", .type = points, .unit = "m", .least_size = 2, .required = true,
+       .help = "the points that the blade goes by, on straight lines"},
+      {.shape = blade, .name = "depth", .type = point, .unit = "m", .required = true,
+       .help = "how far, and which way, it reaches from its path"},
+      {.shape = within, .name = "polygon", .type = points, .unit = "m", .least_size = 3,
+       .help = "a polygon, looked at along the plane's normal; its corners in turn"},
       {.shape = within, .name = "box", .type = object, .of = box, .help = "a box"},
       {.shape = within, .name = "sphere", .type = object, .of = sphere, .help = "a sphere"},
       {.shape = tear, .name = "vertex", .type = integer, .range = number,
@@ -241,7 +256,7 @@ std::vector<SceneKey> make_keys() {
       {.shape = expect, .name = "components_at_least", .type = integer, .range = number,
        .help = "no fewer connected components"},
       {.shape = expect, .name = "operations", .type = integer, .range = number,
-       .help = "faces dissociated, cells removed, vertices put in by refinement"},
+       .help = "faces dissociated, cells removed, vertices put in by refinement or let go"},
       {.shape = expect, .name = "mass", .type = real, .unit = "kg", .range = not_negative,
        .help = "total mass, to 12 digits"},
       {.shape = expect, .name = "kinetic_at_most", .type = real, .unit = "J", .range = not_negative,
@@ -283,7 +298,7 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::ball_mesh, "ball_mesh",
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
-       "A chain has links and no cells, so nothing can happen to it but motion: no events. Its largest stress is the "
+       "A chain has links and no cells, so nothing can happen to it but that its ends are let go. Its largest stress is the "
        "largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
@@ -302,6 +317,8 @@ std::span<const ShapeHelp> scene_shapes() {
        "is not before t. A t within 4 units of rounding of a multiple counts as that multiple."},
       {Shape::dissociate, "dissociate", "Which faces come apart."},
       {Shape::within, "within", "How far a cut reaches."},
+      {Shape::blade, "blade", "A blade that is moved through the body."},
+      {Shape::rotation, "rotation", "A turn about an axis."},
       {Shape::tear, "tear", "Which fan is torn."},
       {Shape::stress, "stress", "Where stress tears."},
       {Shape::refine, "refine",
@@ -334,11 +351,12 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
       {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "random"}},
-      {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine"}},
+      {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"}},
       {excludes, Shape::event, {"at", "every", "from", "until"}},
-      {exactly_one, Shape::dissociate, {"points", "plane"}},
+      {exactly_one, Shape::dissociate, {"points", "plane", "blade"}},
       {excludes, Shape::dissociate, {"points", "within"}},
-      {exactly_one, Shape::within, {"box", "sphere"}},
+      {excludes, Shape::dissociate, {"blade", "within"}},
+      {exactly_one, Shape::within, {"box", "sphere", "polygon"}},
       {exactly_one, Shape::tear, {"vertex", "near"}},
       {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
       {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},
@@ -365,6 +383,8 @@ std::string expectation(const SceneKey& key) {
     case ValueType::integers: return "a list of integers" + range + ", at least one";
     case ValueType::real: return "a number" + range + unit;
     case ValueType::point: return "a list of three numbers" + range + unit;
+    case ValueType::points:
+      return fmt::format("a list of {} points or more, each of three numbers", key.least_size) + range + unit;
     case ValueType::matrix: return "three lists of three numbers" + range + unit;
     case ValueType::object: return object();
     case ValueType::objects: return fmt::format("a list of objects ({})", help_of(key.of).name);

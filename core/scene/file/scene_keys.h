@@ -31,6 +31,8 @@ enum class Shape {
   event,
   dissociate,
   within,
+  blade,
+  rotation,
   tear,
   stress,
   refine,
@@ -54,6 +56,7 @@ enum class ValueType {
   integers,  // a list of them
   real,
   point,    // three numbers
+  points,   // a list of them
   matrix,   // three rows of three numbers
   object,   // of the shape `of`
   objects,  // a list of them
@@ -77,6 +80,7 @@ struct SceneKey {
   Shape of{};                          // of an object
   std::string_view unit{};             // empty for none
   Range range{};                       // of every number in the value
+  std::size_t least_size = 0;          // of a list of points
   std::vector<std::string> choices{};  // of a choice
   bool required = false;
   std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none

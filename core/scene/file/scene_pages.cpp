@@ -46,6 +46,7 @@ Json value_schema(const SceneKey& key) {
     case ValueType::integers: return list_schema(integer(), 1, {});
     case ValueType::real: return number_schema(key, "number");
     case ValueType::point: return point();
+    case ValueType::points: return list_schema(point(), key.least_size, {});
     case ValueType::matrix: return list_schema(point(), 3, 3);
     case ValueType::object: return reference_to(key.of);
     case ValueType::objects: return list_schema(reference_to(key.of), 0, {});

@@ -41,6 +41,18 @@ void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v
                                shown, speed_of_light));
 }
 
+void require_not_released(const SceneFile& scene, std::span<const std::uint32_t> driven,
+                          std::span<const Eigen::Vector3d> points) {
+  for (const SceneEvent& event : scene.events) {
+    const auto* release = std::get_if<Release>(&event.action);
+    if (release == nullptr) continue;
+    for (const std::uint32_t p : select_points(release->vertices, points, event.path + "/release"))
+      if (std::ranges::find(driven, p) != driven.end())
+        throw InputError(
+            fmt::format("{}/release: selects point {}, which /driven moves; expected fixed ones alone", event.path, p));
+  }
+}
+
 }  // namespace
 
 Mesh make_mesh(const SceneFile& scene) {
@@ -63,7 +75,13 @@ Mesh make_mesh(const SceneFile& scene) {
     throw InputError(fmt::format("{}: /body/{}: there is not enough memory for so many cells; expected fewer",
                                  scene.file, from_file ? "mesh" : "generate"));
   }
-  for (Eigen::Vector3d& x : mesh.points) x = scene.body.scale * x + scene.body.translate;
+  // where nothing turns, not even a sum of zeros is added
+  const bool turned = scene.body.rotate != Eigen::Matrix3d::Identity();
+  for (Eigen::Vector3d& x : mesh.points) {
+    x *= scene.body.scale;
+    if (turned) x = scene.body.rotate * x;
+    x += scene.body.translate;
+  }
   return mesh;
 }
 
@@ -79,6 +97,7 @@ Problem make_problem(const SceneFile& scene) {
       const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
       for (const std::uint32_t p : driven)
         require_slower_than_light(drive.path + "/velocity", drive.velocity.at(problem.mesh.points[p]));
+      require_not_released(scene, driven, problem.mesh.points);
       problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
     }
     std::sort(problem.fixed.begin(), problem.fixed.end());

@@ -21,6 +21,18 @@ bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
   return (x - sphere.centre).norm() <= sphere.radius;
 }
 
+bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d right = polygon.along.unitOrthogonal(), up = polygon.along.cross(right);
+  bool inside = false;
+  for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
+    const Eigen::Vector3d a = polygon.corners[k] - x, b = polygon.corners[(k + 1) % polygon.corners.size()] - x;
+    const double a_up = a.dot(up), b_up = b.dot(up);
+    if ((a_up > 0.0) == (b_up > 0.0)) continue;
+    if (a.dot(right) + a_up / (a_up - b_up) * (b - a).dot(right) > 0.0) inside = !inside;
+  }
+  return inside;
+}
+
 bool contains(const CutRegion& region, const Eigen::Vector3d& x) {
   return std::visit([&x](const auto& of_a_kind) { return contains(of_a_kind, x); }, region);
 }

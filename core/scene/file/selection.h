@@ -27,6 +27,16 @@ struct SphereSelection {
   Eigen::Vector3d centre;
   double radius;
 };
+/// What is seen in a polygon when one looks along a direction: a prism without ends.
+struct PolygonSelection {
+  Eigen::Vector3d along;                 // a unit vector
+  std::vector<Eigen::Vector3d> corners;  // in turn; three at least
+};
+/// The legs of a path, each as deep as `depth`.
+struct BladeSweep {
+  std::vector<Eigen::Vector3d> path;
+  Eigen::Vector3d depth;
+};
 /// `count` of those there are, drawn without replacement.
 struct RandomSelection {
   std::uint32_t count;
@@ -34,13 +44,15 @@ struct RandomSelection {
 };
 
 /// Where a cut reaches.
-using CutRegion = std::variant<BoxSelection, SphereSelection>;
+using CutRegion = std::variant<BoxSelection, SphereSelection, PolygonSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection>;
 using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, RandomSelection>;
 
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
+/// By the parity of the sides that a ray crosses, so the polygon need not be convex.
+bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x);
 bool contains(const CutRegion& region, const Eigen::Vector3d& x);
 
 /// The numbers of the points in the selection at `path`, ascending, each once.

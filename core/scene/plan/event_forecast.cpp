@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/mechanics/fracture/seam.h"
 #include "core/scene/run/event_clock.h"
 
 namespace dartboard {
@@ -33,12 +34,18 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
 }
 
 // Between the centroids of the two cells of a face is about where the face is.
-double facets_across(const PlaneSelection& plane, const std::optional<CutRegion>& within, const Mesh& mesh,
-                     const MeshTally& counts) {
+double facets_of(const Dissociate& cut, const Mesh& mesh, const MeshTally& counts) {
+  if (const auto* faces = std::get_if<0>(&cut.faces)) return static_cast<double>(faces->size());
   double count = 0.0;
   for (const auto& [a, b] : counts.cells_of_facet) {
     const Eigen::Vector3d from = centroid(mesh, a), to = centroid(mesh, b);
-    count += contains(plane, from) != contains(plane, to) && (!within || contains(*within, (from + to) / 2.0));
+    if (const auto* blade = std::get_if<BladeSweep>(&cut.faces)) {
+      count += crosses_sweep(blade->path, blade->depth, from, to);
+    } else {
+      const auto& plane = std::get<PlaneSelection>(cut.faces);
+      count +=
+          contains(plane, from) != contains(plane, to) && (!cut.within || contains(*cut.within, (from + to) / 2.0));
+    }
   }
   return count;
 }
@@ -85,12 +92,13 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
     } else if (const auto* refine = std::get_if<Refine>(&event.action)) {
       of_cells(refine->cells, static_cast<double>(counts.cells) * times);
     } else if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
-      const auto* plane = std::get_if<PlaneSelection>(&dissociate->faces);
-      f.operations = plane ? facets_across(*plane, dissociate->within, mesh, counts)
-                           : static_cast<double>(std::get<0>(dissociate->faces).size());
+      f.operations = facets_of(*dissociate, mesh, counts);
       f.with_operations = f.operations > 0.0 ? std::min(times, 1.0) : 0.0;
     } else if (std::holds_alternative<Tear>(event.action)) {
       f.operations = f.with_operations = times;
+    } else if (const auto* release = std::get_if<Release>(&event.action)) {
+      f.operations = static_cast<double>(select_points(release->vertices, mesh.points, event.path).size());
+      f.with_operations = std::min(times, 1.0);
     }
     forecasts.push_back(f);
   }

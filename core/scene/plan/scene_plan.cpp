@@ -32,11 +32,6 @@ std::string source_of(const SceneFile& scene) {
   return fmt::format("/body/generate/{}", keys[scene.body.mesh.index() - 1]);
 }
 
-std::string key_of(const Action& action) {
-  constexpr const char* keys[] = {"dissociate", "remove", "tear", "tear_where_stressed", "refine"};
-  return keys[action.index()];
-}
-
 std::string output_reason(std::string_view key, const std::optional<std::uint64_t>& steps) {
   if (steps) return fmt::format("/output/{}: every {} steps, the first and the last state", key, *steps);
   return fmt::format("/output: without '{}', the first and the last state", key);
@@ -80,8 +75,8 @@ class Planner {
     const MeshTally& n = plan_.counts;
     const Storage storage = plan_.needs.body.storage;
     const bool tetrahedra = storage == Storage::tetrahedra;
-    const std::string changed =
-        fmt::format("{}/{}: changes the topology", scene_.events[0].path, key_of(scene_.events[0].action));
+    const auto first = std::ranges::find_if(scene_.events, changes_topology, &SceneEvent::action);
+    const std::string changed = fmt::format("{}/{}: changes the topology", first->path, key_of(first->action));
     const std::string kind = tetrahedra                    ? "tetrahedra alone"
                              : storage == Storage::surface ? "a surface"
                                                            : "cells other than tetrahedra";

@@ -102,7 +102,8 @@ Simulation::Simulation(const SceneFile& scene)
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
     for (const SceneEvent& event : scene.events)
       events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
-                         !std::holds_alternative<Remove>(event.action) && !std::holds_alternative<Refine>(event.action),
+                         changes_topology(event.action) && !std::holds_alternative<Remove>(event.action) &&
+                             !std::holds_alternative<Refine>(event.action),
                          event.path});
     happen();
     drive();

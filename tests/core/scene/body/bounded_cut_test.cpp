@@ -36,6 +36,19 @@ TEST(BoundedCut, DissociatesTheFacesWhoseCentreIsInTheRegion) {
             2u);
 }
 
+// An L of three of the four squares; its corners run one way or the other.
+TEST(BoundedCut, DissociatesTheFacesInAPolygonThatNeedNotBeConvex) {
+  const char* const one_way = R"({"polygon": [[0.125, 0, 0], [0.125, 0.25, 0], [0.125, 0.25, 0.125],
+                                              [0.125, 0.125, 0.125], [0.125, 0.125, 0.25], [0.125, 0, 0.25]]})";
+  const char* const other_way = R"({"polygon": [[5, 0, 0.25], [5, 0.125, 0.25], [5, 0.125, 0.125],
+                                                [5, 0.25, 0.125], [5, 0.25, 0], [5, 0, 0]]})";  // seen along x
+  const Simulation one(parse(cut(one_way))), other(parse(cut(other_way)));
+  EXPECT_EQ(one.operations(), 6u);
+  EXPECT_EQ(one.body().state_hash(), other.body().state_hash());
+  EXPECT_EQ(one.body().counts(), other.body().counts());
+  EXPECT_EQ(one.body().counts().components, 1u);
+}
+
 // Four triangles in two squares side by side: three of their points on the border of the cut, at y = 0, come apart, and
 // the edges between them and inwards; those at y = 0.125 are the tip, where one turn around the edge is left.
 TEST(BoundedCut, LeavesTheTipTogether) {

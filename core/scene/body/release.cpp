@@ -1,0 +1,34 @@
+#include "core/scene/body/release.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/plain/bytes.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+ReadyRelease::ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path)
+    : vertices_(vertices) {
+  for (const std::uint32_t k : select_points(release.vertices, vertices.position, path))
+    if (!vertices.fixed.empty() && vertices.fixed[k]) points_.push_back(vertices.point[k]);
+  if (points_.empty())
+    throw InputError(fmt::format("{}: selects no vertex that is fixed; expected at least one", path));
+  std::ranges::sort(points_);
+  points_.shrink_to_fit();
+}
+
+std::size_t ReadyRelease::apply() {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < vertices_.size(); ++k) {
+    if (!vertices_.fixed[k] || !std::ranges::binary_search(points_, vertices_.point[k])) continue;
+    vertices_.fixed[k] = 0;
+    ++count;
+  }
+  return count;
+}
+
+std::size_t ReadyRelease::bytes() const { return bytes_of(points_); }
+
+}  // namespace dartboard

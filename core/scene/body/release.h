@@ -1,0 +1,31 @@
+#pragma once
+// The event that lets go of vertices held still.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+#include "core/scene/body/simulated_body.h"
+
+namespace dartboard {
+
+/// Vertices are known by the mesh point they came from, as driven ones are: all parts of one that came apart are let
+/// go.
+class ReadyRelease final : public ReadyEvent {
+ public:
+  /// pre     the vertices are at rest, and outlive this
+  /// throws  InputError "PATH: ..." if none that is selected is fixed
+  ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path);
+
+  /// returns  vertices let go
+  /// cost     O(vertices log(points))
+  std::size_t apply() override;
+  std::size_t bytes() const override;
+
+ private:
+  VertexColumns& vertices_;
+  std::vector<std::uint32_t> points_;  // of the mesh, ascending
+};
+
+}  // namespace dartboard
