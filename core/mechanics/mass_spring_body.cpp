@@ -88,6 +88,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     columns.point.back() = p;
     columns.dart.push_back(v.dart);
   });
+  body.vertices.rest = {};
   require_one_vertex_per_point(body.vertices, mesh.points.size());
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
   for (const std::uint32_t p : problem.fixed) fixed[p] = 1;

@@ -56,6 +56,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::vertices: return n.vertices * (2 * real + 2 * vector + number);
     case Part::viscosity: return n.vertices * real;
     case Part::fixed: return n.vertices;
+    case Part::rest: return n.vertices * vector;
     case Part::driven: {
       DrivenVertices vertices(scene, problem.mesh.points, scene.step);
       vertices.apply(0, n.point, arrays.v);

@@ -218,6 +218,13 @@ std::vector<SceneKey> make_keys() {
        .help = "time between frames; the first and the last state are always written"},
       {.shape = output, .name = "frames_every_steps", .type = integer, .range = count_from_1,
        .help = "steps between frames"},
+      {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs"},
+       .standard = "[\"held\", \"stress\"]",
+       .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
+               "which vertices are free (0), fixed (1) or driven (2). 'stress': of each vertex the largest principal "
+               "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
+               "one is not finite; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
+               "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain"},
       {.shape = output, .name = "diagnostics_every", .type = real, .unit = "s", .range = positive,
        .help = "time between rows of diagnostics; the first and the last state always get one"},
       {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
@@ -283,8 +290,8 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::ball_mesh, "ball_mesh",
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
-       "A chain has links and no cells, so nothing can happen to it but motion: no events. Its largest stress is the "
-       "largest tension [N]."},
+       "A chain has links and no cells, so nothing can happen to it but motion: no events. In place of the "
+       "largest principal stress it has the largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
@@ -361,6 +368,7 @@ std::string expectation(const SceneKey& key) {
   switch (key.type) {
     case ValueType::text: return "a text";
     case ValueType::choice: return "one of " + quoted_list(key.choices, ", ");
+    case ValueType::choices: return "a list of words, none twice, out of " + quoted_list(key.choices, ", ");
     case ValueType::integer: return "an integer" + range + unit;
     case ValueType::integers: return "a list of integers" + range + ", at least one";
     case ValueType::real: return "a number" + range + unit;

@@ -50,6 +50,7 @@ const ShapeHelp& help_of(Shape shape);
 enum class ValueType {
   text,
   choice,
+  choices,  // a list of them, none twice
   integer,
   integers,  // a list of them
   real,
@@ -77,7 +78,7 @@ struct SceneKey {
   Shape of{};                          // of an object
   std::string_view unit{};             // empty for none
   Range range{};                       // of every number in the value
-  std::vector<std::string> choices{};  // of a choice
+  std::vector<std::string> choices{};  // of a choice or choices
   bool required = false;
   std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none
   std::string_view help{};

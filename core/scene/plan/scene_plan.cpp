@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/scene/body/diagnostics.h"
 #include "core/scene/file/scene_keys.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
@@ -117,6 +118,10 @@ class Planner {
     else
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
+    if (plan_.needs.body.rest)
+      add(Part::rest, "place at rest by vertex", "/output/fields: frames show 'displacement'");
+    else
+      leave_out("column of places at rest", "/output/fields: without 'displacement'");
   }
 
   void driven() {
@@ -191,12 +196,23 @@ class Planner {
     else if (!plan_.needs.body.topology_changes)
       add(Part::output_cells, "cells, their masses and the boundary by vertex numbers",
           "/output: frames show the cells, diagnostics tell mass and boundary");
-    add(Part::frames, "the cells where they are", output_reason("frames_every", scene_.output.frame_steps));
+    add(Part::frames, "the cells where they are" + fields_in_words(),
+        output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
       add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
-    add(Part::diagnostics, "energies, momenta, boundary, largest stress",
+    add(Part::diagnostics, fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
+  }
+
+  std::string fields_in_words() const {
+    const FrameFields& fields = scene_.output.fields;
+    std::string words;
+    if (fields.held) words += ", which vertices are held";
+    if (fields.stress) words += scene_.is_chain() ? ", tensions" : ", stresses";
+    if (fields.displacement) words += ", displacements";
+    if (fields.springs) words += ", springs";
+    return words;
   }
 
   const SceneFile& scene_;

@@ -88,7 +88,7 @@ TEST_F(SimulateReport, SetsTheStartBesideTheEnd) {
                                   {"elastic energy [J]", "3", "23"},
                                   {"gravitational energy [J]", "4", "-"},
                                   {"boundary [m^2]", "17", "37"},
-                                  {"largest stress [Pa]", "18", "38"}};
+                                  {"largest principal stress [Pa]", "18", "38"}};
   EXPECT_EQ(table.rows(), expected);
 }
 
