@@ -14,7 +14,7 @@ struct Extent {
   std::uint64_t long_scenes, long_errors;
   std::uint64_t endless_scenes;  // one error each
 };
-constexpr Extent full_extent{14, 3, 2, 2, 2}, quick_extent{4, 2, 0, 0, 0};
+constexpr Extent full_extent{14, 3, 2, 2, 2}, quick_extent{2, 2, 0, 0, 0};
 
 /// Errors between 1e-2 and 1e-8, one in each of `count` equal parts on the logarithmic scale.
 std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {

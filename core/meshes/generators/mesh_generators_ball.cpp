@@ -19,7 +19,8 @@ using Eigen::Vector3i;
 /// The points of the octahedron |x| + |y| + |z| <= n with whole coordinates: x fastest, then y, then z.
 class OctahedralLattice {
  public:
-  explicit OctahedralLattice(int n) : n_(n), row_(static_cast<std::size_t>(2 * n + 1) * (2 * n + 1)) {
+  explicit OctahedralLattice(int n)
+      : n_(n), row_(static_cast<std::size_t>(2 * n + 1) * static_cast<std::size_t>(2 * n + 1)) {
     for (int z = -n; z <= n; ++z)
       for (int y = -n; y <= n; ++y) {
         row_[row(y, z)] = static_cast<std::uint32_t>(points_.size());
