@@ -78,7 +78,7 @@ struct MassSpringBody {
   // rest
   std::vector<std::uint8_t> cell_inside_out;
   // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
-  // the body is refined.
+  // the body is refined, where the material has no Young's modulus.
   std::vector<double> edge_share;
 
   /// The columns of cells, but for their darts. Cells come and go whole: none is dissociated.

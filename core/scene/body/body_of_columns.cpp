@@ -40,7 +40,8 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
       throw InputError(
           fmt::format("link {} has a length of {} m and a mass of {} kg; expected numbers > 0", k, length, mass));
     ends_.push_back({k, k + 1});
-    springs_.push_back({length, material.stiffness, material.damping});
+    const double share = material.young > 0.0 ? material.young / length / material.stiffness : 1.0;
+    springs_.push_back({length, share * material.stiffness, share * material.damping});
     cell_mass_.push_back(mass);
     for (const std::uint32_t end : ends_.back()) vertices_.mass[end] += mass / 2;
   }

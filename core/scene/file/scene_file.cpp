@@ -47,7 +47,8 @@ class Reader {
     scene.material = {.density = material.at("density"),
                       .stiffness = material.at("stiffness"),
                       .damping = material.at("damping"),
-                      .viscosity = material.at("viscosity")};
+                      .viscosity = material.at("viscosity"),
+                      .young = material.value("young", 0.0)};
     scene.gravity = point(json.at("gravity"));
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)

@@ -114,6 +114,12 @@ std::vector<SceneKey> make_keys() {
                "end"},
       {.shape = material, .name = "stiffness", .type = real, .unit = "N/m", .range = not_negative, .standard = "50",
        .help = "of the spring that a cell contributes to each of its edges; of a chain, of a link"},
+      {.shape = material, .name = "young", .type = real, .unit = "Pa", .range = positive,
+       .help = "Young's modulus, in place of a stiffness: a tetrahedron of volume V gives its edge of length l the "
+               "stiffness young V / l^2, so that a finer mesh of the same body sags the same. Its springs then have "
+               "Poisson's ratio 1/4, where tetrahedra are well shaped, whatever the material has. Of a surface of triangles "
+               "[N/m], with their areas and the ratio 1/3; of a chain [N], young / l. Other cells have no such springs. The "
+               "damping is then a mean over the edges of all cells, shared out as the stiffness is"},
       {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
        .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
@@ -337,6 +343,7 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::scene, {"step", "accuracy"}},
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
+      {at_most_one, Shape::material, {"stiffness", "young"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},

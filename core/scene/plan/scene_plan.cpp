@@ -91,12 +91,16 @@ class Planner {
     add(Part::marks, "marks by dart, for walks", changed);
     add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
     add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed);
-    add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
+    if (problem_.material.young > 0.0)
+      add(Part::cells, "mass, share of a node, side and mesh number of each cell, stiffness shares of its edges",
+          changed + "; " + elasticity());
+    else
+      add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
         changed + "; /output: frames and diagnostics tell the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
-    if (!plan_.needs.refinement)
+    if (!plan_.needs.refinement && problem_.material.young == 0.0)
       leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
   }
 
@@ -144,8 +148,7 @@ class Planner {
   void forces() {
     const MeshTally& n = plan_.counts;
     add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
-        source_of(scene_) + "; " +
-            told("/material/stiffness", Shape::material, "stiffness", problem_.material.stiffness));
+        source_of(scene_) + "; " + elasticity());
     const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
     if (plan_.needs.damping)
       add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
@@ -203,6 +206,12 @@ class Planner {
     add(Part::diagnostics, fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
+  }
+
+  std::string elasticity() const {
+    const Material& material = problem_.material;
+    return material.young > 0.0 ? told("/material/young", Shape::material, "young", material.young)
+                                : told("/material/stiffness", Shape::material, "stiffness", material.stiffness);
   }
 
   std::string fields_in_words() const {

@@ -196,6 +196,11 @@ TEST(SceneReading, OfOutputAndProbes) {
   EXPECT_EQ(times.output.probe_steps, 16u);
 }
 
+TEST(SceneReading, OfAYoungsModulusInPlaceOfAStiffness) {
+  EXPECT_EQ(with("material", R"({"young": 7e3})").material.young, 7e3);
+  EXPECT_EQ(with("material", R"({"stiffness": 7})").material.young, 0.0);
+}
+
 TEST(SceneReading, OfWhatFramesHold) {
   const auto fields = [](const char* words) {
     const FrameFields f = with("output", (R"({"fields": )" + std::string(words) + "}").c_str()).output.fields;
