@@ -44,27 +44,35 @@ Rebuilt rebuild(const Mesh& mesh, const Material& material) {
   Rebuilt out;
   out.mass.assign(mesh.points.size(), 0.0);
 
-  std::vector<Pair> soup, edges;
+  std::vector<Pair> edges;
+  std::vector<std::pair<Pair, double>> soup;  // with the volume (area) of the cell
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     check_cell(mesh, c);
     const auto cell = mesh.cell(c);
 
     // eq. (1): an equal share of the mass of the cell to each of its points; handedness is no matter of mass
-    const double share = material.density * std::abs(signed_measure(mesh, c)) / static_cast<double>(cell.size());
+    const double measure = std::abs(signed_measure(mesh, c));
+    const double share = material.density * measure / static_cast<double>(cell.size());
     for (std::uint32_t p : cell) out.mass[p] += share;
 
     edges_of_cell(mesh, c, edges);
-    soup.insert(soup.end(), edges.begin(), edges.end());
+    for (const Pair& edge : edges) soup.emplace_back(edge, measure);
   }
 
   // a run of equal pairs is one edge; its length is the number of cells around it
   std::sort(soup.begin(), soup.end());
   for (std::size_t first = 0, last = 0; first < soup.size(); first = last) {
-    while (last < soup.size() && soup[last] == soup[first]) ++last;
+    double volume = 0.0;
+    for (; last < soup.size() && soup[last].first == soup[first].first; ++last) volume += soup[last].second;
     const auto around = static_cast<std::uint32_t>(last - first);
-    const auto [a, b] = soup[first];
-    out.springs.push_back(
-        {a, b, material.stiffness * around, material.damping * around, (mesh.points[b] - mesh.points[a]).norm()});
+    const auto [a, b] = soup[first].first;
+    const double length = (mesh.points[b] - mesh.points[a]).norm();
+    if (material.young == 0.0) {
+      out.springs.push_back({a, b, material.stiffness * around, material.damping * around, length});
+    } else {
+      const double stiffness = material.young * volume / (length * length);
+      out.springs.push_back({a, b, stiffness, material.damping * stiffness / material.stiffness, length});
+    }
     out.cells.push_back(around);
   }
   return out;

@@ -61,6 +61,8 @@ struct Body {
         cells(p.mesh.points.size()),
         springs(p.mesh.points.size()),
         fixed(p.mesh.points.size()) {
+    // its springs are products and sums of other numbers, whose rounding is not in the bound
+    if (p.material.young > 0.0) throw InputError("a bound for a material with a Young's modulus; expected a stiffness");
     for (std::uint32_t node : p.mesh.nodes) ++cells[node];
     for (const Spring& s : rebuilt.springs) {
       ++springs[s.a];

@@ -27,7 +27,7 @@ class Album {
 
  private:
   void take(const Simulation& simulation) {
-    panels_.push_back({simulation.frame(), simulation.body().vertices().point});
+    panels_.push_back({simulation.frame({}), simulation.body().vertices().point});
   }
   std::uint64_t steps_;
   std::vector<BodyPanel> panels_;

@@ -22,6 +22,8 @@ void require_sane(const Problem& problem) {
   const Material& m = problem.material;
   require(std::isfinite(m.density) && m.density > 0.0, "density", m.density, "a positive number of kg/m^3");
   require(std::isfinite(m.stiffness) && m.stiffness >= 0.0, "stiffness", m.stiffness, "at least 0 N/m");
+  require(std::isfinite(m.young) && m.young >= 0.0, "young", m.young, "at least 0 Pa");
+  require(m.young == 0.0 || m.stiffness > 0.0, "stiffness", m.stiffness, "the mean of what 'young' makes of the edges");
   require(std::isfinite(m.damping) && m.damping >= 0.0, "damping", m.damping, "at least 0 N s/m");
   require(std::isfinite(m.viscosity) && m.viscosity >= 0.0, "viscosity", m.viscosity, "at least 0 1/s");
   for (int k = 0; k < 3; ++k)
@@ -74,6 +76,15 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
     body.cell_dart.push_back({built.first_dart[c]});
   }
+  if (material.young > 0.0) {
+    body.edge_share.resize(map.template slot_count<1>());
+    map.for_each_dart([&](Dart d) {
+      const std::uint32_t c = body.cell(map, d);
+      const double square = (mesh.points[point_of(map.template alpha<0>(d))] - mesh.points[point_of(d)]).squaredNorm();
+      body.edge_share[Map::template slot<1>(d)] =
+          material.young * std::abs(signed_measure(mesh, c)) / square / material.stiffness;
+    });
+  }
 
   for_each_cell<0>(map, [&](Vertex v) {
     VertexColumns& columns = body.vertices;
@@ -88,6 +99,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     columns.point.back() = p;
     columns.dart.push_back(v.dart);
   });
+  body.vertices.rest = {};
   require_one_vertex_per_point(body.vertices, mesh.points.size());
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
   for (const std::uint32_t p : problem.fixed) fixed[p] = 1;

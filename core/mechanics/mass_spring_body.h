@@ -28,10 +28,15 @@ struct VertexColumns {
   std::vector<Eigen::Vector3d> force;     // [N] sum of the springs; zero between steps
   std::vector<std::uint8_t> fixed;        // 1: held still
   std::vector<std::uint32_t>
-      point;               // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
-  std::vector<Dart> dart;  // the lowest dart of the vertex
+      point;  // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
+  std::vector<Eigen::Vector3d> rest;  // [m] where it was at rest; left out until keep_rest
+  std::vector<Dart> dart;             // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
+
+  /// Hold from now on where each vertex was at rest, which pictures of displacement need and no motion does.
+  /// pre  the body is at rest where its mesh has it
+  void keep_rest() { rest = position; }
 
   /// Every column but the darts, which are the cells themselves.
   static constexpr auto embedded() {
@@ -43,7 +48,8 @@ struct VertexColumns {
                       EmbeddedColumn{"velocity", &V::velocity, Adapts::duplicated},
                       EmbeddedColumn{"force", &V::force, Adapts::duplicated},
                       EmbeddedColumn{"fixed", &V::fixed, Adapts::duplicated},
-                      EmbeddedColumn{"point", &V::point, Adapts::duplicated}};
+                      EmbeddedColumn{"point", &V::point, Adapts::duplicated},
+                      EmbeddedColumn{"place at rest", &V::rest, Adapts::duplicated}};
   }
 };
 static_assert(sizeof(VertexColumns) ==
@@ -72,7 +78,7 @@ struct MassSpringBody {
   // rest
   std::vector<std::uint8_t> cell_inside_out;
   // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
-  // the body is refined.
+  // the body is refined, where the material has no Young's modulus.
   std::vector<double> edge_share;
 
   /// The columns of cells, but for their darts. Cells come and go whole: none is dissociated.

@@ -75,19 +75,21 @@ class Refinement {
   void add_vertex() {
     VertexColumns& v = body_.vertices;
     vertex_ = static_cast<std::uint32_t>(v.size());
-    Eigen::Vector3d position(0, 0, 0), velocity(0, 0, 0);
+    Eigen::Vector3d position(0, 0, 0), velocity(0, 0, 0), rest(0, 0, 0);
     bool fixed = !v.fixed.empty();  // left out: none is
     for (std::size_t n = 0; n < 4; ++n)
       if (is_of_cell(0, n)) {
         const std::uint32_t k = old_[0].vertices[n];
         position += v.position[k];
         velocity += v.velocity[k];
+        if (!v.rest.empty()) rest += v.rest[k];
         fixed = fixed && v.fixed[k];
       }
     add_element(v, VertexColumns::embedded(), vertex_);
     v.position.back() = position / count();
     v.velocity.back() = velocity / count();
     if (!v.force.empty()) v.force.back().setZero();
+    if (!v.rest.empty()) v.rest.back() = rest / count();
     if (!v.fixed.empty()) v.fixed.back() = fixed;
     v.point.back() = no_point;
     v.dart.push_back(s_.vertex());

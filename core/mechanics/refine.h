@@ -8,7 +8,8 @@ namespace dartboard {
 
 /// Adapt the embeddings of a body to a subdivision of its map.
 ///
-/// Position and velocity of the new vertex are the means of the cell's vertices, and it is fixed if they all are. Each
+/// Position and velocity of the new vertex are the means of the cell's vertices, as its place at rest is where that is
+/// held, and it is fixed if they all are. Each
 /// tetrahedron shares its mass equally among its children, so total mass, centre of mass and linear momentum stay; spin
 /// and kinetic energy lose what lumping at more points takes from the moment of inertia. Rest lengths follow from those
 /// around, on the rest shape.

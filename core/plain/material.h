@@ -6,12 +6,15 @@
 namespace dartboard {
 
 /// A homogeneous mass/spring material (section 4.1). Every cell contributes `stiffness` and `damping` to each of its
-/// edges, so springs of shared edges add up like springs in parallel.
+/// edges, so springs of shared edges add up like springs in parallel. With a Young's modulus, a cell of volume V (area,
+/// length) contributes young V / l^2 to its edge of rest length l instead; `stiffness` is then the mean of that over
+/// the edges of all cells (core/plain/young.h), and damping is in proportion.
 struct Material {
   double density = 1000.0;  // kg/m^3 (kg/m^2 for a surface)
   double stiffness = 50.0;  // N/m, per incident cell
   double damping = 0.01;    // N s/m along the spring, per incident cell
   double viscosity = 0.1;   // 1/s: the ambient drag on a vertex is viscosity * mass * velocity
+  double young = 0.0;       // Pa (N/m for a surface, N for a chain); 0: edges have `stiffness`
 };
 
 /// What acts on the whole body.

@@ -16,6 +16,8 @@ namespace dartboard {
 ///
 ///     m_i = sum over the cells c around i of density * measure(c) / node_count(c)                      eq. (1)
 ///     k_ij = stiffness * (number of cells around edge ij),  c_ij = damping * (the same number),  L_ij = rest length
+///         where the material has a Young's modulus, for the number the sum over those cells c of
+///         young * measure(c) / L_ij^2 / stiffness: k_ij, whatever the stiffness, which is the mean (material.h)
 ///     u_ij = (x_j - x_i) / |x_j - x_i|, and no force where the length is zero
 ///     f_i = sum over the edges ij of ( k_ij (|x_j - x_i| - L_ij) + c_ij (v_j - v_i).u_ij ) u_ij
 ///     a_i = (f_i - viscosity * m_i * v_i) / m_i + gravity,  and a_i = 0, v_i = 0 for the points in `fixed`

@@ -154,21 +154,37 @@ class Network:
     def largest_stress(self):
         """The largest principal stress of a vertex, sum over its springs of T l u u^T / 2 over its rest volume; of a
         chain the largest tension, 0 where none is stretched."""
+        if self.body.dimension == 1:
+            tension, bound = self.tensions()
+            return max(0.0, tension.max()), bound
+        stress, bound = self.stresses()
+        # eigenvalues move by no more than the norm of what moves the matrix
+        return max(np.linalg.eigvalsh(s)[-1] for s in stress), bound.max()
+
+    def tensions(self):
+        """Of each spring, and how far rounding may move any."""
+        return self.stiffness * self.stretch(), SUM * self.stiffness.max() * np.abs(self.frame.x).max()
+
+    def strains(self):
+        """{the ends of a spring: how much longer it is than at rest, over its length there}, and how far rounding may move
+        any."""
+        strain = self.stretch() / self.rest_length
+        return ({frozenset(ends): s for ends, s in zip(self.ends.tolist(), strain)},
+                SUM * np.abs(self.frame.x).max() / self.rest_length.min())
+
+    def stresses(self):
+        """Of each vertex, a matrix; and how far rounding may move it, in the norm that is its largest eigenvalue."""
         along = self.frame.x[self.ends[:, 1]] - self.frame.x[self.ends[:, 0]]
         length = np.linalg.norm(along, axis=1)
         tension = self.stiffness * (length - self.rest_length)
         size = np.abs(self.frame.x).max()
-        if self.body.dimension == 1:
-            return max(0.0, tension.max()), SUM * self.stiffness.max() * size
         stress = np.zeros((len(self.frame.x), 3, 3))
         bound = np.zeros(len(self.frame.x))
         for (a, b), dx, l, t, k in zip(self.ends, along, length, tension, self.stiffness):
             for end in (a, b):
                 stress[end] += np.outer(dx, dx) * (0.5 * t / l)
                 bound[end] += 0.5 * l * k * size
-        largest = max(np.linalg.eigvalsh(s / v)[-1] for s, v in zip(stress, self.volume))
-        # eigenvalues move by no more than the norm of what moves the matrix
-        return largest, SUM * (bound / self.volume).max()
+        return stress / self.volume[:, None, None], SUM * bound / self.volume
 
     def stretch(self):
         along = self.frame.x[self.ends[:, 1]] - self.frame.x[self.ends[:, 0]]

@@ -8,6 +8,7 @@ mechanics.py the mechanics, results.py the readers.
 """
 
 import json
+import math
 import os
 import shutil
 import sys
@@ -18,9 +19,10 @@ import numpy as np
 
 import bodies
 from mechanics import Groups, Network, facets_of
-from results import Run, decoded, state_hash
+from results import STRESSES, Run, decoded, state_hash
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+LINE_OF_VTK = 3
 COUNTS = ["vertices", "edges", "faces", "cells", "components"]
 
 
@@ -71,6 +73,9 @@ class Story:
     def held(self, network):
         return [v for v, p in network.point.items() if p in self.fixed or p in self.driven]
 
+    def shows(self, field):
+        return field in self.scene["output"].get("fields", ["held", "stress"])
+
     def events_at(self, n):
         return [e for e in self.scene.get("events", []) if round(e["at"] / self.h) == n]
 
@@ -99,10 +104,18 @@ class ReadBack(unittest.TestCase):
         there = sorted(f for f in os.listdir(self.run_.folder) if f.endswith(".vtu"))
         self.assertEqual(there, [name for _, name in self.run_.listed])
 
-    def test_frames_have_these_columns_and_no_others(self):
+    def test_frames_have_the_columns_that_the_scene_asks_for_and_no_others(self):
+        is_chain = self.story.body.dimension == 1
+        of_points = {"held": {"held"}, "stress": set() if is_chain else set(STRESSES), "displacement": {"displacement"},
+                     "springs": set()}
+        of_cells = {"held": set(), "stress": {"tension"} if is_chain else set(), "displacement": set(),
+                    "springs": {"strain"}}
+        shown = [field for field in of_points if self.story.shows(field)]
         for frame in self.run_.frames:
-            self.assertEqual(frame.point_names, {"velocity", "mass"})
-            self.assertEqual(frame.cell_names, {"mesh_cell", "component"})
+            self.assertEqual(frame.point_names, {"velocity", "mass"}.union(*(of_points[f] for f in shown)))
+            self.assertEqual(frame.cell_names, {"mesh_cell", "component"}.union(*(of_cells[f] for f in shown)))
+            if not self.story.shows("springs"):
+                self.assertEqual(frame.springs, [])
 
     def test_frames_keep_every_bit(self):
         path = os.path.join(self.run_.folder, self.run_.listed[-1][1])
@@ -123,6 +136,8 @@ class ReadBack(unittest.TestCase):
             path = os.path.join(self.run_.folder, name)
             nodes, ends = (np.frombuffer(decoded(path, array)[1], "<i8") for array in ("connectivity", "offsets"))
             for kind, begin, end in zip(decoded(path, "types")[1], [0, *ends], ends):
+                if kind == LINE_OF_VTK:
+                    continue
                 volume = bodies.fan_measure(network.rest[nodes[begin:end]], bodies.FACES_OF_VTK[kind])
                 self.assertGreater(volume, 0, "type %d" % kind)
 
@@ -143,6 +158,66 @@ class ReadBack(unittest.TestCase):
     def test_masses_are_the_shares_of_the_cells(self):
         for network in self.networks:
             np.testing.assert_allclose(network.frame.mass, network.mass, rtol=2.0 ** -42, atol=0)
+
+    def test_vertices_are_held_as_the_scene_says(self):
+        if not self.story.shows("held"):
+            return
+        for network in self.networks:
+            self.assertEqual(network.frame.held.dtype, np.uint8)
+            self.assertEqual(list(network.frame.held.ravel()),
+                             [2 if network.point[v] in self.story.driven else int(network.point[v] in self.story.fixed)
+                              for v in range(len(network.frame.x))])
+
+    def test_stresses_are_measures_of_those_of_the_springs(self):
+        if not self.story.shows("stress") or self.story.body.dimension == 1:
+            return
+        for n, network in enumerate(self.networks):
+            columns = [np.ravel(getattr(network.frame, name)) for name in STRESSES]
+            self.assertEqual([len(column) for column in columns], 3 * [len(network.frame.x)])
+            for v, (stress, off) in enumerate(zip(*network.stresses())):
+                values = np.linalg.eigvalsh(stress)
+                deviator = stress - np.trace(stress) / 3 * np.eye(3)
+                # an entry moves by no more than the largest eigenvalue of what moves the matrix, so sqrt(3 / 2) times the
+                # length of nine of them by less than four times that
+                expected = [(values[-1], off), (np.abs(values).max(), off),
+                            (math.sqrt(1.5 * (deviator ** 2).sum()), 4 * off)]
+                for name, column, value in zip(STRESSES, columns, expected):
+                    self.assert_near(column[v], value, "%s of vertex %d in frame %d" % (name, v, n))
+
+    def test_tensions_are_those_of_the_links(self):
+        if not self.story.shows("stress") or self.story.body.dimension > 1:
+            return
+        for network in self.networks:
+            tension, off = network.tensions()
+            self.assertEqual([frozenset(nodes) for _, nodes in network.frame.cells],
+                             [frozenset(ends) for ends in network.ends.tolist()])
+            np.testing.assert_allclose(network.frame.tension, tension, rtol=0, atol=off)
+
+    def test_displacements_are_from_where_the_mesh_has_the_vertices(self):
+        if not self.story.shows("displacement"):
+            return
+        for network in self.networks:
+            np.testing.assert_array_equal(network.frame.displacement, network.frame.x - network.rest)
+
+    def test_springs_are_the_edges_of_the_cells_with_their_strains(self):
+        if not self.story.shows("springs"):
+            return
+        for network in self.networks:
+            frame, (strain, off) = network.frame, network.strains()
+            if self.story.body.dimension == 1:
+                lines, values = frame.cells, frame.strain_of_cells
+            else:
+                lines, values = frame.springs, frame.strain
+                self.assertEqual(set(frame.strain_of_cells), {0.0})
+                self.assertEqual(frame.labels_of_springs, {-1})
+            self.assertEqual({kind for kind, _ in lines}, {"line"})
+            self.assertEqual({frozenset(ends) for _, ends in lines}, set(strain))
+            self.assertEqual(len(lines), self.edges_of_map(network))
+            for (_, ends), value in zip(lines, values):
+                self.assert_near(value, (strain[frozenset(ends)], off), "strain of the spring between %s" % (ends,))
+
+    def edges_of_map(self, network):
+        return network.counts["edges"] if self.story.body.dimension > 1 else len(network.ends)
 
     def test_components_are_cells_that_share_facets(self):
         for network in self.networks:
@@ -218,14 +293,15 @@ class ReadBack(unittest.TestCase):
 
     def test_diagnostics_are_sums_over_the_frame_of_their_time(self):
         dimension = self.story.body.dimension
-        area, stress = {3: ("m^2", "Pa"), 2: ("m", "N/m"), 1: ("m", "N")}[dimension]
+        area, stress = {3: ("m^2", "principal stress [Pa]"), 2: ("m", "principal stress [N/m]"),
+                        1: ("m", "tension [N]")}[dimension]
         for row in self.run_.diagnostics:
             network = self.networks[self.frame_at(row["time [s]"])]
             expected = {"kinetic [J]": network.kinetic(), "elastic [J]": network.elastic(),
                         "gravitational [J]": network.gravitational(self.story.surroundings["gravity"]),
                         "mass [kg]": (sum(network.cell_mass), 2.0 ** -42 * sum(network.cell_mass)),
                         "boundary [%s]" % area: network.boundary(),
-                        "largest stress [%s]" % stress: network.largest_stress()}
+                        "largest %s" % stress: network.largest_stress()}
             for axis, letter in enumerate("xyz"):
                 expected["momentum %s [kg m/s]" % letter] = network.momentum(axis)
                 expected["angular momentum %s [kg m^2/s]" % letter] = network.angular_momentum(axis)

@@ -11,17 +11,31 @@ import meshio
 import numpy as np
 
 
+STRESSES = ("largest_principal_stress", "largest_stress_magnitude", "von_mises_stress")
+
+
 class Frame:
-    """One .vtu file: vertices x, v, mass; cells with mesh_cell and component; time."""
+    """One .vtu file: vertices x, v, mass; cells with mesh_cell and component; time; the springs, which are lines without a
+    number in the mesh; and what the scene asked for beside them, None where it is not there."""
 
     def __init__(self, path):
         mesh = meshio.read(path)
         self.x, self.v, self.mass = mesh.points, mesh.point_data["velocity"], mesh.point_data["mass"].ravel()
         if self.v.shape != self.x.shape:
             self.v = self.v.reshape(self.x.shape)
-        self.cells = [(block.type, tuple(int(v) for v in nodes)) for block in mesh.cells for nodes in block.data]
-        joined = lambda name: [int(n) for block in mesh.cell_data[name] for n in np.ravel(block)]
-        self.mesh_cell, self.component = joined("mesh_cell"), joined("component")
+        listed = [(block.type, tuple(int(v) for v in nodes)) for block in mesh.cells for nodes in block.data]
+        joined = lambda name: [n for block in mesh.cell_data[name] for n in np.ravel(block)]
+        number, label = ([int(n) for n in joined(name)] for name in ("mesh_cell", "component"))
+        strain = joined("strain") if "strain" in mesh.cell_data else [None] * len(listed)
+        cells = [c for c in range(len(listed)) if number[c] != -1]
+        lines = [c for c in range(len(listed)) if number[c] == -1]
+        self.cells, self.mesh_cell, self.component, self.strain_of_cells = (
+            [column[c] for c in cells] for column in (listed, number, label, strain))
+        self.springs, self.strain = ([column[c] for c in lines] for column in (listed, strain))
+        self.labels_of_springs = {label[c] for c in lines}
+        self.tension = joined("tension") if "tension" in mesh.cell_data else None
+        for name in ("held", "displacement", *STRESSES):
+            setattr(self, name, mesh.point_data.get(name))
         self.point_names, self.cell_names = set(mesh.point_data), set(mesh.cell_data)
         (self.time,) = (float(t) for t in mesh.field_data["TimeValue"].ravel())
 

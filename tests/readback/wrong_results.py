@@ -113,6 +113,25 @@ WRONG = {
     "everything hangs together": column("component", lambda f: [0] * len(f.component)),
     "cells have two corners exchanged with others'": column(
         "cells", lambda f: [(k, n[:1] + f.cells[c - 1][1][1:2] + n[2:]) for c, (k, n) in enumerate(f.cells)]),
+    "nothing is held": column("held", lambda f: 0 * f.held),
+    "everything is held": column("held", lambda f: 0 * f.held + 1),
+    "what is held is driven": column("held", lambda f: 2 * f.held),
+    "stresses are those of the next vertex": column(
+        "largest_principal_stress", lambda f: np.roll(f.largest_principal_stress, 1)),
+    "no stress is pressure": column(
+        "largest_principal_stress", lambda f: np.abs(f.largest_principal_stress)),
+    "the magnitude of a stress is the largest stress": column(
+        "largest_stress_magnitude", lambda f: f.largest_principal_stress),
+    "the von Mises stress is the magnitude": column("von_mises_stress", lambda f: f.largest_stress_magnitude),
+    "the von Mises stress is a hundred-millionth off": column("von_mises_stress", lambda f: f.von_mises_stress * (1 + 1e-8)),
+    "displacements are from the middle": column("displacement", lambda f: f.x - f.x.mean(axis=0)),
+    "displacements have the wrong sign": column("displacement", lambda f: -f.displacement),
+    "displacements are of single precision": column("displacement", lambda f: f.displacement.astype("f4").astype("f8")),
+    "a spring is missing": frames(lambda f: (f.springs.pop(), f.strain.pop())),
+    "strains are those of the next spring": column("strain", lambda f: f.strain[1:] + f.strain[:1]),
+    "strains are over the length now": column("strain", lambda f: [s / (1 + s) for s in f.strain]),
+    "cells have strains": column("strain_of_cells", lambda f: [0.1] * len(f.cells)),
+    "springs belong to a component": column("labels_of_springs", lambda f: {0}),
     "the list has all frames at time 0": lambda run: setattr(run, "listed", [(0.0, f) for _, f in run.listed]),
     "the list runs backwards": lambda run: run.listed.reverse(),
     "kinetic and gravitational energy are exchanged": rows(lambda r: exchange(r, ENERGIES[0], ENERGIES[2])),
@@ -127,7 +146,8 @@ WRONG = {
     "faces are one too many": rows(set_to("faces", lambda t: str(int(t) + 1))),
     "nothing ever comes apart": rows(set_to("components", lambda _: "1")),
     "the boundary is twice as large": rows(set_to("boundary [m^2]", lambda t: str(2 * float(t)))),
-    "stress is a hundred-millionth off": rows(set_to("largest stress [Pa]", lambda t: repr(float(t) * (1 + 1e-8)))),
+    "stress is a hundred-millionth off": rows(
+        set_to("largest principal stress [Pa]", lambda t: repr(float(t) * (1 + 1e-8)))),
     "no operations are counted": rows(set_to("operations", lambda _: "0")),
     "six digits are kept": rows(set_to(ENERGIES[0], lambda t: "%.6g" % float(t))),
     "a row is missing": lambda run: run.diagnostics.pop(3),

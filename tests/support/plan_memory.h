@@ -51,11 +51,15 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     // places for the numbers of vertices, edges, faces and cells: of a tetrahedron 4, 6, 4 and 1
     case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
     case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;
-    case Part::cells: return n.cells * (2 * real + 1 + number);
+    case Part::cells:
+      // of a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart of a triangle
+      return n.cells * (2 * real + 1 + number) +
+             (problem.material.young > 0.0 ? (tetrahedra ? 6 * n.cells : n.darts) * real : 0);
     case Part::components: return n.cells * number + n.components * (2 * number + sizeof(std::size_t));
     case Part::vertices: return n.vertices * (2 * real + 2 * vector + number);
     case Part::viscosity: return n.vertices * real;
     case Part::fixed: return n.vertices;
+    case Part::rest: return n.vertices * vector;
     case Part::driven: {
       DrivenVertices vertices(scene, problem.mesh.points, scene.step);
       vertices.apply(0, n.point, arrays.v);

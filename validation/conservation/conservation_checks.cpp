@@ -39,7 +39,9 @@ Subject<Map>::Subject(const Problem& problem)
       whole(problem.mesh),
       cells(whole),
       fresh(build_body<Map, Held::by_every_dart>(problem)),
-      places(fresh, problem.mesh, whole) {}
+      places(fresh, problem.mesh, whole) {
+  fresh.vertices.keep_rest();
+}
 
 template <class Map>
 ConservationChecks<Map>::ConservationChecks(const Subject<Map>& subject, ConservationLedger& ledger)
@@ -118,7 +120,7 @@ void ConservationChecks<Map>::columns_were_duplicated(const BeforeSeries<Map>& b
     if (!at_.body.map.is_live(v.dart[k])) return ledger_.require(valid, false, "a live dart of vertex", k);
     const std::uint32_t was = before.number(at_.body.map, v.dart[k]);
     const bool same = v.position[k] == old.position[was] && v.velocity[k] == old.velocity[was] &&
-                      v.fixed[k] == old.fixed[was] && v.point[k] == old.point[was] &&
+                      v.fixed[k] == old.fixed[was] && v.point[k] == old.point[was] && v.rest[k] == old.rest[was] &&
                       v.force[k] == Eigen::Vector3d(0, 0, 0);
     ledger_.require(duplicated, same, "vertex", k);
   }

@@ -51,6 +51,10 @@ void RefinementChecks<Map>::vertex(std::uint32_t k, SubdividedCells::Corner firs
                  mass);
   ledger_.equal(valid, v.inverse_mass[k], 1.0 / v.mass[k], "inverse mass, vertex", k);
   ledger_.equal(valid, v.viscosity[k], at_.start().material.viscosity * v.mass[k], "viscosity, vertex", k);
+  // both are means of means, each off by no more than the witness says
+  const SubdividedCells::Point& point = at_.cells.points()[at_.cells.cells()[first.cell].points[first.node]];
+  ledger_.within(Check::put_in_the_middle, (v.rest[k] - point.rest).template lpNorm<Eigen::Infinity>(),
+                 2.0 * point.error, point.rest.norm(), v.rest[k].norm(), point.rest.norm());
 }
 
 template <class Map>

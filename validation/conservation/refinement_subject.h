@@ -28,6 +28,7 @@ struct RefinedSubject {
       while (cells.cells()[c].points[node] != point) ++node;
       put(d, {c, node});
     });
+    body.vertices.keep_rest();
     views.rebuild(body);
   }
 

@@ -44,7 +44,8 @@ Table summary_of(const SimulationReport& r) {
   row("gravitational energy [J]", first.gravitational, last.gravitational);
   const int dimension = r.simulation.dimension();
   row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
-  row(fmt::format("largest stress [{}]", stress_unit(dimension)), first.largest_stress, last.largest_stress);
+  row(fmt::format("{} [{}]", stress_name(dimension), stress_unit(dimension)), first.largest_stress,
+      last.largest_stress);
   return table;
 }
 
@@ -96,8 +97,8 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                               {"map", r.simulation.body().map_name()},
                               {"integrator", r.scene.integrator},
                               {"steps", r.simulation.steps_done()},
-                              {"first", to_json(r.result.first)},
-                              {"last", to_json(r.result.last)},
+                              {"first", to_json(r.result.first, r.simulation.dimension())},
+                              {"last", to_json(r.result.last, r.simulation.dimension())},
                               {"hash", fmt::format("{:016x}", r.simulation.body().state_hash())},
                               {"wall_s", r.wall_s},
                               {"cpu_s", r.cpu_s},

@@ -1,10 +1,15 @@
 #include "benchmarks/studies/scenes/simulation_json.h"
 
+#include <algorithm>
+#include <string>
+
 #include "benchmarks/harness/json_number.h"
 
 namespace dartboard {
 
-nlohmann::ordered_json to_json(const Diagnostics& d) {
+nlohmann::ordered_json to_json(const Diagnostics& d, int dimension) {
+  std::string stress(stress_name(dimension));
+  std::ranges::replace(stress, ' ', '_');
   return {{"time", d.time},
           {"kinetic", number(d.kinetic)},
           {"elastic", number(d.elastic)},
@@ -16,7 +21,7 @@ nlohmann::ordered_json to_json(const Diagnostics& d) {
           {"cells", d.counts.cells},
           {"components", d.counts.components},
           {"boundary", number(d.boundary)},
-          {"largest_stress", number(d.largest_stress)},
+          {stress, number(d.largest_stress)},
           {"operations", d.operations}};
 }
 

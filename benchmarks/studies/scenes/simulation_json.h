@@ -8,8 +8,9 @@
 
 namespace dartboard {
 
-/// JSON has no infinity: a number that is not finite is left null.
-nlohmann::ordered_json to_json(const Diagnostics& diagnostics);
+/// Of a body of cells of a dimension, 0 of a chain: the largest stress has the key "largest_principal_stress" or
+/// "largest_tension". JSON has no infinity: a number that is not finite is left null.
+nlohmann::ordered_json to_json(const Diagnostics& diagnostics, int dimension);
 nlohmann::ordered_json to_json(const EventJumps& jumps);
 
 }  // namespace dartboard

@@ -139,7 +139,9 @@ struct Standard {
                                                             : mixed_box(8, 8, 8, spacing);
     problem.material = of.material;
     counts = tally_of(problem.mesh);
-    body = make_simulated_body(problem, needs.topology_changes);
+    BodyNeeds own = body_needs(problem, needs.topology_changes);
+    own.rest = needs.rest;
+    body = make_simulated_body(problem, own);
     // how many vertices must be looked at closely for the largest stress depends on the state
     const int up = needs.storage == Storage::surface ? 1 : 2;
     SplitMix64 random(1);
@@ -153,7 +155,7 @@ struct Standard {
 
 double over(std::size_t a, std::size_t b) { return b == 0 ? 0.0 : static_cast<double>(a) / static_cast<double>(b); }
 
-void measure_output(UnitCosts& costs, const Problem& problem, const ScenePlan& plan) {
+void measure_output(UnitCosts& costs, const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
   const Standard s(problem, plan.needs.body);
   const SpringSystem system = s.body->system();
   const auto& v = s.body->vertices();
@@ -170,7 +172,7 @@ void measure_output(UnitCosts& costs, const Problem& problem, const ScenePlan& p
                 sink = kinetic_energy(system, v.velocity) + gravity_energy(system, v.position) +
                        linear_momentum(system, v.velocity)[0] + angular_momentum(system, v.position, v.velocity)[0];
               });
-  costs.frame = cells * cost_of([&] { s.body->frame(); });
+  costs.frame = cells * cost_of([&] { s.body->frame(scene.output.fields); });
 }
 
 void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
@@ -273,7 +275,7 @@ UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, con
   if (plan.counts.edges == 0) return costs;
   SystemArrays arrays(problem, plan.counts);
   measure_step(costs, scene, arrays);
-  measure_output(costs, problem, plan);
+  measure_output(costs, scene, problem, plan);
   if (!scene.events.empty()) measure_events(costs, scene, problem, plan);
   return costs;
 }

@@ -57,19 +57,39 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
   for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
 }
 
+namespace {
+
+// The iterative solver: the closed form loses half the digits where two eigenvalues are close.
+using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
+}  // namespace
+
 StressError::StressError(std::uint32_t which)
     : SolverError(fmt::format("the stress of vertex {} is not finite", which)), vertex(which) {}
 
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
   if (!stress.allFinite()) throw SolverError("the principal directions of a stress that is not finite");
-  // The iterative solver: the closed form loses half the digits where two eigenvalues are close.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(stress);
+  const EigenSolver solver(stress);
   if (solver.info() != Eigen::Success) throw SolverError("the eigenvalues of a stress were not found");
   Eigen::Vector3d direction = solver.eigenvectors().col(2).normalized();
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
   if (direction[largest] < 0.0) direction = -direction;
   return {solver.eigenvalues()[2], direction};
+}
+
+StressMeasures measures_of(const Eigen::Matrix3d& stress) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!stress.allFinite()) return {infinity, infinity, infinity};
+  const EigenSolver solver(stress);
+  if (solver.info() != Eigen::Success) return {infinity, infinity, infinity};
+  const Eigen::Vector3d& s = solver.eigenvalues();  // ascending
+  const double magnitude = std::max(-s[0], s[2]);
+  if (magnitude == 0.0) return {0.0, 0.0, 0.0};
+  const Eigen::Vector3d part = s / magnitude;  // squares neither overflow nor vanish
+  const double differences = (part[2] - part[1]) * (part[2] - part[1]) + (part[1] - part[0]) * (part[1] - part[0]) +
+                             (part[2] - part[0]) * (part[2] - part[0]);
+  return {s[2], magnitude, magnitude * std::sqrt(differences / 2.0)};
 }
 
 double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses) {

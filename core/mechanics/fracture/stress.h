@@ -65,6 +65,15 @@ struct PrincipalStress {
 /// throws  SolverError if the stress is not finite
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress);
 
+/// What pictures show of a stress [Pa].
+struct StressMeasures {
+  double largest_principal;  // the largest eigenvalue, tension positive: as principal_stress, to the bit
+  double largest_magnitude;  // of an eigenvalue
+  double von_mises;          // sqrt of half the sum of the squares of the eigenvalues' differences
+};
+/// All are infinite where the stress is not finite.
+StressMeasures measures_of(const Eigen::Matrix3d& stress);
+
 /// The largest principal stress [Pa] of a body's vertices: 0 when there is none, infinite where one is not finite.
 double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses);
 

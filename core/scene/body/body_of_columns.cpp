@@ -10,6 +10,7 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
+#include "core/scene/body/frame_columns.h"
 #include "core/scene/body/release.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/boundary_surface.h"
@@ -40,10 +41,12 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
       throw InputError(
           fmt::format("link {} has a length of {} m and a mass of {} kg; expected numbers > 0", k, length, mass));
     ends_.push_back({k, k + 1});
-    springs_.push_back({length, material.stiffness, material.damping});
+    const double share = material.young > 0.0 ? material.young / length / material.stiffness : 1.0;
+    springs_.push_back({length, share * material.stiffness, share * material.damping});
     cell_mass_.push_back(mass);
     for (const std::uint32_t end : ends_.back()) vertices_.mass[end] += mass / 2;
   }
+  if (needs.rest) vertices_.keep_rest();
   vertices_.velocity = problem.initial_velocity;
   vertices_.velocity.resize(points.size(), Eigen::Vector3d(0, 0, 0));
   if (needs.fixed) vertices_.fixed.assign(points.size(), 0);
@@ -89,6 +92,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   vertices_.force.clear();
   if (!needs.viscosity) vertices_.viscosity.clear();
   if (!needs.fixed) vertices_.fixed.clear();
+  if (needs.rest) vertices_.keep_rest();
   springs_ = std::move(body.springs);
   ends_ = std::move(ends.ends);
   cell_mass_ = std::move(body.cell_mass);
@@ -105,6 +109,7 @@ MemoryReport BodyOfColumns::memory() const {
   return {{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
           {Part::viscosity, bytes_of(vertices_.viscosity)},
           {Part::fixed, bytes_of(vertices_.fixed)},
+          {Part::rest, bytes_of(vertices_.rest)},
           {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
           {Part::damping, springs_.damping_bytes()},
           {Part::output_cells,
@@ -169,15 +174,13 @@ double BodyOfColumns::largest_stress() const {
   return largest_principal_stress(stress);
 }
 
-Frame BodyOfColumns::frame() const {
+Frame BodyOfColumns::frame(const FrameFields& fields) const {
   Frame frame;
   frame.mesh = cells_;
-  frame.mesh.points = vertices_.position;
-  frame.velocity = vertices_.velocity;
-  frame.mass = vertices_.mass;
   for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
   frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
+  fill_columns(frame, fields, vertices_, ends_, springs_, density_);
   return frame;
 }
 

@@ -35,7 +35,7 @@ class BodyOfColumns final : public SimulatedBody {
   CellCounts counts() const override { return counts_; }
   double boundary() const override;
   double largest_stress() const override;
-  Frame frame() const override;
+  Frame frame(const FrameFields& fields) const override;
   std::uint64_t state_hash() const override;
   std::string violation() const override { return {}; }
   MemoryReport memory() const override;
@@ -46,7 +46,7 @@ class BodyOfColumns final : public SimulatedBody {
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
-  VertexColumns vertices_;  // without darts and forces; viscosity and fixed only where there is some
+  VertexColumns vertices_;  // without darts and forces; viscosity, fixed and places at rest only where needed
   Springs springs_;
   std::vector<SpringEnds> ends_;
   Eigen::Vector3d gravity_{0, 0, 0};

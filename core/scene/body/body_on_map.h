@@ -12,6 +12,7 @@
 #include "core/mechanics/refine.h"
 #include "core/plain/bytes.h"
 #include "core/scene/body/cell_nodes.h"
+#include "core/scene/body/frame_columns.h"
 #include "core/scene/body/scene_events.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
@@ -26,13 +27,14 @@ class BodyOnMap final : public SimulatedBody {
   using Body = MassSpringBody<Map, Held::by_every_dart>;
   static constexpr int n = Map::dimension;
 
-  explicit BodyOnMap(const Problem& problem) : body_(build_body<Map, Held::by_every_dart>(problem)) {
+  BodyOnMap(const Problem& problem, const BodyNeeds& needs) : body_(build_body<Map, Held::by_every_dart>(problem)) {
     ends_.rebuild(body_);
     components_.rebuild(body_);
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
     // forces are for walks; integrators over arrays keep their own
     body_.vertices.force.clear();
-    if (problem.fixed.empty()) body_.vertices.fixed.clear();
+    if (!needs.fixed) body_.vertices.fixed.clear();
+    if (needs.rest) body_.vertices.keep_rest();
     fit_columns();
   }
 
@@ -130,17 +132,14 @@ class BodyOnMap final : public SimulatedBody {
     return largest_principal_stress(stress);
   }
 
-  Frame frame() const override {
+  Frame frame(const FrameFields& fields) const override {
     Frame frame;
-    const VertexColumns& v = body_.vertices;
-    frame.mesh.points = v.position;
-    frame.velocity = v.velocity;
-    frame.mass = v.mass;
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) {
       add_cell_of(body_, c, frame.mesh);
       frame.mesh_cell.push_back(mesh_cell_[c]);
       frame.component.push_back(components_.label(c));
     }
+    fill_columns(frame, fields, body_.vertices, ends_.ends, body_.springs, body_.material.density);
     return frame;
   }
 
@@ -165,6 +164,7 @@ class BodyOnMap final : public SimulatedBody {
             {Part::vertices, bytes_of_vertices(v)},
             {Part::viscosity, bytes_of(v.viscosity)},
             {Part::fixed, bytes_of(v.fixed)},
+            {Part::rest, bytes_of(v.rest)},
             {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
             {Part::damping, body_.springs.damping_bytes()}};
   }

@@ -10,12 +10,14 @@ namespace dartboard {
 std::string_view boundary_unit(int dimension) { return dimension == 3 ? "m^2" : "m"; }
 std::string_view stress_unit(int dimension) { return dimension == 3 ? "Pa" : dimension == 2 ? "N/m" : "N"; }
 
+std::string_view stress_name(int dimension) { return dimension > 0 ? "largest principal stress" : "largest tension"; }
+
 std::string diagnostics_header(int dimension) {
   return fmt::format(
       "time [s],kinetic [J],elastic [J],gravitational [J],momentum x [kg m/s],momentum y [kg m/s],momentum z [kg m/s],"
       "angular momentum x [kg m^2/s],angular momentum y [kg m^2/s],angular momentum z [kg m^2/s],mass [kg],"
-      "vertices,edges,faces,cells,components,boundary [{}],largest stress [{}],operations\n",
-      boundary_unit(dimension), stress_unit(dimension));
+      "vertices,edges,faces,cells,components,boundary [{}],{} [{}],operations\n",
+      boundary_unit(dimension), stress_name(dimension), stress_unit(dimension));
 }
 
 bool is_finite(const Diagnostics& d) {

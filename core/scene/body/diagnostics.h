@@ -22,13 +22,17 @@ struct Diagnostics {
   double mass = 0;                                     // [kg]
   CellCounts counts;
   double boundary = 0;         // [m^2] area of the boundary surface; of a surface [m] length of its border
-  double largest_stress = 0;   // [Pa] largest principal stress of a vertex; of a surface [N/m]
+  double largest_stress = 0;   // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
   std::size_t operations = 0;  // so far: faces dissociated, cells removed, vertices put in by refinement
 
   double energy() const { return kinetic + elastic + gravitational; }
 };
 
 bool is_finite(const Diagnostics& diagnostics);
+
+/// What the largest stress of a body of cells of a dimension is: the "largest principal stress" of a vertex; of a chain
+/// (0) the "largest tension" of a link.
+std::string_view stress_name(int dimension);
 
 /// What the boundary and the largest stress of a body of cells of a dimension are in: "m^2" and "Pa" of a solid, "m"
 /// and "N/m" of a surface, "m" and "N" of a chain (0).

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/plain/mesh.h"
+#include "core/scene/file/frame_fields.h"
 
 namespace dartboard {
 
@@ -21,6 +22,15 @@ struct Frame {
   std::vector<std::uint32_t> component;   // by cell
   // of a chain, which has no cells: the ends of each link, which files count as a cell of component 0
   std::vector<std::array<std::uint32_t, 2>> links;
+
+  FrameFields fields;              // which of these there are; others are empty
+  std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven
+  // [Pa] (of a surface [N/m]) by point of a body with cells; infinite where a stress is not finite
+  std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
+  std::vector<double> tension;                        // [N] of a chain, by link; negative where it is pressed together
+  std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
+  std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
+  std::vector<double> strain;                         // (l - L) / L by spring; of a chain, by link
 };
 
 }  // namespace dartboard

@@ -16,6 +16,7 @@ std::string_view name(Part part) {
     case Part::vertices: return "vertices";
     case Part::viscosity: return "viscosity";
     case Part::fixed: return "fixed vertices";
+    case Part::rest: return "places at rest";
     case Part::driven: return "driven vertices";
     case Part::springs: return "springs";
     case Part::damping: return "damping";
@@ -38,7 +39,7 @@ std::size_t bytes_of_vertices(const VertexColumns& vertices) {
   std::size_t bytes = 0;
   for_each_column(vertices, VertexColumns::embedded(),
                   [&bytes](const auto& column, const auto&) { bytes += bytes_of(column); });
-  return bytes - bytes_of(vertices.viscosity, vertices.fixed);
+  return bytes - bytes_of(vertices.viscosity, vertices.fixed, vertices.rest);
 }
 
 }  // namespace dartboard

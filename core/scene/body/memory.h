@@ -23,6 +23,7 @@ enum class Part {
   vertices,      // mass, 1/mass, position, velocity, point of the mesh
   viscosity,     // by vertex
   fixed,         // by vertex
+  rest,          // place at rest by vertex
   driven,        // paths of driven vertices, and what their work is summed over
   springs,       // rest length, stiffness, and the two ends
   damping,       // by spring; beside them in one row

@@ -36,7 +36,9 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
     return std::ranges::any_of(scene.events,
                                [](const SceneEvent& event) { return std::holds_alternative<Kind>(event.action); });
   };
-  return {.body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action)),
+  BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
+  body.rest = scene.output.fields.displacement;
+  return {.body = body,
           .damping = problem.material.damping != 0.0,
           .gravity = !problem.surroundings.gravity.isZero(0.0),
           .solver = make_integrator(scene.integrator)->scheme().implicit,

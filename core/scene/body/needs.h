@@ -20,7 +20,9 @@ struct BodyNeeds {
   Storage storage;
   bool topology_changes;  // else the map it was built with is let go
   bool viscosity, fixed;  // a column for it
+  bool rest = false;      // a column of places at rest
 };
+/// What a problem asks for itself; what else a scene does is in `needs_of`.
 BodyNeeds body_needs(const Problem& problem, bool topology_changes);
 
 /// What a scene must have.

@@ -10,11 +10,11 @@ std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const
   if (!needs.topology_changes) return std::make_unique<BodyOfColumns>(problem, needs);
   switch (needs.storage) {
     case Storage::links: throw InputError("a chain has no cells that could change");
-    case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem);
-    case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem);
+    case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem, needs);
+    case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem, needs);
     case Storage::any_cells: break;
   }
-  return std::make_unique<BodyOnMap<Map3>>(problem);
+  return std::make_unique<BodyOnMap<Map3>>(problem, needs);
 }
 
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes) {

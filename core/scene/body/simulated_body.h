@@ -60,9 +60,11 @@ class SimulatedBody {
   virtual CellCounts counts() const = 0;
   /// [m^2] area of the faces with one volume; of a surface [m] length of the edges with one face.
   virtual double boundary() const = 0;
-  /// [Pa] Largest principal stress of a vertex; infinite where a stress is not finite; 0 for an empty body.
+  /// [Pa] Largest principal stress of a vertex, of a chain [N] largest tension of a link or 0; infinite where one is
+  /// not finite; 0 for an empty body.
   virtual double largest_stress() const = 0;
-  virtual Frame frame() const = 0;
+  /// pre  made with places at rest where `fields` asks for displacement
+  virtual Frame frame(const FrameFields& fields) const = 0;
   /// Of positions and velocities, in the order of the embeddings' numbers.
   virtual std::uint64_t state_hash() const = 0;
   /// The first condition of a generalized map that does not hold; empty for a valid one.

@@ -32,7 +32,8 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
   const Material& material = scene.material;
   Magnitude worst{"/body", 1.0};
   for (const Magnitude& m : {Magnitude{"/material/density", material.density},
-                             {"/material/stiffness", material.stiffness},
+                             material.young > 0.0 ? Magnitude{"/material/young", material.young}
+                                                  : Magnitude{"/material/stiffness", material.stiffness},
                              {"/material/damping", material.damping},
                              {"/material/viscosity", material.viscosity},
                              {"/gravity", scene.gravity.lpNorm<Eigen::Infinity>()},

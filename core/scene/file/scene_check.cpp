@@ -63,13 +63,27 @@ class Checker {
     throw InputError(fmt::format("{}: {}/{}: unknown key; {}", name_, path, pointer_step(name), hint));
   }
 
-  void require_choice(const SceneKey& key, const Json& value, const std::string& path) const {
+  void require_choice(SceneKey key, const Json& value, const std::string& path) const {
+    key.type = ValueType::choice;  // a word within a list is told by itself
     if (!value.is_string()) fail(path, is_instead(value), expectation(key));
     const auto text = value.get<std::string>();
     if (std::ranges::find(key.choices, text) != key.choices.end()) return;
     const auto nearest = nearest_of(key.choices, text);
     fail(path, is_instead(value),
          expectation(key) + (nearest ? fmt::format("; the nearest is '{}'", *nearest) : std::string()));
+  }
+
+  Json choices(const SceneKey& key, const Json& value, const std::string& path) const {
+    const Json words = each(key, value, path, 0, many, [&](const Json& word, const std::string& at) {
+      require_choice(key, word, at);
+      return word;
+    });
+    for (std::size_t k = 0; k < words.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j)
+        if (words[j] == words[k])
+          fail(fmt::format("{}/{}", path, k), fmt::format("is {}, like {}/{}", shown(words[k]), path, j),
+               "each word once");
+    return words;
   }
 
   void require(const SceneRule& rule, const Json& value, const std::string& path) const {
@@ -96,6 +110,7 @@ class Checker {
         if (!value.is_string()) fail(path, is_instead(value), expectation(key));
         return value;
       case ValueType::choice: require_choice(key, value, path); return value;
+      case ValueType::choices: return choices(key, value, path);
       case ValueType::integer: return number(key, value, path, true);
       case ValueType::real: return number(key, value, path, false);
       case ValueType::integers: return list(key, value, path, 1, many, true);

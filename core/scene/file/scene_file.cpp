@@ -49,7 +49,8 @@ class Reader {
     scene.material = {.density = material.at("density"),
                       .stiffness = material.at("stiffness"),
                       .damping = material.at("damping"),
-                      .viscosity = material.at("viscosity")};
+                      .viscosity = material.at("viscosity"),
+                      .young = material.value("young", 0.0)};
     scene.gravity = point(json.at("gravity"));
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
@@ -74,6 +75,13 @@ class Reader {
     take("diagnostics_every_steps", scene.output.diagnostic_steps);
     take("probes_every", scene.output.probe_time);
     take("probes_every_steps", scene.output.probe_steps);
+    const auto has_field = [&fields = output.at("fields")](const char* name) {
+      return std::ranges::find(fields, Json(name)) != fields.end();
+    };
+    scene.output.fields = {.held = has_field("held"),
+                           .stress = has_field("stress"),
+                           .displacement = has_field("displacement"),
+                           .springs = has_field("springs")};
     for (std::size_t k = 0; k < output.at("probes").size(); ++k)
       scene.probes.push_back(probe(output.at("probes")[k], fmt::format("/output/probes/{}", k), scene.probes));
     if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
@@ -391,7 +399,8 @@ OutputPlan OutputPlan::in_steps_of(double step) const {
           .probe_steps = steps(probe_steps, probe_time),
           .frame_time = {},
           .diagnostic_time = {},
-          .probe_time = {}};
+          .probe_time = {},
+          .fields = fields};
 }
 
 bool Expectation::empty() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/plain/material.h"
+#include "core/scene/file/frame_fields.h"
 #include "core/scene/file/selection.h"
 
 namespace dartboard {
@@ -121,6 +122,7 @@ enum class UnstableStep { warn, refuse, substep };
 struct OutputPlan {
   std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{}, probe_steps{};  // steps from one to the next
   std::optional<double> frame_time{}, diagnostic_time{}, probe_time{};  // [s] the same where the scene has no step yet
+  FrameFields fields{};                                                 // that frames hold
 
   /// The same plan with times turned into steps.
   /// pre  step > 0

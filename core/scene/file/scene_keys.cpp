@@ -119,6 +119,12 @@ std::vector<SceneKey> make_keys() {
                "end"},
       {.shape = material, .name = "stiffness", .type = real, .unit = "N/m", .range = not_negative, .standard = "50",
        .help = "of the spring that a cell contributes to each of its edges; of a chain, of a link"},
+      {.shape = material, .name = "young", .type = real, .unit = "Pa", .range = positive,
+       .help = "Young's modulus, in place of a stiffness: a tetrahedron of volume V gives its edge of length l the "
+               "stiffness young V / l^2, so that a finer mesh of the same body sags the same. Its springs then have "
+               "Poisson's ratio 1/4, where tetrahedra are well shaped, whatever the material has. Of a surface of triangles "
+               "[N/m], with their areas and the ratio 1/3; of a chain [N], young / l. Other cells have no such springs. The "
+               "damping is then a mean over the edges of all cells, shared out as the stiffness is"},
       {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
        .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
@@ -233,6 +239,13 @@ std::vector<SceneKey> make_keys() {
        .help = "time between frames; the first and the last state are always written"},
       {.shape = output, .name = "frames_every_steps", .type = integer, .range = count_from_1,
        .help = "steps between frames"},
+      {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs"},
+       .standard = "[\"held\", \"stress\"]",
+       .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
+               "which vertices are free (0), fixed (1) or driven (2). 'stress': of each vertex the largest principal "
+               "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
+               "one is not finite; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
+               "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain"},
       {.shape = output, .name = "diagnostics_every", .type = real, .unit = "s", .range = positive,
        .help = "time between rows of diagnostics; the first and the last state always get one"},
       {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
@@ -298,8 +311,8 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::ball_mesh, "ball_mesh",
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
-       "A chain has links and no cells, so nothing can happen to it but that its ends are let go. Its largest stress is the "
-       "largest tension [N]."},
+       "A chain has links and no cells, so nothing can happen to it but that fixed points are let go. In place of the "
+       "largest principal stress it has the largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
@@ -347,6 +360,7 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::scene, {"step", "accuracy"}},
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
+      {at_most_one, Shape::material, {"stiffness", "young"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
@@ -379,6 +393,7 @@ std::string expectation(const SceneKey& key) {
   switch (key.type) {
     case ValueType::text: return "a text";
     case ValueType::choice: return "one of " + quoted_list(key.choices, ", ");
+    case ValueType::choices: return "a list of words, none twice, out of " + quoted_list(key.choices, ", ");
     case ValueType::integer: return "an integer" + range + unit;
     case ValueType::integers: return "a list of integers" + range + ", at least one";
     case ValueType::real: return "a number" + range + unit;

@@ -52,6 +52,7 @@ const ShapeHelp& help_of(Shape shape);
 enum class ValueType {
   text,
   choice,
+  choices,  // a list of them, none twice
   integer,
   integers,  // a list of them
   real,
@@ -81,7 +82,7 @@ struct SceneKey {
   std::string_view unit{};             // empty for none
   Range range{};                       // of every number in the value
   std::size_t least_size = 0;          // of a list of points
-  std::vector<std::string> choices{};  // of a choice
+  std::vector<std::string> choices{};  // of a choice or choices
   bool required = false;
   std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none
   std::string_view help{};

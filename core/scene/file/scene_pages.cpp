@@ -42,6 +42,11 @@ Json value_schema(const SceneKey& key) {
   switch (key.type) {
     case ValueType::text: return {{"type", "string"}};
     case ValueType::choice: return {{"enum", key.choices}};
+    case ValueType::choices: {
+      Json schema = list_schema({{"enum", key.choices}}, 0, {});
+      schema["uniqueItems"] = true;
+      return schema;
+    }
     case ValueType::integer: return integer();
     case ValueType::integers: return list_schema(integer(), 1, {});
     case ValueType::real: return number_schema(key, "number");

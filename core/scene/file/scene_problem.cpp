@@ -8,6 +8,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
+#include "core/plain/young.h"
 #include "core/scene/file/load_mesh.h"
 
 namespace dartboard {
@@ -53,6 +54,23 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
   }
 }
 
+/// The mean stiffness that the scene's Young's modulus makes of the edges of its mesh.
+double stiffness_of_young(const SceneFile& scene, const Mesh& mesh) {
+  const auto fail = [&scene](std::string_view found, std::string_view expected) {
+    throw InputError(fmt::format("{}: /material/young: is {} Pa, and {}; expected {}", scene.file, scene.material.young,
+                                 found, expected));
+  };
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    if (const CellKind kind = mesh.kinds[c]; kind != CellKind::tetrahedron && kind != CellKind::triangle)
+      fail(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", c, name(kind)),
+           "tetrahedra, triangles or a chain, or 'stiffness' in its place");
+  const double mean = mean_stiffness(mesh, scene.material.young);
+  if (!(mean > 0.0 && std::isfinite(mean)))
+    fail(fmt::format("the stiffness of its springs has a mean of {:.6g} N/m", mean),
+         "a number above 0, of edges that have a length and cells that have a volume");
+  return mean;
+}
+
 }  // namespace
 
 Mesh make_mesh(const SceneFile& scene) {
@@ -89,6 +107,7 @@ Problem make_problem(const SceneFile& scene) {
   Problem problem;
   problem.mesh = make_mesh(scene);
   problem.material = scene.material;
+  if (scene.material.young > 0.0) problem.material.stiffness = stiffness_of_young(scene, problem.mesh);
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
   try {

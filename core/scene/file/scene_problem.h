@@ -16,7 +16,7 @@ Mesh make_mesh(const SceneFile& scene);
 /// here: how they move is told by DrivenVertices alone.
 ///
 /// throws  as make_mesh; InputError for an id that is no point of the mesh, a selection of none, a speed above that of
-///         light
+///         light, a Young's modulus of cells that are no simplices
 Problem make_problem(const SceneFile& scene);
 
 }  // namespace dartboard

@@ -68,13 +68,29 @@ void append_array(std::string& out, const char* name, const std::vector<Eigen::V
   append_array(out, name, values.empty() ? nullptr : values[0].data(), 3 * values.size(), 3);
 }
 
+bool has_columns_of_its_size(const Frame& frame) {
+  const std::size_t points = frame.mesh.points.size(), cells = frame.mesh.cell_count();
+  const FrameFields& fields = frame.fields;
+  const bool is_chain = !frame.links.empty();
+  const auto is = [](std::size_t size, bool asked, std::size_t expected) { return size == (asked ? expected : 0); };
+  const bool has_stress = fields.stress && !is_chain;
+  return frame.velocity.size() == points && frame.mass.size() == points && frame.mesh_cell.size() == cells &&
+         frame.component.size() == cells && is(frame.held.size(), fields.held, points) &&
+         is(frame.largest_principal_stress.size(), has_stress, points) &&
+         is(frame.largest_stress_magnitude.size(), has_stress, points) &&
+         is(frame.von_mises_stress.size(), has_stress, points) &&
+         is(frame.tension.size(), fields.stress && is_chain, frame.links.size()) &&
+         is(frame.displacement.size(), fields.displacement, points) &&
+         (frame.springs.empty() || (fields.springs && !is_chain)) &&
+         is(frame.strain.size(), fields.springs, frame.links.size() + frame.springs.size());
+}
+
 }  // namespace
 
 std::string to_vtu(const Frame& frame) {
   const Mesh& mesh = frame.mesh;
   const std::size_t points = mesh.points.size(), cells = mesh.cell_count();
-  if (frame.velocity.size() != points || frame.mass.size() != points || frame.mesh_cell.size() != cells ||
-      frame.component.size() != cells)
+  if (!has_columns_of_its_size(frame))
     throw InputError(fmt::format("a frame of {} points and {} cells with columns of other lengths", points, cells));
 
   std::vector<std::int64_t> connectivity, offsets;
@@ -88,13 +104,17 @@ std::string to_vtu(const Frame& frame) {
   }
   std::vector<std::int64_t> mesh_cell(frame.mesh_cell.begin(), frame.mesh_cell.end());
   std::vector<std::int64_t> component(frame.component.begin(), frame.component.end());
-  for (const auto& link : frame.links) {
-    connectivity.insert(connectivity.end(), link.begin(), link.end());
+  const auto add_line = [&](const std::array<std::uint32_t, 2>& ends, std::int64_t number, std::int64_t label) {
+    connectivity.insert(connectivity.end(), ends.begin(), ends.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-    types.push_back(3);  // a line
-    mesh_cell.push_back(static_cast<std::int64_t>(mesh_cell.size()));
-    component.push_back(0);
-  }
+    types.push_back(3);
+    mesh_cell.push_back(number);
+    component.push_back(label);
+  };
+  for (const auto& link : frame.links) add_line(link, static_cast<std::int64_t>(mesh_cell.size()), 0);
+  for (const auto& spring : frame.springs) add_line(spring, -1, -1);
+  std::vector<double> strain(cells, 0.0);
+  strain.insert(strain.end(), frame.strain.begin(), frame.strain.end());
 
   std::string out =
       "<?xml version=\"1.0\"?>\n"
@@ -116,9 +136,20 @@ std::string to_vtu(const Frame& frame) {
   out += "      </Cells>\n      <PointData Vectors=\"velocity\" Scalars=\"mass\">\n";
   append_array(out, "velocity", frame.velocity);
   append_array(out, "mass", frame.mass);
+  const FrameFields& fields = frame.fields;
+  const bool is_chain = !frame.links.empty();
+  if (fields.held) append_array(out, "held", frame.held);
+  if (fields.stress && !is_chain) {
+    append_array(out, "largest_principal_stress", frame.largest_principal_stress);
+    append_array(out, "largest_stress_magnitude", frame.largest_stress_magnitude);
+    append_array(out, "von_mises_stress", frame.von_mises_stress);
+  }
+  if (fields.displacement) append_array(out, "displacement", frame.displacement);
   out += "      </PointData>\n      <CellData Scalars=\"component\">\n";
   append_array(out, "mesh_cell", mesh_cell);
   append_array(out, "component", component);
+  if (fields.stress && is_chain) append_array(out, "tension", frame.tension);
+  if (fields.springs) append_array(out, "strain", strain);
   out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/scene/body/diagnostics.h"
 #include "core/scene/file/scene_keys.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
@@ -85,12 +86,16 @@ class Planner {
     add(Part::marks, "marks by dart, for walks", changed);
     add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
     add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed);
-    add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
+    if (problem_.material.young > 0.0)
+      add(Part::cells, "mass, share of a node, side and mesh number of each cell, stiffness shares of its edges",
+          changed + "; " + elasticity());
+    else
+      add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
         changed + "; /output: frames and diagnostics tell the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
-    if (!plan_.needs.refinement)
+    if (!plan_.needs.refinement && problem_.material.young == 0.0)
       leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
   }
 
@@ -112,6 +117,10 @@ class Planner {
     else
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
+    if (plan_.needs.body.rest)
+      add(Part::rest, "place at rest by vertex", "/output/fields: frames show 'displacement'");
+    else
+      leave_out("column of places at rest", "/output/fields: without 'displacement'");
   }
 
   void driven() {
@@ -134,8 +143,7 @@ class Planner {
   void forces() {
     const MeshTally& n = plan_.counts;
     add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
-        source_of(scene_) + "; " +
-            told("/material/stiffness", Shape::material, "stiffness", problem_.material.stiffness));
+        source_of(scene_) + "; " + elasticity());
     const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
     if (plan_.needs.damping)
       add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
@@ -186,12 +194,29 @@ class Planner {
     else if (!plan_.needs.body.topology_changes)
       add(Part::output_cells, "cells, their masses and the boundary by vertex numbers",
           "/output: frames show the cells, diagnostics tell mass and boundary");
-    add(Part::frames, "the cells where they are", output_reason("frames_every", scene_.output.frame_steps));
+    add(Part::frames, "the cells where they are" + fields_in_words(),
+        output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
       add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
-    add(Part::diagnostics, "energies, momenta, boundary, largest stress",
+    add(Part::diagnostics, fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
+  }
+
+  std::string elasticity() const {
+    const Material& material = problem_.material;
+    return material.young > 0.0 ? told("/material/young", Shape::material, "young", material.young)
+                                : told("/material/stiffness", Shape::material, "stiffness", material.stiffness);
+  }
+
+  std::string fields_in_words() const {
+    const FrameFields& fields = scene_.output.fields;
+    std::string words;
+    if (fields.held) words += ", which vertices are held";
+    if (fields.stress) words += scene_.is_chain() ? ", tensions" : ", stresses";
+    if (fields.displacement) words += ", displacements";
+    if (fields.springs) words += ", springs";
+    return words;
   }
 
   const SceneFile& scene_;

@@ -77,7 +77,7 @@ bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point
   if (!changed) return false;
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     const std::uint32_t p = point_of_vertex[k];
-    if (p != no_point && place_[p] != none) velocity[k] = now_[place_[p]];
+    if (moves(p)) velocity[k] = now_[place_[p]];
   }
   return true;
 }

@@ -33,6 +33,8 @@ class DrivenVertices {
   /// cost     O(drives), and O(vertices) where one starts, turns or ends
   bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity);
 
+  /// Is this a point of the mesh that some drive moves?
+  bool moves(std::uint32_t point) const { return point < place_.size() && place_[point] != none; }
   /// Vertices of the mesh that some drive moves.
   std::size_t size() const { return now_.size(); }
   std::size_t bytes() const;

@@ -22,8 +22,8 @@ std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene)
 std::string why_idle(const std::string& path, const SceneFile& scene, const Simulation& simulation) {
   for (const SceneEvent& event : scene.events)
     if (const auto* tear = std::get_if<TearWhereStressed>(&event.action); tear != nullptr && event.path == path)
-      return fmt::format(": the largest stress is {:.4g}, its threshold {:.4g}", simulation.body().largest_stress(),
-                         tear->threshold);
+      return fmt::format(": the largest principal stress is {:.4g}, its threshold {:.4g}",
+                         simulation.body().largest_stress(), tear->threshold);
   return "";
 }
 

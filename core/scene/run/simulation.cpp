@@ -83,6 +83,7 @@ Simulation::Simulation(const SceneFile& scene)
     : step_(settled_step(scene)),
       step_count_(step_of_time(scene.duration, step_)),
       horizon_(horizon_of(scene.duration)),
+      fields_(scene.output.fields),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
@@ -313,9 +314,14 @@ ProbeRow Simulation::probes() const {
   return row;
 }
 
-Frame Simulation::frame() const {
-  Frame frame = body_->frame();
+Frame Simulation::frame(const FrameFields& fields) const {
+  Frame frame = body_->frame(fields);
   frame.time = time();
+  if (!fields.held) return frame;
+  const VertexColumns& v = body_->vertices();
+  frame.held.assign(v.size(), 0);
+  for (std::size_t k = 0; k < v.fixed.size(); ++k)
+    if (v.fixed[k]) frame.held[k] = driven_.moves(v.point[k]) ? 2 : 1;
   return frame;
 }
 

@@ -105,7 +105,10 @@ class Simulation {
   /// The paths of the events that have been due and never changed anything.
   std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
-  Frame frame() const;
+  /// With the fields that the scene asks for, or with others.
+  /// pre  displacement is asked for only where the scene does
+  Frame frame() const { return frame(fields_); }
+  Frame frame(const FrameFields& fields) const;
   ProbeRow probes() const;
 
   /// Measure momentum and energy on both sides of events from now on. It reads and changes nothing.
@@ -144,6 +147,7 @@ class Simulation {
   std::unique_ptr<Integrator> integrator_;
   std::vector<Scheduled> events_;
   std::size_t operations_ = 0;
+  FrameFields fields_;
   bool watch_ = false;
   EventJumps jumps_;
   UnstableStep unstable_step_;

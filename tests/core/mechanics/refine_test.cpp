@@ -254,6 +254,26 @@ TYPED_TEST(Refine, FixesAVertexBetweenFixedOnes) {
   EXPECT_EQ(body.vertices.fixed[5], 0);
 }
 
+TYPED_TEST(Refine, PutsAVertexAtRestAmongThoseOfItsCellAtRest) {
+  for (const int dimension : {1, 2, 3}) {
+    auto body = box<TypeParam>(1);
+    body.vertices.keep_rest();
+    for (auto& x : body.vertices.position) x = 3.0 * x.cwiseProduct(x) + Eigen::Vector3d(5, -7, 9);
+    const Dart d = body.cell_dart[2];
+    std::set<std::uint32_t> corners{body.vertex(body.map, d), body.vertex(body.map, body.map.template alpha<0>(d))};
+    if (dimension > 1) corners.insert(body.vertex(body.map, body.map.template alpha<1, 0>(d)));
+    if (dimension > 2) corners.insert(body.vertex(body.map, body.map.template alpha<2, 1, 0>(d)));
+    ASSERT_EQ(corners.size(), dimension + 1u);
+    Eigen::Vector3d mean(0, 0, 0);
+    for (const std::uint32_t k : corners) mean += body.vertices.rest[k] / (dimension + 1.0);
+    const auto before = body.vertices.rest;
+    refine_any(body, dimension, d, 1.0);
+    ASSERT_EQ(body.vertices.rest.size(), before.size() + 1);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), body.vertices.rest.begin()));
+    EXPECT_LE((body.vertices.rest.back() - mean).norm(), 8 * 0x1p-53);  // places below 1, four roundings either way
+  }
+}
+
 TYPED_TEST(Refine, RefusesABracingBelowZero) {
   auto body = box<TypeParam>(1);
   const auto subdivision = subdivide(body.map, Volume{body.cell_dart[0]});

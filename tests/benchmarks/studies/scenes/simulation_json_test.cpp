@@ -20,10 +20,16 @@ const Diagnostics telling{.time = 1,
                           .operations = 19};
 
 TEST(SimulationJson, OfDiagnosticsHasEveryNumberUnderItsName) {
-  EXPECT_EQ(nlohmann::json(to_json(telling)),
+  EXPECT_EQ(nlohmann::json(to_json(telling, 3)),
             nlohmann::json::parse(R"({"time": 1.0, "kinetic": 2.0, "elastic": 3.0, "gravitational": 4.0, "mass": 11.0,
                                       "vertices": 12, "edges": 13, "faces": 14, "cells": 15, "components": 16,
-                                      "boundary": 17.0, "largest_stress": 18.0, "operations": 19})"));
+                                      "boundary": 17.0, "largest_principal_stress": 18.0, "operations": 19})"));
+}
+
+TEST(SimulationJson, NamesTheStressOfASurfaceAsThatOfASolidAndTheTensionOfAChain) {
+  EXPECT_EQ(to_json(telling, 2).at("largest_principal_stress"), 18.0);
+  EXPECT_EQ(to_json(telling, 0).at("largest_tension"), 18.0);
+  EXPECT_FALSE(to_json(telling, 0).contains("largest_principal_stress"));
 }
 
 TEST(SimulationJson, OfJumpsHasEveryNumberUnderItsName) {
@@ -36,8 +42,8 @@ TEST(SimulationJson, HasNullForWhatIsNotFinite) {
   Diagnostics d = telling;
   d.kinetic = d.elastic = d.gravitational = d.boundary = std::numeric_limits<double>::quiet_NaN();
   d.largest_stress = std::numeric_limits<double>::infinity();
-  for (const char* name : {"kinetic", "elastic", "gravitational", "boundary", "largest_stress"})
-    EXPECT_TRUE(to_json(d).at(name).is_null()) << name;
+  for (const char* name : {"kinetic", "elastic", "gravitational", "boundary", "largest_principal_stress"})
+    EXPECT_TRUE(to_json(d, 3).at(name).is_null()) << name;
 }
 
 }  // namespace

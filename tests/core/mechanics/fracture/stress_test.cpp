@@ -287,6 +287,62 @@ TEST(StressOfHexahedra, IsUniformUnderAUniformStretchToTheSurface) {
         EXPECT_NEAR(stress(i, j), i == 2 && j == 2 ? expected : 0.0, 64 * u * expected);
 }
 
+// ---- measures
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The values as in expect_principal below; of their differences the von Mises stress takes a root of three squares.
+void expect_measures(const Matrix3d& stress, const StressMeasures& expected) {
+  const StressMeasures measures = measures_of(stress);
+  const double bound = 128 * u * stress.norm();
+  EXPECT_EQ(measures.largest_principal, principal_stress(stress).value);
+  EXPECT_NEAR(measures.largest_principal, expected.largest_principal, bound);
+  EXPECT_NEAR(measures.largest_magnitude, expected.largest_magnitude, bound);
+  EXPECT_NEAR(measures.von_mises, expected.von_mises, bound);
+}
+
+TEST(StressMeasures, OfAUniaxialStressAreItsSize) {
+  expect_measures(Vector3d(0, 3, 0).asDiagonal(), {3, 3, 3});
+  expect_measures(Vector3d(0, 0, -3).asDiagonal(), {0, 3, 3});
+}
+
+TEST(StressMeasures, OfPressureHaveNoVonMisesStress) {
+  expect_measures(-5 * Matrix3d::Identity(), {-5, 5, 0});
+  expect_measures(Matrix3d::Zero(), {0, 0, 0});
+}
+
+// von Mises (1913): the stress under which a material yields in shear is the root of three times the shear
+TEST(StressMeasures, OfPureShearIsTheRootOfThreeTimesIt) {
+  Matrix3d shear = Matrix3d::Zero();
+  shear(0, 1) = shear(1, 0) = 2;
+  expect_measures(shear, {2, 2, 2 * std::sqrt(3.0)});
+}
+
+// sqrt(3/2) times the norm of the deviator, computed with other numbers: its entries
+TEST(StressMeasures, AreTheSameInAnyPositionAndAtAnyScale) {
+  for (const Matrix3d& turn : some_rotations())
+    for (const double scale : {1.0, 1e-300, 1e300})
+      for (const Vector3d& values : {Vector3d(1, 2, 5), Vector3d(5, 5, 1), Vector3d(-7, -2, 5), Vector3d(-1, -2, -3)}) {
+        const Matrix3d turned = turn * values.asDiagonal() * turn.transpose();
+        const double mises = std::sqrt(1.5) * (values - Vector3d::Constant(values.mean())).norm();
+        const StressMeasures measures = measures_of(scale * 0.5 * (turned + turned.transpose()));
+        EXPECT_NEAR(measures.largest_principal / scale, values.maxCoeff(), 128 * u * values.norm());
+        EXPECT_NEAR(measures.largest_magnitude / scale, values.cwiseAbs().maxCoeff(), 128 * u * values.norm());
+        EXPECT_NEAR(measures.von_mises / scale, mises, 128 * u * values.norm());
+      }
+}
+
+TEST(StressMeasures, OfWhatIsNotFiniteAreInfinite) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinite, -infinite}) {
+    Matrix3d stress = Matrix3d::Identity();
+    stress(2, 0) = stress(0, 2) = bad;
+    const StressMeasures measures = measures_of(stress);
+    EXPECT_EQ(measures.largest_principal, infinite);
+    EXPECT_EQ(measures.largest_magnitude, infinite);
+    EXPECT_EQ(measures.von_mises, infinite);
+  }
+}
+
 // ---- principal stress
 
 // Householder's step and each sweep of the iteration turn a 3 x 3 matrix by an orthogonal one, a few u of its norm

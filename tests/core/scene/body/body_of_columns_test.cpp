@@ -47,7 +47,7 @@ TEST_P(Bodies, MoveWithTheSameBits) {
 }
 
 TEST_P(Bodies, ShowTheSameCellsInAFrame) {
-  const Frame a = with->frame(), b = without->frame();
+  const Frame a = with->frame({}), b = without->frame({});
   EXPECT_EQ(a.mesh.points, b.mesh.points);
   EXPECT_EQ(a.mesh.kinds, b.mesh.kinds);
   EXPECT_EQ(a.component, b.component);

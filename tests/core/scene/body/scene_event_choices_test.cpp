@@ -26,7 +26,7 @@ TEST(SceneEvents, DrawEachSetOfCellsAsOften) {
     SceneEvent event;
     event.action = Remove{RandomSelection{4, seed}};
     EXPECT_EQ(body->make_ready(event)->apply(), 4u);
-    std::vector<std::uint32_t> left = body->frame().mesh_cell;
+    std::vector<std::uint32_t> left = body->frame({}).mesh_cell;
     std::sort(left.begin(), left.end());
     ++drawn[left];
   }

@@ -96,7 +96,7 @@ TEST(SceneFile, MayAskForAnAccuracyInsteadOfAStep) {
   Json json = smallest();
   json.erase("step");
   json["accuracy"] = 1e-3;
-  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every_steps", 7}};
+  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every_steps", 7}, {"fields", {"springs"}}};
   SceneFile scene = parse(json);
   EXPECT_EQ(scene.accuracy, 1e-3);
   EXPECT_EQ(scene.step, 0.0);
@@ -106,6 +106,8 @@ TEST(SceneFile, MayAskForAnAccuracyInsteadOfAStep) {
   // what depends on the step waits for it
   EXPECT_EQ(scene.output.in_steps_of(0.125).frame_steps, 4u);
   EXPECT_EQ(scene.output.in_steps_of(0.125).diagnostic_steps, 7u);
+  EXPECT_TRUE(scene.output.in_steps_of(0.125).fields.springs);
+  EXPECT_FALSE(scene.output.in_steps_of(0.125).fields.stress);
 }
 
 TEST(SceneFile, AsksForExactlyOneOfStepAndAccuracy) {
@@ -236,7 +238,7 @@ TEST(SceneKeys, AreUniqueWithinAShapeAndExplained) {
   for (const SceneKey& key : scene_keys()) {
     EXPECT_TRUE(met.insert({key.shape, key.name}).second) << key.name;
     EXPECT_FALSE(key.help.empty()) << key.name;
-    EXPECT_EQ(key.type == ValueType::choice, !key.choices.empty()) << key.name;
+    EXPECT_EQ(key.type == ValueType::choice || key.type == ValueType::choices, !key.choices.empty()) << key.name;
   }
   for (std::size_t k = 0; k < scene_shapes().size(); ++k)
     EXPECT_EQ(scene_shapes()[k].shape, static_cast<Shape>(k));  // help_of looks up by place
@@ -260,6 +262,15 @@ TEST(SceneSchema, NamesEveryKeyOfTheTableAndAllowsNoOther) {
   }
   EXPECT_EQ(schema.at("$defs").at("material").at("properties").at("density").at("exclusiveMinimum"), 0.0);
   EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "body", "duration"])"));
+}
+
+TEST(SceneSchema, WantsWordsOfAListOnce) {
+  const Json fields = scene_schema().at("$defs").at("output").at("properties").at("fields");
+  EXPECT_EQ(fields.at("type"), "array");
+  EXPECT_EQ(fields.at("uniqueItems"), true);
+  EXPECT_EQ(fields.at("items"), Json::parse(R"({"enum": ["held", "stress", "displacement", "springs"]})"));
+  EXPECT_FALSE(fields.contains("minItems"));
+  EXPECT_EQ(fields.at("default"), Json::parse(R"(["held", "stress"])"));
 }
 
 // Of a number, where it begins and ends: what has no end has no key for it.

@@ -196,6 +196,26 @@ TEST(SceneReading, OfOutputAndProbes) {
   EXPECT_EQ(times.output.probe_steps, 16u);
 }
 
+TEST(SceneReading, OfAYoungsModulusInPlaceOfAStiffness) {
+  EXPECT_EQ(with("material", R"({"young": 7e3})").material.young, 7e3);
+  EXPECT_EQ(with("material", R"({"stiffness": 7})").material.young, 0.0);
+}
+
+TEST(SceneReading, OfWhatFramesHold) {
+  const auto fields = [](const char* words) {
+    const FrameFields f = with("output", (R"({"fields": )" + std::string(words) + "}").c_str()).output.fields;
+    return std::array{f.held, f.stress, f.displacement, f.springs};
+  };
+  EXPECT_EQ(fields("[]"), (std::array{false, false, false, false}));
+  EXPECT_EQ(fields(R"(["held"])"), (std::array{true, false, false, false}));
+  EXPECT_EQ(fields(R"(["stress"])"), (std::array{false, true, false, false}));
+  EXPECT_EQ(fields(R"(["displacement"])"), (std::array{false, false, true, false}));
+  EXPECT_EQ(fields(R"(["springs"])"), (std::array{false, false, false, true}));
+  EXPECT_EQ(fields(R"(["springs", "held"])"), (std::array{true, false, false, true}));
+  const FrameFields standard = with("output", "{}").output.fields;
+  EXPECT_TRUE(standard.held && standard.stress && !standard.displacement && !standard.springs);
+}
+
 TEST(SceneReading, OfWhatIsExpected) {
   Json json = least_scene();
   json["material"] = {{"damping", 0}, {"viscosity", 0}};

@@ -91,6 +91,67 @@ TEST(WriteVtu, SaysOfWhichSortAColumnIs) {
   EXPECT_NE(vtu.find("Name=\"mass\" NumberOfComponents=\"1\""), std::string::npos);
 }
 
+/// The same with all that a scene may ask for, and a spring.
+Frame full_frame() {
+  Frame frame = telling_frame();
+  frame.fields = {.held = true, .stress = true, .displacement = true, .springs = true};
+  frame.springs = {{3, 1}};
+  frame.strain = {0.25};
+  for (std::size_t k = 0; k < frame.mesh.points.size(); ++k) {
+    const auto n = static_cast<double>(k);
+    frame.held.push_back(static_cast<std::uint8_t>(k % 3));
+    frame.largest_principal_stress.push_back(1000 + n);
+    frame.largest_stress_magnitude.push_back(2000 + n);
+    frame.von_mises_stress.push_back(3000 + n);
+    frame.displacement.emplace_back(400 + n, 500 + n, 600 + n);
+  }
+  return frame;
+}
+
+TEST(WriteVtu, PutsEveryColumnThatIsAskedForUnderItsName) {
+  const Frame frame = full_frame();
+  const std::string vtu = to_vtu(frame),
+                    points = vtu.substr(vtu.find("<PointData"), vtu.find("</PointData") - vtu.find("<PointData"));
+  EXPECT_EQ(column<std::uint8_t>(points, "held", "UInt8"), frame.held);
+  EXPECT_EQ(column<double>(points, "largest_principal_stress", "Float64"), frame.largest_principal_stress);
+  EXPECT_EQ(column<double>(points, "largest_stress_magnitude", "Float64"), frame.largest_stress_magnitude);
+  EXPECT_EQ(column<double>(points, "von_mises_stress", "Float64"), frame.von_mises_stress);
+  EXPECT_EQ(column<double>(points, "displacement", "Float64"), flat(frame.displacement));
+  EXPECT_NE(points.find("Name=\"displacement\" NumberOfComponents=\"3\""), std::string::npos);
+  EXPECT_EQ(vtu.find("\"tension\""), std::string::npos);
+  const std::string bare = to_vtu(telling_frame());
+  for (const char* name : {"held", "stress", "displacement", "tension", "strain"})
+    EXPECT_EQ(bare.find(name), std::string::npos) << name;
+}
+
+TEST(WriteVtu, ListsSpringsAsLinesAfterTheCellsThatAreNoneOfThem) {
+  const std::string vtu = to_vtu(full_frame());
+  EXPECT_NE(vtu.find("NumberOfCells=\"3\""), std::string::npos);
+  EXPECT_EQ(column<std::uint8_t>(vtu, "types", "UInt8"), (Bytes{10, 10, 3}));
+  EXPECT_EQ(column<std::int64_t>(vtu, "offsets", "Int64"), (Integers{4, 8, 10}));
+  const Integers ends = column<std::int64_t>(vtu, "connectivity", "Int64");
+  EXPECT_EQ(Integers(ends.end() - 2, ends.end()), (Integers{3, 1}));
+  EXPECT_EQ(column<std::int64_t>(vtu, "mesh_cell", "Int64"), (Integers{17, 11, -1}));
+  EXPECT_EQ(column<std::int64_t>(vtu, "component", "Int64"), (Integers{1, 0, -1}));
+  EXPECT_EQ(column<double>(vtu, "strain", "Float64"), (Reals{0, 0, 0.25}));
+}
+
+TEST(WriteVtu, GivesTheLinksOfAChainTheirTensionAndStrain) {
+  Frame chain;
+  chain.mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  chain.velocity.assign(3, {0, 0, 0});
+  chain.mass.assign(3, 1.0);
+  chain.links = {{0, 1}, {1, 2}};
+  chain.fields = {.stress = true, .springs = true};
+  chain.tension = {5, -6};
+  chain.strain = {0.5, -0.25};
+  const std::string vtu = to_vtu(chain), cells = vtu.substr(vtu.find("<CellData"));
+  EXPECT_EQ(column<double>(cells, "tension", "Float64"), (Reals{5, -6}));
+  EXPECT_EQ(column<double>(cells, "strain", "Float64"), (Reals{0.5, -0.25}));
+  EXPECT_EQ(column<std::int64_t>(vtu, "mesh_cell", "Int64"), (Integers{0, 1}));
+  EXPECT_EQ(vtu.find("_stress"), std::string::npos);
+}
+
 // The numbers of VTK's types, and its wedge: "a triangle whose normal points outward", where ours points inward.
 TEST(WriteVtu, ListsCellsAsVtkDoes) {
   Frame frame;
@@ -133,9 +194,16 @@ TEST(WriteVtu, ListsPolygonsAndLinksAsVtkDoes) {
 TEST(WriteVtu, RefusesEachColumnOfAnotherLength) {
   const std::function<void(Frame&)> shortened[] = {
       [](Frame& f) { f.velocity.pop_back(); }, [](Frame& f) { f.mass.pop_back(); },
-      [](Frame& f) { f.mesh_cell.pop_back(); }, [](Frame& f) { f.component.pop_back(); }};
+      [](Frame& f) { f.mesh_cell.pop_back(); }, [](Frame& f) { f.component.pop_back(); },
+      [](Frame& f) { f.held.pop_back(); }, [](Frame& f) { f.largest_principal_stress.pop_back(); },
+      [](Frame& f) { f.largest_stress_magnitude.pop_back(); }, [](Frame& f) { f.von_mises_stress.pop_back(); },
+      [](Frame& f) { f.displacement.pop_back(); }, [](Frame& f) { f.springs.pop_back(); },
+      [](Frame& f) { f.strain.pop_back(); }, [](Frame& f) { f.tension.push_back(1.0); },
+      // what no field asks for
+      [](Frame& f) { f.fields.held = false; }, [](Frame& f) { f.fields.displacement = false; }};
+  EXPECT_NO_THROW(to_vtu(full_frame()));
   for (const auto& shorten : shortened) {
-    Frame frame = telling_frame();
+    Frame frame = full_frame();
     shorten(frame);
     EXPECT_ANY_THROW(to_vtu(frame));
   }
@@ -187,7 +255,7 @@ TEST(Diagnostics, PutEveryNumberUnderItsName) {
                                                {"cells", 15},
                                                {"components", 16},
                                                {"boundary [m^2]", 17},
-                                               {"largest stress [Pa]", 18},
+                                               {"largest principal stress [Pa]", 18},
                                                {"operations", 19}};
   EXPECT_EQ(named(d, 3), expected);
   EXPECT_EQ(d.energy(), 2 + 3 - 4);
@@ -201,7 +269,7 @@ TEST(Diagnostics, AreWrittenSoThatTheyAreReadBackWithEveryBit) {
   const auto read = named(d, 3);
   EXPECT_EQ(read.at("kinetic [J]"), 0.1);
   EXPECT_EQ(read.at("elastic [J]"), 1.0 / 3);
-  EXPECT_EQ(read.at("largest stress [Pa]"), 0x1.fffffffffffffp-1022);
+  EXPECT_EQ(read.at("largest principal stress [Pa]"), 0x1.fffffffffffffp-1022);
 }
 
 TEST(Diagnostics, AreFiniteOnlyIfEveryNumberIs) {

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 Frame frame_of(Mesh mesh) {
   Problem problem;
   problem.mesh = std::move(mesh);
-  return make_simulated_body(problem, true)->frame();
+  return make_simulated_body(problem, true)->frame({});
 }
 
 std::string text_of(const fs::path& path) {
@@ -162,9 +162,9 @@ TEST(SceneOutput, WritesOneRowPerDiagnostics) {
 }
 
 TEST(Diagnostics, HeadTheirColumnsWithTheUnitsOfTheBody) {
-  EXPECT_NE(diagnostics_header(3).find(",boundary [m^2],largest stress [Pa],"), std::string::npos);
-  EXPECT_NE(diagnostics_header(2).find(",boundary [m],largest stress [N/m],"), std::string::npos);
-  EXPECT_NE(diagnostics_header(0).find(",boundary [m],largest stress [N],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(3).find(",boundary [m^2],largest principal stress [Pa],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(2).find(",boundary [m],largest principal stress [N/m],"), std::string::npos);
+  EXPECT_NE(diagnostics_header(0).find(",boundary [m],largest tension [N],"), std::string::npos);
 }
 
 TEST(Diagnostics, LeaveAFieldEmptyForWhatIsNotFinite) {

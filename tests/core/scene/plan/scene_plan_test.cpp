@@ -94,6 +94,19 @@ TEST(ScenePlan, IsExactInBytesForDrivenVerticesAndProbes) {
   EXPECT_EQ(item(plan(parse(scene)), Part::probes)->bytes, 8u);
 }
 
+TEST(ScenePlan, IsExactInBytesForFramesOfDisplacements) {
+  for (const Body& body : bodies) {
+    Json scene = with_body(moving_box(), body);
+    scene["output"]["fields"] = {"displacement", "springs"};
+    expect_exact(scene, std::string(body.name) + " without a map");
+    expect_exact(with_events(scene, one_removal), std::string(body.name) + " on a map");
+    const ScenePlan planned = plan(parse(scene));
+    EXPECT_EQ(item(planned, Part::rest)->bytes, 24 * planned.counts.vertices) << body.name;
+    EXPECT_EQ(item(planned, Part::rest)->why, "/output/fields: frames show 'displacement'");
+    EXPECT_EQ(item(planned, Part::frames)->what, "the cells where they are, displacements, springs");
+  }
+}
+
 TEST(ScenePlan, IsExactInBytesForEveryIntegratorAndEveryTerm) {
   for (const IntegratorEntry& entry : integrators())
     for (const bool fixed : {false, true})
@@ -177,8 +190,9 @@ TEST(ScenePlan, LeavesOutWhatNoKeyNeeds) {
   EXPECT_TRUE(leaves_out(bare, "fixed", "/fixed: none"));
   EXPECT_TRUE(leaves_out(bare, "Jacobian", "rk4 (the default) is explicit"));
   EXPECT_TRUE(leaves_out(bare, "stresses", "/events"));
+  EXPECT_TRUE(leaves_out(bare, "places at rest", "/output/fields: without 'displacement'"));
   for (const Part part : {Part::map, Part::marks, Part::embeddings, Part::cell_darts, Part::viscosity, Part::fixed,
-                          Part::damping, Part::solver, Part::event})
+                          Part::rest, Part::damping, Part::solver, Part::event})
     EXPECT_EQ(item(bare, part), nullptr) << name(part);
 
   const ScenePlan cut = plan(parse(with_events(moving_box(), one_removal)));

@@ -62,9 +62,11 @@ TEST(SceneWarnings, OfATearThatNeverHappensSayHowFarTheStressIsFromIt) {
   EXPECT_FALSE(simulation.advance());
   const auto said = warnings_of(scene, simulation);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0],
-            fmt::format("the event at /events/0 never did anything: the largest stress is {:.4g}, its threshold 1e+09",
-                        simulation.body().largest_stress()));
+  EXPECT_EQ(
+      said[0],
+      fmt::format(
+          "the event at /events/0 never did anything: the largest principal stress is {:.4g}, its threshold 1e+09",
+          simulation.body().largest_stress()));
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+#include "core/plain/young.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/plain/error.h"
+
+namespace dartboard {
+
+double mean_stiffness(const Mesh& mesh, double young) {
+  double sum = 0.0, edges = 0.0;
+  const auto add = [&](std::uint32_t a, std::uint32_t b, double measure) {
+    sum += young * measure / (mesh.points[b] - mesh.points[a]).squaredNorm();
+    edges += 1.0;
+  };
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const CellKind kind = mesh.kinds[c];
+    if (kind != CellKind::tetrahedron && kind != CellKind::triangle)
+      throw InputError(fmt::format(
+          "cell {} is a {}, whose edges alone do not hold its shape; expected tetrahedra or triangles", c, name(kind)));
+    const auto nodes = mesh.cell(c);
+    const double measure = std::abs(signed_measure(mesh, c));
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) add(nodes[j], nodes[i], measure);
+  }
+  if (mesh.cell_count() == 0)
+    for (std::uint32_t k = 0; k + 1 < mesh.points.size(); ++k)
+      add(k, k + 1, (mesh.points[k + 1] - mesh.points[k]).norm());
+  return edges == 0.0 ? 0.0 : sum / edges;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,46 @@
+#include "core/scene/body/frame_columns.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/mechanics/fracture/stress.h"
+
+namespace dartboard {
+namespace {
+
+double or_infinity(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
+void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices,
+                  std::span<const SpringEnds> ends, SpringSpan springs, double density) {
+  const auto& x = vertices.position;
+  frame.fields = fields;
+  frame.mesh.points = x;
+  frame.velocity = vertices.velocity;
+  frame.mass = vertices.mass;
+  const bool is_chain = !frame.links.empty();
+  if (fields.displacement)
+    for (std::size_t k = 0; k < x.size(); ++k) frame.displacement.push_back(x[k] - vertices.rest[k]);
+  if (fields.stress && !is_chain) {
+    std::vector<Eigen::Matrix3d> stress;
+    vertex_stresses(ends, springs, vertices.mass, density, x, stress);
+    for (const Eigen::Matrix3d& sigma : stress) {
+      const StressMeasures measures = measures_of(sigma);
+      frame.largest_principal_stress.push_back(measures.largest_principal);
+      frame.largest_stress_magnitude.push_back(measures.largest_magnitude);
+      frame.von_mises_stress.push_back(measures.von_mises);
+    }
+  }
+  if (fields.springs && !is_chain) frame.springs.assign(ends.begin(), ends.end());
+  const bool has_tensions = fields.stress && is_chain;
+  if (!has_tensions && !fields.springs) return;
+  for (std::size_t k = 0; k < springs.size(); ++k) {
+    const Spring spring = springs[k];
+    const double stretch = (x[ends[k][1]] - x[ends[k][0]]).norm() - spring.rest_length;
+    if (has_tensions) frame.tension.push_back(or_infinity(spring.stiffness * stretch));
+    if (fields.springs) frame.strain.push_back(or_infinity(stretch / spring.rest_length));
+  }
+}
+
+}  // namespace dartboard

@@ -1,0 +1,14 @@
+#pragma once
+// What the frames of a scene hold beside motion and masses.
+
+namespace dartboard {
+
+/// Nothing of it is computed or held that a scene does not ask for.
+struct FrameFields {
+  bool held = false;          // which vertices are free, fixed or driven
+  bool stress = false;        // measures of the stress of vertices; of a chain, tensions of links
+  bool displacement = false;  // of vertices, from where they were at rest
+  bool springs = false;       // every spring as a line, with its strain
+};
+
+}  // namespace dartboard
