@@ -122,7 +122,7 @@ class Reader {
 
   BodySource body(const Json& json) const {
     BodySource source{
-        {}, json.at("scale"), rotation(json), point(json.at("translate")), json.at("touching") == "split"};
+        {}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split", rotation(json)};
     if (json.contains("mesh")) {
       source.mesh = folder_ / json.at("mesh").get<std::string>();
       return source;

@@ -48,9 +48,9 @@ struct ChainMesh {
 struct BodySource {
   std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh> mesh;
   double scale;
-  Eigen::Matrix3d rotate;
   Eigen::Vector3d translate;
   bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
+  Eigen::Matrix3d rotate = Eigen::Matrix3d::Identity();
   std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
 };
 

@@ -121,6 +121,22 @@ TEST(HeldVertices, AreToldApartWithAllPartsOfOneThatIsCut) {
   }
 }
 
+TEST(HeldVertices, AreFreeOnceTheyAreLetGo) {
+  Json scene = with_events(moving_box(),
+                           R"([{"at": 0.002, "release": {"plane": {"point": [0, 0.125, 0], "normal": [0, 1, 0]}}}])");
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}])");
+  Simulation simulation(showing(scene, R"(["held", "displacement"])"));
+  for (int n = 0; n < 4; ++n) {
+    const Frame f = simulation.frame();
+    for (std::size_t k = 0; k < f.held.size(); ++k) {
+      const Vector3d rest = f.mesh.points[k] - f.displacement[k];
+      const bool is_held = std::abs(rest.x()) < 0.01 && (n < 2 || rest.y() < 0.1);
+      EXPECT_EQ(f.held[k], is_held ? 1 : 0) << n << ": " << rest.transpose();
+    }
+    ASSERT_FALSE(simulation.advance());
+  }
+}
+
 TEST(HeldVertices, AreNoneOfABodyThatIsFree) {
   const Frame f = Simulation(showing(moving_box(), R"(["held"])")).frame();
   EXPECT_EQ(f.held, std::vector<std::uint8_t>(27, 0));
