@@ -18,7 +18,7 @@ inline std::size_t predicted_event_bytes(const SceneEvent& e, const ScenePlan& p
     if (by_id == nullptr) return 0;
     auto once = by_id->ids;
     std::ranges::sort(once);
-    once.erase(std::ranges::unique(once).begin(), once.end());
+    once.erase(std::unique(once.begin(), once.end()), once.end());
     return bytes_of(by_id->ids, once);
   };
   if (const auto* remove = std::get_if<Remove>(&e.action)) return of_cells(remove->cells);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -33,6 +35,23 @@ TEST(Selection, RefusesAnIdThatIsNoPointAndNamesIt) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "/fixed/0/ids/1: is 4; expected a point of the mesh, less than 4");
+  }
+}
+
+// A cross of five unit squares in the plane x = 7, seen along x: the notches between its arms are outside. It is told
+// from each of its corners on, so that each side is the last once, and in either sense.
+TEST(Selection, OfAPolygonIsWhatIsSeenInItThoughItIsNotConvex) {
+  std::vector<Eigen::Vector3d> corners{{7, 1, 0}, {7, 2, 0}, {7, 2, 1}, {7, 3, 1}, {7, 3, 2}, {7, 2, 2},
+                                       {7, 2, 3}, {7, 1, 3}, {7, 1, 2}, {7, 0, 2}, {7, 0, 1}, {7, 1, 1}};
+  for (int turn = 0; turn < 24; ++turn) {
+    const PolygonSelection cross{{1, 0, 0}, corners};
+    for (int y = -1; y <= 3; ++y)
+      for (int z = -1; z <= 3; ++z) {
+        const bool in_arms = (y == 1 && z >= 0 && z < 3) || (z == 1 && y >= 0 && y < 3);
+        EXPECT_EQ(contains(cross, {-5, y + 0.5, z + 0.25}), in_arms) << y << " " << z << " " << turn;
+      }
+    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    if (turn == 11) std::reverse(corners.begin(), corners.end());
   }
 }
 
