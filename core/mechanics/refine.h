@@ -9,10 +9,9 @@ namespace dartboard {
 /// Adapt the embeddings of a body to a subdivision of its map.
 ///
 /// Position and velocity of the new vertex are the means of the cell's vertices, as its place at rest is where that is
-/// held, and it is fixed if they all are. Each
-/// tetrahedron shares its mass equally among its children, so total mass, centre of mass and linear momentum stay; spin
-/// and kinetic energy lose what lumping at more points takes from the moment of inertia. Rest lengths follow from those
-/// around, on the rest shape.
+/// held, and it is fixed if they all are. Each tetrahedron shares its mass equally among its children, so total mass,
+/// centre of mass and linear momentum stay; spin and kinetic energy lose what lumping at more points takes from the
+/// moment of inertia. Rest lengths follow from those around, on the rest shape.
 ///
 /// Stiffness and damping: what a tetrahedron contributes to an edge is shared equally among its children there, and the
 /// halves of a subdivided edge are springs in series, twice as stiff each: forces on the old vertices, and elastic

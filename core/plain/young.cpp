@@ -9,17 +9,23 @@
 
 namespace dartboard {
 
+std::optional<std::size_t> first_loose_cell(const Mesh& mesh) {
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    if (mesh.kinds[c] != CellKind::tetrahedron && mesh.kinds[c] != CellKind::triangle) return c;
+  return {};
+}
+
 double mean_stiffness(const Mesh& mesh, double young) {
+  if (const auto c = first_loose_cell(mesh))
+    throw InputError(
+        fmt::format("cell {} is a {}, whose edges alone do not hold its shape; expected tetrahedra or triangles", *c,
+                    name(mesh.kinds[*c])));
   double sum = 0.0, edges = 0.0;
   const auto add = [&](std::uint32_t a, std::uint32_t b, double measure) {
     sum += young * measure / (mesh.points[b] - mesh.points[a]).squaredNorm();
     edges += 1.0;
   };
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const CellKind kind = mesh.kinds[c];
-    if (kind != CellKind::tetrahedron && kind != CellKind::triangle)
-      throw InputError(fmt::format(
-          "cell {} is a {}, whose edges alone do not hold its shape; expected tetrahedra or triangles", c, name(kind)));
     const auto nodes = mesh.cell(c);
     const double measure = std::abs(signed_measure(mesh, c));
     for (std::size_t i = 0; i < nodes.size(); ++i)

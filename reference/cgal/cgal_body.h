@@ -27,8 +27,9 @@ struct CgalCounts {
 /// classical Runge-Kutta of order 4. The number of cells around an edge, hence its stiffness, is CGAL's answer too.
 class CgalBody {
  public:
-  /// throws  InputError as AdjacencyGraph does, for a material with a Young's modulus, and if the cells make no quasi-manifold: more than two of them share
-  ///         a face (an edge, for polygons), or a point lies on two vertices of the map
+  /// throws  InputError as AdjacencyGraph does, for a material with a Young's modulus, and if the cells make no
+  ///         quasi-manifold: more than two of them share a face (an edge, for polygons), or a point lies on two
+  ///         vertices of the map
   explicit CgalBody(const Problem& problem, CgalWalk walk = CgalWalk::coverage);
   ~CgalBody();
   CgalBody(CgalBody&&) noexcept;

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/run/simulation.h"
 
@@ -26,6 +28,15 @@ inline SceneFile parse(const Json& json) { return parse_scene(json.dump(), "file
 inline Json with_events(Json json, const char* events) {
   json["events"] = Json::parse(events);
   return json;
+}
+/// What a simulation of the scene is refused with, or "accepted".
+inline std::string refusal(const Json& scene) {
+  try {
+    const Simulation simulation(parse(scene));
+    return "accepted";
+  } catch (const InputError& error) {
+    return error.what();
+  }
 }
 inline std::size_t cells(const Simulation& simulation) { return simulation.body().counts().cells; }
 

@@ -13,6 +13,9 @@
 namespace dartboard {
 namespace {
 
+// The iterative solver: the closed form loses half the digits where two eigenvalues are close.
+using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
 // The lower triangle suffices until the sum is complete.
 void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
   for (int j = 0; j < 3; ++j)
@@ -56,13 +59,6 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
   }
   for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
 }
-
-namespace {
-
-// The iterative solver: the closed form loses half the digits where two eigenvalues are close.
-using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
-
-}  // namespace
 
 StressError::StressError(std::uint32_t which)
     : SolverError(fmt::format("the stress of vertex {} is not finite", which)), vertex(which) {}

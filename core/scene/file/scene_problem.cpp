@@ -60,10 +60,9 @@ double stiffness_of_young(const SceneFile& scene, const Mesh& mesh) {
     throw InputError(fmt::format("{}: /material/young: is {} Pa, and {}; expected {}", scene.file, scene.material.young,
                                  found, expected));
   };
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
-    if (const CellKind kind = mesh.kinds[c]; kind != CellKind::tetrahedron && kind != CellKind::triangle)
-      fail(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", c, name(kind)),
-           "tetrahedra, triangles or a chain, or 'stiffness' in its place");
+  if (const auto c = first_loose_cell(mesh))
+    fail(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", *c, name(mesh.kinds[*c])),
+         "tetrahedra, triangles or a chain, or 'stiffness' in its place");
   const double mean = mean_stiffness(mesh, scene.material.young);
   if (!(mean > 0.0 && std::isfinite(mean)))
     fail(fmt::format("the stiffness of its springs has a mean of {:.6g} N/m", mean),

@@ -169,9 +169,6 @@ TEST(BodyPicture, GivesEachFacetTheColourOfItsOwnCell) {
              at_right = drawn_facets(ochre, ochre);
   ASSERT_EQ(facets.size(), 5u);
   for (std::size_t k = 0; k < 5; ++k) {
-    double x = 0.0;
-    for (const Vector2d& corner : facets[k].corners) x += corner.x() / 4;
-    // of two facets in front, above or beside, which of the cells is told by how far right it is
     EXPECT_TRUE(facets[k].colour == at_left[k].colour || facets[k].colour == at_right[k].colour);
     EXPECT_NE(at_left[k].colour, at_right[k].colour);
   }

@@ -28,15 +28,6 @@ Json pulled_box(const char* driven) {
 }
 constexpr const char* plate = R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}, "velocity": [3, 0.5, -1]}])";
 
-std::string refusal(const Json& scene) {
-  try {
-    const Simulation simulation(parse(scene));
-    return "accepted";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
 // Each step adds h v, rounded, with a rounding of the sum: after n steps at most 2 n roundings of the largest place,
 // and some more for the stages of a method, of which none has ten.
 double rounding(std::uint64_t steps, double place) { return 20.0 * static_cast<double>(steps) * 0x1p-53 * place; }

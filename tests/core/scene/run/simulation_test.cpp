@@ -310,18 +310,9 @@ TEST(Simulation, SaysNothingOfAStableStepAndNeverOfAnImplicitOne) {
   EXPECT_FALSE(simulation.advance());
 }
 
-std::string refusal_of(const Json& scene) {
-  try {
-    const Simulation simulation(parse(scene));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Simulation, RefusesAStepThatIsTooLongWhereTheSceneSaysSo) {
-  const std::string refusal = refusal_of(too_stiff("refuse"));
-  EXPECT_EQ(refusal.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most ", 0), 0u) << refusal;
+  const std::string message = refusal(too_stiff("refuse"));
+  EXPECT_EQ(message.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most ", 0), 0u) << message;
 }
 
 // What is not written in the scene is not what the user can change.
@@ -364,8 +355,8 @@ TEST(Simulation, DividesAStepIntoAsFewPartsAsAreStable) {
 TEST(Simulation, RefusesAStepThatWouldTakeTooManyParts) {
   Json scene = too_stiff("substep");
   scene["material"]["stiffness"] = 6.4e21;
-  const std::string refusal = refusal_of(scene);
-  EXPECT_NE(refusal.find("parts, more than 1000000; expected at most "), std::string::npos) << refusal;
+  const std::string message = refusal(scene);
+  EXPECT_NE(message.find("parts, more than 1000000; expected at most "), std::string::npos) << message;
 }
 
 TEST(Simulation, StopsBeforeAStepThatAnEventHasMadeTooLongWhereTheSceneSaysSo) {
