@@ -88,6 +88,9 @@ std::string to_text(const SimulationReport& r) {
   if (!r.folder.empty())
     say("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
         r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
+  if (r.continues_after)
+    say("From its checkpoint of step {} the run goes on with: dartboard simulate --continue {}\n", *r.continues_after,
+        r.folder);
   if (!r.picture.empty()) say("{}\n", r.picture);
   return said;
 }

@@ -33,6 +33,12 @@ class EventClock {
     next_ = time > until_ && !is_rounding_of_end(time) ? never : step_of_time(time, step_);
   }
 
+  /// Where it is; its times are those of the scene.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(next_, count_);
+  }
+
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
  private:
