@@ -52,14 +52,14 @@ struct Record : RunWatcher {
   std::uint64_t done_ = 0;
 };
 
-struct Run {
+struct RecordedRun {
   Record record;
   std::unique_ptr<Simulation> simulation;
   RunResult result;
 };
 
-inline Run whole(const SceneFile& scene) {
-  Run run;
+inline RecordedRun whole(const SceneFile& scene) {
+  RecordedRun run;
   run.simulation = std::make_unique<Simulation>(scene);
   run.simulation->watch_events(true);
   run.result = run_scene(*run.simulation, scene.output, run.record);
@@ -67,8 +67,8 @@ inline Run whole(const SceneFile& scene) {
 }
 
 /// What was handed out until the checkpoint of a run and, by a new simulation, after it.
-inline Run continued(const SceneFile& scene, Record record) {
-  Run run;
+inline RecordedRun continued(const SceneFile& scene, Record record) {
+  RecordedRun run;
   run.record = std::move(record);
   run.record.cut_back();
   run.record.interrupt_after.reset();
@@ -83,7 +83,7 @@ inline Run continued(const SceneFile& scene, Record record) {
 }
 
 /// Interrupted after so many steps, and gone on with.
-inline Run in_two(const SceneFile& scene, std::uint64_t steps) {
+inline RecordedRun in_two(const SceneFile& scene, std::uint64_t steps) {
   Simulation first(scene);
   first.watch_events(true);
   Record record;
@@ -98,7 +98,7 @@ inline std::string text(const std::optional<Divergence>& divergence) {
   return divergence ? to_string(*divergence) + " back " + std::to_string(divergence->taken_back) : "none";
 }
 
-inline void expect_same(const Run& a, const Run& b) {
+inline void expect_same(const RecordedRun& a, const RecordedRun& b) {
   EXPECT_EQ(a.simulation->body().state_hash(), b.simulation->body().state_hash());
   EXPECT_EQ(a.simulation->steps_done(), b.simulation->steps_done());
   EXPECT_EQ(a.record.rows, b.record.rows);

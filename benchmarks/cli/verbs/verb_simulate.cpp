@@ -209,7 +209,7 @@ void simulate(const Options& options, Outcome& outcome) {
                           .removed_at_start = removed_at_start,
                           .step_in_words = words,
                           .told = told};
-  if (left_after && *left_after < simulation.step_count()) report.continues_after = left_after;
+  if (left_after && *left_after < simulation.step_count() && !result.divergence) report.continues_after = left_after;
   if (result.interrupted)
     report.unjudged =
         fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",

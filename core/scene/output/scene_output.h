@@ -32,8 +32,8 @@ struct TextSoFar {
 
 /// What a run has written until a checkpoint.
 struct OutputSoFar {
-  std::vector<std::uint64_t> frame_bytes;  // the length of each frame
-  TextSoFar list, diagnostics, probes;     // of frames.pvd: up to the end of its last entry
+  std::vector<std::uint64_t> frame_bytes{};   // the length of each frame
+  TextSoFar list{}, diagnostics{}, probes{};  // of frames.pvd: up to the end of its last entry
   template <class Archive>
   void state(Archive& archive) {
     archive(frame_bytes, list, diagnostics, probes);

@@ -177,6 +177,7 @@ TEST_F(CheckpointTest, OfAMeshThatHasChangedSinceIsRefused) {
   write_mesh_file(0.125);
   write("scene.json", scene_on_mesh());
   leave(read_scene(folder_ / "scene.json"));
+  std::filesystem::remove(folder_ / "box.mesh");
   write_mesh_file(0.126);
   EXPECT_NE(after_here(complaint()).find("InputError box.mesh: is another mesh than when the run in"),
             std::string::npos)
