@@ -116,10 +116,14 @@ Start start_of(const Options& options) {
 }
 
 /// Put a simulation where the checkpoint has it.
-void continue_from(Checkpoint& checkpoint, Simulation& simulation, const std::string& folder) {
+void continue_from(Checkpoint& checkpoint, Simulation& simulation, const Options& options) {
+  const std::string done = counted(checkpoint.steps_done(), "step");
   if (checkpoint.steps_done() >= simulation.step_count())
-    throw InputError(fmt::format("{}: the run has come to its end, after {}; expected one that can go on", folder,
-                                 counted(checkpoint.steps_done(), "step")));
+    throw InputError(
+        fmt::format("{}: the run has come to its end, after {}; expected one that can go on", options.continued, done));
+  if (const auto most = options.most_steps(); most && *most <= checkpoint.steps_done())
+    throw InputError(fmt::format("{}: the run is to stop after {}, and its checkpoint is one after {}; expected more",
+                                 options.continued, counted(*most, "step"), done));
   checkpoint.load_into(simulation);
 }
 
@@ -166,7 +170,7 @@ void simulate(const Options& options, Outcome& outcome) {
     if (output) write_whole(output->folder() / "manifest.json", json_text(manifest, 2) + "\n");
   };
   if (start.checkpoint) {
-    continue_from(*start.checkpoint, simulation, options.continued);
+    continue_from(*start.checkpoint, simulation, options);
     manifest = continued_manifest(options.continued, outcome);
     output.emplace(std::move(*start.claim), options.continued, start.checkpoint->output(), scene.probes);
   } else if (!options.out.empty()) {
@@ -208,7 +212,8 @@ void simulate(const Options& options, Outcome& outcome) {
                           .picture = "",
                           .removed_at_start = removed_at_start,
                           .step_in_words = words,
-                          .told = told};
+                          .told = told,
+                          .steps_before = start.checkpoint ? start.checkpoint->steps_done() : 0};
   if (left_after && *left_after < simulation.step_count() && !result.divergence) report.continues_after = left_after;
   if (result.interrupted)
     report.unjudged =

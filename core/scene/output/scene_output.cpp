@@ -93,8 +93,6 @@ const OutputSoFar& SceneOutput::so_far() {
   so_far_.list.extend(folder_ / "frames.pvd", list_.entries_end());
   so_far_.diagnostics.extend(folder_ / "diagnostics.csv", static_cast<std::uint64_t>(diagnostics_.tellp()));
   if (probes_.is_open()) so_far_.probes.extend(folder_ / "probes.csv", static_cast<std::uint64_t>(probes_.tellp()));
-  for (std::size_t k = so_far_.frame_bytes.size(); k < list_.size(); ++k)
-    so_far_.frame_bytes.push_back(size_of(folder_ / frame_name(k)));
   return so_far_;
 }
 
@@ -112,8 +110,10 @@ SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> pr
 
 void SceneOutput::write(const Frame& frame) {
   const std::string name = frame_name(list_.size()).string();
-  write_vtu(folder_ / name, frame);
+  const std::string text = to_vtu(frame);
+  write_whole(folder_ / name, text);
   list_.add({frame.time, name});
+  so_far_.frame_bytes.push_back(text.size());
 }
 
 void SceneOutput::write(const Diagnostics& diagnostics) {
