@@ -89,12 +89,14 @@ TEST_F(Continue, LeavesTheFilesOfOneRun) {
 TEST_F(Continue, GoesOnWhereARunWasInterrupted) {
   json scene = eventful_scene();
   scene["integrator"] = "rk4";
-  scene["step"] = 0.0001;
+  scene["step"] = 0.00005;
   scene["output"].erase("checkpoint");
   leave_scene(scene);
   ASSERT_EQ(run("simulate " + path("scene.json") + " --seed 5 --out " + path("one")).status, 0);
   EXPECT_FALSE(fs::exists(folder_ / "one" / "checkpoint")) << "it was not interrupted";
-  ASSERT_EQ(interrupted_at("frame_000002.vtu", "two"), 130);
+  // on a busy machine a run may be over before the signal meets it
+  for (int attempt = 0; attempt < 20 && interrupted_at("frame_000001.vtu", "two") != 130; ++attempt)
+    fs::remove_all(folder_ / "two");
   ASSERT_TRUE(fs::exists(folder_ / "two" / "checkpoint"));
   const Answer answer = run("simulate --continue " + path("two"));
   EXPECT_EQ(answer.status, 0) << answer.out;
