@@ -11,6 +11,7 @@
 #include "benchmarks/cli/scene_names.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/figures/album.h"
+#include "benchmarks/figures/film.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/manifest.h"
@@ -32,7 +33,7 @@ namespace {
 
 struct Options {
   std::string scene, out;
-  bool json = false, quick = false, picture = false;
+  bool json = false, quick = false, picture = false, film = false;
   std::optional<std::uint64_t> steps, seed;
 
   std::optional<std::uint64_t> most_steps() const {
@@ -43,8 +44,8 @@ struct Options {
 
 class Watcher : public RunWatcher {
  public:
-  Watcher(SceneOutput* output, Album* album, Progress& progress, std::uint64_t steps_per_report)
-      : output_(output), album_(album), progress_(progress), steps_per_report_(steps_per_report) {}
+  Watcher(SceneOutput* output, Album* album, Film* film, Progress& progress, std::uint64_t steps_per_report)
+      : output_(output), album_(album), film_(film), progress_(progress), steps_per_report_(steps_per_report) {}
   void frame(const Frame& frame) override {
     if (output_ != nullptr) output_->write(frame);
   }
@@ -57,6 +58,7 @@ class Watcher : public RunWatcher {
   bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
+    if (film_ != nullptr) film_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
@@ -64,6 +66,7 @@ class Watcher : public RunWatcher {
  private:
   SceneOutput* output_;
   Album* album_;
+  Film* film_;
   Progress& progress_;
   std::uint64_t steps_per_report_;
 };
@@ -105,12 +108,15 @@ void simulate(const Options& options, Outcome& outcome) {
   const double removed_at_start = simulation.body().removed_mass();
   std::optional<Album> album;
   if (options.picture) album.emplace(simulation, steps);
+  std::optional<Film> film;
+  if (options.film) film.emplace(simulation, steps, -scene.gravity);
   RunResult result;
   // of the whole process: long factorisations have a thread of their own
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
-    Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, progress, steps_per_report);
+    Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, film ? &*film : nullptr, progress,
+                    steps_per_report);
     const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps());
   }
@@ -147,6 +153,13 @@ void simulate(const Options& options, Outcome& outcome) {
     report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
     picture_missing(outcome, trouble);
   }
+  if (film) {
+    film->ended(simulation);
+    const std::string trouble = draw_film(film->frames(), scene.name, output->folder(), "film");
+    report.picture +=
+        fmt::format("{}{}", report.picture.empty() ? "" : "\n", trouble.empty() ? "film.gif drawn there." : trouble);
+    picture_missing(outcome, trouble);
+  }
   if (output) {
     write_whole(output->folder() / "summary.json", json_text(to_json(report), 2) + "\n");
     finish_manifest(manifest);
@@ -170,6 +183,7 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   auto* out =
       verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
+  verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder")->needs(out);
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]");
