@@ -19,12 +19,20 @@ struct Spring {
   double rest_length;  // [m]
   double stiffness;    // [N/m], the sum of what the incident cells contribute
   double damping;      // [N s/m], likewise
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(rest_length, stiffness, damping);
+  }
 };
 
 /// The same where no spring is damped.
 struct UndampedSpring {
   double rest_length;  // [m]
   double stiffness;    // [N/m]
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(rest_length, stiffness);
+  }
 };
 
 /// A view of springs with or without damping; valid until they change their number, or the first of them is damped.
@@ -138,6 +146,10 @@ class Springs {
   /// Bytes of the elements, of which `damping_bytes` are for damping.
   std::size_t bytes() const { return damped_.size() * sizeof(Spring) + undamped_.size() * sizeof(UndampedSpring); }
   std::size_t damping_bytes() const { return damped_.size() * sizeof(Spring::damping); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(holds_damping_, damped_, undamped_);
+  }
 
  private:
   void make_room_for(const Spring& s) {

@@ -31,6 +31,12 @@ void for_each_column(Owner& owner, const Table& table, Visit&& visit) {
   std::apply([&](const auto&... row) { (visit(owner.*(row.values), row), ...); }, table);
 }
 
+/// Write or read every column in a table.
+template <class Archive, class Owner, class Table>
+void columns_state(Archive& archive, Owner& owner, const Table& table) {
+  for_each_column(owner, table, [&archive](auto& column, const auto&) { archive(column); });
+}
+
 /// A part of element k, at the end: what is duplicated is there, what is recomputed has to be.
 template <class Owner, class Table>
 void add_part_of_element(Owner& owner, const Table& table, std::size_t k) {

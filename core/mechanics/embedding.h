@@ -54,6 +54,10 @@ class CellEmbedding {
   }
 
   std::size_t bytes() const { return at_.capacity() * sizeof(std::uint32_t); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(at_);
+  }
 
  private:
   // Darts born after the last `attach` have no place yet.

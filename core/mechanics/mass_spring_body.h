@@ -38,6 +38,12 @@ struct VertexColumns {
   /// pre  the body is at rest where its mesh has it
   void keep_rest() { rest = position; }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    columns_state(archive, *this, embedded());
+    archive(dart);
+  }
+
   /// Every column but the darts, which are the cells themselves.
   static constexpr auto embedded() {
     using V = VertexColumns;
@@ -116,6 +122,12 @@ struct MassSpringBody {
   void set_state(const PointState& state);
   /// Of positions and velocities, in the order of the embeddings' numbers.
   std::uint64_t state_hash() const;
+  /// What a checkpoint holds of it: all but the material and the surroundings, which do not change.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(map, vertex, edge, face, cell, vertices, springs, edge_dart, face_dart, cell_dart, edge_share);
+    columns_state(archive, *this, embedded_in_cells());
+  }
   std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + face.bytes() + cell.bytes(); }
 };
 

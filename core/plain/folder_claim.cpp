@@ -30,20 +30,37 @@ FolderClaim::FolderClaim(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (const std::string why = error.message(); !fs::is_directory(folder, error))
     fail(folder, fs::exists(folder, error) ? "is a file" : "cannot be created: " + why);
-  // children must not inherit it: they would hold the lock
-  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) fail(folder, "cannot be read: " + reason());
   // first the lock, then the look: whoever had it before has written something, or gone
-  std::string trouble;
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    trouble = "is in use by another run";
-  else if (const bool empty = fs::is_empty(folder, error); error)
+  std::string trouble = lock(folder);
+  if (!trouble.empty()) fail(folder, trouble);
+  if (const bool empty = fs::is_empty(folder, error); error)
     trouble = "cannot be read: " + error.message();
   else if (!empty)
     trouble = "is not empty";
   if (trouble.empty()) return;
   ::close(std::exchange(descriptor_, -1));
   fail(folder, trouble);
+}
+
+FolderClaim FolderClaim::of_ended_run(const fs::path& folder) {
+  const auto refuse = [&folder](const std::string& what) {
+    throw IoError(fmt::format("{}: {}; expected the folder of a run that has ended", folder.string(), what));
+  };
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) refuse(fs::exists(folder, error) ? "is a file" : "there is no such folder");
+  FolderClaim claim;
+  if (const std::string trouble = claim.lock(folder); !trouble.empty()) refuse(trouble);
+  return claim;
+}
+
+// What is wrong; nothing where it is ours now.
+std::string FolderClaim::lock(const fs::path& folder) {
+  // children must not inherit it: they would hold the lock
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) return "cannot be read: " + reason();
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return {};
+  ::close(std::exchange(descriptor_, -1));
+  return "is in use by another run";
 }
 
 FolderClaim::~FolderClaim() {

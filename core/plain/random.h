@@ -18,6 +18,10 @@ class SplitMix64 {
   double next_signed();
   /// A point of the open unit ball, uniform by volume: points of the cube are drawn until one is inside.
   Eigen::Vector3d next_in_ball();
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(state_);
+  }
 
  private:
   std::uint64_t state_;

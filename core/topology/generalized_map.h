@@ -169,6 +169,12 @@ class GeneralizedMap {
 
   /// Equal for equal maps: same darts, same alphas, same free slots.
   std::uint64_t hash() const { return storage_.hash(); }
+  /// What a checkpoint holds of it: darts, alphas and free slots. Marks are no part of a map.
+  /// pre  when it is read: no mark is in use, and no journal attached
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(storage_);
+  }
   std::size_t bytes() const { return storage_.bytes(); }
   /// For the walks of this folder; nothing above topology/ may depend on it.
   const Storage& storage() const { return storage_; }

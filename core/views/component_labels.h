@@ -68,6 +68,12 @@ class ComponentLabels {
   /// Equal when the same cells are together; labels do not count.
   friend bool operator==(const ComponentLabels& a, const ComponentLabels& b);
 
+  /// Labels and names, as which of them comes next depends on the cuts so far; what searches keep is scratch.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(name_, label_of_, name_of_, size_, unused_);
+  }
+
   std::size_t bytes() const {
     return sizeof(Visit) * visit_.capacity() +
            sizeof(std::uint32_t) *

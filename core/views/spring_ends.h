@@ -31,6 +31,10 @@ class SpringEndsView {
     for (const std::uint32_t k : changed.edges) ends[k] = ends_of(body, k);
   }
 
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(ends);
+  }
   std::size_t bytes() const { return sizeof(SpringEnds) * ends.capacity(); }
 
  private:

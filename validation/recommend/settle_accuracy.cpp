@@ -56,6 +56,19 @@ void to_json(nlohmann::json& json, const SettledAccuracy& s) {
           {"untried", s.untried}};
 }
 
+void from_json(const nlohmann::json& json, SettledAccuracy& s) {
+  json.at("accuracy").get_to(s.accuracy);
+  json.at("integrator").get_to(s.integrator);
+  json.at("integrator_named").get_to(s.integrator_named);
+  json.at("step").get_to(s.step);
+  json.at("recommended_step").get_to(s.recommended_step);
+  json.at("predicted_error").get_to(s.predicted_error);
+  json.at("predicted_s").get_to(s.predicted_s);
+  json.at("pilot_s").get_to(s.pilot_s);
+  json.at("omissions").get_to(s.omissions);
+  json.at("untried").get_to(s.untried);
+}
+
 double step_fitting_times(const SceneFile& scene, double largest) {
   std::vector<double> times;
   for (const SceneEvent& event : scene.events) times.push_back(event.from);

@@ -29,6 +29,7 @@ struct SettledAccuracy {
 /// tried.
 std::string to_string(const SettledAccuracy& settled);
 void to_json(nlohmann::json& json, const SettledAccuracy& settled);
+void from_json(const nlohmann::json& json, SettledAccuracy& settled);
 
 /// The largest step that is at most `largest` [s] and of which the duration is a multiple, and that of all times of
 /// events and output if there is one not much shorter.

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/cli/interrupt.h"
 #include "benchmarks/cli/scene_names.h"
@@ -20,9 +22,11 @@
 #include "benchmarks/studies/scenes/simulate_report.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
+#include "core/plain/folder_claim.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/atomic_file.h"
 #include "core/scene/output/scene_output.h"
+#include "core/scene/restart/checkpoint.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/scene_warnings.h"
@@ -32,7 +36,7 @@ namespace dartboard {
 namespace {
 
 struct Options {
-  std::string scene, out;
+  std::string scene, out, continued;
   bool json = false, quick = false, picture = false, film = false;
   std::optional<std::uint64_t> steps, seed;
 
@@ -44,8 +48,16 @@ struct Options {
 
 class Watcher : public RunWatcher {
  public:
-  Watcher(SceneOutput* output, Album* album, Film* film, Progress& progress, std::uint64_t steps_per_report)
-      : output_(output), album_(album), film_(film), progress_(progress), steps_per_report_(steps_per_report) {}
+  /// `notes` are for checkpoints.
+  Watcher(const SceneFile& scene, std::string notes, SceneOutput* output, Album* album, Film* film, Progress& progress,
+          std::uint64_t steps_per_report)
+      : scene_(scene),
+        notes_(std::move(notes)),
+        output_(output),
+        album_(album),
+        film_(film),
+        progress_(progress),
+        steps_per_report_(steps_per_report) {}
   void frame(const Frame& frame) override {
     if (output_ != nullptr) output_->write(frame);
   }
@@ -55,6 +67,11 @@ class Watcher : public RunWatcher {
   void probes(const ProbeRow& row) override {
     if (output_ != nullptr) output_->write(row);
   }
+  void checkpoint(const Simulation& simulation, const RunProgress& progress) override {
+    if (output_ == nullptr) return;
+    Checkpoint::write(output_->folder() / checkpoint_name, scene_, simulation, progress, output_->so_far(), notes_);
+    left_after_ = simulation.steps_done();
+  }
   bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
@@ -63,13 +80,71 @@ class Watcher : public RunWatcher {
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
 
+  /// The step of the last checkpoint that was left.
+  const std::optional<std::uint64_t>& left_after() const { return left_after_; }
+
  private:
+  const SceneFile& scene_;
+  std::string notes_;
   SceneOutput* output_;
   Album* album_;
   Film* film_;
   Progress& progress_;
   std::uint64_t steps_per_report_;
+  std::optional<std::uint64_t> left_after_;
 };
+
+/// What a run begins with: a scene, and a checkpoint if it is one that is continued.
+struct Start {
+  SceneFile scene;
+  std::optional<SettledAccuracy> settled;
+  std::optional<FolderClaim> claim;
+  std::optional<Checkpoint> checkpoint;
+};
+
+Start start_of(const Options& options) {
+  Start start;
+  if (options.continued.empty()) {
+    start.scene = read_named_scene(options.scene);
+    if (options.seed) reseed(start.scene, *options.seed);
+    start.settled = settle_with_progress(start.scene, options.json);
+    return start;
+  }
+  const std::filesystem::path folder = options.continued;
+  start.claim = FolderClaim::of_ended_run(folder);
+  start.checkpoint.emplace(folder / checkpoint_name);
+  start.scene = start.checkpoint->scene();
+  if (const std::string& settled = start.checkpoint->notes(); !settled.empty())
+    start.settled = nlohmann::json::parse(settled).get<SettledAccuracy>();
+  return start;
+}
+
+/// Put a simulation where the checkpoint has it.
+void continue_from(Checkpoint& checkpoint, Simulation& simulation, const Options& options) {
+  const std::string done = counted(checkpoint.steps_done(), "step");
+  if (checkpoint.steps_done() >= simulation.step_count())
+    throw InputError(
+        fmt::format("{}: the run has come to its end, after {}; expected one that can go on", options.continued, done));
+  if (const auto most = options.most_steps(); most && *most <= checkpoint.steps_done())
+    throw InputError(fmt::format("{}: the run is to stop after {}, and its checkpoint is one after {}; expected more",
+                                 options.continued, counted(*most, "step"), done));
+  checkpoint.load_into(simulation);
+}
+
+/// The manifest of a run that is continued, with what it goes on with.
+nlohmann::json continued_manifest(const std::filesystem::path& folder, const Outcome& outcome) {
+  const std::filesystem::path file = folder / "manifest.json";
+  std::ifstream in(file, std::ios::binary);
+  nlohmann::json manifest = nlohmann::json::parse(in, nullptr, false);
+  if (!manifest.is_object())
+    throw IoError(fmt::format("{}: is missing or damaged; expected what the run left, so nothing has been changed",
+                              file.string()));
+  nlohmann::json now = begin_manifest({.command_line = {outcome.command_line}});
+  now.erase("inputs");
+  now.erase("seeds");
+  manifest["continued"].push_back(std::move(now));
+  return manifest;
+}
 
 /// What the run was made of, beside its results.
 nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const Outcome& outcome) {
@@ -82,43 +157,53 @@ nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const
 }
 
 void simulate(const Options& options, Outcome& outcome) {
-  SceneFile scene = read_named_scene(options.scene);
-  const bool other_cells = options.seed && reseed(scene, *options.seed);
-  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
+  Start start = start_of(options);
+  const SceneFile& scene = start.scene;
+  const std::optional<SettledAccuracy>& settled = start.settled;
+  SceneFile reseeded = scene;
+  const bool other_cells = scene.added_seed != 0 && reseed(reseeded, 1);
   Simulation simulation(scene);
   simulation.watch_events(true);
+  const std::vector<std::string> told = warnings_of(scene, simulation);
+  const std::string words = step_in_words(simulation, scene);
+  const double removed_at_start = simulation.body().removed_mass();
   // the folder comes last: a scene that is wrong leaves nothing behind
   std::optional<SceneOutput> output;
   nlohmann::json manifest;
   const auto write_manifest = [&] {
     if (output) write_whole(output->folder() / "manifest.json", json_text(manifest, 2) + "\n");
   };
-  if (!options.out.empty()) {
+  if (start.checkpoint) {
+    continue_from(*start.checkpoint, simulation, options);
+    manifest = continued_manifest(options.continued, outcome);
+    output.emplace(std::move(*start.claim), options.continued, start.checkpoint->output(), scene.probes);
+  } else if (!options.out.empty()) {
     output.emplace(options.out, scene.probes, simulation.dimension());
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
-    write_manifest();
   }
+  write_manifest();
 
-  const std::vector<std::string> told = warnings_of(scene, simulation);
   for (const std::string& warning : told) tell(stderr, "warning: {}\n", warning);
-  const std::string words = step_in_words(simulation, scene);
   const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
-  const double removed_at_start = simulation.body().removed_mass();
   std::optional<Album> album;
   if (options.picture) album.emplace(simulation, steps);
   std::optional<Film> film;
   if (options.film) film.emplace(simulation, steps, -scene.gravity);
   RunResult result;
+  std::optional<std::uint64_t> left_after;
   // of the whole process: long factorisations have a thread of their own
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
-    Watcher watcher(output ? &*output : nullptr, album ? &*album : nullptr, film ? &*film : nullptr, progress,
-                    steps_per_report);
+    Watcher watcher(scene, settled ? nlohmann::json(*settled).dump() : "", output ? &*output : nullptr,
+                    album ? &*album : nullptr, film ? &*film : nullptr, progress, steps_per_report);
     const Interrupt interrupt;
-    result = run_scene(simulation, scene.output, watcher, options.most_steps());
+    result = run_scene(simulation, scene.output, watcher, options.most_steps(),
+                       start.checkpoint ? &start.checkpoint->progress() : nullptr);
+    left_after = watcher.left_after();
+    if (!left_after && start.checkpoint) left_after = start.checkpoint->steps_done();
   }
   SimulationReport report{.scene = scene,
                           .simulation = simulation,
@@ -133,7 +218,9 @@ void simulate(const Options& options, Outcome& outcome) {
                           .picture = "",
                           .removed_at_start = removed_at_start,
                           .step_in_words = words,
-                          .told = told};
+                          .told = told,
+                          .steps_before = start.checkpoint ? start.checkpoint->steps_done() : 0};
+  if (left_after && *left_after < simulation.step_count() && !result.divergence) report.continues_after = left_after;
   if (result.interrupted)
     report.unjudged =
         fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
@@ -178,17 +265,25 @@ void simulate(const Options& options, Outcome& outcome) {
 void add_simulate(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<Options>();
   auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
-  verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
-      ->required();
+  auto* scene = verb->add_option("SCENE", options->scene,
+                                 "a scene file (dartboard scene --keys), or the name of one of the gallery");
   auto* out =
       verb->add_option("--out", options->out, "folder for frames and diagnostics, new or empty [nothing is written]");
+  auto* continued = verb->add_option(
+      "--continue", options->continued,
+      "go on with the run in this folder, from the checkpoint that it left when it was interrupted, or at the times that "
+      "its scene asks for (output.checkpoint): what is written in the end has the bits of one run, but for the times it took");
+  continued->excludes(scene)->excludes(out);
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
   verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder")->needs(out);
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
-  verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]");
+  verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");
-  verb->callback([options, &outcome] { simulate(*options, outcome); });
+  verb->callback([options, &outcome] {
+    if (options->scene.empty() && options->continued.empty()) throw CLI::RequiredError("SCENE");
+    simulate(*options, outcome);
+  });
 }
 
 }  // namespace dartboard

@@ -60,7 +60,7 @@ std::string to_text(const SimulationReport& r) {
     say("{}\n", to_string(*r.settled));
     for (const std::string& omission : r.settled->omissions) say("  {}\n", omission);
   }
-  const auto steps = static_cast<double>(r.simulation.steps_done());
+  const auto steps = static_cast<double>(r.simulation.steps_done() - r.steps_before);
   const std::string pace = steps > 0 ? fmt::format(", {:.3g} microseconds per step", r.cpu_s / steps * 1e6) : "";
   say("wall {:.3g} s, processor {:.3g} s{}, events and output included\n", r.wall_s, r.cpu_s, pace);
   if (r.simulation.body().removed_mass() > 0.0)
@@ -88,6 +88,11 @@ std::string to_text(const SimulationReport& r) {
   if (!r.folder.empty())
     say("\n{}, frames.pvd, diagnostics.csv{} written to {}.\n", counted(r.frames, "frame"),
         r.scene.probes.empty() ? "" : ", probes.csv", r.folder);
+  if (r.continues_after)
+    say("From its checkpoint of step {} the run goes on with: dartboard simulate --continue {}\n", *r.continues_after,
+        r.folder);
+  else if (r.result.interrupted && !r.folder.empty())
+    say("It left no checkpoint: the step that was given up had replaced its factor by then.\n");
   if (!r.picture.empty()) say("{}\n", r.picture);
   return said;
 }

@@ -43,8 +43,10 @@ struct SimulationReport {
     return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
-  std::string step_in_words{};      // beside the step
-  std::vector<std::string> told{};  // the warnings that were told before the first step
+  std::string step_in_words{};                     // beside the step
+  std::vector<std::string> told{};                 // the warnings that were told before the first step
+  std::uint64_t steps_before = 0;                  // of a run that was continued: those that its times do not count
+  std::optional<std::uint64_t> continues_after{};  // the step of the checkpoint left, of a run that is not over
 };
 
 /// What there was at the start and at the end.

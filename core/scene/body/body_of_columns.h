@@ -38,6 +38,10 @@ class BodyOfColumns final : public SimulatedBody {
   Frame frame(const FrameFields& fields) const override;
   std::uint64_t state_hash() const override;
   std::string violation() const override { return {}; }
+  void state(Archive& archive) override {
+    SimulatedBody::state(archive);
+    archive(vertices_);
+  }
   MemoryReport memory() const override;
 
  private:

@@ -145,6 +145,10 @@ class BodyOnMap final : public SimulatedBody {
 
   std::uint64_t state_hash() const override { return body_.state_hash(); }
   std::string violation() const override { return check(body_.map); }
+  void state(Archive& archive) override {
+    SimulatedBody::state(archive);
+    archive(body_, ends_, components_, mesh_cell_, removed_mass_);
+  }
 
   MemoryReport memory() const override {
     const VertexColumns& v = body_.vertices;

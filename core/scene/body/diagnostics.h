@@ -12,6 +12,10 @@ namespace dartboard {
 struct CellCounts {
   std::size_t vertices = 0, edges = 0, faces = 0, cells = 0, components = 0;
   friend bool operator==(const CellCounts&, const CellCounts&) = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(vertices, edges, faces, cells, components);
+  }
 };
 
 struct Diagnostics {
@@ -26,6 +30,11 @@ struct Diagnostics {
   std::size_t operations = 0;  // so far: faces dissociated, cells removed, vertices put in by refinement
 
   double energy() const { return kinetic + elastic + gravitational; }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(time, kinetic, elastic, gravitational, momentum, angular_momentum, mass, counts, boundary, largest_stress,
+            operations);
+  }
 };
 
 bool is_finite(const Diagnostics& diagnostics);

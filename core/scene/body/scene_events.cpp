@@ -163,6 +163,9 @@ class CellChooser {
     return cells;
   }
 
+  void state(Archive& archive) {
+    if (random_) archive(*random_);
+  }
   std::size_t bytes() const {
     const auto* by_id = std::get_if<IdSelection>(&selection_);
     return by_id == nullptr ? 0 : bytes_of(by_id->ids) + ids_.size() * sizeof(std::uint32_t);
@@ -226,6 +229,7 @@ class ReadyRemoval : public ReadyEvent {
     on_.count_removed(mass);
     return cells.size();
   }
+  void state(Archive& archive) override { chooser_.state(archive); }
   std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:
@@ -255,6 +259,7 @@ class ReadyRefinement : public ReadyEvent {
     }
     return count;
   }
+  void state(Archive& archive) override { chooser_.state(archive); }
   std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mechanics/mass_spring_body.h"
+#include "core/plain/archive.h"
 #include "core/plain/problem.h"
 #include "core/plain/random.h"
 #include "core/scene/body/diagnostics.h"
@@ -29,6 +30,8 @@ class ReadyEvent {
   /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
   /// throws   StressError if a stress is not finite
   virtual std::size_t apply() = 0;
+  /// What it has changed about itself when it was applied, written or read: a stream of random numbers.
+  virtual void state(Archive&) {}
   /// Memory that it keeps (core/scene/body/memory.h).
   virtual std::size_t bytes() const { return 0; }
 };
@@ -69,6 +72,8 @@ class SimulatedBody {
   virtual std::uint64_t state_hash() const = 0;
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
+  /// All of it that steps and events change, written, or read into a body made of the same scene.
+  virtual void state(Archive& archive) { archive(tracked_); }
   /// What its parts take now.
   virtual MemoryReport memory() const = 0;
 

@@ -78,6 +78,7 @@ class Reader {
     take("diagnostics_every_steps", scene.output.diagnostic_steps);
     take("probes_every", scene.output.probe_time);
     take("probes_every_steps", scene.output.probe_steps);
+    take("checkpoint", scene.output.checkpoint_time);
     const auto has_field = [&fields = output.at("fields")](const char* name) {
       return std::ranges::find(fields, Json(name)) != fields.end();
     };
@@ -418,6 +419,8 @@ OutputPlan OutputPlan::in_steps_of(double step) const {
           .frame_time = {},
           .diagnostic_time = {},
           .probe_time = {},
+          .checkpoint_time = {},
+          .checkpoint_steps = steps(checkpoint_steps, checkpoint_time),
           .fields = fields};
 }
 
@@ -428,7 +431,10 @@ bool Expectation::empty() const {
 
 SceneFile parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
   const Json complete = check_and_complete(parse_strict_json(text, name), Shape::scene, name);
-  return Reader(name, folder).scene(complete);
+  SceneFile scene = Reader(name, folder).scene(complete);
+  scene.text = text;
+  scene.folder = folder;
+  return scene;
 }
 
 SceneFile read_scene(const fs::path& path) {
@@ -447,6 +453,7 @@ SceneFile read_scene(const fs::path& path) {
 
 bool reseed(SceneFile& scene, std::uint64_t seed) {
   bool changed = false;
+  scene.added_seed += seed;
   const auto reseed_cells = [seed, &changed](CellSelection& cells) {
     if (auto* random = std::get_if<RandomSelection>(&cells)) {
       random->seed += seed;

@@ -122,7 +122,9 @@ enum class UnstableStep { warn, refuse, substep };
 struct OutputPlan {
   std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{}, probe_steps{};  // steps from one to the next
   std::optional<double> frame_time{}, diagnostic_time{}, probe_time{};  // [s] the same where the scene has no step yet
-  FrameFields fields{};                                                 // that frames hold
+  std::optional<double> checkpoint_time{};                              // [s] from one to the next
+  std::optional<std::uint64_t> checkpoint_steps{};
+  FrameFields fields{};  // that frames hold
 
   /// The same plan with times turned into steps.
   /// pre  step > 0
@@ -175,6 +177,10 @@ struct SceneFile {
   OutputPlan output;
   std::vector<Probe> probes;
   Expectation expect;
+  // what it was read from, for a run that is to be continued
+  std::string text;
+  std::filesystem::path folder;  // that its paths are relative to
+  std::uint64_t added_seed = 0;  // by `reseed`
 
   bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
 };

@@ -280,6 +280,10 @@ std::vector<SceneKey> make_keys() {
        .help = "time between rows of probes; left out, that of the diagnostics"},
       {.shape = output, .name = "probes_every_steps", .type = integer, .range = count_from_1,
        .help = "steps between rows of probes"},
+      {.shape = output, .name = "checkpoint", .type = real, .unit = "s", .range = positive,
+       .help = "time between checkpoints, each in place of the last: all that 'dartboard simulate --continue' needs to go "
+               "on with the same bits, in a file of the run's folder. One is also left where such a run ends. Left out, "
+               "one is left only by a run that is interrupted"},
       {.shape = probe, .name = "name", .type = text, .required = true, .help = "heads its columns; no two the same"},
       {.shape = probe, .name = "vertex", .type = integer, .range = number,
        .help = "this point of the mesh, counted from 0 in the order of the file"},

@@ -1,10 +1,12 @@
 #pragma once
 // The files that a run leaves in its folder: frames, their list, and diagnostics.
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/plain/folder_claim.h"
 #include "core/scene/body/diagnostics.h"
@@ -14,6 +16,30 @@
 
 namespace dartboard {
 
+/// A text file up to a byte: its length, and a hash of what it holds until there. It may have grown since.
+struct TextSoFar {
+  std::uint64_t bytes = 0, hash = 0xcbf29ce484222325u;
+
+  /// Go on to a later byte.
+  /// throws  IoError if the file cannot be read, or is shorter
+  void extend(const std::filesystem::path& file, std::uint64_t to);
+  friend bool operator==(const TextSoFar&, const TextSoFar&) = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(bytes, hash);
+  }
+};
+
+/// What a run has written until a checkpoint.
+struct OutputSoFar {
+  std::vector<std::uint64_t> frame_bytes{};   // the length of each frame
+  TextSoFar list{}, diagnostics{}, probes{};  // of frames.pvd: up to the end of its last entry
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(frame_bytes, list, diagnostics, probes);
+  }
+};
+
 /// frame_000000.vtu, frame_000001.vtu ..., frames.pvd and diagnostics.csv; probes.csv where there are probes. All of
 /// them are valid at any moment: frames appear whole, the list names only those that are there, rows are flushed one by
 /// one.
@@ -22,6 +48,17 @@ class SceneOutput {
   /// Creates the folder, and those above it, for a body of cells of a dimension.
   /// throws  IoError if it exists and is not an empty folder, is claimed by another run, or cannot be created
   explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3);
+
+  /// Go on in the folder of a run, from one of its checkpoints: rows and frames after that are dropped, since they will
+  /// be written again.
+  ///
+  /// throws  IoError if a frame or a part of a table is missing, or has been changed, or a file cannot be written.
+  ///         Everything is looked at before anything is changed
+  SceneOutput(FolderClaim claim, std::filesystem::path folder, OutputSoFar so_far, std::span<const Probe> probes = {});
+
+  /// What there is now.
+  /// cost  reads what the tables have got since it was asked last
+  const OutputSoFar& so_far();
 
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);
@@ -38,6 +75,7 @@ class SceneOutput {
   std::filesystem::path folder_;
   PvdFile list_;
   std::ofstream diagnostics_, probes_;
+  OutputSoFar so_far_;
 };
 
 }  // namespace dartboard

@@ -1,6 +1,7 @@
 #pragma once
 // The list of the frames of a run with their times, which ParaView plays.
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -18,16 +19,22 @@ struct FrameFile {
 class PvdFile {
  public:
   explicit PvdFile(std::filesystem::path path) : path_(std::move(path)) {}
+  /// Go on with a list after so many of its entries, which end at that byte: what follows there is cut off.
+  /// throws  IoError if it cannot be written
+  PvdFile(std::filesystem::path path, std::size_t size, std::uint64_t entries_end);
 
   /// throws  IoError if it cannot be written
   /// cost    that of the entry
   void add(const FrameFile& frame);
   std::size_t size() const { return size_; }
+  /// Where the last entry ends, in bytes.
+  std::uint64_t entries_end() const { return entries_end_; }
 
  private:
   std::filesystem::path path_;
   std::ofstream file_;  // from the first frame on
   std::size_t size_ = 0;
+  std::uint64_t entries_end_ = 0;
 };
 
 }  // namespace dartboard

@@ -38,6 +38,15 @@ class DrivenVertices {
   /// Vertices of the mesh that some drive moves.
   std::size_t size() const { return now_.size(); }
   std::size_t bytes() const;
+  /// Where the drives are; which vertices they move, and how, is in the scene.
+  template <class Archive>
+  void state(Archive& archive) {
+    for (Drive& drive : drives_) {
+      archive(drive.sign);
+      if (drive.turn) archive(*drive.turn);
+    }
+    archive(now_);
+  }
 
  private:
   struct Drive {

@@ -47,6 +47,12 @@ class EventClock {
     time_ = time;
   }
 
+  /// Where it is; its times are those of the scene.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(next_, count_, time_);
+  }
+
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
  private:

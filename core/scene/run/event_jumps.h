@@ -26,6 +26,10 @@ struct EventJumps {
 
   /// Another event. What is no number stays.
   void add(const KeptSums& before, const KeptSums& after);
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(events, mass, momentum, energy);
+  }
 };
 
 /// Apply an event to its body, and add what changed where it did anything.

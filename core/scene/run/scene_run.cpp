@@ -3,49 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plain/nan_maximum.h"
 #include "core/time/solve/stop_request.h"
 
 namespace dartboard {
 namespace {
 
-class EnergyDrift {
- public:
-  explicit EnergyDrift(const Diagnostics& first) : start_(first.energy()) { add(first); }
-  void add(const Diagnostics& d) {
-    change_ = max_or_nan(change_, std::abs(d.energy() - start_));
-    size_ = max_or_nan(size_, d.kinetic + d.elastic);
-  }
-  double value() const { return change_ == 0.0 ? 0.0 : change_ / size_; }
-
- private:
-  double start_, change_ = 0.0, size_ = 0.0;
-};
-
 /// The state after the last step that was taken: to whom it has not been due.
 void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
-                       const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunResult& result) {
+                       const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunProgress& progress) {
   const std::uint64_t n = simulation.steps_done();
   const auto lacks = [n](const std::optional<std::uint64_t>& every) { return n > 0 && !(every && n % *every == 0); };
   if (lacks(plan.frame_steps)) watcher.frame(simulation.frame());
   if (lacks(plan.diagnostic_steps)) {
-    result.last = simulation.diagnostics();
-    watcher.diagnostics(result.last);
+    progress.last = simulation.diagnostics();
+    progress.drift.add(progress.last);
+    watcher.diagnostics(progress.last);
   }
   if (lacks(probe_steps)) watcher.probes(simulation.probes());
 }
 
-/// When what was handed out last was [s].
-struct LastTimes {
-  double frame = 0.0, diagnostics = 0.0;
-};
-
 /// The last good state of a motion that has diverged, unless it was handed out, or one after it, or it is none.
-void hand_out_what_is_kept(const Simulation& simulation, const Diagnostics& kept, const LastTimes& handed_out,
-                           RunWatcher& watcher) {
-  if (!is_finite(kept)) return;
-  if (simulation.time() > handed_out.frame) watcher.frame(simulation.frame());
-  if (simulation.time() > handed_out.diagnostics) watcher.diagnostics(kept);
+void hand_out_what_is_kept(const Simulation& simulation, const RunProgress& progress, RunWatcher& watcher) {
+  if (!is_finite(progress.last)) return;
+  if (simulation.time() > progress.frame_time) watcher.frame(simulation.frame());
+  if (simulation.time() > progress.diagnostics_time) watcher.diagnostics(progress.last);
 }
 
 }  // namespace
@@ -55,50 +36,61 @@ double mass_unaccounted_for(double start, double removed, double end) {
 }
 
 RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher& watcher,
-                    std::optional<std::uint64_t> most_steps) {
+                    std::optional<std::uint64_t> most_steps, const RunProgress* continued) {
   const OutputPlan plan = times.in_steps_of(simulation.step());
   const std::optional<std::uint64_t> probe_steps = plan.probe_steps ? plan.probe_steps : plan.diagnostic_steps;
   const std::uint64_t end = std::min(simulation.step_count(), most_steps.value_or(simulation.step_count()));
   RunResult result;
-  LastTimes handed_out;
-  result.first = result.last = simulation.diagnostics();
-  EnergyDrift drift(result.first);
-  watcher.frame(simulation.frame());
-  watcher.diagnostics(result.first);
-  watcher.probes(simulation.probes());
+  RunProgress progress;
+  if (continued != nullptr) {
+    progress = *continued;
+  } else {
+    progress.first = progress.last = simulation.diagnostics();
+    progress.drift = EnergyDrift(progress.first);
+    watcher.frame(simulation.frame());
+    watcher.diagnostics(progress.first);
+    watcher.probes(simulation.probes());
+  }
   if (simulation.step_count() == 0) result.divergence = simulation.start_failure();
   while (simulation.steps_done() < end && !result.interrupted) {
     try {
       result.divergence = simulation.advance();
     } catch (const Stopped&) {
       result.interrupted = true;
-      hand_out_the_rest(simulation, plan, probe_steps, watcher, result);
+      if (simulation.undo_stopped_step()) watcher.checkpoint(simulation, progress);
+      hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
       break;
     }
     if (result.divergence) {
-      result.last = simulation.diagnostics();
-      hand_out_what_is_kept(simulation, result.last, handed_out, watcher);
+      progress.last = simulation.diagnostics();
+      hand_out_what_is_kept(simulation, progress, watcher);
       break;
     }
     const std::uint64_t n = simulation.steps_done();
     result.interrupted = n < end && watcher.interrupts();
-    const auto due = [&](const std::optional<std::uint64_t>& every) {
-      return n == end || result.interrupted || (every && n % *every == 0);
-    };
+    const bool is_over = n == simulation.step_count();
+    const auto due = [&](const std::optional<std::uint64_t>& every) { return is_over || (every && n % *every == 0); };
     if (due(plan.frame_steps)) {
       watcher.frame(simulation.frame());
-      handed_out.frame = simulation.time();
+      progress.frame_time = simulation.time();
     }
     if (due(plan.diagnostic_steps)) {
-      result.last = simulation.diagnostics();
-      handed_out.diagnostics = simulation.time();
-      drift.add(result.last);
-      watcher.diagnostics(result.last);
+      progress.last = simulation.diagnostics();
+      progress.diagnostics_time = simulation.time();
+      progress.drift.add(progress.last);
+      watcher.diagnostics(progress.last);
     }
     if (due(probe_steps)) watcher.probes(simulation.probes());
+    if (result.interrupted || (plan.checkpoint_steps && (n == end || n % *plan.checkpoint_steps == 0)))
+      watcher.checkpoint(simulation, progress);
+    // a run that ends here for now hands out what a continued one will not
+    if (!is_over && (n == end || result.interrupted))
+      hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
     watcher.stepped(simulation);
   }
-  result.energy_drift = drift.value();
+  result.first = progress.first;
+  result.last = progress.last;
+  result.energy_drift = progress.drift.value();
   return result;
 }
 

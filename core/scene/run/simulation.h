@@ -42,6 +42,10 @@ struct StepWarning {
   std::uint64_t step = 0;   // after this many
   double stable = 0.0;      // [s] the longest step that is
   std::uint64_t parts = 1;  // that each step is divided into
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(step, stable, parts);
+  }
 };
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
 std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
@@ -118,6 +122,17 @@ class Simulation {
   /// What the parts of the run take now.
   MemoryReport memory() const;
 
+  /// Write all that the rest of the run depends on and the scene does not say.
+  void save(Archive& archive) const;
+  /// Read it: the run goes on with the bits that it would have had.
+  ///
+  /// pre     it was saved by a simulation of the same scene, and this one has taken no step
+  /// throws  IoError where it cannot be that; then this is no simulation to use
+  void load(Archive& archive) { state(archive); }
+  /// After `advance` has ended by Stopped (stop_request.h): can the step be taken again, and a state saved? Not where
+  /// the factor that it began with has been replaced or given up: then nothing may be done with this.
+  bool undo_stopped_step() { return integrator_->undo_stopped_step(); }
+
  private:
   struct Scheduled {
     std::unique_ptr<ReadyEvent> event;
@@ -129,6 +144,7 @@ class Simulation {
   };
   StepResult integrate(double duration);
   StepResult step_through_events();
+  void state(Archive& archive);
   void happen();
   void happen_until(double time);
   void apply(Scheduled& scheduled);

@@ -23,6 +23,10 @@ class CompensatedSplitting : public Integrator {
   const Scheme& scheme() const override { return scheme_; }
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   void restart() override { terms_.forget(); }
+  void state(Archive& archive) override {
+    Integrator::state(archive);
+    archive(state_);
+  }
   std::size_t bytes() const override { return state_.bytes() + bytes_of(a_, product_, sum_) + damping_.bytes(); }
 
   /// What the motion lacks, by vertex.

@@ -33,6 +33,10 @@ class CompensatedState {
 
   /// The digits lost so far, by vertex; to be added to what is seen.
   const TrialState& lost() const { return lost_; }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(lost_, left_);
+  }
   std::size_t bytes() const { return end_.bytes() + lost_.bytes() + lost_at_end_.bytes() + left_.bytes(); }
 
  private:

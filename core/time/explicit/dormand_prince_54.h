@@ -14,6 +14,10 @@ class DormandPrince54 : public AdaptiveIntegrator {
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   StepResult advance(const SpringSystem& system, Motion motion, double duration, const Tolerance& tolerance) override;
   void restart() override;
+  void state(Archive& archive) override {
+    Integrator::state(archive);
+    archive(next_step_, last_error_);
+  }
   std::size_t bytes() const override;
 
   /// The step size `advance` will try first; 0 when it is to choose one.

@@ -26,7 +26,7 @@ StepResult BaraffWitkin::step(const SpringSystem& system, Motion motion, double 
   right_.resize(n);
   solution_.resize(n);
   StepSolver& solver = stage_.solver();
-  solver.begin_step();
+  solver.begin_step(work_);
   // Fixed vertices may move: the springs are taken where those will be.
   for (std::size_t i = 0; i < n; ++i) {
     end_.v[i] = system.fixed[i] ? motion.v[i] : Eigen::Vector3d(0, 0, 0);

@@ -26,7 +26,7 @@ const Scheme& Bdf2::scheme() const { return scheme_of_bdf2; }
 StepResult Bdf2::step(const SpringSystem& system, Motion motion, double h) {
   const std::size_t n = motion.x.size();
   for (auto* state : {&end_, &start_}) state->resize(n);
-  stage_.begin_step();
+  stage_.begin_step(work_);
   // Steps that should be equal may differ by rounding.
   const bool first = !(std::abs(last_h_ - h) <= 1e-12 * std::abs(h)) || last_.x.size() != n;
   const double tau = first ? h : 2.0 * h / 3.0;

@@ -22,6 +22,10 @@ class Bdf2 : public ImplicitIntegrator {
     ImplicitIntegrator::restart();
     last_h_ = 0.0;
   }
+  void state(Archive& archive) override {
+    ImplicitIntegrator::state(archive);
+    archive(last_, last_h_);
+  }
 
  private:
   TrialState last_, start_;  // the state before this one; the start of the stage

@@ -17,6 +17,11 @@ class ImplicitIntegrator : public Integrator {
   explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}
 
   void restart() override { stage_.system_changed(); }
+  void state(Archive& archive) override {
+    Integrator::state(archive);
+    archive(stage_);
+  }
+  bool undo_stopped_step() override { return stage_.solver().undo_step(work_); }
   std::size_t bytes() const override { return stage_.bytes() + end_.bytes(); }
   std::size_t solver_bytes() const override { return stage_.solver_bytes(); }
   const ImplicitOptions& options() const { return stage_.options(); }

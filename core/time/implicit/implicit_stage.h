@@ -33,7 +33,7 @@ class ImplicitStage {
  public:
   explicit ImplicitStage(const ImplicitOptions& options) : options_(options), solver_(options) {}
 
-  void begin_step() { solver_.begin_step(); }
+  void begin_step(const WorkCounters& work = {}) { solver_.begin_step(work); }
   void system_changed() {
     solver_.system_changed();
     terms_.forget();
@@ -45,6 +45,11 @@ class ImplicitStage {
   ///         no solution to use
   StepResult solve(const SpringSystem& system, std::span<const Eigen::Vector3d> xh, std::span<const Eigen::Vector3d> vh,
                    double tau, StageForce force, std::span<Eigen::Vector3d> w, WorkCounters& work);
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(solver_);
+  }
 
   StepSolver& solver() { return solver_; }
   std::size_t bytes() const { return solver_.bytes() + bytes_of(residual_, direction_, trial_, allowed_); }

@@ -62,7 +62,7 @@ const OneStageMethod energy_momentum{{.name = "energy-momentum",
 StepResult OneStage::step(const SpringSystem& system, Motion motion, double h) {
   const bool to_midpoint = method_.end == End::midpoint;
   end_.resize(motion.x.size());
-  stage_.begin_step();
+  stage_.begin_step(work_);
   for (std::size_t i = 0; i < motion.v.size(); ++i) end_.v[i] = motion.v[i];
   const StepResult result =
       stage_.solve(system, motion.x, motion.v, to_midpoint ? h / 2 : h, method_.force, end_.v, work_);

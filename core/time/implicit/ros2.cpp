@@ -40,7 +40,7 @@ StepResult Ros2::step(const SpringSystem& system, Motion motion, double h) {
   end_.resize(n);
   for (auto* column : {&right_, &k1x_, &k1v_, &kx_, &kv_, &rx_, &rv_}) column->resize(n);
   StepSolver& solver = stage_.solver();
-  solver.begin_step();
+  solver.begin_step(work_);
   const TangentsAt tangents = [&system, motion](Compression compression, std::vector<SpringTangent>& result) {
     evaluate_tangents(system, motion.x, compression, result);
   };

@@ -28,7 +28,7 @@ StepResult Sdirk2::step(const SpringSystem& system, Motion motion, double h) {
   for (auto* state : {&end_, &start_}) state->resize(n);
   slope_x_.resize(n);
   slope_v_.resize(n);
-  stage_.begin_step();
+  stage_.begin_step(work_);
   for (std::size_t i = 0; i < n; ++i) slope_x_[i] = motion.v[i];
   StepResult result = stage_.solve(system, motion.x, motion.v, tau, StageForce::at_end, slope_x_, work_);
   if (!result.ok()) return fail(result);

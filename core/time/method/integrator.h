@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/plain/archive.h"
 #include "core/time/method/scheme.h"
 #include "core/time/system/spring_system.h"
 
@@ -60,6 +61,13 @@ struct WorkCounters {
   std::uint64_t line_search_trials = 0;  // beyond the first of each iteration
   std::uint64_t projections = 0;         // tangents made positive definite
   std::uint64_t factor_nonzeros = 0;     // of L, the latest
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(steps, failed_steps, rejected_steps, force_evaluations, damping_sweeps, assemblies, analyses,
+            factorisations, solves, rank_one_updates, newton_iterations, linear_iterations, line_search_trials,
+            projections, factor_nonzeros);
+  }
 };
 
 /// A time integration method with the memory it needs between steps.
@@ -80,6 +88,14 @@ class Integrator {
 
   /// Forget what was kept from earlier steps: the system has changed.
   virtual void restart() {}
+
+  /// What the bits of the next steps depend on beside the system and the motion, written or read: what is found again
+  /// from these at the next step, or overwritten by it, is left out.
+  virtual void state(Archive& archive) { archive(work_); }
+  /// After a step that ended by Stopped: make all that is kept what it was before that step, so that it can be taken
+  /// again with the same bits.
+  /// returns  false where that is lost
+  virtual bool undo_stopped_step() { return true; }
 
   /// Memory that it keeps between steps, in bytes (core/plain/bytes.h); none before the first step.
   virtual std::size_t bytes() const { return 0; }

@@ -8,6 +8,10 @@ namespace dartboard {
 /// A number between two bounds.
 struct Bounds {
   double lower = 0.0, upper = 0.0;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(lower, upper);
+  }
 };
 
 /// How long a run is and what growth is harmless in it; see `stable_limit`.
@@ -74,6 +78,11 @@ struct StableStep {
   /// The longest step [s] that amplifies no oscillation of this damping ratio by `gain` within the horizon:
   /// stable_limit / upper. `Scheme::unlimited` for a method, or a system, without a limit; 0 if upper is not finite.
   double safe_step(const Scheme& scheme, double zeta, const Horizon& horizon = {}) const;
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(lower, upper, any_state, across, damping_time, viscous_rate, damping_rate);
+  }
 
  private:
   double stable_step(const Scheme& scheme, const Horizon& horizon) const;

@@ -23,6 +23,10 @@ struct TrialState {
     v.resize(n);
   }
   std::size_t bytes() const { return bytes_of(x, v); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(x, v);
+  }
   /// Copy it into the motion and count a step, or diagnose it and count a failed step.
   StepResult commit(Motion motion, WorkCounters& work) const;
 };

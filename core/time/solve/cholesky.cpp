@@ -32,6 +32,7 @@ Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 // Where the work is given up it keeps what it works on, and we begin anew.
 template <class Action>
 SolveStatus Cholesky::unless_stopped(Action&& action) {
+  ++generation_;
   try {
     return action(*implementation_);
   } catch (const Stopped&) {
@@ -47,6 +48,7 @@ SolveStatus Cholesky::factorise(const ScalarMatrix& matrix) {
   return unless_stopped([&](Implementation& i) { return i.factorise(NodeEntries(matrix)); });
 }
 SolveStatus Cholesky::update(std::span<const RankOneTerm> terms) {
+  ++generation_;
   return implementation_->has_room(terms) ? implementation_->update(terms) : SolveStatus::not_factored;
 }
 SolveStatus Cholesky::follow(const BlockMatrix& after, std::span<const RankOneTerm> terms) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/plain/archive.h"
 #include "core/time/solve/step_matrix.h"
 #include "core/time/system/node_matrix.h"
 
@@ -69,6 +70,12 @@ struct CholeskyCounters {
   std::uint64_t update_chosen = 0;    // `follow` updated
   std::uint64_t refactor_chosen = 0;  // `follow` factored again because that was cheaper, or there was no room
   std::uint64_t update_failed = 0;    // `follow` updated, lost definiteness, and factored again
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(orderings, analyses, factorisations, solves, refinements, rank_one_updates, rows_replaced, update_chosen,
+            refactor_chosen, update_failed);
+  }
 };
 
 /// P A P' = L L' or L D L'.
@@ -118,6 +125,12 @@ class Cholesky {
   SolveStatus solve_refined(const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
                             std::span<Eigen::Vector3d> x);
 
+  /// The factor with all that later updates and factorisations depend on: the order of its rows, the room in its
+  /// columns, its symbolic analysis. A factor that was updated differs in its last bits from a fresh one.
+  void state(Archive& archive);
+  /// Another number whenever the factor has been changed, or given up, since; 0 as long as there never was one.
+  std::uint64_t generation() const { return generation_; }
+
   bool has_factor() const;
   bool is_supernodal() const;
   /// Predicted seconds of `update(terms)`, and of an analysis and a factorisation.
@@ -145,6 +158,7 @@ class Cholesky {
   template <class Action>
   SolveStatus unless_stopped(Action&& action);
   std::shared_ptr<Implementation> implementation_;  // shared with work that was given up
+  std::uint64_t generation_ = 0;
 };
 
 }  // namespace dartboard

@@ -70,6 +70,9 @@ struct Cholesky::Implementation : std::enable_shared_from_this<Implementation> {
   void free_factor();
   std::size_t capacity() const { return order.size(); }
 
+  // cholesky_state.cpp
+  void state(Archive& archive);
+
   // cholesky_analysis.cpp
   bool find_order(const NodePattern& pattern, std::size_t per_node);
   bool analyse_with_order();

@@ -29,6 +29,10 @@ class StepMatrix {
 
   std::size_t node_count() const { return inertia_.size(); }
   std::size_t bytes() const { return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_); }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(tau_, inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_);
+  }
   double tau() const { return tau_; }
   const Eigen::Matrix3d& diagonal_block(std::size_t i) const { return diagonal_[i]; }
   /// m + tau * viscosity by vertex; 1 for fixed ones.
@@ -54,10 +58,18 @@ class StepMatrix {
     SpringEnds ends;
     Eigen::Vector3d d;
     double p, q;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(ends, d, p, q);
+    }
   };
   struct Source {  // what a block was evaluated for
     double stiffness, damping;
     friend bool operator==(const Source&, const Source&) = default;
+    template <class Archive>
+    void state(Archive& archive) {
+      archive(stiffness, damping);
+    }
   };
   Block block_of(const SpringSystem& system, std::size_t e, const SpringTangent& tangent) const;
   void set_inertia(const SpringSystem& system);

@@ -53,6 +53,18 @@ void StepSolver::project(WorkCounters& work) {
   ++work.projections;
 }
 
+bool StepSolver::undo_step(WorkCounters& work) {
+  // where there was no factor yet there is none to lose
+  if (before_.generation == 0) cholesky_ = Cholesky(options_.cholesky);
+  if (cholesky_.generation() != before_.generation) return false;
+  work = before_.work;
+  tau_ = before_.tau;
+  changed_ = before_.changed;
+  ready_ = before_.ready;
+  due_ = before_.due;
+  return true;
+}
+
 SolveStatus StepSolver::prepare(const SpringSystem& system, const TangentsAt& tangents, double tau,
                                 WorkCounters& work) {
   if (projecting_ && options_.tangent == TangentPolicy::on_demand && remaining_-- == 0) projecting_ = false;

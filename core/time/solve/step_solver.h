@@ -51,11 +51,16 @@ class StepSolver {
  public:
   explicit StepSolver(const ImplicitOptions& options) : options_(options), cholesky_(options.cholesky) {}
 
-  /// Exact tangents may be tried again.
-  void begin_step() {
+  /// Exact tangents may be tried again. What is kept is noted, and the work so far, for `undo_step`.
+  void begin_step(const WorkCounters& work = {}) {
     projecting_ = options_.tangent == TangentPolicy::projected;
     wait_ = remaining_ = 0;
+    before_ = {work, tau_, changed_, ready_, due_, cholesky_.generation()};
   }
+  /// Back to the beginning of the step: what is kept then solves as it would have.
+  ///
+  /// returns  false where the factor of that time has been replaced or given up since
+  bool undo_step(WorkCounters& work);
   /// Topology or material may have changed: look at them before the next solution.
   void system_changed() { changed_ = true; }
 
@@ -68,6 +73,12 @@ class StepSolver {
   /// x = A^-1 b, in two arrays. Conjugate gradients may find here that A is indefinite.
   SolveStatus solve(std::span<const Eigen::Vector3d> b, std::span<Eigen::Vector3d> x, Accuracy accuracy,
                     WorkCounters& work);
+
+  /// The factor, what it is of, and when it serves; what a step fills before it reads it is left out.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(cholesky_, factored_, pattern_, tau_, changed_, ready_, due_);
+  }
 
   const StepMatrix& matrix() const { return matrix_; }
   /// The tangents that the matrix was made of.
@@ -94,6 +105,14 @@ class StepSolver {
   double tau_ = 0.0;
   int wait_ = 0, remaining_ = 0;  // calls of `prepare` with projection after the last failure, and how many are left
   bool changed_ = true, projecting_ = false, ready_ = false, due_ = false;
+
+  struct Before {  // a step
+    WorkCounters work;
+    double tau = 0.0;
+    bool changed = true, ready = false, due = false;
+    std::uint64_t generation = 0;  // of the factor
+  };
+  Before before_;
 };
 
 /// The diagnosis of a solution that failed.

@@ -18,6 +18,10 @@ struct CoordinatePrecision {
   double coordinate;           // [m]
   double length;               // [m] of the spring, or its rest length where that is longer
   double relative;             // eps |x| / length
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(edge, vertex, axis, coordinate, length, relative);
+  }
 };
 /// "coordinate x = 1e+10 m of vertex 3 is rounded by up to 2.2e-06 of the spring beside it (1 m); move the body to the
 /// origin"

@@ -20,6 +20,10 @@ struct NodePattern {
   std::vector<std::uint32_t> place;            // by spring: its entry below the diagonal; none if an end is fixed
 
   std::size_t node_count() const { return column_start.size() - 1; }
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(column_start, row, place);
+  }
   std::size_t bytes() const { return bytes_of(column_start, row, place); }
   bool same_entries(const NodePattern& other) const { return column_start == other.column_start && row == other.row; }
 };

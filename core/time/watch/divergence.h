@@ -62,6 +62,13 @@ class DivergenceDetector {
   /// returns  how many steps ago it was
   std::uint64_t restore(Motion motion) const;
 
+  /// What its later verdicts depend on, and the state kept.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(step_, energy_, gravity_, small_, heaviest_, driven_, driven_springs_, power_, work_, most_work_);
+    archive(first_spring_, since_start_, next_check_, since_kept_, checks_, since_all_, kept_x_, kept_v_);
+  }
+
   std::uint64_t checks() const { return checks_; }
   std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
   /// The same for what the work of driven vertices is summed over.

@@ -56,6 +56,11 @@ class AlphaTable {
   std::size_t bytes() const { return 4 * (alphas_.capacity() + generation_.capacity() + free_.capacity()); }
   /// Equal for equal tables, dead slots and their order included.
   std::uint64_t hash() const;
+  /// What a checkpoint holds of it (core/plain/archive.h).
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(alphas_, generation_, free_, births_);
+  }
 
  private:
   static std::size_t at(int i, Dart d) {

@@ -13,6 +13,10 @@ namespace dartboard {
 struct Dart {
   std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
   friend constexpr auto operator<=>(Dart, Dart) = default;
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(index);
+  }
 };
 
 /// No dart at all: what a default-constructed Dart is. (An i-free dart is its own alpha_i instead.)

@@ -11,6 +11,9 @@ namespace dartboard {
 /// FNV-1a over 8-byte words (the last one padded with zeros), folded after each, 64 bits. Not for adversaries.
 class Hash {
  public:
+  Hash() = default;
+  /// Goes on from the value of another.
+  explicit Hash(std::uint64_t value) : value_(value) {}
   /// pre  T is plain numbers without padding
   template <class T>
   void add(const std::vector<T>& values) {

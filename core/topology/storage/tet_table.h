@@ -62,6 +62,11 @@ class TetTable {
 
   std::size_t bytes() const { return 4 * (opposite_.capacity() + generation_.capacity() + free_.capacity()); }
   std::uint64_t hash() const;
+  /// What a checkpoint holds of it (core/plain/archive.h).
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(opposite_, generation_, free_, births_);
+  }
 
  private:
   Dart alpha3(std::uint32_t s, std::uint32_t r) const {

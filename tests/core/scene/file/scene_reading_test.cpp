@@ -195,10 +195,13 @@ TEST(SceneReading, OfOutputAndProbes) {
   EXPECT_EQ(std::get<Vector3d>(steps.probes.at(1).vertex), Vector3d(6, 7, 8));
   EXPECT_EQ(steps.probes.at(1).path, "/output/probes/1");
   // of a step of 0.25 s
-  const SceneFile times = with("output", R"({"frames_every": 2, "diagnostics_every": 3, "probes_every": 4})");
+  const SceneFile times =
+      with("output", R"({"frames_every": 2, "diagnostics_every": 3, "probes_every": 4, "checkpoint": 5.1})");
   EXPECT_EQ(times.output.frame_steps, 8u);
   EXPECT_EQ(times.output.diagnostic_steps, 12u);
   EXPECT_EQ(times.output.probe_steps, 16u);
+  EXPECT_EQ(times.output.checkpoint_steps, 21u);
+  EXPECT_FALSE(steps.output.checkpoint_steps);
 }
 
 TEST(SceneReading, OfAYoungsModulusInPlaceOfAStiffness) {

@@ -1,0 +1,108 @@
+#include "core/scene/restart/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "core/plain/error.h"
+#include "core/scene/file/load_mesh.h"
+#include "core/scene/output/atomic_file.h"
+#include "core/scene/restart/sealed_bytes.h"
+#include "core/topology/storage/hash.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents_of(const fs::path& file, std::string_view expected) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status))
+    throw IoError(fmt::format("{}: there is no such file; expected {}", file.string(), expected));
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes;
+  if (fs::is_regular_file(status)) {
+    bytes.resize(fs::file_size(file, error));
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+  if (!fs::is_regular_file(status) || error || !in)
+    throw IoError(fmt::format("{}: cannot be read; expected {}", file.string(), expected));
+  return bytes;
+}
+
+}  // namespace
+
+// As it was read for the run, though the file may have changed since.
+std::uint64_t Checkpoint::hash_of_mesh(const SceneFile& scene) {
+  if (!std::holds_alternative<fs::path>(scene.body.mesh)) return 0;
+  const LoadedMesh read = scene.body.loaded ? LoadedMesh{} : read_body_mesh(scene.body);
+  const Mesh& mesh = scene.body.loaded ? scene.body.loaded->mesh : read.mesh;
+  Hash hash;
+  hash.add(mesh.points);
+  hash.add(mesh.kinds);
+  hash.add(mesh.nodes);
+  return hash.value();
+}
+
+void Checkpoint::write(const fs::path& file, const SceneFile& scene, const Simulation& simulation,
+                       const RunProgress& progress, const OutputSoFar& output, const std::string& notes) {
+  std::error_code error;
+  Origin origin{.file = scene.file,
+                .folder = fs::absolute(scene.folder.empty() ? "." : scene.folder, error).string(),
+                .text = scene.text,
+                .integrator = scene.integrator,
+                .step = scene.step,
+                .added_seed = scene.added_seed,
+                .mesh_hash = hash_of_mesh(scene)};
+  RunProgress run = progress;
+  OutputSoFar written = output;
+  std::string told = notes;
+  std::uint64_t steps = simulation.steps_done();
+  Archive archive;
+  archive.part("scene");
+  archive(origin, told, steps);
+  archive.part("run");
+  archive(run, written);
+  simulation.save(archive);
+  write_whole(file, sealed(archive.written()));
+}
+
+Checkpoint::Checkpoint(const fs::path& file)
+    : file_(file),
+      bytes_(std::make_unique<std::string>(contents_of(file, "the checkpoint of a run"))),
+      archive_(unsealed(*bytes_, file.string()), file.string()) {
+  archive_.part("scene");
+  archive_(origin_, notes_, steps_done_);
+  archive_.part("run");
+  archive_(progress_, output_);
+}
+
+SceneFile Checkpoint::scene() const {
+  const fs::path folder = origin_.folder;
+  // the path that it was given by may have been relative to another folder than ours
+  const fs::path path = folder / fs::path(origin_.file).filename();
+  std::error_code error;
+  if (fs::is_regular_file(path, error) && contents_of(path, "a scene") != origin_.text)
+    throw InputError(
+        fmt::format("{}: has changed since the run in {} began; expected it as it was, or a run of its own for it",
+                    path.string(), file_.parent_path().string()));
+  SceneFile scene = parse_scene(origin_.text, path.string(), folder);
+  load_mesh(scene);
+  reseed(scene, origin_.added_seed);
+  scene.step = origin_.step;
+  scene.integrator = origin_.integrator;
+  if (hash_of_mesh(scene) != origin_.mesh_hash)
+    throw InputError(fmt::format("{}: is another mesh than when the run in {} began; expected it as it was",
+                                 std::get<fs::path>(scene.body.mesh).string(), file_.parent_path().string()));
+  return scene;
+}
+
+void Checkpoint::load_into(Simulation& simulation) {
+  simulation.load(archive_);
+  archive_.require_end();
+}
+
+}  // namespace dartboard

@@ -1,0 +1,44 @@
+#include "core/plain/archive.h"
+#include "core/scene/run/simulation.h"
+
+// What a checkpoint holds of a simulation. Left out is what its constructor finds in the scene: the step, the horizon,
+// what events and drives choose, warnings of the start.
+
+namespace dartboard {
+
+// What is written is not changed.
+void Simulation::save(Archive& archive) const { const_cast<Simulation*>(this)->state(archive); }
+
+void Simulation::state(Archive& archive) {
+  archive.part("simulation");
+  archive(done_, taken_back_, watched_, operations_, jumps_);
+  archive(limits_, warning_, coarse_, parts_, too_long_, stable_, parts_wanted_);
+  archive.part("body");
+  body_->state(archive);
+  archive.part("driven vertices");
+  archive(driven_);
+  archive.part("integrator");
+  integrator_->state(archive);
+  archive.part("events");
+  for (Scheduled& scheduled : events_) {
+    archive(scheduled.clock, scheduled.was_due, scheduled.operations);
+    scheduled.event->state(archive);
+  }
+  archive.part("divergence detector");
+  archive(detector_);
+  bool has_start = start_.ok();
+  archive(has_start);
+  if (!archive.reads()) return;
+  if (done_ > step_count_) archive.fail("there are more steps than the run has");
+  const VertexColumns& v = body_->vertices();
+  const SpringSystem system = body_->system();
+  if (v.position.size() != v.size() || v.velocity.size() != v.size() || v.inverse_mass.size() != v.size() ||
+      v.point.size() != v.size() || system.ends.size() != system.springs.size())
+    archive.fail("columns of the body are not as long as each other");
+  for (const SpringEnds& ends : system.ends)
+    if (ends[0] >= v.size() || ends[1] >= v.size()) archive.fail("a spring ends at no vertex");
+  // a state that is none is found again by looking, which then changes nothing
+  start_ = has_start ? StepResult{} : detector_.system_changed(system, body_->motion());
+}
+
+}  // namespace dartboard

@@ -1,0 +1,223 @@
+// A run that is interrupted and gone on with ends in the bits of one that is not, and hands out the same.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/time/integrators.h"
+#include "core/time/solve/stop_request.h"
+#include "tests/support/moving_box.h"
+#include "tests/support/recorded_run.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+using namespace recorded;
+
+Json recorded_scene(Json scene) {
+  scene["output"] = Json::parse(R"({
+    "frames_every_steps": 3, "diagnostics_every_steps": 2, "probes_every_steps": 1,
+    "fields": ["held", "stress", "displacement", "springs"],
+    "probes": [{"name": "corner", "vertex": 0}, {"name": "inside", "near": [0.125, 0.125, 0.125]}]})");
+  return scene;
+}
+
+Json with_body(Json scene, const char* generate) {
+  scene["body"] = {{"generate", Json::parse(generate)}};
+  return scene;
+}
+
+/// After every step but the last.
+void expect_same_wherever_interrupted(const Json& json) {
+  const SceneFile scene = parse(recorded_scene(json));
+  const RecordedRun one = whole(scene);
+  for (std::uint64_t n = 1; n < one.simulation->step_count(); ++n) {
+    SCOPED_TRACE("interrupted after " + std::to_string(n));
+    expect_same(in_two(scene, n), one);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+// Cuts, tears, and cells drawn at random; slots of removed cells are used again by those that refinement makes.
+const char* const eventful = R"([
+  {"at": 0, "remove": {"ids": [7]}},
+  {"at": 0.002, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+  {"every": 0.003, "from": 0.001, "until": 0.009, "remove": {"random": {"count": 2, "seed": 5}}},
+  {"at": 0.004, "tear": {"vertex": 13, "direction": [1, 0, 0]}},
+  {"every": 0.0025, "until": 0.01, "refine": {"cells": {"random": {"count": 2, "seed": 9}}}},
+  {"at": 0.008, "dissociate": {"points": [[0, 1, 13], [13, 14, 26]]}},
+  {"at": 0.006, "remove": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}},
+  {"every": 0.002, "from": 0.003, "tear_where_stressed": {"threshold": 150}}])";
+
+TEST(ContinuedRun, OfABodyWithoutAMapIsTheSame) { expect_same_wherever_interrupted(moving_box()); }
+
+TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {
+  // what all of the following would be worth little without
+  const RecordedRun one = whole(parse(recorded_scene(with_events(moving_box(), eventful))));
+  ASSERT_FALSE(one.result.divergence);
+  ASSERT_GT(one.simulation->operations(), 30u);
+  ASSERT_GT(one.simulation->body().removed_mass(), 0.0);
+  ASSERT_EQ(one.simulation->idle_events(), std::vector<std::string>{"/events/6"});
+  expect_same_wherever_interrupted(with_events(moving_box(), eventful));
+}
+
+TEST(ContinuedRun, OfEventsAtTheirVeryTimesIsTheSame) {
+  Json scene = with_events(moving_box(), eventful);
+  scene["event_times"] = "exact";
+  for (Json& event : scene["events"])
+    for (const char* key : {"at", "from"})
+      if (event.contains(key)) event[key] = event[key].get<double>() + 0.0003;
+  expect_same_wherever_interrupted(scene);
+}
+
+TEST(ContinuedRun, OfMixedCellsIsTheSame) {
+  expect_same_wherever_interrupted(with_body(with_events(moving_box(), R"([
+    {"at": 0.002, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+    {"every": 0.002, "from": 0.001, "until": 0.01, "remove": {"random": {"count": 1}}},
+    {"at": 0.005, "tear": {"near": [0.125, 0.125, 0.125], "direction": [0, 1, 0]}}])"),
+                                             R"({"box": {"cells": [3, 3, 3], "spacing": 0.125, "kind": "mixed"}})"));
+}
+
+TEST(ContinuedRun, OfASurfaceIsTheSame) {
+  expect_same_wherever_interrupted(with_body(with_events(moving_box(), R"([
+    {"at": 0.003, "dissociate": {"plane": {"point": [0.2, 0, 0], "normal": [1, 0, 0]}}},
+    {"every": 0.002, "until": 0.01, "remove": {"random": {"count": 1}}}])"),
+                                             R"({"sheet": {"cells": [4, 4], "spacing": 0.125}})"));
+}
+
+TEST(ContinuedRun, OfAChainIsTheSame) {
+  Json scene = with_body(moving_box(), R"({"chain": {"links": 6, "spacing": 0.1}})");
+  scene["fixed"] = Json::parse(R"([{"ids": [0, 6]}])");
+  scene["events"] = Json::parse(R"([{"at": 0.005, "release": {"ids": [6]}}])");
+  expect_same_wherever_interrupted(scene);
+}
+
+TEST(ContinuedRun, OfDrivenAndReleasedVerticesIsTheSame) {
+  Json scene = moving_box();
+  scene["driven"] = Json::parse(R"([
+    {"plane": {"point": [0, 0, 0.25], "normal": [0, 0, 1]}, "velocity": [0, 0, 2], "from": 0.001, "until": 0.008,
+     "reverse_every": 0.002}])");
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}}])");
+  scene["events"] = Json::parse(R"([
+    {"at": 0.006, "release": {"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}}},
+    {"every": 0.002, "until": 0.01, "remove": {"random": {"count": 1}}}])");
+  expect_same_wherever_interrupted(scene);
+}
+
+TEST(ContinuedRun, OfADividedStepIsTheSame) {
+  Json scene = with_events(moving_box(), eventful);
+  scene["unstable_step"] = "substep";
+  scene["material"]["stiffness"] = 1e6;
+  ASSERT_GT(Simulation(parse(scene)).step_warning()->parts, 1u);
+  expect_same_wherever_interrupted(scene);
+}
+
+struct ContinuedRunBy : testing::TestWithParam<std::string_view> {};
+
+TEST_P(ContinuedRunBy, IsTheSame) {
+  Json scene = moving_box();
+  scene["integrator"] = GetParam();
+  expect_same_wherever_interrupted(scene);
+}
+
+// Whose factors are updated: their bits are not those of fresh ones.
+TEST_P(ContinuedRunBy, OfABodyThatIsCutIsTheSame) {
+  Json scene = with_events(moving_box(), eventful);
+  scene["integrator"] = GetParam();
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}}])");
+  expect_same_wherever_interrupted(scene);
+}
+
+std::vector<std::string_view> all_names() {
+  std::vector<std::string_view> names;
+  for (const IntegratorEntry& entry : integrators()) names.push_back(entry.name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(Every, ContinuedRunBy, testing::ValuesIn(all_names()));
+
+// ---- within a step
+
+int looks_left = 0;
+bool after_some_looks() { return --looks_left < 0; }
+
+TEST(ContinuedRun, IsTheSameWhereAStepWasGivenUp) {
+  Json json = with_events(moving_box(), eventful);
+  json["integrator"] = "bdf2";
+  const SceneFile scene = parse(recorded_scene(json));
+  const RecordedRun one = whole(scene);
+  int continued_runs = 0;
+  for (int looks = 0; looks < 40; ++looks) {
+    Simulation stopped(scene);
+    stopped.watch_events(true);
+    Record record;
+    looks_left = looks;
+    {
+      const StopRequest request(after_some_looks);
+      if (!run_scene(stopped, scene.output, record).interrupted) break;
+    }
+    // none where the step had a new factor already
+    if (!record.state) continue;
+    ASSERT_EQ(record.checkpoints, std::vector<std::uint64_t>{stopped.steps_done()});
+    ++continued_runs;
+    expect_same(continued(scene, std::move(record)), one);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(continued_runs, 10);
+}
+
+// ---- a run that diverges after it was continued
+
+TEST(ContinuedRun, GoesBackToTheStateThatTheWholeOneDoes) {
+  Json json = moving_box();
+  json["step"] = 1.01 * Simulation(parse(json)).step_limit().stable;
+  json["duration"] = 1e4 * json["step"].get<double>();
+  const SceneFile scene = parse(json);
+  const RecordedRun one = whole(scene);
+  ASSERT_TRUE(one.result.divergence);
+  ASSERT_GT(one.result.divergence->taken_back, 0u);
+  for (const std::uint64_t before : {1u, 2u, 7u, 40u, 100u})
+    expect_same(in_two(scene, one.result.divergence->step - before), one);
+}
+
+// ---- when checkpoints are left
+
+std::vector<std::uint64_t> checkpoints_of(const Json& output, std::optional<std::uint64_t> most_steps = {}) {
+  Json json = moving_box();
+  json["output"] = output;
+  const SceneFile scene = parse(json);
+  Simulation simulation(scene);
+  Record record;
+  run_scene(simulation, scene.output, record, most_steps);
+  return record.checkpoints;
+}
+using Steps = std::vector<std::uint64_t>;
+
+TEST(Checkpoints, AreLeftAtMultiplesOfTheKeyAndAtTheEnd) {
+  EXPECT_EQ(checkpoints_of({{"checkpoint", 0.003}}), (Steps{3, 6, 9, 10}));
+  EXPECT_EQ(checkpoints_of({{"checkpoint", 0.005}}), (Steps{5, 10}));
+  EXPECT_EQ(checkpoints_of({{"checkpoint", 0.003}}, 4), (Steps{3, 4}));
+  EXPECT_EQ(checkpoints_of({{"checkpoint", 1.0}}), Steps{10});
+}
+
+TEST(Checkpoints, AreNotLeftWithoutTheKey) {
+  EXPECT_EQ(checkpoints_of(Json::object()), Steps{});
+  EXPECT_EQ(checkpoints_of(Json::object(), 4), Steps{});
+}
+
+TEST(ContinuedRun, FromACheckpointOfTheKeyIsTheSame) {
+  Json json = recorded_scene(with_events(moving_box(), eventful));
+  json["output"]["checkpoint"] = 0.003;
+  const SceneFile scene = parse(json);
+  const RecordedRun one = whole(scene);
+  for (const std::uint64_t most : {3u, 4u, 7u, 9u}) {
+    Simulation first(scene);
+    first.watch_events(true);
+    Record record;
+    run_scene(first, scene.output, record, most);
+    expect_same(continued(scene, std::move(record)), one);
+  }
+}
+
+}  // namespace
+}  // namespace dartboard
