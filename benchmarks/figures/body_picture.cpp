@@ -102,13 +102,27 @@ std::vector<Vector2d> widened(const std::vector<Vector2d>& line, double half_wid
   return {line[0] + aside, line[1] + aside, line[1] - aside, line[0] - aside};
 }
 
-Box box_of(const BodyPanel& panel) {
+}  // namespace
+
+Box seen_box(const BodyPanel& panel) {
   Box box;
   for (const Vector3d& x : panel.frame.mesh.points) box.extend(seen(x));
   return box;
 }
 
-}  // namespace
+std::string polygons_of(std::span<const DrawnFacet> facets, const Vector2d& shift, double pixels) {
+  std::string data;
+  for (const DrawnFacet& facet : facets) {
+    if (facet.corners.size() == 2) {
+      data += moved_corners(widened(facet.corners, 2.0 / pixels), shift, 0.5 / pixels, shaded(facet.colour, 0.72));
+      continue;
+    }
+    // the facet, in a darker colour and over the seams to its neighbours, then its inner part
+    data += moved_corners(facet.corners, shift, 0.4 / pixels, shaded(facet.colour, 0.72));
+    data += moved_corners(facet.corners, shift, -0.9 / pixels, facet.colour);
+  }
+  return data;
+}
 
 std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Vector3d& up_now) {
   std::vector<BodyPanel> turned(panels.begin(), panels.end());
@@ -161,7 +175,7 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
   Vector2d largest(0, 0);
   for (const BodyPanel& panel : panels) {
     if (panel.frame.mesh.points.empty()) continue;
-    const Box box = box_of(panel);
+    const Box box = seen_box(panel);
     all.extend(box);
     largest = largest.cwiseMax(box.sizes());
   }
@@ -179,17 +193,9 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const BodyPanel& panel = panels[k];
     const bool empty = panel.frame.mesh.points.empty();
-    const Vector2d centre = follow && !empty ? box_of(panel).center() : all.center();
+    const Vector2d centre = follow && !empty ? seen_box(panel).center() : all.center();
     const Vector2d shift(static_cast<double>(k) * size.x() - centre.x(), -centre.y());
-    for (const DrawnFacet& facet : drawn_facets(panel, panels[0])) {
-      if (facet.corners.size() == 2) {
-        data += moved_corners(widened(facet.corners, 2.0 / pixels), shift, 0.5 / pixels, shaded(facet.colour, 0.72));
-        continue;
-      }
-      // the facet, in a darker colour and over the seams to its neighbours, then its inner part
-      data += moved_corners(facet.corners, shift, 0.4 / pixels, shaded(facet.colour, 0.72));
-      data += moved_corners(facet.corners, shift, -0.9 / pixels, facet.colour);
-    }
+    data += polygons_of(drawn_facets(panel, panels[0]), shift, pixels);
     labels +=
         fmt::format("set label {} {} at {:.6g},graph 0.02 center font \",13\"\n", k + 1,
                     gnuplot_string(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),

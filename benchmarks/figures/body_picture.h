@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of a body as it moves: what a scene did, seen from the side, drawn by gnuplot.
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -36,6 +37,12 @@ std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Eigen::V
 /// What is seen of a body from the front, a little from the right and above, z upwards: its boundary, the farthest
 /// facet first. Each component has a colour of its own, and facets that were inside the body of `first` another one.
 std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first);
+
+/// What a body takes up in the plane of the picture [m]; empty for an empty body.
+Eigen::AlignedBox2d seen_box(const BodyPanel& panel);
+
+/// Facets as gnuplot's polygons, each with a darker rim, moved by `shift` [m], for so many pixels per metre.
+std::string polygons_of(std::span<const DrawnFacet> facets, const Eigen::Vector2d& shift, double pixels);
 
 /// Draw bodies side by side at one scale, each with its time; `name`.png, `name`.svg, and the data and script they are
 /// drawn from.

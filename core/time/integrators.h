@@ -6,12 +6,15 @@
 #include <string_view>
 
 #include "core/time/method/integrator.h"
+#include "core/time/solve/step_solver.h"
 
 namespace dartboard {
 
 struct IntegratorEntry {
   std::string_view name;  // that of its scheme
   std::unique_ptr<Integrator> (*make)();
+  /// With another linear solver than its own; null for explicit methods, and where the method is its solver.
+  std::unique_ptr<Integrator> (*make_with)(LinearSolver solver) = nullptr;
 };
 
 /// From the simplest to the most elaborate.
@@ -19,5 +22,19 @@ std::span<const IntegratorEntry> integrators();
 
 /// throws  InputError for a name that is not in the table; the message lists those that are
 std::unique_ptr<Integrator> make_integrator(std::string_view name);
+
+struct SolverEntry {
+  std::string_view name;
+  LinearSolver solver;
+};
+
+/// The linear solvers that a user can choose from.
+std::span<const SolverEntry> linear_solvers();
+
+/// With a linear solver by name, or with its own where that is empty.
+///
+/// throws  InputError for names that are not there, and for an integrator that has no choice; the message lists those
+///         that have
+std::unique_ptr<Integrator> make_integrator(std::string_view name, std::string_view solver);
 
 }  // namespace dartboard

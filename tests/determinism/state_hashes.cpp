@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "core/mechanics/fracture/seam.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/fracture/tearing.h"
@@ -219,7 +219,7 @@ std::uint64_t cut_mesh(Mesh mesh, const Vector3d& point) {
 // The paper's body under the paper's integrator.
 template <class Map, Held held, class Walk>
 std::uint64_t liver() {
-  const Problem problem = scene("liver").make();
+  const Problem problem = paper_body("liver").make();
   auto body = build_body<Map, held>(problem);
   Walk walk;
   if constexpr (requires { walk.rebuild(body); }) walk.rebuild(body);

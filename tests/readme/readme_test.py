@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Is README.md true? Its table against the run it cites, its links, its scene with what it prints, and its program.
+"""Are README.md and the page of the first scene true? Tables against the run they cite, links, scenes with what they print,
+and the program.
 
     readme_test.py PROGRAM BUILD_FOLDER
 
@@ -26,11 +27,17 @@ def text_of(*path):
 README = text_of("README.md")
 
 
-def block(language):
+def block(language, page=README):
     """What stands in the one block of a language."""
-    found = re.findall("^```%s\n(.*?)^```$" % language, README, re.M | re.S)
-    assert len(found) == 1, "README has %d blocks of %s" % (len(found), language)
+    found = re.findall("^```%s\n(.*?)^```$" % language, page, re.M | re.S)
+    assert len(found) == 1, "there are %d blocks of %s" % (len(found), language)
     return found[0]
+
+
+def commands_of(page):
+    """Each command, and the lines that stand below it."""
+    return [(command, [line.strip() for line in printed.splitlines()])
+            for command, printed in re.findall(r"^    \$ (.*?)\n((?:    [^$\n].*\n)*)", page, re.M)]
 
 
 def rows_of(table_text):
@@ -65,20 +72,19 @@ class Readme(unittest.TestCase):
 
     def test_links_lead_somewhere(self):
         for page in ["README.md", "HACKING.md", "results/README.md", "core/README.md", "reference/README.md",
-                     "validation/README.md", "benchmarks/README.md", "tests/README.md"]:
+                     "validation/README.md", "benchmarks/README.md", "tests/README.md", "core/scene/first_scene.md"]:
             for link in re.findall(r"\]\(([^)#]+)\)", re.sub(r"```.*?```", "", text_of(page), flags=re.S)):
                 if not link.startswith("http"):
                     self.assertTrue(os.path.exists(os.path.join(ROOT, os.path.dirname(page), link)), page + ": " + link)
 
     def test_scene_prints_what_stands_below_its_command(self):
-        commands = re.findall(r"^    \$ \./dartboard (.*?)\n((?:    [^$\n].*\n)*)", README, re.M)
-        command, printed = next((c, p) for c, p in commands if c.startswith("simulate"))
+        command, printed = next((c, p) for c, p in commands_of(README) if c.startswith("./dartboard simulate"))
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "beam.json"), "w", encoding="utf-8") as file:
                 file.write(block("json"))
-            answer = subprocess.run([PROGRAM] + command.split(), cwd=folder, capture_output=True, text=True, check=True)
-            for line in printed.splitlines():
-                self.assertIn(line.strip(), answer.stdout)
+            answer = subprocess.run([PROGRAM] + command.split()[1:], cwd=folder, capture_output=True, text=True, check=True)
+            for line in printed:
+                self.assertIn(line, answer.stdout)
             self.assertTrue(os.path.exists(os.path.join(folder, "beam", "picture.png")))
 
     def test_program_is_built_from_any_folder_and_cuts(self):
@@ -122,6 +128,26 @@ class Readme(unittest.TestCase):
                 self.assertNotIn(flag, mine)
             rooms = {name.split("/")[0] for name in commands if not name.startswith("..")}
             self.assertEqual(rooms, {"core"})
+
+
+class FirstScene(unittest.TestCase):
+    def test_is_run_from_the_mesh_to_the_picture(self):
+        page = text_of("core", "scene", "first_scene.md")
+        programs = {"python3": sys.executable, "./dartboard": PROGRAM}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, language in (("mesh.py", "python"), ("cloth.json", "json")):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(block(language, page))
+            commands = commands_of(page)
+            self.assertEqual(len(commands), 4)
+            for command, printed in commands:
+                words = command.split()
+                answer = subprocess.run([programs[words[0]]] + words[1:], cwd=folder, capture_output=True, text=True)
+                self.assertEqual(answer.returncode, 0, answer.stderr)
+                said = [" ".join(line.split()) for line in answer.stdout.splitlines()]
+                for line in printed:
+                    self.assertIn(" ".join(line.split()), said, command)
+            self.assertTrue(os.path.exists(os.path.join(folder, "cloth", "picture.png")))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
   const Storage storage = plan.needs.body.storage;
   const bool tetrahedra = storage == Storage::tetrahedra;
   const std::size_t dimension = storage == Storage::surface ? 2 : 3;
-  SystemArrays arrays(problem, n);
+  SystemArrays arrays(problem);
   switch (item.part) {
     case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
     // three are in use at once while a body is built: those of a coverage, of a cell met by it, of the cells around

@@ -121,7 +121,9 @@ std::string_view name(Confidence confidence) {
 }
 
 std::unique_ptr<Integrator> Candidate::make() const {
-  return make_integrator(std::string_view(contender).substr(0, contender.find(',')));
+  std::string_view name = contender;
+  if (adaptive) name.remove_suffix(std::string_view("-adaptive").size());
+  return make_integrator(name);
 }
 
 RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s, double stability) {

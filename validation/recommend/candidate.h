@@ -39,7 +39,7 @@ std::string_view name(Confidence confidence);
 
 /// What is predicted of one method.
 struct Candidate {
-  std::string contender;  // as in tradeoff_contenders(): "rk4", "dormand-prince-54, adaptive"
+  std::string contender;  // as in tradeoff_contenders(): "rk4", "dormand-prince-54-adaptive"
   bool implicit = false, adaptive = false;
   std::string pruned;    // why it was left out before or after its pilots; empty when it was not
   bool untried = false;  // because there was no time left for pilots: nothing is known against it

@@ -173,7 +173,7 @@ class Search {
   void try_adaptive(const Scheme& scheme) {
     constexpr double hope = 3.0;
     Candidate c = begin(scheme);
-    c.contender = fmt::format("{}, adaptive", scheme.name);
+    c.contender = fmt::format("{}-adaptive", scheme.name);
     c.adaptive = true;
     c.limit_h = infinity;
     const auto fixed = std::ranges::find(r_.candidates, scheme.name, &Candidate::contender);

@@ -10,10 +10,6 @@
 #include "core/plain/median.h"
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
-#include "core/time/implicit/baraff_witkin.h"
-#include "core/time/implicit/one_stage.h"
-#include "core/time/implicit/ros2.h"
-#include "core/time/implicit/sdirk2.h"
 #include "core/time/integrators.h"
 #include "validation/tradeoff/cvode_adams.h"
 
@@ -22,15 +18,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-template <class T>
 void add_solvers(std::vector<TradeoffContender>& contenders, std::string_view name) {
-  for (const auto& [solver, label] : {std::pair(LinearSolver::fresh_factor, "fresh factor"),
-                                      std::pair(LinearSolver::conjugate_gradients, "conjugate gradients")}) {
-    ImplicitOptions options;
-    options.solver = solver;
+  for (const std::string_view solver : {"fresh-factor", "conjugate-gradients"})
     contenders.push_back(
-        {fmt::format("{}, {}", name, label), [options] { return std::make_unique<T>(options); }, false, false});
-  }
+        {fmt::format("{}-{}", name, solver), [name, solver] { return make_integrator(name, solver); }, false, false});
 }
 
 bool is_useful(const WorkPoint& p) { return p.standing != Standing::failed && p.standing != Standing::useless; }
@@ -94,14 +85,11 @@ std::vector<TradeoffContender> tradeoff_contenders(bool solvers) {
   for (const IntegratorEntry& entry : integrators())
     if (!entry.make()->scheme().compensated) contenders.push_back({std::string(entry.name), entry.make, false, false});
   if (solvers) {
-    add_solvers<BackwardEuler>(contenders, "backward-euler");
-    add_solvers<BaraffWitkin>(contenders, "baraff-witkin");
-    add_solvers<Ros2>(contenders, "ros2");
-    add_solvers<Sdirk2>(contenders, "sdirk2");
+    for (const char* name : {"backward-euler", "baraff-witkin", "ros2", "sdirk2"}) add_solvers(contenders, name);
   }
   for (const IntegratorEntry& entry : integrators())
     if (dynamic_cast<AdaptiveIntegrator*>(entry.make().get()) != nullptr)
-      contenders.push_back({fmt::format("{}, adaptive", entry.name), entry.make, true, false});
+      contenders.push_back({fmt::format("{}-adaptive", entry.name), entry.make, true, false});
   if (CvodeAdams::available())
     contenders.push_back({"cvode-adams", [] { return std::make_unique<CvodeAdams>(); }, true, true});
   return contenders;

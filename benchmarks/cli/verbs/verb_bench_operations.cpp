@@ -4,7 +4,7 @@
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/operations/bench_operations_study.h"
 #include "benchmarks/studies/operations/operation_study.h"
 
@@ -39,7 +39,7 @@ void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto options =
       study_options(*verb, {.quick = "small bodies, fewer processes", .seed = "the places of the operations"});
   verb->callback([options, &outcome] {
-    RunFacts facts{.seeds = {{"places of operations", options->seed}}, .input_files = {scene("liver").mesh}};
+    RunFacts facts{.seeds = {{"places of operations", options->seed}}, .input_files = {paper_body("liver").mesh}};
     run_study(
         *options, {.label = "operations", .facts = facts},
         [&](StudyLog& log) {

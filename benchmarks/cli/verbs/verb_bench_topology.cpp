@@ -5,7 +5,7 @@
 
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/topology/bench_topology_study.h"
 #include "reference/cgal/cgal_body.h"
 
@@ -43,7 +43,7 @@ void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of tasks, random faces", options->seed}},
                    .libraries = {{"CGAL", reference::cgal_version()}},
-                   .input_files = {scene("liver").mesh}};
+                   .input_files = {paper_body("liver").mesh}};
     run_study(
         *options, {.label = "topology", .facts = facts},
         [&](StudyLog& log) {

@@ -33,7 +33,7 @@ struct Options {
 /// clocks are raised or neighbours work, so an estimate and a run are compared at one speed.
 class Pace {
  public:
-  Pace(const Problem& problem, const MeshTally& counts) : arrays_(problem, counts), a_(arrays_.x.size()) {}
+  explicit Pace(const Problem& problem) : arrays_(problem), a_(arrays_.x.size()) {}
 
   /// [ns] of one, now.
   double ns() {
@@ -74,7 +74,7 @@ void explain(const Options& options, Outcome& outcome) {
   const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
-  Pace pace(problem, plan.counts);
+  Pace pace(problem);
   const double before = pace.ns();
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
   const double estimated_at = (before + pace.ns()) / 2;

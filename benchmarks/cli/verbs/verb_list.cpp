@@ -7,8 +7,8 @@
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/paper/paper_claims.h"
-#include "benchmarks/paper/scenes.h"
 #include "core/scene/file/scene_file.h"
 #include "core/time/integrators.h"
 #include "validation/contenders/contenders.h"
@@ -33,7 +33,8 @@ std::vector<Entry> scene_entries() {
   }
   for (const TradeoffEntry& s : tradeoff_scenes())
     entries.push_back({std::string(s.name), std::string(s.what), "tradeoff, recommend"});
-  for (const Scene& s : scenes()) entries.push_back({s.name, s.what, "reproduce, bench (no need to name it)"});
+  for (const PaperBody& s : paper_bodies())
+    entries.push_back({s.name, s.what, "reproduce, bench (no need to name it)"});
   return entries;
 }
 

@@ -10,7 +10,7 @@
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/reproduce/measure.h"
 #include "core/plain/error.h"
 #include "validation/contenders/contenders.h"
@@ -32,7 +32,7 @@ void add_measure(CLI::App& app, Outcome&) {
   verb->add_option("--seed", options->paired.seed);
   verb->add_option("CONTENDER:STEPS", options->tasks)->required();
   verb->callback([options] {
-    const Problem problem = scene(options->scene).make();
+    const Problem problem = paper_body(options->scene).make();
     std::vector<std::unique_ptr<ContenderBody>> simulations;
     std::vector<TimedTask> tasks;
     std::map<std::string, int> steps_of;

@@ -2,7 +2,7 @@
 
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/reproduce/reproduce_study.h"
 #include "reference/cgal/cgal_body.h"
 
@@ -24,7 +24,7 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of tasks", options->seed}},
                    .libraries = {{"CGAL", reference::cgal_version()}},
-                   .input_files = {scene("liver").mesh}};
+                   .input_files = {paper_body("liver").mesh}};
     run_study(
         *options, {.label = options->quick ? "quick" : "reproduce", .facts = facts},
         [&](StudyLog& log) {

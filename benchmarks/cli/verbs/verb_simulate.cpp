@@ -13,6 +13,7 @@
 #include "benchmarks/cli/scene_names.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/figures/album.h"
+#include "benchmarks/figures/film.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/manifest.h"
@@ -36,7 +37,7 @@ namespace {
 
 struct Options {
   std::string scene, out, continued;
-  bool json = false, quick = false, picture = false;
+  bool json = false, quick = false, picture = false, film = false;
   std::optional<std::uint64_t> steps, seed;
 
   std::optional<std::uint64_t> most_steps() const {
@@ -48,12 +49,13 @@ struct Options {
 class Watcher : public RunWatcher {
  public:
   /// `notes` are for checkpoints.
-  Watcher(const SceneFile& scene, std::string notes, SceneOutput* output, Album* album, Progress& progress,
+  Watcher(const SceneFile& scene, std::string notes, SceneOutput* output, Album* album, Film* film, Progress& progress,
           std::uint64_t steps_per_report)
       : scene_(scene),
         notes_(std::move(notes)),
         output_(output),
         album_(album),
+        film_(film),
         progress_(progress),
         steps_per_report_(steps_per_report) {}
   void frame(const Frame& frame) override {
@@ -73,6 +75,7 @@ class Watcher : public RunWatcher {
   bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     if (album_ != nullptr) album_->stepped(simulation);
+    if (film_ != nullptr) film_->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
@@ -85,6 +88,7 @@ class Watcher : public RunWatcher {
   std::string notes_;
   SceneOutput* output_;
   Album* album_;
+  Film* film_;
   Progress& progress_;
   std::uint64_t steps_per_report_;
   std::optional<std::uint64_t> left_after_;
@@ -185,6 +189,8 @@ void simulate(const Options& options, Outcome& outcome) {
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
   std::optional<Album> album;
   if (options.picture) album.emplace(simulation, steps);
+  std::optional<Film> film;
+  if (options.film) film.emplace(simulation, steps, -scene.gravity);
   RunResult result;
   std::optional<std::uint64_t> left_after;
   // of the whole process: long factorisations have a thread of their own
@@ -192,7 +198,7 @@ void simulate(const Options& options, Outcome& outcome) {
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
     Watcher watcher(scene, settled ? nlohmann::json(*settled).dump() : "", output ? &*output : nullptr,
-                    album ? &*album : nullptr, progress, steps_per_report);
+                    album ? &*album : nullptr, film ? &*film : nullptr, progress, steps_per_report);
     const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps(),
                        start.checkpoint ? &start.checkpoint->progress() : nullptr);
@@ -234,6 +240,13 @@ void simulate(const Options& options, Outcome& outcome) {
     report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
     picture_missing(outcome, trouble);
   }
+  if (film) {
+    film->ended(simulation);
+    const std::string trouble = draw_film(film->frames(), scene.name, output->folder(), "film");
+    report.picture +=
+        fmt::format("{}{}", report.picture.empty() ? "" : "\n", trouble.empty() ? "film.gif drawn there." : trouble);
+    picture_missing(outcome, trouble);
+  }
   if (output) {
     write_whole(output->folder() / "summary.json", json_text(to_json(report), 2) + "\n");
     finish_manifest(manifest);
@@ -262,6 +275,7 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
       "its scene asks for (output.checkpoint): what is written in the end has the bits of one run, but for the times it took");
   continued->excludes(scene)->excludes(out);
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
+  verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder")->needs(out);
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);

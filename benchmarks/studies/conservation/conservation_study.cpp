@@ -40,8 +40,8 @@ Session session(std::string name, std::string storage, Mesh mesh, const Material
   return {std::move(problem), validate, std::move(body)};
 }
 
-// The liver's material of benchmarks/paper/scenes.cpp. None of its damping, nor the volumes of a mesh, is a power of
-// two.
+// The liver's material of benchmarks/paper/paper_bodies.cpp. None of its damping, nor the volumes of a mesh, is a power
+// of two.
 constexpr Material soft{.density = 1000.0, .stiffness = 5.0, .damping = 0.005, .viscosity = 0.5};
 
 // A box where masses and stiffnesses are powers of two: the volume of its tetrahedra is (2^-3)^3 / 6, rounded; 768 is

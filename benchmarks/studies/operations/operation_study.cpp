@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "benchmarks/harness/clock.h"
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/refine.h"
@@ -254,7 +254,7 @@ const std::vector<std::string>& operation_bodies() {
 }
 
 Problem operation_problem(const std::string& body) {
-  if (body == "liver564") return scene("liver").make();
+  if (body == "liver564") return paper_body("liver").make();
   const auto tetrahedra = std::strtod(body.c_str() + std::string("kuhn-").size(), nullptr);
   const int n = static_cast<int>(std::lround(std::cbrt(tetrahedra / 6.0)));
   Problem problem;

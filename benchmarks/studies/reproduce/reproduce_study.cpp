@@ -6,7 +6,7 @@
 #include <iterator>
 #include <vector>
 
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/extremes/extremes_study.h"
 #include "benchmarks/studies/reproduce/measure.h"
 #include "benchmarks/studies/reproduce/reproduce_report.h"
@@ -19,7 +19,7 @@ const std::string body = "liver";
 
 /// The paper's walks, gated and timed, and its claims.
 Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
-  const Problem problem = scene(body).make();
+  const Problem problem = paper_body(body).make();
   ReproduceResults results;
   results.quick = plan.quick;
   results.counts = compare_counts(problem);

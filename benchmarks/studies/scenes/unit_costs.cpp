@@ -58,15 +58,14 @@ std::vector<double> costs_of(std::vector<std::function<void()>> calls) {
 }
 
 /// A step on arrays of its own, from the same state every few steps, so that none runs away.
-std::function<void()> stepper(const std::string& name, const SpringSystem& system, const SystemArrays& start,
-                              double h) {
+std::function<void()> stepper(const SceneFile& scene, const SpringSystem& system, const SystemArrays& start) {
   struct State {
     std::unique_ptr<Integrator> integrator;
     std::vector<Eigen::Vector3d> x, v;
     int steps = 0;
   };
-  const auto state = std::make_shared<State>(State{make_integrator(name), start.x, start.v});
-  return [state, system, &start, h] {
+  const auto state = std::make_shared<State>(State{make_integrator(scene.integrator, scene.solver), start.x, start.v});
+  return [state, system, &start, h = scene.step] {
     if (state->steps++ % 64 == 0) {
       std::ranges::copy(start.x, state->x.begin());
       std::ranges::copy(start.v, state->v.begin());
@@ -79,10 +78,10 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
   const SpringSystem whole = arrays.system();
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   if (scheme.implicit) {
-    costs.solver = cost_of(stepper(scene.integrator, whole, arrays, scene.step));
+    costs.solver = cost_of(stepper(scene, whole, arrays));
   } else {
     std::vector<UndampedSpring> undamped;
-    for (const Spring& spring : arrays.springs) undamped.push_back({spring.rest_length, spring.stiffness});
+    for (const Spring spring : whole.springs) undamped.push_back({spring.rest_length, spring.stiffness});
     std::vector<Eigen::Vector3d> a(arrays.x.size());
     SpringSystem system = whole;
     system.springs = undamped;
@@ -90,12 +89,12 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
     system.fixed = {};
     // term after term, from none to all
     std::vector<std::function<void()>> calls{[&, system] { accelerations(system, {}, arrays.x, arrays.v, a); },
-                                             stepper(scene.integrator, system, arrays, scene.step)};
+                                             stepper(scene, system, arrays)};
     std::vector<double UnitCosts::*> terms;
     const auto add = [&](bool present, double UnitCosts::*cost) {
       if (!present) return;
       terms.push_back(cost);
-      calls.push_back(stepper(scene.integrator, system, arrays, scene.step));
+      calls.push_back(stepper(scene, system, arrays));
     };
     system.fixed = whole.fixed;
     add(!whole.fixed.empty(), &UnitCosts::fixed);
@@ -273,7 +272,7 @@ UnitCosts step_costs(double evaluations, std::vector<double> ns, std::span<doubl
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
   UnitCosts costs;
   if (plan.counts.edges == 0) return costs;
-  SystemArrays arrays(problem, plan.counts);
+  SystemArrays arrays(problem);
   measure_step(costs, scene, arrays);
   measure_output(costs, scene, problem, plan);
   if (!scene.events.empty()) measure_events(costs, scene, problem, plan);

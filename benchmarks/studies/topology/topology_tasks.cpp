@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 #include "core/mechanics/embedding.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
@@ -185,7 +185,7 @@ void TopologyStage::add(const std::string& name, const TopologyWork& work, std::
 }
 
 Mesh topology_mesh(const std::string& body) {
-  return body == "liver564" ? scene("liver").make().mesh : kuhn_box(20, 20, 20, 0.1);
+  return body == "liver564" ? paper_body("liver").make().mesh : kuhn_box(20, 20, 20, 0.1);
 }
 
 TopologyStage make_topology_stage(const std::string& body, std::uint64_t seed) {

@@ -37,14 +37,16 @@ Look look_of(const std::string& contender, std::size_t number) {
       {"cvode-adams", {"#000000", 13}},
   };
   static const std::array<std::string, 4> others{"#3b6e22", "#a03070", "#306090", "#906030"};
-  const std::string base = contender.substr(0, contender.find(','));
+  std::string base = contender;
+  for (const char* variant : {"-fresh-factor", "-conjugate-gradients", "-adaptive"})
+    if (base.ends_with(variant)) base.resize(base.rfind(variant));
   const auto found = known.find(base);
   Look look = found != known.end() ? found->second : Look{others[number % others.size()], 7};
   // the linear solver shows in symbol and line: a cross and dashes, a star and dots
-  if (contender.ends_with("fresh factor")) {
+  if (contender.ends_with("-fresh-factor")) {
     look.variant = 1;
     look.dash = "-";
-  } else if (contender.ends_with("conjugate gradients")) {
+  } else if (contender.ends_with("-conjugate-gradients")) {
     look.variant = 3;
     look.dash = ".";
   } else if (base != contender) {

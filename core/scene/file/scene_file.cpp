@@ -18,6 +18,7 @@
 #include "core/scene/file/scene_check.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/file/strict_json.h"
+#include "core/time/integrators.h"
 
 namespace dartboard {
 namespace {
@@ -58,10 +59,12 @@ class Reader {
     for (std::size_t k = 0; k < json.at("driven").size(); ++k)
       scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
     scene.integrator = json.value("integrator", scene.accuracy ? "" : standard_integrator);
+    scene.solver = json.value("solver", "");
     const Json& unstable = json.at("unstable_step");
     scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
                           : unstable == "substep" ? UnstableStep::substep
                                                   : UnstableStep::warn;
+    scene.exact_events = json.at("event_times") == "exact";
     for (std::size_t k = 0; k < json.at("events").size(); ++k)
       scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
     require_consistent(scene);
@@ -183,6 +186,10 @@ class Reader {
     }
     if (json.contains("sphere"))
       return SphereSelection{point(json.at("sphere").at("centre")), json.at("sphere").at("radius")};
+    if (json.contains("around")) {
+      const Json& around = json.at("around");
+      return AroundSelection{{points(around.at("path")), point(around.at("depth"))}, around.at("distance")};
+    }
     if (!json.contains("box")) return {};
     const BoxSelection box{point(json.at("box").at("min")), point(json.at("box").at("max"))};
     for (int k = 0; k < 3; ++k)
@@ -303,6 +310,17 @@ class Reader {
   // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex that it puts between driven
   // ones would have no path of its own, and one between fixed ones would be let go by nobody.
   void require_consistent(const SceneFile& scene) const {
+    if (!scene.solver.empty()) {
+      if (scene.integrator.empty())
+        fail("/solver", fmt::format("is \"{}\" beside no 'integrator'", scene.solver), "an implicit one to be named");
+      try {
+        make_integrator(scene.integrator, scene.solver);
+      } catch (const InputError& error) {
+        fail("/solver", error.what(), "one of those as 'integrator', or no 'solver'");
+      }
+    }
+    if (scene.exact_events && !scene.driven.empty())
+      fail("/event_times", "is \"exact\" beside /driven, which turns at steps alone", "\"steps\"");
     if (scene.accuracy) {
       // a step is found by comparison with references, which know neither
       const char* unknown = scene.is_chain() ? "/body/generate/chain" : scene.driven.empty() ? nullptr : "/driven";

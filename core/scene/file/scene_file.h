@@ -170,7 +170,9 @@ struct SceneFile {
   std::optional<double> accuracy;  // [mean edge lengths]
   double duration = 0.0;           // [s]
   std::string integrator;          // empty until then
+  std::string solver;              // of linear systems; empty for the integrator's own
   UnstableStep unstable_step;
+  bool exact_events = false;  // events happen at their times, not at the step boundaries after them
   std::vector<SceneEvent> events;
   OutputPlan output;
   std::vector<Probe> probes;

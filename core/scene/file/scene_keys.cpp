@@ -16,6 +16,12 @@ constexpr Range exact_integer{.least = 0.0,
                               .most = 9007199254740991.0};  // 2^53 - 1: every reader of JSON has it exactly
 constexpr Range count_from_1{.least = 1.0, .most = 4294967294.0};
 
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names;
+  for (const SolverEntry& entry : linear_solvers()) names.emplace_back(entry.name);
+  return names;
+}
+
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
   for (const IntegratorEntry& entry : integrators()) names.emplace_back(entry.name);
@@ -54,11 +60,19 @@ std::vector<SceneKey> make_keys() {
       {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
        .help = "how the equations of motion are integrated; left out, 'rk4', or with an accuracy the cheapest that is "
                "expected to meet it"},
+      {.shape = scene, .name = "solver", .type = choice, .choices = solver_names(),
+       .help = "how an implicit integrator solves its linear systems: with a factor that is kept for as long as it "
+               "serves, which is the cheapest as a rule and what it does where this is left out; with a new one for each "
+               "system, the most robust; or without, by conjugate gradients, which takes the least memory"},
       {.shape = scene, .name = "unstable_step", .type = choice, .choices = {"warn", "refuse", "substep"},
        .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
                                        "each event: say so, refuse the scene (after an event: stop), or divide it"},
       {.shape = scene, .name = "events", .type = objects, .of = event, .standard = "[]",
        .help = "what happens to the body; those due at one time happen in this order"},
+      {.shape = scene, .name = "event_times", .type = choice, .choices = {"steps", "exact"}, .standard = "\"steps\"",
+       .help = "when events happen: at the first multiple of the step that is not before their time, which is cheap and "
+               "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "
+               "another from there, so that the integrator keeps its order through them; not with driven vertices"},
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},
       {.shape = scene, .name = "expect", .type = object, .of = expect, .standard = "{}",
        .help = "what must be true at the end, so that the scene is its own test"},
@@ -143,12 +157,14 @@ std::vector<SceneKey> make_keys() {
       {.shape = vertex_selection, .name = "plane", .type = object, .of = plane,
        .help = "the vertices on a plane or on the side that its normal points to"},
       {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
+      {.shape = vertex_selection, .name = "around", .type = object, .of = around, .help = "the vertices near a path, or near what a blade sweeps"},
       {.shape = driven, .name = "ids", .type = integers, .range = number,
        .help = "these points of the mesh, counted from 0 in the order of the file"},
       {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
       {.shape = driven, .name = "plane", .type = object, .of = plane,
        .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
       {.shape = driven, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere at rest"},
+      {.shape = driven, .name = "around", .type = object, .of = around, .help = "the vertices that at rest are near a path, or near what a blade sweeps"},
       {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
        .help = "that they keep, one for all or linear in their place at rest"},
       {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
@@ -165,6 +181,7 @@ std::vector<SceneKey> make_keys() {
        .help = "the cells with their centroid on a plane or on the side that its normal points to"},
       {.shape = cell_selection, .name = "sphere", .type = object, .of = sphere,
        .help = "the cells with their centroid in a sphere"},
+      {.shape = cell_selection, .name = "around", .type = object, .of = around, .help = "the cells with their centroid near a path, or near what a blade sweeps: refine them before a cut for a smoother one"},
       {.shape = cell_selection, .name = "random", .type = object, .of = random, .help = "cells drawn at random"},
       {.shape = box, .name = "min", .type = point, .unit = "m", .required = true, .help = "the lowest corner"},
       {.shape = box, .name = "max", .type = point, .unit = "m", .required = true, .help = "the highest corner"},
@@ -174,6 +191,12 @@ std::vector<SceneKey> make_keys() {
       {.shape = sphere, .name = "centre", .type = point, .unit = "m", .required = true, .help = "its centre"},
       {.shape = sphere, .name = "radius", .type = real, .unit = "m", .range = not_negative, .required = true,
        .help = "its radius"},
+      {.shape = around, .name = "path", .type = points, .unit = "m", .least_size = 2, .required = true,
+       .help = "the points that it goes by, on straight lines"},
+      {.shape = around, .name = "depth", .type = point, .unit = "m", .standard = "[0, 0, 0]",
+       .help = "how far, and which way, a blade reaches from the path"},
+      {.shape = around, .name = "distance", .type = real, .unit = "m", .range = not_negative, .required = true,
+       .help = "how far from it"},
       {.shape = random, .name = "count", .type = integer, .range = count_from_1, .required = true,
        .help = "how many; all when fewer remain"},
       {.shape = random, .name = "seed", .type = integer, .range = exact_integer, .standard = "1",
@@ -215,6 +238,7 @@ std::vector<SceneKey> make_keys() {
        .help = "a polygon, looked at along the plane's normal; its corners in turn"},
       {.shape = within, .name = "box", .type = object, .of = box, .help = "a box"},
       {.shape = within, .name = "sphere", .type = object, .of = sphere, .help = "a sphere"},
+      {.shape = within, .name = "around", .type = object, .of = around, .help = "all that is near a path, or near what a blade sweeps"},
       {.shape = tear, .name = "vertex", .type = integer, .range = number,
        .help = "at this point of the mesh, counted from 0 in the order of the file"},
       {.shape = tear, .name = "near", .type = point, .unit = "m", .help = "at the vertex nearest to this place"},
@@ -328,6 +352,7 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::box, "box", "A box with faces across the axes, its surface included."},
       {Shape::plane, "plane", "A plane; its positive side is where the normal points to."},
       {Shape::sphere, "sphere", "A ball, its surface included."},
+      {Shape::around, "around", "What is within a distance of a path, or of what a blade sweeps along it."},
       {Shape::random, "random", "A number of cells, each subset of that size as likely."},
       {Shape::event, "event",
        "What happens, and when. An event is applied between two steps: at time t, at the first multiple n * step that "
@@ -365,16 +390,16 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
       {at_most_one, Shape::material, {"stiffness", "young"}},
-      {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere"}},
-      {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere"}},
+      {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
+      {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
-      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "random"}},
+      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random"}},
       {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"}},
       {excludes, Shape::event, {"at", "every", "from", "until"}},
       {exactly_one, Shape::dissociate, {"points", "plane", "blade"}},
       {excludes, Shape::dissociate, {"points", "within"}},
       {excludes, Shape::dissociate, {"blade", "within"}},
-      {exactly_one, Shape::within, {"box", "sphere", "polygon"}},
+      {exactly_one, Shape::within, {"box", "sphere", "around", "polygon"}},
       {exactly_one, Shape::tear, {"vertex", "near"}},
       {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
       {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},

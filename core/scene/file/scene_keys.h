@@ -27,6 +27,7 @@ enum class Shape {
   box,
   plane,
   sphere,
+  around,
   random,
   event,
   dissociate,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/plain/error.h"
@@ -19,6 +21,42 @@ bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x) {
 
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
   return (x - sphere.centre).norm() <= sphere.radius;
+}
+
+namespace {
+
+/// Of the point from a straight line between two others.
+double distance_to_segment(const Eigen::Vector3d& x, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d along = to - from;
+  const double length_2 = along.squaredNorm();
+  const double t = length_2 > 0.0 ? std::clamp((x - from).dot(along) / length_2, 0.0, 1.0) : 0.0;
+  return (x - from - t * along).norm();
+}
+
+/// Of the point from the parallelogram at `corner` with these sides: from its inside where the foot of the
+/// perpendicular is there, else from one of its edges.
+double distance_to_parallelogram(const Eigen::Vector3d& x, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
+                                 const Eigen::Vector3d& v) {
+  double least = std::min(
+      std::min(distance_to_segment(x, corner, corner + u), distance_to_segment(x, corner, corner + v)),
+      std::min(distance_to_segment(x, corner + u, corner + u + v), distance_to_segment(x, corner + v, corner + u + v)));
+  const Eigen::Vector3d normal = u.cross(v), at = x - corner;
+  const double area_2 = normal.squaredNorm();
+  if (area_2 > 0.0) {
+    const double s = at.cross(v).dot(normal) / area_2, t = u.cross(at).dot(normal) / area_2;
+    if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) least = std::abs(at.dot(normal)) / std::sqrt(area_2);
+  }
+  return least;
+}
+
+}  // namespace
+
+bool contains(const AroundSelection& around, const Eigen::Vector3d& x) {
+  const std::vector<Eigen::Vector3d>& path = around.sweep.path;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
+    if (distance_to_parallelogram(x, path[k], path[k + 1] - path[k], around.sweep.depth) <= around.distance)
+      return true;
+  return false;
 }
 
 bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x) {

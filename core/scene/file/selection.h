@@ -37,6 +37,11 @@ struct BladeSweep {
   std::vector<Eigen::Vector3d> path;
   Eigen::Vector3d depth;
 };
+/// All that is near a path, or near what a blade sweeps along it.
+struct AroundSelection {
+  BladeSweep sweep;
+  double distance;
+};
 /// `count` of those there are, drawn without replacement.
 struct RandomSelection {
   std::uint32_t count;
@@ -44,13 +49,15 @@ struct RandomSelection {
 };
 
 /// Where a cut reaches.
-using CutRegion = std::variant<BoxSelection, SphereSelection, PolygonSelection>;
-using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection>;
-using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, RandomSelection>;
+using CutRegion = std::variant<BoxSelection, SphereSelection, AroundSelection, PolygonSelection>;
+using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection>;
+using CellSelection =
+    std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection, RandomSelection>;
 
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
+bool contains(const AroundSelection& around, const Eigen::Vector3d& x);
 /// By the parity of the sides that a ray crosses, so the polygon need not be convex.
 bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x);
 bool contains(const CutRegion& region, const Eigen::Vector3d& x);

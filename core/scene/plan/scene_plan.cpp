@@ -130,7 +130,7 @@ class Planner {
     }
     // what is driven is looked up as it will be, by the points of the mesh
     DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
-    SystemArrays arrays(problem_, plan_.counts);
+    SystemArrays arrays(problem_);
     vertices.apply(0, plan_.counts.point, arrays.v);
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
@@ -161,9 +161,10 @@ class Planner {
     const bool standard = !scene_.accuracy && scene_.integrator == standard_integrator;
     const std::string why = fmt::format("{}: {}{}", scene_.accuracy ? "/accuracy" : "/integrator", scene_.integrator,
                                         standard ? " (the default)" : "");
+    const char* factor = scene_.solver == "conjugate-gradients" ? "" : ", factor";
     add(Part::integrator, "stages and trial state by vertex", why);
     if (plan_.needs.solver)
-      add(Part::solver, "matrix by spring and by entry, pattern, factor", why + " is implicit");
+      add(Part::solver, fmt::format("matrix by spring and by entry, pattern{}", factor), why + " is implicit");
     else
       leave_out("Jacobian, pattern and factor", why + " is explicit");
   }

@@ -1,28 +1,32 @@
 #pragma once
-// The spring system that a problem will become, computed from its mesh alone: what plans calibrate and analyse.
+// The spring system of a problem with a motion of its own: what plans calibrate and analyse.
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "core/plain/problem.h"
-#include "core/scene/plan/mesh_tally.h"
-#include "core/time/system/spring_system.h"
+#include "core/scene/body/simulated_body.h"
 
 namespace dartboard {
 
-/// Columns in the order that the body will have them; their sums over cells may differ from its by rounding.
-struct SystemArrays {
-  std::vector<SpringEnds> ends;
-  Springs springs;
-  std::vector<double> mass, inverse_mass, viscosity;  // viscosity: empty without any
-  std::vector<std::uint8_t> fixed;                    // empty where nothing is
-  Eigen::Vector3d gravity{0, 0, 0};
+/// A body that nothing happens to, and positions and velocities that may be moved without it.
+class SystemArrays {
+ public:
+  /// throws  InputError as make_simulated_body does
+  explicit SystemArrays(const Problem& problem) : body_(make_simulated_body(problem, false)) {
+    const Motion start = body_->motion();
+    x.assign(start.x.begin(), start.x.end());
+    v.assign(start.v.begin(), start.v.end());
+  }
+
+  SpringSystem system() const { return body_->system(); }
+  Motion motion() { return {x, v}; }
+
   std::vector<Eigen::Vector3d> x, v;
 
-  SystemArrays(const Problem& problem, const MeshTally& tally);
-
-  SpringSystem system() const { return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity}; }
-  Motion motion() { return {x, v}; }
+ private:
+  std::unique_ptr<SimulatedBody> body_;
 };
 
 }  // namespace dartboard

@@ -16,27 +16,41 @@ class EventClock {
  public:
   /// pre  0 <= from <= until; every > 0
   EventClock(double from, double until, std::optional<double> every, double step)
-      : from_(from), until_(until), step_(step), next_(step_of_time(from, step)) {
+      : from_(from), until_(until), step_(step), time_(from), next_(step_of_time(from, step)) {
     if (every && *every > step) every_ = every;
   }
 
   /// The next step boundary; `never` after the last.
   std::uint64_t next() const { return next_; }
+  /// [s] The time that `next` is the boundary for, where it is between two; none where it is on one, and after the
+  /// last.
+  std::optional<double> time_between() const {
+    if (next_ == never || step_at(time_, step_)) return {};
+    return time_;
+  }
+  /// On from a time between two boundaries: to the next time, which is the boundary itself where it happens at all.
+  void advance_from_between() {
+    if (every_) return advance();
+    if (next_ > step_until(until_, step_)) next_ = never;
+    time_ = static_cast<double>(next_) * step_;
+  }
   /// To the boundary after `next`.
   void advance() {
     if (!every_) {
       next_ = next_ < step_until(until_, step_) ? next_ + 1 : never;
+      time_ = static_cast<double>(next_) * step_;
       return;
     }
     // a product, not a sum, so that no rounding gathers
     const double time = from_ + static_cast<double>(++count_) * *every_;
     next_ = time > until_ && !is_rounding_of_end(time) ? never : step_of_time(time, step_);
+    time_ = time;
   }
 
   /// Where it is; its times are those of the scene.
   template <class Archive>
   void state(Archive& archive) {
-    archive(next_, count_);
+    archive(next_, count_, time_);
   }
 
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
@@ -47,7 +61,7 @@ class EventClock {
 
   double from_, until_;
   std::optional<double> every_;
-  double step_;
+  double step_, time_;
   std::uint64_t next_, count_ = 0;
 };
 

@@ -84,6 +84,7 @@ Simulation::Simulation(const SceneFile& scene)
       step_count_(step_of_time(scene.duration, step_)),
       horizon_(horizon_of(scene.duration)),
       fields_(scene.output.fields),
+      exact_events_(scene.exact_events),
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
@@ -99,7 +100,7 @@ Simulation::Simulation(const SceneFile& scene)
   try {
     driven_ = DrivenVertices(scene, problem.mesh.points, step_);
     track_probes(scene.probes, *body_);
-    integrator_ = make_integrator(scene.integrator);
+    integrator_ = make_integrator(scene.integrator, scene.solver);
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
     for (const SceneEvent& event : scene.events)
       events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
@@ -126,9 +127,21 @@ Simulation::~Simulation() = default;
 
 std::optional<Divergence> Simulation::advance() {
   if (auto refusal = refused()) return refusal;
+  const std::size_t operations = operations_;
+  const auto stress_failure = [&](const SolverError& error) {
+    const auto* stress = dynamic_cast<const StressError*>(&error);
+    Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
+    // what events of this step have changed is not what the state kept was of
+    if (operations_ == operations) d.taken_back = go_back();
+    return d;
+  };
   StepResult result = start_;
-  for (std::uint64_t part = 0; part < parts_ && result.ok(); ++part)
-    result = integrator_->step(body_->system(), body_->motion(), step_ / static_cast<double>(parts_));
+  try {
+    if (result.ok()) result = exact_events_ ? step_through_events() : integrate(step_);
+  } catch (const StressError& error) {
+    ++done_;
+    return stress_failure(error);
+  }
   ++done_;
   const std::uint64_t checks = detector_.checks();
   if (result.ok()) {
@@ -144,19 +157,15 @@ std::optional<Divergence> Simulation::advance() {
       return found;
     }
   if (done_ == step_count_) look_at_coordinates();
-  const std::size_t operations = operations_;
+  const std::size_t before = operations_;
   try {
     happen();
-    if (drive() || operations_ != operations) {
+    if (drive() || operations_ != before) {
       look_at_step();
       start_ = detector_.system_changed(body_->system(), body_->motion());
     }
   } catch (const SolverError& error) {
-    const auto* stress = dynamic_cast<const StressError*>(&error);
-    Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
-    // what events of this step have changed is not what the state kept was of
-    if (operations_ == operations) d.taken_back = go_back();
-    return d;
+    return stress_failure(error);
   }
   // no other step will look at what events leave at the end
   if (done_ == step_count_) return start_failure();
@@ -232,18 +241,65 @@ Divergence Simulation::failure(const StepResult& result) {
 // To the state kept last; a step that the integrator could not take is one that the detector has not seen.
 std::uint64_t Simulation::go_back() { return taken_back_ = done_ - watched_ + detector_.restore(body_->motion()); }
 
-// An event may throw: what those before it have done counts, and the integrator has to know.
+/// In parts none of which is longer than those of a whole step, to rounding.
+StepResult Simulation::integrate(double duration) {
+  double parts = static_cast<double>(parts_);
+  if (duration != step_) parts = std::max(1.0, std::ceil(parts * (duration / step_) * (1.0 - 0x1p-50)));
+  StepResult result;
+  for (double part = 0.0; part < parts && result.ok(); ++part)
+    result = integrator_->step(body_->system(), body_->motion(), duration / parts);
+  return result;
+}
+
+/// A step in parts, from one event within it to the next.
+StepResult Simulation::step_through_events() {
+  const double end = static_cast<double>(done_ + 1) * step_;
+  double now = static_cast<double>(done_) * step_;
+  StepResult result;
+  for (bool whole = true;; whole = false) {
+    std::optional<double> next;
+    for (const Scheduled& scheduled : events_)
+      if (const auto time = scheduled.clock.time_between(); time && *time < end && (!next || *time < *next))
+        next = time;
+    if (!next) return integrate(whole ? step_ : end - now);
+    result = integrate(*next - now);
+    if (!result.ok()) return result;
+    now = *next;
+    const std::size_t operations = operations_;
+    happen_until(now);
+    if (operations_ == operations) continue;
+    look_at_step();
+    result = detector_.system_changed(body_->system(), body_->motion());
+    if (!result.ok()) return result;
+  }
+}
+
 void Simulation::happen() {
   for (Scheduled& scheduled : events_) {
     if (scheduled.clock.next() > done_) continue;
     while (scheduled.clock.next() <= done_) scheduled.clock.advance();
-    const std::size_t made =
-        watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
-    scheduled.was_due = true;
-    scheduled.operations += made;
-    operations_ += made;
-    if (made > 0) integrator_->restart();
+    apply(scheduled);
   }
+}
+
+/// Those between two boundaries.
+void Simulation::happen_until(double time) {
+  for (Scheduled& scheduled : events_) {
+    const auto due = scheduled.clock.time_between();
+    if (!due || *due > time) continue;
+    scheduled.clock.advance_from_between();
+    apply(scheduled);
+  }
+}
+
+// An event may throw: what those before it have done counts, and the integrator has to know.
+void Simulation::apply(Scheduled& scheduled) {
+  const std::size_t made =
+      watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
+  scheduled.was_due = true;
+  scheduled.operations += made;
+  operations_ += made;
+  if (made > 0) integrator_->restart();
 }
 
 std::vector<std::string> Simulation::idle_events() const {

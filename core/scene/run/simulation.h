@@ -142,8 +142,12 @@ class Simulation {
     bool was_due = false;
     std::size_t operations = 0;
   };
+  StepResult integrate(double duration);
+  StepResult step_through_events();
   void state(Archive& archive);
   void happen();
+  void happen_until(double time);
+  void apply(Scheduled& scheduled);
   bool drive();
   StableStep look_closely() const;
   void look_at_step();
@@ -164,6 +168,7 @@ class Simulation {
   std::vector<Scheduled> events_;
   std::size_t operations_ = 0;
   FrameFields fields_;
+  bool exact_events_;
   bool watch_ = false;
   EventJumps jumps_;
   UnstableStep unstable_step_;

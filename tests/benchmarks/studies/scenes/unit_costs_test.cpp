@@ -72,7 +72,7 @@ TEST(UnitCosts, OfAForceEvaluationAreItsTime) {
   const SceneFile scene = parse(moving_box());
   const Problem problem = make_problem(scene);
   const ScenePlan plan = plan_scene(scene, problem);
-  const SystemArrays arrays(problem, plan.counts);
+  const SystemArrays arrays(problem);
   std::vector<Eigen::Vector3d> a(arrays.x.size());
   std::vector<double> ns;
   for (int run = 0; run < 21; ++run) {

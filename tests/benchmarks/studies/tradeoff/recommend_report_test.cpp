@@ -33,7 +33,7 @@ Candidate usable(const std::string& name, double cost) {
   return c;
 }
 Candidate adaptive_one() {
-  Candidate c = usable("dormand-prince-54, adaptive", 300.0);
+  Candidate c = usable("dormand-prince-54-adaptive", 300.0);
   c.adaptive = true;
   c.tolerance = 0.001;
   c.limit_h = infinity;
@@ -90,7 +90,7 @@ TEST(RecommendTable, HasARowForEachUsableCandidate) {
                                      "error: 6.2e-02", "cost [evaluations' time]: 200", "force evaluations: 285",
                                      "time: 125 ms", "order seen: 3.88 of 4", "confidence: asymptotic"}));
   EXPECT_EQ(labelled(table, 1),
-            (Row{"integrator: dormand-prince-54, adaptive", "steps: about 71", "h [ms]: 250", "limit of h [ms]: none",
+            (Row{"integrator: dormand-prince-54-adaptive", "steps: about 71", "h [ms]: 250", "limit of h [ms]: none",
                  "error: 6.2e-02", "cost [evaluations' time]: 300", "force evaluations: 285", "time: 125 ms",
                  "order seen: 3.88 of the tolerance", "confidence: asymptotic, full length"}));
   EXPECT_EQ(table.rows()[2][7], "2 s");
@@ -108,7 +108,7 @@ TEST(RecommendText, SaysWhatToTakeAndWhatElseThereIs) {
                 "\nTake rk4 with h = 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
                 "it makes 285).\n"
                 "It is stable up to h = 0.5 s.\n"
-                "Runner-up: dormand-prince-54, adaptive with h = 0.25 s, 1.50 times the cost.\n"
+                "Runner-up: dormand-prince-54-adaptive with h = 0.25 s, 1.50 times the cost.\n"
                 "One more digit costs 1.75 times as much, with blanes-moan-4.\n"
                 "The pilots took 375 ms, 3 times the run.\n"
                 "Real time: 16 s are simulated in 125 ms, 2.50 times real time.\n"
@@ -166,7 +166,7 @@ TEST(RecommendJson, HoldsEveryFigure) {
        "observed_order": 3.875, "stability_limit_h": 0.5, "limited_by_stability": true, "fewest_steps_tried": false,
        "steps": 71, "h": 0.25, "predicted_error": 0.0625, "predicted_seconds": 0.125, "predicted_cost": 200.0,
        "predicted_evaluations": 285.0},
-      {"integrator": "dormand-prince-54, adaptive", "implicit": false, "order": 4, "tolerance": 0.001,
+      {"integrator": "dormand-prince-54-adaptive", "implicit": false, "order": 4, "tolerance": 0.001,
        "confidence": "asymptotic", "full_length_pilots": false, "observed_order": 3.875, "stability_limit_h": null,
        "limited_by_stability": false, "fewest_steps_tried": true, "steps": 71, "h": 0.25, "predicted_error": 0.0625,
        "predicted_seconds": 0.125, "predicted_cost": 300.0, "predicted_evaluations": 285.0},

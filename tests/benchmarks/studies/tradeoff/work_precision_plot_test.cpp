@@ -38,7 +38,7 @@ WorkPrecision study() {
               run_of("verlet", 80, 1e-3, 400.0, Standing::dominated),
               run_of("rk4", 20, 1e-4, 100.0, Standing::front),
               run_of("rk4", 40, 3e-8, 200.0, Standing::front),
-              run_of("ros2, fresh factor", 5, 0.5, 90.0, Standing::undecided)};
+              run_of("ros2-fresh-factor", 5, 0.5, 90.0, Standing::undecided)};
   s.points[5].under_floor = true;
   return s;
 }
@@ -71,7 +71,7 @@ TEST(WorkPrecisionDiagram, SaysWhatItIsOf) {
 TEST(WorkPrecisionDiagram, HasEveryUsefulRunOfAMethodOnItsLine) {
   const Plot plot = work_precision_plot(study());
   const PlotSeries &verlet = titled(plot, "verlet"), &rk4 = titled(plot, "rk4"),
-                   &fresh = titled(plot, "ros2, fresh factor");
+                   &fresh = titled(plot, "ros2-fresh-factor");
   ASSERT_EQ(verlet.points.size(), 2u);  // neither what failed nor what is useless
   EXPECT_EQ(verlet.points[0].x, 40.0);
   EXPECT_EQ(verlet.points[0].y, 1e-2);
@@ -185,7 +185,7 @@ TEST(WorkPrecisionDiagram, GivesEveryIntegratorALookOfItsOwn) {
 TEST(WorkPrecisionDiagram, TellsTheSolversOfOneIntegratorApartByLineAndSymbol) {
   WorkPrecision s = study();
   s.points.clear();
-  for (const char* name : {"ros2", "ros2, fresh factor", "ros2, conjugate gradients", "ros2, adaptive"})
+  for (const char* name : {"ros2", "ros2-fresh-factor", "ros2-conjugate-gradients", "ros2-adaptive"})
     s.points.push_back(run_of(name, 10, 1e-3, 10.0, Standing::dominated));
   const Plot plot = work_precision_plot(s);
   std::set<std::pair<int, std::string>> looks;
@@ -195,12 +195,12 @@ TEST(WorkPrecisionDiagram, TellsTheSolversOfOneIntegratorApartByLineAndSymbol) {
     looks.insert({line.symbol, line.dash});
   }
   EXPECT_EQ(looks.size(), 4u);
-  EXPECT_EQ(titled(plot, "ros2, fresh factor").symbol, 1);
-  EXPECT_EQ(titled(plot, "ros2, fresh factor").dash, "-");
-  EXPECT_EQ(titled(plot, "ros2, conjugate gradients").symbol, 3);
-  EXPECT_EQ(titled(plot, "ros2, conjugate gradients").dash, ".");
-  EXPECT_EQ(titled(plot, "ros2, adaptive").symbol, titled(plot, "ros2").symbol - 1);
-  EXPECT_EQ(titled(plot, "ros2, adaptive").dash, "-");
+  EXPECT_EQ(titled(plot, "ros2-fresh-factor").symbol, 1);
+  EXPECT_EQ(titled(plot, "ros2-fresh-factor").dash, "-");
+  EXPECT_EQ(titled(plot, "ros2-conjugate-gradients").symbol, 3);
+  EXPECT_EQ(titled(plot, "ros2-conjugate-gradients").dash, ".");
+  EXPECT_EQ(titled(plot, "ros2-adaptive").symbol, titled(plot, "ros2").symbol - 1);
+  EXPECT_EQ(titled(plot, "ros2-adaptive").dash, "-");
 }
 
 TEST(WorkPrecisionDiagram, OfFailuresAloneHasAxesAllTheSame) {

@@ -43,8 +43,8 @@ TEST(WorkPrecisionPlot, AFailedRunStandsAtTheBorderWhereItWouldHaveEndedWithItsD
 
 TEST(WorkPrecisionPlot, LinearSolversOfOneIntegratorAreToldApart) {
   WorkPrecision study;
-  study.points = {run_of("ros2", 20, 1e-3, 10.0), run_of("ros2, fresh factor", 20, 1e-3, 20.0),
-                  run_of("ros2, conjugate gradients", 20, 1e-3, 30.0)};
+  study.points = {run_of("ros2", 20, 1e-3, 10.0), run_of("ros2-fresh-factor", 20, 1e-3, 20.0),
+                  run_of("ros2-conjugate-gradients", 20, 1e-3, 30.0)};
   classify(study.points, 0.0);
   std::vector<std::pair<int, std::string>> looks;
   for (const PlotSeries& s : work_precision_plot(study).series)

@@ -24,6 +24,28 @@ TEST(Selection, OfASphereIncludesItsSurface) {
   EXPECT_EQ(select(SphereSelection{{0, 0, 0}, 5.0}), (Numbers{0, 1, 2, 3}));  // 3-4-5
   EXPECT_EQ(select(SphereSelection{{0, 0, 0}, 1.0}), (Numbers{0, 1}));
 }
+// A blade of depth 2 along z that goes by (0, 0, 0), (4, 0, 0), (4, 4, 0): two rectangles.
+TEST(Selection, AroundAPathIsWhatIsNearTheSweptRectanglesTheirEdgesAndTheirCorners) {
+  const AroundSelection around{{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, {0, 0, 2}}, 1.0};
+  const auto is_in = [&around](double x, double y, double z) { return contains(around, {x, y, z}); };
+  for (const double y : {-1.0, 0.5}) EXPECT_TRUE(is_in(2, y, 1));  // beside the first
+  EXPECT_FALSE(is_in(2, -1.01, 1));
+  EXPECT_TRUE(is_in(4.9, 2, 1));  // beside the second
+  EXPECT_FALSE(is_in(5.1, 2, 1));
+  EXPECT_TRUE(is_in(2, 0, 3));  // beyond an edge
+  EXPECT_FALSE(is_in(2, 0.1, 3));
+  EXPECT_FALSE(is_in(2, 0, -1.1));
+  EXPECT_TRUE(is_in(-0.6, 0, 2.8));  // beyond a corner, 3-4-5
+  EXPECT_FALSE(is_in(-0.61, 0, 2.8));
+  EXPECT_FALSE(is_in(2, 2, 1));  // between the two legs
+}
+TEST(Selection, AroundAPathWithoutDepthIsATubeWithRoundEnds) {
+  const AroundSelection around{{{{0, 0, 0}, {4, 0, 0}}, {0, 0, 0}}, 1.0};
+  EXPECT_TRUE(contains(around, {2, 0.6, 0.8}));
+  EXPECT_FALSE(contains(around, {2, 0.6, 0.81}));
+  EXPECT_TRUE(contains(around, {4.6, 0.8, 0}));
+  EXPECT_FALSE(contains(around, {4.6, 0.81, 0}));
+}
 TEST(Selection, OfSeveralIsTheirUnion) {
   EXPECT_EQ(select_points(std::vector<VertexSelection>{IdSelection{{3}}, SphereSelection{{0, 0, 0}, 0.0}}, points),
             (Numbers{0, 3}));

@@ -11,7 +11,6 @@
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/plan/measured_plan.h"
-#include "core/scene/plan/system_arrays.h"
 #include "core/scene/run/scene_run.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
@@ -147,12 +146,6 @@ TEST(ScenePlan, CountsAndNumbersEdgesAsTheBodyDoes) {
     EXPECT_EQ(tally.point, built->vertices().point) << body.name;
     EXPECT_EQ((CellCounts{tally.vertices, tally.edges, tally.faces, tally.cells, tally.components}), built->counts())
         << body.name;
-    const SystemArrays arrays(problem, tally);
-    for (std::size_t e = 0; e < ends.size(); ++e)
-      EXPECT_EQ(arrays.springs[e].stiffness, built->system().springs[e].stiffness) << body.name << ", edge " << e;
-    for (std::size_t i = 0; i < tally.vertices; ++i)
-      // some 48 cells at a vertex at most, each mass a few roundings of its own
-      EXPECT_NEAR(arrays.mass[i], built->system().mass[i], 64 * 0x1p-52 * arrays.mass[i]) << body.name;
   }
 }
 
@@ -235,17 +228,6 @@ TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
   scene.events[0].until = scene.duration;
   const Mesh mesh = make_mesh(scene);
   EXPECT_EQ(forecast_events(scene, mesh, tally_of(mesh)).at(0).times, steps + 1);
-}
-
-// Half of each link at either end, of 768 kg/m: 96 kg for a link of 1/8 m.
-TEST(SystemArrays, OfAChainHaveTheMassesOfItsLinks) {
-  const Json json = with_body(moving_box(), {"chain", R"({"chain": {"links": 12, "spacing": 0.125}})"});
-  const Problem problem = make_problem(parse(json));
-  const SystemArrays arrays(problem, tally_of(problem.mesh));
-  ASSERT_EQ(arrays.mass.size(), 13u);
-  for (std::size_t k = 0; k < 13; ++k) EXPECT_DOUBLE_EQ(arrays.mass[k], k == 0 || k == 12 ? 48.0 : 96.0) << k;
-  const Simulation simulation(parse(json));
-  for (std::size_t k = 0; k < 13; ++k) EXPECT_DOUBLE_EQ(arrays.mass[k], simulation.body().system().mass[k]) << k;
 }
 
 // ---- what no item plans

@@ -62,6 +62,15 @@ TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {
   expect_same_wherever_interrupted(with_events(moving_box(), eventful));
 }
 
+TEST(ContinuedRun, OfEventsAtTheirVeryTimesIsTheSame) {
+  Json scene = with_events(moving_box(), eventful);
+  scene["event_times"] = "exact";
+  for (Json& event : scene["events"])
+    for (const char* key : {"at", "from"})
+      if (event.contains(key)) event[key] = event[key].get<double>() + 0.0003;
+  expect_same_wherever_interrupted(scene);
+}
+
 TEST(ContinuedRun, OfMixedCellsIsTheSame) {
   expect_same_wherever_interrupted(with_body(with_events(moving_box(), R"([
     {"at": 0.002, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},

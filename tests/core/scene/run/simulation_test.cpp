@@ -108,6 +108,21 @@ TEST(Simulation, RunsASceneWithAnAccuracyOnceItHasAStep) {
 
 // ---- the smallest map
 
+TEST(Simulation, SolvesAsTheSceneSays) {
+  Json scene = moving_box();
+  scene["integrator"] = "backward-euler";
+  const auto factorisations = [&scene](const char* solver) {
+    scene["solver"] = solver;
+    Simulation simulation(parse(scene));
+    run(simulation);
+    EXPECT_GT(simulation.work().solves, 0u);
+    return simulation.work().factorisations;
+  };
+  EXPECT_EQ(factorisations("conjugate-gradients"), 0u);
+  EXPECT_GE(factorisations("fresh-factor"), 10u);  // one for each step at least
+  EXPECT_LT(factorisations("kept-factor"), 10u);
+}
+
 TEST(Simulation, TakesTheSmallestMapThatHoldsTheBody) {
   Json scene = with_events(moving_box(), R"([{"at": 0.001, "remove": {"ids": [0]}}])");
   EXPECT_EQ(Simulation(parse(scene)).body().map_name(), "tetrahedral 3-g-map");

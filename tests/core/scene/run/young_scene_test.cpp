@@ -10,7 +10,6 @@
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/plan/system_arrays.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
@@ -70,24 +69,6 @@ TEST(YoungsModulus, IsPlannedToTheByte) {
       }
       for (const MemoryItem& item : plan.unplanned) ADD_FAILURE() << generate << ": not planned: " << name(item.part);
     }
-}
-
-// The plan finds the cells of an edge by its points, a body by its darts. Some 24 cells at an edge at most, each with
-// some 25 roundings.
-TEST(YoungsModulus, GivesThePlanTheSpringsOfTheBody) {
-  for (const char* generate : {simplices[0], simplices[1], simplices[2], a_chain}) {
-    const SceneFile scene = parse(elastic(generate));
-    const Problem problem = make_problem(scene);
-    const SystemArrays arrays(problem, tally_of(problem.mesh));
-    const Simulation simulation(scene);
-    const SpringSystem system = simulation.body().system();
-    ASSERT_EQ(arrays.springs.size(), system.springs.size());
-    for (std::size_t e = 0; e < arrays.springs.size(); ++e) {
-      EXPECT_NEAR(arrays.springs[e].stiffness, system.springs[e].stiffness,
-                  128 * 0x1p-53 * system.springs[e].stiffness);
-      EXPECT_NEAR(arrays.springs[e].damping, system.springs[e].damping, 128 * 0x1p-53 * system.springs[e].damping);
-    }
-  }
 }
 
 // Links in series: whatever their number, the whole is as stiff as one link of its length.

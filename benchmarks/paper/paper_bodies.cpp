@@ -1,4 +1,4 @@
-#include "benchmarks/paper/scenes.h"
+#include "benchmarks/paper/paper_bodies.h"
 
 #include <fmt/format.h>
 
@@ -31,8 +31,8 @@ Problem liver() {
 
 }  // namespace
 
-std::span<const Scene> scenes() {
-  static const std::array<Scene, 1> table{{
+std::span<const PaperBody> paper_bodies() {
+  static const std::array<PaperBody, 1> table{{
       {"liver",
        "a body of the paper's size under gravity, the top tenth of its height held, damped, in a viscous medium",
        meshes / "liver564.mesh", liver},
@@ -40,13 +40,13 @@ std::span<const Scene> scenes() {
   return table;
 }
 
-const Scene& scene(std::string_view name) {
-  const auto all = scenes();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Scene& s) { return s.name == name; });
+const PaperBody& paper_body(std::string_view name) {
+  const auto all = paper_bodies();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const PaperBody& s) { return s.name == name; });
   if (found != all.end()) return *found;
   std::string known;
-  for (const Scene& s : all) known += (known.empty() ? "" : ", ") + s.name;
-  throw InputError(fmt::format("no scene is called '{}'; there are {}", name, known));
+  for (const PaperBody& s : all) known += (known.empty() ? "" : ", ") + s.name;
+  throw InputError(fmt::format("no body is called '{}'; there are {}", name, known));
 }
 
 }  // namespace dartboard

@@ -1,5 +1,5 @@
 #pragma once
-// The named scenes that tests and benchmarks share.
+// The bodies of the paper that tests and benchmarks share.
 
 #include <filesystem>
 #include <functional>
@@ -11,16 +11,16 @@
 
 namespace dartboard {
 
-struct Scene {
+struct PaperBody {
   std::string name;
   std::string what;               // one line
   std::filesystem::path mesh;     // the file it reads; empty when it is generated
   std::function<Problem()> make;  // throws IoError if the mesh cannot be read
 };
 
-std::span<const Scene> scenes();
+std::span<const PaperBody> paper_bodies();
 
 /// throws  InputError that lists the known names
-const Scene& scene(std::string_view name);
+const PaperBody& paper_body(std::string_view name);
 
 }  // namespace dartboard

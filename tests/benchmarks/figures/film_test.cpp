@@ -1,0 +1,146 @@
+#include "benchmarks/figures/film.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/folder_for_tests.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using moving::Json;
+using moving::moving_box;
+
+Film film_of(const Json& scene, std::uint64_t steps) {
+  Simulation simulation(moving::parse(scene));
+  Film film(simulation, steps, {0, 0, 1});
+  for (std::uint64_t k = 0; k < steps; ++k) {
+    EXPECT_FALSE(simulation.advance());
+    film.stepped(simulation);
+  }
+  film.ended(simulation);
+  return film;
+}
+
+TEST(Film, OfFewStepsHasAFrameOfEach) {
+  const Film film = film_of(moving_box(), 10);
+  ASSERT_EQ(film.frames().size(), 11u);
+  for (std::size_t k = 0; k < 11; ++k) EXPECT_DOUBLE_EQ(film.frames()[k].time, 0.001 * static_cast<double>(k));
+}
+
+// 300 steps in 120 parts: every part is two or three steps
+TEST(Film, OfManyStepsHasAHundredAndTwentyFramesAfterTheFirstAndTheLastIsTheEnd) {
+  Json scene = moving_box();
+  scene["duration"] = 0.3;
+  const Film film = film_of(scene, 300);
+  ASSERT_EQ(film.frames().size(), 121u);
+  EXPECT_EQ(film.frames().front().time, 0.0);
+  EXPECT_DOUBLE_EQ(film.frames().back().time, 0.3);
+  for (std::size_t k = 1; k < film.frames().size(); ++k) {
+    const double apart = film.frames()[k].time - film.frames()[k - 1].time;
+    EXPECT_TRUE(apart > 0.0015 && apart < 0.0035) << k;
+  }
+}
+
+TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
+  Json scene = moving_box();
+  scene["step"] = 1;
+  scene["duration"] = 30;
+  Simulation simulation(moving::parse(scene));
+  Film film(simulation, 30, {0, 0, 1});
+  while (!simulation.advance()) film.stepped(simulation);
+  ASSERT_LT(simulation.time(), static_cast<double>(simulation.steps_done()));  // it has gone back
+  film.ended(simulation);
+  EXPECT_EQ(film.frames().back().time, simulation.time());
+}
+
+TEST(Film, ShowsTheBodyAsAPictureDoes) {
+  Simulation simulation(moving::parse(moving_box()));
+  const Film film(simulation, 1, {1, 0, 0});
+  const BodyPanel panel{simulation.frame({}), simulation.body().vertices().point};
+  const BodyPanel turned = upright(std::span(&panel, 1), {1, 0, 0})[0];
+  const auto drawn = drawn_facets(turned, turned);
+  ASSERT_EQ(film.frames()[0].facets.size(), drawn.size());
+  for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_EQ(film.frames()[0].facets[k].corners, drawn[k].corners);
+}
+
+/// What a GIF says of itself (its specification, version 89a): the delay before each picture in hundredths of a second.
+struct Gif {
+  int width = 0, height = 0, pictures = 0;
+  std::vector<int> delays;
+  bool ends = false;
+};
+
+Gif read_gif(const std::string& bytes) {
+  const auto byte = [&bytes](std::size_t at) { return static_cast<int>(static_cast<unsigned char>(bytes.at(at))); };
+  const auto word = [&byte](std::size_t at) { return byte(at) + 256 * byte(at + 1); };
+  const auto colours = [](int flags) { return (flags & 0x80) != 0 ? 3u << ((flags & 7) + 1) : 0u; };
+  EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
+  Gif gif{.width = word(6), .height = word(8)};
+  std::size_t at = 13 + colours(byte(10));
+  while (byte(at) != 0x3B) {
+    if (byte(at) == 0x21) {
+      if (byte(at + 1) == 0xF9) gif.delays.push_back(word(at + 4));
+      at += 2;
+    } else {
+      EXPECT_EQ(byte(at), 0x2C);
+      ++gif.pictures;
+      at += 11 + colours(byte(at + 9));  // and the least size of a code
+    }
+    while (byte(at) != 0) at += 1 + static_cast<std::size_t>(byte(at));
+    ++at;
+  }
+  gif.ends = at + 1 == bytes.size();
+  return gif;
+}
+
+class FilmFiles : public FolderTest {};
+
+// 11 frames of a motion of 0.01 s, which is shown for 4 s: 400 / 11 = 36 hundredths each
+TEST_F(FilmFiles, AreAGifOfAllFramesThatLastsFourSecondsAtLeast) {
+  const Film film = film_of(moving_box(), 10);
+  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  const Gif gif = read_gif(text("film.gif"));
+  EXPECT_TRUE(gif.ends);
+  EXPECT_EQ(gif.pictures, 11);
+  EXPECT_EQ(gif.delays, std::vector<int>(11, 36));
+  EXPECT_TRUE(gif.width >= 320 && gif.width <= 640 && gif.height <= 560) << gif.width << " x " << gif.height;
+}
+
+TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
+  Json scene = moving::with_events(moving_box(),
+                                   R"([{"at": 0.002, "remove": {"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}}}])");
+  const Film film = film_of(scene, 4);
+  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  EXPECT_EQ(read_gif(text("film.gif")).pictures, 5);
+  const std::string script = text("film.gnuplot");
+  std::size_t empty = 0;
+  for (auto at = script.find("nothing left"); at != std::string::npos; at = script.find("nothing left", at + 1))
+    ++empty;
+  EXPECT_EQ(empty, 3u);
+}
+
+TEST_F(FilmFiles, ShowEachFrameFromItsOwnData) {
+  const Film film = film_of(moving_box(), 3);
+  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  const std::string script = text("film.gnuplot");
+  std::size_t at = 0;
+  for (const char* plotted : {"film.dat' index 0 ", "film.dat' index 1 ", "film.dat' index 2 ", "film.dat' index 3 "}) {
+    at = script.find(plotted, at);
+    EXPECT_NE(at, std::string::npos) << plotted;
+  }
+}
+
+TEST_F(FilmFiles, AreNotDrawnWithoutGnuplotAndTheReasonIsTold) {
+  const Film film = film_of(moving_box(), 1);
+  EXPECT_NE(draw_film(film.frames(), "box", folder_, "film", "no-such-program").find("no-such-program"),
+            std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "film.dat"));
+}
+
+}  // namespace
+}  // namespace dartboard
