@@ -48,7 +48,7 @@ const char* const eventful = R"([
   {"every": 0.0025, "until": 0.01, "refine": {"cells": {"random": {"count": 2, "seed": 9}}}},
   {"at": 0.008, "dissociate": {"points": [[0, 1, 13], [13, 14, 26]]}},
   {"at": 0.006, "remove": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}},
-  {"every": 0.002, "from": 0.003, "tear_where_stressed": {"threshold": 150}}])";
+  {"every": 0.002, "from": 0.003, "tear_where_stressed": {"threshold": 30}}])";
 
 TEST(ContinuedRun, OfABodyWithoutAMapIsTheSame) { expect_same_wherever_interrupted(moving_box()); }
 
