@@ -101,8 +101,8 @@ void factor_state(Archive& archive, cholmod_common& common, cholmod_factor*& fac
 }  // namespace
 
 void Cholesky::Implementation::state(Archive& archive) {
-  archive(column_start, row, rows_per_node, order, inverse, order_nodes, order_nonzeros, nonzeros, flops, spare, failed,
-          updates, factored, pattern_kept, counters);
+  archive(column_start, row, rows_per_node, order, inverse, order_nodes, order_nonzeros, nonzeros, flops);
+  archive(spare, failed, updates, factored, pattern_kept, counters);
   factor_state(archive, common, L);
   factor_state(archive, common, symbolic);
   if (!archive.reads()) return;
