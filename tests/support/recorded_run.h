@@ -21,7 +21,6 @@ struct Record : RunWatcher {
   // at the last checkpoint
   std::optional<std::string> state;
   std::vector<std::uint64_t> checkpoints;  // the steps of all of them
-  RunProgress progress;
   std::size_t frames_then = 0, rows_then = 0, probe_rows_then = 0;
   std::optional<std::uint64_t> interrupt_after;
 
@@ -31,8 +30,9 @@ struct Record : RunWatcher {
   void checkpoint(const Simulation& simulation, const RunProgress& now) override {
     Archive archive;
     simulation.save(archive);
+    RunProgress copy = now;
+    archive(copy);
     state = archive.written();
-    progress = now;
     frames_then = frames.size();
     rows_then = rows.size();
     probe_rows_then = probe_rows.size();
@@ -76,8 +76,9 @@ inline RecordedRun continued(const SceneFile& scene, Record record) {
   run.simulation->watch_events(true);
   Archive archive(*run.record.state, "state");
   run.simulation->load(archive);
+  RunProgress progress;
+  archive(progress);
   archive.require_end();
-  const RunProgress progress = run.record.progress;
   run.result = run_scene(*run.simulation, scene.output, run.record, {}, &progress);
   return run;
 }
