@@ -131,13 +131,22 @@ TEST(IntegratorStateOf, DormandPrinceHasWhatChoosesTheNextStep) {
 int looks_left = 0;
 bool after_some_looks() { return --looks_left < 0; }
 
+// A solution that takes more than one iteration asks for a fresh factor, in the middle of a step.
+std::unique_ptr<Integrator> impatient() {
+  ImplicitOptions options;
+  options.patience = 1;
+  return std::make_unique<BackwardEuler>(options);
+}
+
 TEST(IntegratorStateOf, AStepGivenUpIsThatOfBeforeUnlessTheFactorWasReplaced) {
-  for (const std::string_view name : {"backward-euler", "bdf2", "sdirk2", "local-global", "energy-momentum"}) {
+  const auto make = [](std::string_view name) { return name == "impatient" ? impatient() : make_integrator(name); };
+  for (const std::string_view name :
+       {"impatient", "backward-euler", "bdf2", "sdirk2", "local-global", "energy-momentum"}) {
     int undone = 0;
     for (int before = 0; before < step_count; ++before)
       for (int looks = 0; looks < 6; ++looks) {
         SpringArrays body = moving_grid();
-        const auto integrator = make_integrator(name);
+        const auto integrator = make(name);
         for (int n = 0; n < before; ++n) advance(*integrator, body, n);
         const std::string state = stored(*integrator);
         const SpringArrays start = body;
@@ -156,7 +165,7 @@ TEST(IntegratorStateOf, AStepGivenUpIsThatOfBeforeUnlessTheFactorWasReplaced) {
         if (!integrator->undo_stopped_step()) continue;
         ++undone;
         SpringArrays copy = start;
-        const auto other = make_integrator(name);
+        const auto other = make(name);
         read(*other, state);
         for (int n = before; n < step_count; ++n) {
           advance(*integrator, body, n);
