@@ -111,7 +111,7 @@ Start start_of(const Options& options) {
     return start;
   }
   const std::filesystem::path folder = options.continued;
-  start.claim = FolderClaim::of_ended_run(folder);
+  start.claim.emplace(FolderClaim::of_ended_run(folder));
   start.checkpoint.emplace(folder / checkpoint_name);
   start.scene = start.checkpoint->scene();
   if (const std::string& settled = start.checkpoint->notes(); !settled.empty())

@@ -69,7 +69,11 @@ TEST(Archive, ReadsWhatWasWritten) {
   const std::string bytes = written(telling());
   Archive archive(bytes, "file");
   // what was there before is gone
-  Outer read{.real = 9.0, .reals = {1, 2, 3, 4, 5}, .inners = std::vector<Inner>(7), .nothing = Inner{1, true}};
+  Outer read;
+  read.real = 9.0;
+  read.reals = {1, 2, 3, 4, 5};
+  read.inners.resize(7);
+  read.nothing = Inner{1, true};
   archive.part("outer");
   archive(read);
   archive.require_end();
