@@ -92,7 +92,7 @@ std::string to_text(const SimulationReport& r) {
     say("From its checkpoint of step {} the run goes on with: dartboard simulate --continue {}\n", *r.continues_after,
         r.folder);
   else if (r.result.interrupted && !r.folder.empty())
-    say("It left no checkpoint: the step that was given up had replaced its factor by then.\n");
+    say("It left no checkpoint: the step that was given up could not be taken back.\n");
   if (!r.picture.empty()) say("{}\n", r.picture);
   return said;
 }

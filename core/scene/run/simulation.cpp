@@ -257,6 +257,7 @@ StepResult Simulation::step_through_events() {
   double now = static_cast<double>(done_) * step_;
   StepResult result;
   for (bool whole = true;; whole = false) {
+    within_step_ = !whole;
     std::optional<double> next;
     for (const Scheduled& scheduled : events_)
       if (const auto time = scheduled.clock.time_between(); time && *time < end && (!next || *time < *next))

@@ -130,8 +130,9 @@ class Simulation {
   /// throws  IoError where it cannot be that; then this is no simulation to use
   void load(Archive& archive) { state(archive); }
   /// After `advance` has ended by Stopped (stop_request.h): can the step be taken again, and a state saved? Not where
-  /// the factor that it began with has been replaced or given up: then nothing may be done with this.
-  bool undo_stopped_step() { return integrator_->undo_stopped_step(); }
+  /// the factor that it began with has been replaced or given up, nor after an event within it: then nothing may be
+  /// done with this.
+  bool undo_stopped_step() { return !within_step_ && integrator_->undo_stopped_step(); }
 
  private:
   struct Scheduled {
@@ -170,6 +171,7 @@ class Simulation {
   FrameFields fields_;
   bool exact_events_;
   bool watch_ = false;
+  bool within_step_ = false;  // past the first part of one that events divide
   EventJumps jumps_;
   UnstableStep unstable_step_;
   StableStep limits_;

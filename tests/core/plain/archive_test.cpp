@@ -69,7 +69,7 @@ TEST(Archive, ReadsWhatWasWritten) {
   const std::string bytes = written(telling());
   Archive archive(bytes, "file");
   // what was there before is gone
-  Outer read;
+  Outer read = telling();
   read.real = 9.0;
   read.reals = {1, 2, 3, 4, 5};
   read.inners.resize(7);
