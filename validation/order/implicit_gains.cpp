@@ -14,12 +14,12 @@
 
 namespace dartboard {
 
-EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega) {
+ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega) {
   EnergyMomentum integrator;
   return measure_energy_drift(steps, h_omega, integrator);
 }
 
-EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator) {
+ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator) {
   const Material undamped{.density = 1000.0, .stiffness = 50.0, .damping = 0.0, .viscosity = 0.0};
   SpringScene scene = smooth_scene(kuhn_box(3, 3, 3, 0.1, 0.2, 3), undamped, 1.0);
   // A fifth of that scene's strain and speed. Steps of h omega = 20 turn tetrahedra inside out in faster motions, and
@@ -32,7 +32,7 @@ EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator
   const PreparedScene prepared = prepare(scene);
   const double h = h_omega / prepared.fastest_rate;
 
-  EnergyDrift found;
+  ConservedDrift found;
   found.steps = steps;
   found.h_omega = h_omega;
   TetBody body = prepared.body;

@@ -10,16 +10,16 @@
 namespace dartboard {
 
 /// The energy-momentum scheme on a body that moves freely, undamped, and is cut along a plane half way.
-struct EnergyDrift {
+struct ConservedDrift {
   std::uint64_t steps = 0;
   double h_omega = 0.0;
   std::size_t vertices_before = 0, vertices_after = 0;  // the cut
   double drift = 0.0;     // the largest |H - H0| / H0 after any step; H is kinetic and elastic
   std::string diagnosis;  // of the step that failed
 };
-EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega);
+ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega);
 /// The same by another method.
-EnergyDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator);
+ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator);
 
 /// Backward Euler on the paper's body with a tenth of its tetrahedra 10^4 times stiffer, damped: a matrix factored for
 /// every linear system, and one factor kept as long as it serves.

@@ -197,7 +197,7 @@ void simulate(const Options& options, Outcome& outcome) {
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
-    Watcher watcher(scene, settled ? nlohmann::json(*settled).dump() : "", output ? &*output : nullptr,
+    Watcher watcher(scene, settled ? json_text(nlohmann::json(*settled)) : "", output ? &*output : nullptr,
                     album ? &*album : nullptr, film ? &*film : nullptr, progress, steps_per_report);
     const Interrupt interrupt;
     result = run_scene(simulation, scene.output, watcher, options.most_steps(),
@@ -220,7 +220,8 @@ void simulate(const Options& options, Outcome& outcome) {
                           .step_in_words = words,
                           .told = told,
                           .steps_before = start.checkpoint ? start.checkpoint->steps_done() : 0};
-  if (left_after && *left_after < simulation.step_count() && !result.divergence) report.continues_after = left_after;
+  if (left_after && simulation.steps_done() < simulation.step_count() && !result.divergence)
+    report.continues_after = left_after;
   if (result.interrupted)
     report.unjudged =
         fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",

@@ -140,7 +140,7 @@ std::vector<Claim> claims_of(const OrderResults& results) {
                     .paper_value = fmt::format("<= {:.0e} relative", jump_gate),
                     .measured = fmt::format("{:.1e}", jump),
                     .verdict = verdict(jump <= jump_gate)});
-  const EnergyDrift& drift = results.drift;
+  const ConservedDrift& drift = results.drift;
   claims.push_back({.id = "energy-momentum-drift",
                     .text = fmt::format("the energy-momentum scheme keeps the energy at h omega = {:g}, across a cut",
                                         drift.h_omega),

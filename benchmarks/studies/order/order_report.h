@@ -29,7 +29,7 @@ struct OrderResults {
   std::vector<std::string> no_discrete;  // integrators that do not state their amplification
   ForceGradient force;
   std::vector<CutJump> jumps;
-  EnergyDrift drift;
+  ConservedDrift drift;
   KeptFactor factor;
 };
 

@@ -71,7 +71,7 @@ TEST(Film, ShowsTheBodyAsAPictureDoes) {
 /// What a GIF says of itself (its specification, version 89a): the delay before each picture in hundredths of a second.
 struct Gif {
   int width = 0, height = 0, pictures = 0;
-  std::vector<int> delays;
+  std::vector<int> delays{};
   bool ends = false;
 };
 
@@ -80,7 +80,9 @@ Gif read_gif(const std::string& bytes) {
   const auto word = [&byte](std::size_t at) { return byte(at) + 256 * byte(at + 1); };
   const auto colours = [](int flags) { return (flags & 0x80) != 0 ? 3u << ((flags & 7) + 1) : 0u; };
   EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
-  Gif gif{.width = word(6), .height = word(8)};
+  Gif gif;
+  gif.width = word(6);
+  gif.height = word(8);
   std::size_t at = 13 + colours(byte(10));
   while (byte(at) != 0x3B) {
     if (byte(at) == 0x21) {

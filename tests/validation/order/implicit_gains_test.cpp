@@ -8,8 +8,8 @@ namespace dartboard {
 namespace {
 
 // The equations are solved to rounding, so that the energy walks by some 1e-16 a step.
-TEST(EnergyDrift, StaysAtRoundingAcrossACutAtLargeSteps) {
-  const EnergyDrift found = measure_energy_drift(100, 20.0);
+TEST(ConservedDrift, StaysAtRoundingAcrossACutAtLargeSteps) {
+  const ConservedDrift found = measure_energy_drift(100, 20.0);
   EXPECT_EQ(found.diagnosis, "");
   EXPECT_GT(found.vertices_after, found.vertices_before);
   EXPECT_GT(found.drift, 0.0);

@@ -74,11 +74,11 @@ TEST(FactorEditsJudge, TakesSpringsAwayAndPutsThemBack) {
 }
 
 TEST(EnergyDriftJudge, SeesAMethodThatDoesNotKeepTheEnergy) {
-  const EnergyDrift kept = measure_energy_drift(10, 20.0);
+  const ConservedDrift kept = measure_energy_drift(10, 20.0);
   EXPECT_LE(kept.drift, 1e-12);
   for (const char* name : {"backward-euler", "implicit-midpoint"}) {
     const auto integrator = make_integrator(name);
-    const EnergyDrift lost = measure_energy_drift(10, 20.0, *integrator);
+    const ConservedDrift lost = measure_energy_drift(10, 20.0, *integrator);
     EXPECT_TRUE(lost.drift > 1e-6 || !lost.diagnosis.empty()) << name << ": " << lost.drift;
   }
 }
