@@ -38,12 +38,6 @@ struct VertexColumns {
   /// pre  the body is at rest where its mesh has it
   void keep_rest() { rest = position; }
 
-  template <class Archive>
-  void state(Archive& archive) {
-    columns_state(archive, *this, embedded());
-    archive(dart);
-  }
-
   /// Every column but the darts, which are the cells themselves.
   static constexpr auto embedded() {
     using V = VertexColumns;
@@ -56,6 +50,12 @@ struct VertexColumns {
                       EmbeddedColumn{"fixed", &V::fixed, Adapts::duplicated},
                       EmbeddedColumn{"point", &V::point, Adapts::duplicated},
                       EmbeddedColumn{"place at rest", &V::rest, Adapts::duplicated}};
+  }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    columns_state(archive, *this, embedded());
+    archive(dart);
   }
 };
 static_assert(sizeof(VertexColumns) ==
