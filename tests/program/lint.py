@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Does the linter say nothing of what was changed last?   lint_test.py CLANG_TIDY BUILD_FOLDER [--all]
+"""Does the linter say nothing of what was changed last?   lint.py CLANG_TIDY BUILD_FOLDER [--all]
 
 Reading one source takes it some ten seconds, all of them an hour. So it reads the twenty changed last, as git tells, a
-header by the source of its name; with --all every one (cmake --build FOLDER --target lint).
+header by the source of its name; with --all every one. Targets lint and lint_all of the sanitizers' build.
 """
 
 import concurrent.futures
