@@ -42,9 +42,11 @@ TEST(MotionTruth, IsThatOfTheBodyAndOfTheTimeAskedFor) {
   const double time = 5 / highest_frequency(body);
   const double moved = distance_from_truth(body, body, time)->moved;
   EXPECT_NE(distance_from_truth(body, body, 2 * time)->moved, moved);
+  EXPECT_EQ(distance_from_truth(body, body, time)->moved, moved);
   SpringColumns other = body;
   other.springs[3].stiffness *= 2;
   EXPECT_NE(distance_from_truth(other, other, time)->moved, moved);
+  EXPECT_EQ(distance_from_truth(body, body, time)->moved, moved);
   other = body;
   other.v[3].x() += 0.1;
   EXPECT_NE(distance_from_truth(other, other, time)->moved, moved);
