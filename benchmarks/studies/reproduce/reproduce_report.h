@@ -57,6 +57,9 @@ Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals);
 /// Seven series of twenty removals, timed.
 Claim measure_rebuild_claim(const Problem& problem);
 
+/// By the rows of `paper_claims`.
+std::vector<Claim> in_order_of_paper(std::vector<Claim> claims);
+
 /// All of them, in the order of the paper.
 std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem);
 
