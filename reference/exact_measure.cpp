@@ -5,6 +5,8 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
+#include "reference/cell_shape.h"
+
 namespace dartboard::reference {
 namespace {
 
@@ -49,26 +51,16 @@ Integer dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]
 Vector sum(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vector times(int factor, const Vector& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 
-/// Which node of the cell is at corner (r, s, t) of the unit cube, at place r + 2 s + 4 t.
-std::array<std::size_t, 8> corners_of(CellKind kind) {
-  switch (kind) {
-    case CellKind::hexahedron: return {0, 1, 3, 2, 4, 5, 7, 6};
-    case CellKind::prism: return {0, 1, 2, 2, 3, 4, 5, 5};    // an edge of either triangle has no length
-    case CellKind::pyramid: return {0, 1, 3, 2, 4, 4, 4, 4};  // the top is a point
-    default: return {0, 1, 2, 2, 3, 3, 3, 3};
-  }
-}
-
 /// Four times the derivative of the trilinear map in direction `along`, where the two others are a / 2 and b / 2.
-Vector derivative(const std::vector<Vector>& x, const std::array<std::size_t, 8>& corner, std::size_t along, int a,
-                  int b) {
+Vector derivative(const std::vector<Vector>& x, const std::array<int, 8>& corner, std::size_t along, int a, int b) {
   const std::size_t first = along == 0 ? 1 : 0, second = along == 2 ? 1 : 2;
+  const auto node = [&](std::size_t at) -> const Vector& { return x[static_cast<std::size_t>(corner[at])]; };
   Vector d{0, 0, 0};
   for (std::size_t p = 0; p < 2; ++p)
     for (std::size_t q = 0; q < 2; ++q) {
       const std::size_t low = (p << first) + (q << second), high = low + (std::size_t{1} << along);
       const int weight = (p == 0 ? 2 - a : a) * (q == 0 ? 2 - b : b);
-      d = sum(d, times(weight, x[corner[high]] - x[corner[low]]));
+      d = sum(d, times(weight, node(high) - node(low)));
     }
   return d;
 }

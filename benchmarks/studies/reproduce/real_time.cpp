@@ -32,7 +32,7 @@ FrameTime time_frame(const Problem& problem, double h) {
   arrays.rebuild(body);
   RungeKutta4 integrator;
   integrator.step(arrays, body, h);  // first touch of its memory
-  const auto steps = static_cast<int>(std::ceil(frame_s / h));
+  const int steps = steps_of_frame(h);
   const auto start = thread_cpu_ns();
   adapt(body, remove_volume(body.map, body.cell_dart[0]));
   arrays.rebuild(body);
@@ -41,6 +41,8 @@ FrameTime time_frame(const Problem& problem, double h) {
 }
 
 }  // namespace
+
+int steps_of_frame(double h) { return static_cast<int>(std::ceil(frame_s / h)); }
 
 double cells_in_real_time(std::span<const FrameTime> frames) {
   FrameTime before{0, 0.0};

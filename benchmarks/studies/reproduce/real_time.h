@@ -14,6 +14,9 @@ namespace dartboard {
 /// arrays built again, all the paper's way.
 inline constexpr double frame_s = 1.0 / 60.0;
 
+/// How many steps of that size a frame takes.
+int steps_of_frame(double h);
+
 /// Processor time of one frame of a body of so many tetrahedra.
 struct FrameTime {
   std::size_t cells;

@@ -13,6 +13,11 @@ TEST(RealTime, IsReadBetweenTheBodiesMeasured) {
   EXPECT_NEAR(cells_in_real_time(Frames{{1000, 0.1 * frame_s}, {2000, 0.2 * frame_s}}), 2000.0, 1e-9);
 }
 
+TEST(RealTime, HasAFrameOfSeventeenStepsOfAMillisecond) {
+  EXPECT_EQ(steps_of_frame(1e-3), 17);
+  EXPECT_EQ(steps_of_frame(1.0), 1);
+}
+
 std::vector<Frames> rounds(double factor, double jitter = 0.0) {
   std::vector<Frames> all;
   for (int k = 0; k < 7; ++k) all.push_back({{1000, 0.0}, {100000, factor * (1.0 + jitter * (k - 3)) * frame_s}});

@@ -139,23 +139,36 @@ std::vector<MotionAgreement> motion(bool first, bool second) {
 
 TEST(ReproduceGates, LetThroughWhoAgrees) {
   const auto c = counts(1, 2, 3, 4);
-  EXPECT_TRUE(gates_of(c, motion(true, true)).passed);
-  EXPECT_EQ(gates_of(c, motion(true, true)).agreed, (std::vector<std::string>{"arrays", "graph"}));
-  EXPECT_FALSE(gates_of(c, motion(true, false)).passed);
-  EXPECT_EQ(gates_of(c, motion(true, false)).agreed, std::vector<std::string>{"arrays"});
-  EXPECT_FALSE(gates_of(c, motion(false, false)).passed);
-  EXPECT_TRUE(gates_of(c, motion(false, false)).agreed.empty());
+  EXPECT_TRUE(gates_of(c, motion(true, true), {}).passed);
+  EXPECT_EQ(gates_of(c, motion(true, true), {}).agreed, (std::vector<std::string>{"arrays", "graph"}));
+  EXPECT_FALSE(gates_of(c, motion(true, false), {}).passed);
+  EXPECT_EQ(gates_of(c, motion(true, false), {}).agreed, std::vector<std::string>{"arrays"});
+  EXPECT_FALSE(gates_of(c, motion(false, false), {}).passed);
+  EXPECT_TRUE(gates_of(c, motion(false, false), {}).agreed.empty());
 }
 
 TEST(ReproduceGates, LetNobodyThroughWhereTheCellsAreNotCgals) {
   auto c = counts(1, 2, 3, 4);
   c[2].cgal += 1;
-  EXPECT_FALSE(gates_of(c, motion(true, true)).passed);
-  EXPECT_TRUE(gates_of(c, motion(true, true)).agreed.empty());
-  EXPECT_FALSE(gates_of({}, motion(true, true)).passed);
+  EXPECT_FALSE(gates_of(c, motion(true, true), {}).passed);
+  EXPECT_TRUE(gates_of(c, motion(true, true), {}).agreed.empty());
+  EXPECT_FALSE(gates_of({}, motion(true, true), {}).passed);
 }
 
-TEST(ReproduceGates, AreShutWhereNobodyHasCome) { EXPECT_FALSE(gates_of(counts(1, 2, 3, 4), {}).passed); }
+// The arrays stand for all walks of the core.
+TEST(ReproduceGates, LetNoWalkThroughWhereTheSecondOfMotionOfTheirKindIsNotRight) {
+  const std::vector<MotionAgreement> all{
+      {.id = "lists", .agrees = true}, {.id = "arrays", .agrees = true}, {.id = "graph", .agrees = true}};
+  const auto agreed = [&](bool arrays, bool graph) {
+    return gates_of(counts(1, 2, 3, 4), all, {{.id = "arrays", .agrees = arrays}, {.id = "graph", .agrees = graph}})
+        .agreed;
+  };
+  EXPECT_EQ(agreed(true, true), (std::vector<std::string>{"lists", "arrays", "graph"}));
+  EXPECT_EQ(agreed(false, true), std::vector<std::string>{"graph"});
+  EXPECT_EQ(agreed(true, false), (std::vector<std::string>{"lists", "arrays"}));
+}
+
+TEST(ReproduceGates, AreShutWhereNobodyHasCome) { EXPECT_FALSE(gates_of(counts(1, 2, 3, 4), {}, {}).passed); }
 
 TEST(ReproduceExitCode, IsOneWhereAGateHasFailed) {
   EXPECT_EQ(reproduce_exit_code({answered("map-valid", Met::yes, "", "")}, true), 0);
@@ -324,6 +337,16 @@ TEST(ReproduceTables, HaveTheStateOfEachContenderBesideItsBound) {
                  "position difference [m]: 2.0e-17", "bound [m]: 3.0e-16", "agrees: yes"}));
   EXPECT_EQ(table.rows()[1], (Row{"lists", "0000000000000000", "0", "0", "0, same bits", "yes"}));
   EXPECT_EQ(table.rows()[2], (Row{"lists", "0000000000000000", "not 0", "0", "0, same bits", "NO"}));
+}
+
+TEST(ReproduceTables, HaveASecondOfMotionBesideItsBounds) {
+  ReproduceResults r;
+  r.second = {{"graph", 1000, 0.0123, 2e-16, 3e-15, 4e-18, 1e-15, false}};
+  const Table table = second_table(r);
+  EXPECT_EQ(alignment(table), "lrrrrrrl");
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"contender: graph", "steps: 1000", "travelled [m]: 0.012", "position difference [m]: 2.0e-16",
+                 "bound [m]: 3.0e-15", "velocity difference [m/s]: 4.0e-18", "bound [m/s]: 1.0e-15", "agrees: NO"}));
 }
 
 TEST(ReproduceTables, HaveThePapersTimesBesideOurs) {
