@@ -7,24 +7,20 @@
 #include <utility>
 
 #include "core/plain/error.h"
+#include "reference/cell_shape.h"
+#include "reference/exact_measure.h"
 
 namespace dartboard::reference {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-// The edges of one cell, each once. In a volume every edge lies on two faces, so duplicates have to go.
+// The edges of one cell, each once.
 void edges_of_cell(const Mesh& mesh, std::size_t c, std::vector<Pair>& edges) {
   const auto cell = mesh.cell(c);
   edges.clear();
-  for (const auto& face : faces_of(mesh.kinds[c]))
-    for (std::size_t k = 0; k < face.size(); ++k) {
-      const std::uint32_t p = cell[static_cast<std::size_t>(face[k])];
-      const std::uint32_t q = cell[static_cast<std::size_t>(face[(k + 1) % face.size()])];
-      edges.push_back(std::minmax(p, q));
-    }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const auto& [a, b] : own_edges(mesh.kinds[c]))
+    edges.push_back(std::minmax({cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]}));
 }
 
 void check_cell(const Mesh& mesh, std::size_t c) {
@@ -51,7 +47,7 @@ Rebuilt rebuild(const Mesh& mesh, const Material& material) {
     const auto cell = mesh.cell(c);
 
     // eq. (1): an equal share of the mass of the cell to each of its points; handedness is no matter of mass
-    const double measure = std::abs(signed_measure(mesh, c));
+    const double measure = exact_measure(mesh, c);
     const double share = material.density * measure / static_cast<double>(cell.size());
     for (std::uint32_t p : cell) out.mass[p] += share;
 

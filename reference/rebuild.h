@@ -26,8 +26,8 @@ struct Rebuilt {
 
 /// Everything eq. (1) and the rule of parallel springs say about a body, from its points and cells alone.
 ///
-/// Edges are found by sorting the point pairs of the faces' cycles; no other topology is known, so points and edges
-/// that only touch count as one.
+/// Volumes and areas are exact and rounded once. Edges are found by sorting the point pairs of the cells' edges; no
+/// other topology is known, so points and edges that only touch count as one.
 ///
 /// throws  InputError if a cell names a point that does not exist, or one point twice
 /// cost    O(C log C) for C cells

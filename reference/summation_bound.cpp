@@ -1,9 +1,10 @@
 // Rounding, in the usual way: every operation is exact times (1 + delta), |delta| <= u = 2^-53, and n such factors
 // (in numerator or denominator) are within gamma_n = n u / (1 - n u) of 1. Write "n" for "relative error gamma_n".
 //
-// Data. The measure of a cell comes from core/plain and is common to all, so it counts as exact. A point with n cells:
-// each share of mass takes 2 roundings, their sum n - 1: mass n + 1. An edge with m cells: stiffness and damping are a
-// product or a sum of m equal terms: m. Both have positive terms, so nothing cancels.
+// Data. The measure of a cell is off by `measure_rounding` at most: d, relative to the mass of a point when its shares
+// of that are summed. A point with n cells: each share of mass takes 2 roundings, their sum n - 1: mass n + 1, and d.
+// An edge with m cells: stiffness and damping are a product or a sum of m equal terms: m. Both have positive terms, so
+// nothing cancels.
 //
 // One spring. d = xb - xa is 1 per coordinate, its square 3, the sum of three 5, the root 2.5 + 1: length l is 4, and
 // so is the rest length L. The elongation l - L cancels, so its error is absolute: gamma_4 (l + L) from the operands
@@ -34,6 +35,7 @@
 
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
+#include "reference/exact_measure.h"
 #include "reference/rebuild.h"
 
 namespace dartboard::reference {
@@ -54,16 +56,23 @@ struct Body {
   Rebuilt rebuilt;
   std::vector<std::size_t> cells, springs;  // around each point
   std::vector<char> fixed;
+  std::vector<double> mass_rounding;  // d of each point, from the measures of its cells
 
   explicit Body(const Problem& p)
       : problem(p),
         rebuilt(rebuild(p.mesh, p.material)),
         cells(p.mesh.points.size()),
         springs(p.mesh.points.size()),
-        fixed(p.mesh.points.size()) {
+        fixed(p.mesh.points.size()),
+        mass_rounding(p.mesh.points.size()) {
     // its springs are products and sums of other numbers, whose rounding is not in the bound
     if (p.material.young > 0.0) throw InputError("a bound for a material with a Young's modulus; expected a stiffness");
-    for (std::uint32_t node : p.mesh.nodes) ++cells[node];
+    for (std::size_t c = 0; c < p.mesh.cell_count(); ++c)
+      for (const std::uint32_t node : p.mesh.cell(c)) {
+        ++cells[node];
+        mass_rounding[node] += p.material.density * measure_rounding(p.mesh, c) /
+                               static_cast<double>(p.mesh.cell(c).size()) / rebuilt.mass[node];
+      }
     for (const Spring& s : rebuilt.springs) {
       ++springs[s.a];
       ++springs[s.b];
@@ -143,7 +152,7 @@ std::vector<double> force_bound(const Problem& problem, const PointState& state)
   for (std::size_t i = 0; i < pulls.size(); ++i) {
     const double drag = problem.material.viscosity * body.rebuilt.mass[i] * v[i].norm();
     const double one = pulls[i].error + gamma(body.springs[i] + 2) * pulls[i].magnitude +
-                       gamma(body.cells[i] + body.springs[i] + 5) * drag;
+                       (gamma(body.cells[i] + body.springs[i] + 5) + body.mass_rounding[i]) * drag;
     bound.push_back(2.0 * slack * one);
   }
   return bound;
@@ -160,9 +169,9 @@ std::vector<double> force_bound(const Problem& problem, const PointState& state)
 // frequency that Gershgorin's discs give. P and Q are taken at each stage from the run computed here, for all states
 // within the tube of 2 X_s (X_s for this run, X_s for another), hence the 4 X_s per spring in pull_points.
 //
-// eps is the error of the acceleration: that of the force and mass, n + 1 more for the mass and 2 for the division or
-// reciprocal, and 2 for the sums with drag and gravity. Drag divided by mass has the most roundings: n + 3 + (p + 2) +
-// n + 3 + 2 = 2 n + p + 10, taken for all terms but E.
+// eps is the error of the acceleration: that of the force and mass, d and n + 1 more for the mass and 2 for the
+// division or reciprocal, and 2 for the sums with drag and gravity. Drag divided by mass has the most roundings: n + 3
+// + (p + 2) + n + 3 + 2 = 2 n + p + 10, taken for all terms but E.
 //
 // A stage rounds twice per coordinate on the product and once on the sum: u |x_s| + gamma_2 c h |v|. The last sum takes
 // gamma_8 of its terms, and one rounding of x when the terms are summed first, four when added to x one by one.
@@ -201,8 +210,10 @@ StateBound state_bound(const Problem& problem, const PointState& start, int step
         const Pull& p = pulls[i];
         const double mass = body.rebuilt.mass[i];
         a[i] = p.force / mass - viscosity * vs[i] + gravity;
-        const double eps = p.error / mass + gamma(2 * body.cells[i] + body.springs[i] + 10) *
-                                                (p.magnitude / mass + viscosity * vs[i].norm() + gravity.norm());
+        const double eps = p.error / mass +
+                           2.0 * body.mass_rounding[i] * (p.force.norm() / mass + viscosity * vs[i].norm()) +
+                           gamma(2 * body.cells[i] + body.springs[i] + 10) *
+                               (p.magnitude / mass + viscosity * vs[i].norm() + gravity.norm());
         A = max_or_nan(A, slack * (p.by_position / mass * Xs + (p.by_velocity / mass + viscosity) * Vs + eps));
       }
       if (!std::isfinite(A)) return {infinity, infinity};

@@ -1,7 +1,9 @@
 #include "reference/cgal/cgal_body.h"
 
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Linear_cell_complex_for_generalized_map.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/centroid.h>
 #include <CGAL/version.h>
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 
 #include "core/plain/error.h"
 #include "reference/adjacency_graph.h"
+#include "reference/cell_shape.h"
 
 namespace dartboard::reference {
 namespace {
@@ -75,7 +78,7 @@ void link_equal(Map& map, std::vector<NamedDart>& darts, Name name) {
 std::vector<NamedDart> build_darts(Map& map, const Mesh& mesh) {
   std::vector<NamedDart> darts;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c)
-    for (const auto& cycle : faces_of(mesh.kinds[c])) {
+    for (const auto& cycle : own_faces(mesh.kinds[c])) {
       const std::size_t n = cycle.size(), base = darts.size();
       const auto point = [&](std::size_t k) { return mesh.cell(c)[static_cast<std::size_t>(cycle[k % n])]; };
 
@@ -100,6 +103,52 @@ std::vector<NamedDart> build_darts(Map& map, const Mesh& mesh) {
     link_equal<2>(map, darts, [](const NamedDart& d) { return std::tuple(d.from, d.to); });
   }
   return darts;
+}
+
+// Masses of points, eq. (1), by the kernel's exact numbers.
+using Number = CGAL::Exact_rational;
+using ExactKernel = CGAL::Simple_cartesian<Number>;
+using ExactPoint = ExactKernel::Point_3;
+using ExactVector = ExactKernel::Vector_3;
+
+// The cones over the faces of a cell, seen from the centroid of its corners, which is inside. A quadrilateral that is
+// not plane is the mean of its two splits along a diagonal.
+Number measure(const std::vector<ExactPoint>& x, CellKind kind) {
+  if (dimension(kind) == 2) {
+    ExactVector twice = CGAL::NULL_VECTOR;
+    for (std::size_t k = 2; k < x.size(); ++k) twice += CGAL::cross_product(x[k - 1] - x[0], x[k] - x[0]);
+    return Number(std::sqrt(CGAL::to_double(twice.squared_length())) / 2.0);
+  }
+  const ExactPoint centre = CGAL::centroid(x.begin(), x.end(), CGAL::Dimension_tag<0>());
+  Number sum = 0;
+  for (const auto& face : own_faces(kind)) {
+    const auto corner = [&](std::size_t k) { return x[static_cast<std::size_t>(face[k])]; };
+    const auto cone = [&](std::size_t a, std::size_t b, std::size_t c) {
+      return CGAL::volume(corner(a), corner(b), corner(c), centre);
+    };
+    if (face.size() == 3)
+      sum += CGAL::abs(cone(0, 1, 2));
+    else
+      sum += CGAL::abs(cone(0, 1, 2) + cone(0, 2, 3) + cone(0, 1, 3) + cone(1, 2, 3)) / 2;
+  }
+  return sum;
+}
+
+std::vector<double> masses_of_points(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<Number> sums(mesh.points.size(), Number(0));
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const auto cell = mesh.cell(c);
+    std::vector<ExactPoint> x;
+    for (const std::uint32_t p : cell)
+      x.emplace_back(Number(mesh.points[p][0]), Number(mesh.points[p][1]), Number(mesh.points[p][2]));
+    const Number share =
+        measure(x, mesh.kinds[c]) * Number(problem.material.density) / Number(static_cast<int>(cell.size()));
+    for (const std::uint32_t p : cell) sums[p] += share;
+  }
+  std::vector<double> masses;
+  for (const Number& sum : sums) masses.push_back(CGAL::to_double(sum));
+  return masses;
 }
 
 template <class Range>
@@ -129,9 +178,9 @@ struct CgalBody::Complex {
       : walk(how), h(problem.h), gravity(to_vector(problem.surroundings.gravity)) {
     if (problem.material.young > 0.0)
       throw InputError("a body on CGAL's map knows one stiffness for all cells; expected no Young's modulus");
-    const AdjacencyGraph graph(problem);  // refuses what is malformed, and knows the masses
+    const AdjacencyGraph graph(problem);  // refuses what is malformed
     const std::vector<NamedDart> darts = build_darts(map, problem.mesh);
-    add_vertices(problem, darts, graph.masses());
+    add_vertices(problem, darts, masses_of_points(problem));
     add_edges(problem, darts);
     if (!map.is_valid()) throw InputError("CGAL finds the map of this mesh invalid");
     set_state(graph.state());

@@ -24,7 +24,8 @@ struct CgalCounts {
 };
 
 /// A mass/spring body whose points are vertex attributes and whose springs are edge attributes of a 3-g-map, moved by
-/// classical Runge-Kutta of order 4. The number of cells around an edge, hence its stiffness, is CGAL's answer too.
+/// classical Runge-Kutta of order 4. The number of cells around an edge, hence its stiffness, is CGAL's answer too, and
+/// so are the masses: volumes by the exact numbers of its kernel.
 class CgalBody {
  public:
   /// throws  InputError as AdjacencyGraph does, for a material with a Young's modulus, and if the cells make no

@@ -385,7 +385,7 @@ class ReadBack(unittest.TestCase):
         # what happens at the start has happened before anybody can look
         self.assertEqual(jumps["events"], sum("dissociate" in e and e["at"] > 0
                                               for e in self.story.scene.get("events", [])))
-        for name in ("mass", "momentum", "energy"):
+        for name in ("mass", "stiffness", "momentum", "energy"):
             self.assertLessEqual(jumps[name], 2.0 ** -40, name)
         self.assertLessEqual(self.run_.printed["mass_drift"], 2.0 ** -40)
 

@@ -48,12 +48,15 @@ TEST(ForceBoundOfATetrahedron, StretchedAddsTheRoundingOfItsElongationsAndTheirS
   expect_all(force_bound(one.problem, one.state), slack * 3 * k_l * (3 * gamma(13) + gamma(13) + gamma(5)));
 }
 
-// A body that flies as a whole: drag m v viscosity, with gamma_{n+p+5}, n = 1 cell and p = 3 springs.
+// A body that flies as a whole: drag m v viscosity, with gamma_{n+p+5}, n = 1 cell and p = 3 springs, and the rounding of
+// the mass of the cell, 11 u |e|^3 / 6 of its volume.
 TEST(ForceBoundOfATetrahedron, FlyingAddsTheRoundingOfItsDrag) {
   OneTetrahedron one;
   for (auto& v : one.state.v) v = {0, 0, 1e6};
   const double at_rest = 3 * gamma(13) * 8.0 * 2 * one.length;
-  expect_all(force_bound(one.problem, one.state), slack * (at_rest + gamma(9) * 0.25 * one.mass * 1e6));
+  const double mass_rounding = 11.01 * u * std::pow(one.length, 3) / 6.0 / 4.0;
+  expect_all(force_bound(one.problem, one.state),
+             slack * (at_rest + 0.25 * 1e6 * (gamma(9) * one.mass + mass_rounding)));
 }
 
 // One corner moves: gamma_{m+23} c |dv| of each of its springs, and what their damping adds to the sum.

@@ -13,19 +13,41 @@
 #include "core/walks/runge_kutta_4.h"
 #include "validation/conservation/conservation_checks.h"
 #include "validation/conservation/rebuild_oracle.h"
+#include "validation/conservation/reference_motion.h"
 #include "validation/conservation/split_comparison.h"
 
 namespace dartboard {
 namespace {
 
-constexpr std::array compared{
-    Check::counts,          Check::euler,          Check::valid,           Check::mass_of_vertex,
-    Check::spring_of_edge,  Check::duplicated,     Check::views,           Check::total_mass,
-    Check::total_stiffness, Check::total_damping,  Check::linear_momentum, Check::angular_momentum,
-    Check::kinetic_energy,  Check::elastic_energy, Check::boundary_area,   Check::side_by_side,
-    Check::same_cells,      Check::same_bits,      Check::oracle_position, Check::oracle_velocity,
-    Check::split_cells,     Check::split_sums,     Check::split_bits,      Check::mass_drift,
-    Check::stiffness_drift};
+constexpr std::array compared{Check::counts,
+                              Check::euler,
+                              Check::valid,
+                              Check::mass_of_vertex,
+                              Check::mass_of_cells,
+                              Check::spring_of_edge,
+                              Check::ends,
+                              Check::duplicated,
+                              Check::views,
+                              Check::total_mass,
+                              Check::total_stiffness,
+                              Check::total_damping,
+                              Check::linear_momentum,
+                              Check::angular_momentum,
+                              Check::kinetic_energy,
+                              Check::elastic_energy,
+                              Check::boundary_area,
+                              Check::side_by_side,
+                              Check::same_cells,
+                              Check::same_bits,
+                              Check::oracle_position,
+                              Check::oracle_velocity,
+                              Check::reference_position,
+                              Check::reference_velocity,
+                              Check::split_cells,
+                              Check::split_sums,
+                              Check::split_bits,
+                              Check::mass_drift,
+                              Check::stiffness_drift};
 
 /// A body of no more cells is compared in everything after each series.
 constexpr std::size_t small = 24;
@@ -46,7 +68,7 @@ class Run {
     std::size_t next_everything = plan_.everything_every, next_oracle = plan_.oracle_every, next_progress = 1000;
     while (!ledger_.broken() && done() < plan_.operations) {
       if (at_.cells.count() == 0) {
-        checks_.everything();  // of the empty body
+        compare_everything();  // of the empty body
         if (ledger_.broken() || at_.fresh.cell_dart.empty()) break;
         begin();
         ++result_.refills;
@@ -54,7 +76,7 @@ class Run {
       move();
       series();
       if (!ledger_.broken() && (at_.cells.count() <= small || done() >= next_everything)) {
-        checks_.everything();
+        compare_everything();
         next_everything = done() + plan_.everything_every;
       }
       if (!ledger_.broken() && done() >= next_oracle) {
@@ -66,7 +88,7 @@ class Run {
         next_progress += 1000;
       }
     }
-    if (!ledger_.broken()) checks_.everything();
+    if (!ledger_.broken()) compare_everything();
     if (!ledger_.broken()) compare_motion();
     if (!ledger_.broken()) compare_drift();
     return std::move(result_);
@@ -83,6 +105,11 @@ class Run {
     const ConservedSums sums = sums_of(at_.body, at_.views.cells);
     mass_.begin(sums[Conserved::mass].value());
     stiffness_.begin(sums[Conserved::stiffness].value());
+    compare_everything();
+  }
+
+  void compare_everything() {
+    ++result_.whole_comparisons;
     checks_.everything();
   }
 
@@ -233,6 +260,12 @@ class Run {
     ledger_.equal(Check::same_cells, at_.body.springs.size(), motion.springs, "springs of body", which);
     if (ledger_.broken()) return;
     ledger_.require(Check::same_bits, motion.same_bits, "state of body", which);
+    const auto [off, spread] =
+        compare_with_reference(at_.body, at_.views.cells, at_.start, at_.places, at_.cells, plan_.reference_steps);
+    ledger_.within(Check::reference_position, off.position, spreads_of_cut_body * spread.position, 1.0, off.position,
+                   0.0);
+    ledger_.within(Check::reference_velocity, off.velocity, spreads_of_cut_body * spread.velocity, 1.0, off.velocity,
+                   0.0);
     if (!std::isfinite(motion.bound.position)) {
       ++result_.bodies_without_bound;
       return;

@@ -40,6 +40,7 @@ struct ConservationPlan {
   std::size_t everything_every = 100;  // operations between two comparisons of everything; one at start and end too
   std::size_t oracle_every = 1000;  // operations between two comparisons with a body built from scratch; one at the end
   int oracle_steps = 10;
+  int reference_steps = 100;                       // that the reference alone takes then
   std::function<void(std::size_t done)> progress;  // called every 1000 operations or so
 };
 
@@ -65,6 +66,7 @@ std::string to_string(const Violation& violation);
 struct ConservationResult {
   std::size_t dissociations = 0, tears = 0, removals = 0, refinements = 0;  // these are the operations
   std::size_t parts_split_off = 0, series = 0, steps = 0, refills = 0;
+  std::size_t whole_comparisons = 0;                              // of everything, views against rebuilt ones included
   std::size_t bodies_from_scratch = 0, bodies_without_bound = 0;  // a spring so short that the bound says nothing
   std::vector<ConservedRow> rows;
   std::optional<Violation> violation;
@@ -75,12 +77,13 @@ struct ConservationResult {
 /// Take a moving body apart at random, in series of one to four operations, until nothing is left; then again with a
 /// fresh one. A solid loses faces, fans of faces and volumes, a surface edges and faces.
 ///
-/// After each series: numbers of cells as the change predicts; masses, springs and states of all that changed against
-/// the cells that remain (RemainingCells, which knows no dart); the conserved sums of the whole body, against those
-/// before and the share of what was removed. Now and then everything, against reference/rebuild, and all views against
-/// rebuilt ones; after every series once the body is small. Of the components that come loose some are split off as
-/// bodies of their own (split_comparison.h); the others stay. Now and then the motion against that of a body built
-/// from scratch (rebuild_oracle.h). It stops at the first violation.
+/// After each series: numbers of cells as the change predicts; masses, springs, their ends in the views and states of
+/// all that changed against the cells that remain (RemainingCells, which knows no dart); the conserved sums of the
+/// whole body, against those before and the share of what was removed. Now and then everything, against
+/// reference/rebuild, and all views against rebuilt ones; after every series once the body is small. Of the components
+/// that come loose some are split off as bodies of their own (split_comparison.h); the others stay. Now and then the
+/// motion against that of a body built from scratch (rebuild_oracle.h), and of the cells that remain, moved by the
+/// reference alone (reference_motion.h). It stops at the first violation.
 ///
 /// Relative sums are in units of the sum of the absolute values.
 /// throws  InputError if the mesh is not of the dimension of the map, or is one that build_body refuses

@@ -18,8 +18,10 @@ enum class Check : std::size_t {
   euler,
   valid,
   mass_of_vertex,
+  mass_of_cells,
   spring_of_edge,
   duplicated,
+  ends,
   views,
   total_mass,
   total_stiffness,
@@ -34,6 +36,8 @@ enum class Check : std::size_t {
   same_bits,
   oracle_position,
   oracle_velocity,
+  reference_position,
+  reference_velocity,
   split_cells,
   split_sums,
   split_bits,
@@ -43,7 +47,7 @@ enum class Check : std::size_t {
   mass_drift,
   stiffness_drift
 };
-inline constexpr std::size_t check_count = 28;
+inline constexpr std::size_t check_count = 32;
 
 /// Fills the rows of a result, and keeps the first violation.
 class ConservationLedger {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/plain/error.h"
+#include "reference/cell_shape.h"
 
 namespace dartboard {
 namespace {
@@ -32,7 +33,7 @@ std::span<const std::vector<int>> sides_of(CellKind kind) {
   static const auto triangle = edges_of_polygon(3), quadrilateral = edges_of_polygon(4);
   if (kind == CellKind::triangle) return triangle;
   if (kind == CellKind::quadrilateral) return quadrilateral;
-  return faces_of(kind);
+  return reference::own_faces(kind);
 }
 
 RemainingCells::RemainingCells(const Mesh& mesh) : mesh_(&mesh), count_(mesh.cell_count()), there_(count_, 1) {

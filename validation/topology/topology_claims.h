@@ -2,18 +2,13 @@
 // What the paper says of maps and graphs in general, tried out.
 
 #include <cstdint>
-#include <string>
 
 #include "core/plain/mesh.h"
 #include "core/topology/convert.h"
 #include "core/topology/generalized_map.h"
+#include "validation/topology/claim_answer.h"
 
 namespace dartboard {
-
-struct ClaimAnswer {
-  bool holds;
-  std::string measured;
-};
 
 /// Sections 1 and 2: no operation leaves the class of objects in which a face joins at most two volumes. Random
 /// dissociations, removals and sews; the conditions are checked after each.

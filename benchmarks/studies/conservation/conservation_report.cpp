@@ -41,6 +41,11 @@ std::string to_text(const TakenApart& s, const std::string& repeat) {
       "{} parts split off; the body was emptied and refilled {} times\n",
       r.operations(), r.dissociations, r.tears, r.removals, r.refinements, r.series, r.steps, r.parts_split_off,
       r.refills);
+  if (r.whole_comparisons > 0)
+    text += fmt::format(
+        "compared after each series: sums, and all that it changed, the views' ends of springs included; everything, all "
+        "views against rebuilt ones included: {} times\n",
+        r.whole_comparisons);
   text += fmt::format("{:.0f} operations per second, checks and steps included; {} bodies built from scratch{}\n\n",
                       s.operations_per_s, r.bodies_from_scratch,
                       r.bodies_without_bound == 0
@@ -62,6 +67,7 @@ nlohmann::ordered_json to_json(const TakenApart& s) {
                               {"h", s.h},
                               {"holds", s.holds()},
                               {"operations", r.operations()},
+                              {"whole_comparisons", r.whole_comparisons},
                               {"dissociations", r.dissociations},
                               {"tears", r.tears},
                               {"removals", r.removals},

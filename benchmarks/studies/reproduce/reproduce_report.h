@@ -12,6 +12,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/problem.h"
 #include "validation/contenders/motion_agreement.h"
+#include "validation/contenders/motion_second.h"
 #include "validation/contenders/topology_agreement.h"
 
 namespace dartboard {
@@ -20,6 +21,7 @@ namespace dartboard {
 struct ReproduceResults {
   std::vector<CountAgreement> counts;
   std::vector<MotionAgreement> motion;
+  std::vector<SecondOfMotion> second;
   std::vector<Sample> per_step;  // scaled to one step
   bool quick = false;            // few rounds: they may confirm what is known of times, and are no witness against it
 
@@ -30,6 +32,9 @@ struct ReproduceResults {
 
 Table counts_table(const ReproduceResults& results);
 Table agreement_table(const ReproduceResults& results);
+Table second_table(const ReproduceResults& results);
+/// Why the bounds of the one table are wide and those of the other are not.
+std::string bounds_note();
 /// The paper's milliseconds and ratios beside ours.
 Table timing_table(const ReproduceResults& results);
 /// Why our ratios are not the paper's, in numbers.
@@ -40,7 +45,9 @@ struct ReproduceGates {
   std::vector<std::string> agreed;  // the contenders that may be timed; none where the topology differs from CGAL's
   bool passed = false;              // all of them, and there is at least one
 };
-ReproduceGates gates_of(const std::vector<CountAgreement>& counts, const std::vector<MotionAgreement>& motion);
+/// A contender that a second of motion is not right of is not timed, and, where it is the core's, no walk of it.
+ReproduceGates gates_of(const std::vector<CountAgreement>& counts, const std::vector<MotionAgreement>& motion,
+                        const std::vector<SecondOfMotion>& second);
 
 /// What the paper says of maps and of its body, tried out on the body of the problem.
 std::vector<Claim> answer_topology(const std::vector<CountAgreement>& counts, const Problem& problem);
@@ -56,6 +63,9 @@ std::vector<Claim> answer_time(const ReproduceResults& results);
 Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals);
 /// Seven series of twenty removals, timed.
 Claim measure_rebuild_claim(const Problem& problem);
+
+/// By the rows of `paper_claims`.
+std::vector<Claim> in_order_of_paper(std::vector<Claim> claims);
 
 /// All of them, in the order of the paper.
 std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem);

@@ -33,7 +33,11 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
                    fmt::format("2. Forces, and states after {} steps, against the first contender", agreement_steps),
                    agreement_table(results)}}});
 
-  const ReproduceGates gates = gates_of(results.counts, results.motion);
+  results.second = compare_second(problem, 1.0, contenders_for_a_second());
+  log.finished({.tables = {{"second", "   A second of motion, against the same steps in extended precision",
+                            second_table(results), bounds_note()}}});
+
+  const ReproduceGates gates = gates_of(results.counts, results.motion, results.second);
   if (!gates.agreed.empty()) {
     const MeasurePlan measured = plan_measurement(body, problem, gates.agreed, plan.quick, plan.seed);
     log.say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each\n", measured.processes,

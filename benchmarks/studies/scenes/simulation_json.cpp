@@ -26,7 +26,11 @@ nlohmann::ordered_json to_json(const Diagnostics& d, int dimension) {
 }
 
 nlohmann::ordered_json to_json(const EventJumps& jumps) {
-  return {{"events", jumps.events}, {"mass", jumps.mass}, {"momentum", jumps.momentum}, {"energy", jumps.energy}};
+  return {{"events", jumps.events},
+          {"mass", jumps.mass},
+          {"stiffness", jumps.stiffness},
+          {"momentum", jumps.momentum},
+          {"energy", jumps.energy}};
 }
 
 }  // namespace dartboard

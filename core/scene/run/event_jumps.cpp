@@ -11,15 +11,23 @@ KeptSums kept_sums(const SimulatedBody& body) {
   const SpringSystem system = body.system();
   const VertexColumns& v = body.vertices();
   double size = 0.0;
-  for (std::size_t k = 0; k < v.size(); ++k) size += v.mass[k] * v.velocity[k].norm();
-  return {body.mass(), kinetic_energy(system, v.velocity) + elastic_energy(system, v.position),
-          linear_momentum(system, v.velocity), size};
+  // in extended precision: what is looked for is a share that went missing, and not the rounding of another order
+  long double mass = 0.0L, stiffness = 0.0L;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    size += v.mass[k] * v.velocity[k].norm();
+    mass += v.mass[k];
+  }
+  for (const Spring spring : system.springs) stiffness += spring.stiffness;
+  return {static_cast<double>(mass), static_cast<double>(stiffness),
+          kinetic_energy(system, v.velocity) + elastic_energy(system, v.position), linear_momentum(system, v.velocity),
+          size};
 }
 
 void EventJumps::add(const KeptSums& before, const KeptSums& after) {
   const auto relative = [](double change, double scale) { return change == 0.0 ? 0.0 : std::abs(change) / scale; };
   ++events;
   mass = max_or_nan(mass, relative(after.mass - before.mass, before.mass));
+  stiffness = max_or_nan(stiffness, relative(after.stiffness - before.stiffness, before.stiffness));
   momentum = max_or_nan(momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
   energy = max_or_nan(energy, relative(after.energy - before.energy, before.energy));
 }

@@ -11,7 +11,8 @@ namespace dartboard {
 
 /// Sums over a body that no dissociation changes.
 struct KeptSums {
-  double mass, energy;       // [kg] of all cells; [J] kinetic and elastic
+  double mass, stiffness;    // [kg] of all vertices, [N/m] of all springs: m = m1 + m2 and k = k1 + k2 where one parts
+  double energy;             // [J] kinetic and elastic
   Eigen::Vector3d momentum;  // [kg m/s]
   double size_of_momentum;   // [kg m/s] the sum of m |v|
 };
@@ -21,6 +22,7 @@ KeptSums kept_sums(const SimulatedBody& body);
 struct EventJumps {
   std::uint64_t events = 0;  // that dissociated
   double mass = 0.0;         // relative to the mass before
+  double stiffness = 0.0;    // relative to the stiffness before
   double momentum = 0.0;     // relative to the sum of m |v| before
   double energy = 0.0;       // kinetic and elastic, relative to their sum before
 
@@ -28,7 +30,7 @@ struct EventJumps {
   void add(const KeptSums& before, const KeptSums& after);
   template <class Archive>
   void state(Archive& archive) {
-    archive(events, mass, momentum, energy);
+    archive(events, mass, stiffness, momentum, energy);
   }
 };
 

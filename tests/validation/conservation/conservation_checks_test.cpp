@@ -20,9 +20,10 @@ std::string found(const std::function<void(Subject<TetMap>&)>& spoil) {
   subject.body = subject.fresh;
   subject.views.rebuild(subject.body);
   ConservationResult result;
-  ConservationLedger ledger(result, 1,
-                            std::array{Check::counts, Check::euler, Check::valid, Check::mass_of_vertex,
-                                       Check::spring_of_edge, Check::views, Check::boundary_area, Check::side_by_side});
+  ConservationLedger ledger(
+      result, 1,
+      std::array{Check::counts, Check::euler, Check::valid, Check::mass_of_vertex, Check::mass_of_cells,
+                 Check::spring_of_edge, Check::ends, Check::views, Check::boundary_area, Check::side_by_side});
   ConservationChecks<TetMap> checks(subject, ledger);
   spoil(subject);
   checks.everything();
@@ -58,9 +59,10 @@ TEST(ConservationChecksOfABody, CompareEverySpringOfTheSoup) {
   subject.body = subject.fresh;
   subject.views.rebuild(subject.body);
   ConservationResult result;
-  ConservationLedger ledger(result, 1,
-                            std::array{Check::counts, Check::euler, Check::valid, Check::mass_of_vertex,
-                                       Check::spring_of_edge, Check::views, Check::boundary_area, Check::side_by_side});
+  ConservationLedger ledger(
+      result, 1,
+      std::array{Check::counts, Check::euler, Check::valid, Check::mass_of_vertex, Check::mass_of_cells,
+                 Check::spring_of_edge, Check::ends, Check::views, Check::boundary_area, Check::side_by_side});
   ConservationChecks<TetMap>(subject, ledger).everything();
   ASSERT_FALSE(ledger.broken());
   EXPECT_EQ(result.rows.back().checks, 3 * subject.body.springs.size());
@@ -77,10 +79,18 @@ TEST(ConservationChecksOfABody, NameEachViewThatIsStale) {
   const auto expect = [&](const char* name, const std::function<void(Views&)>& spoil) {
     EXPECT_EQ(stale(spoil).find(std::string("all views: apply = rebuild, ") + name), 0u) << stale(spoil);
   };
-  expect("spring ends", [](Views& v) { std::swap(v.ends.ends[0], v.ends.ends[1]); });
+  expect("spring ends", [](Views& v) { std::swap(v.ends.ends[0][0], v.ends.ends[0][1]); });
   expect("boundary surface", [](Views& v) { v.boundary = {}; });
   expect("component labels", [](Views& v) { v.components = ComponentLabels(); });
   expect("cell arrays", [](Views& v) { std::swap(v.cells.edges[0].ends[0], v.cells.edges[0].ends[1]); });
+}
+
+// By the cells that are left, and not by core's own rebuild.
+TEST(ConservationChecksOfABody, NameASpringThatEndsElsewhereInAView) {
+  EXPECT_EQ(found([](auto& at) { std::swap(at.views.ends.ends[0], at.views.ends.ends[1]); }),
+            "ends of springs in the views, from the cells left, view, edge 1");
+  EXPECT_EQ(found([](auto& at) { std::swap(at.views.cells.edges[0].ends, at.views.cells.edges[1].ends); }),
+            "ends of springs in the views, from the cells left, arrays, edge 1");
 }
 
 }  // namespace

@@ -39,35 +39,38 @@ TEST(KeptSums, AreMassEnergyOfMotionAndOfSpringsAndMomentum) {
   motion.v[1] = {-1, 0, 0};
   const KeptSums sums = kept_sums(*body);
   EXPECT_EQ(sums.mass, 2.0);
+  EXPECT_EQ(sums.stiffness, 8.0);
   EXPECT_EQ(sums.energy, 12.5 + 0.5 + 8.0 * 0.25 / 2);
   EXPECT_EQ(sums.momentum, Eigen::Vector3d(-1, 3, 4));
   EXPECT_EQ(sums.size_of_momentum, 5.0 + 1.0);
 }
 
-const KeptSums before{.mass = 4, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8};
+const KeptSums before{.mass = 4, .stiffness = 16, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8};
 
 TEST(EventJumps, AreRelativeToWhatWasThereBefore) {
   EventJumps jumps;
-  jumps.add(before, {.mass = 3, .energy = 15, .momentum = {1, 3, 4}, .size_of_momentum = 100});
+  jumps.add(before, {.mass = 3, .stiffness = 17, .energy = 15, .momentum = {1, 3, 4}, .size_of_momentum = 100});
   EXPECT_EQ(jumps.events, 1u);
   EXPECT_EQ(jumps.mass, 1.0 / 4);
+  EXPECT_EQ(jumps.stiffness, 1.0 / 16);
   EXPECT_EQ(jumps.energy, 5.0 / 10);
   EXPECT_EQ(jumps.momentum, 5.0 / 8);
 }
 
 TEST(EventJumps, AreTheLargestOfAllEventsEachOfItsKind) {
   EventJumps jumps;
-  jumps.add(before, {.mass = 5, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8});
-  jumps.add(before, {.mass = 4, .energy = 7.5, .momentum = {1, 0, 0}, .size_of_momentum = 8});
-  jumps.add(before, {.mass = 4, .energy = 10, .momentum = {0, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before, {.mass = 5, .stiffness = 16, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before, {.mass = 4, .stiffness = 12, .energy = 7.5, .momentum = {1, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before, {.mass = 4, .stiffness = 16, .energy = 10, .momentum = {0, 0, 0}, .size_of_momentum = 8});
   EXPECT_EQ(jumps.events, 3u);
   EXPECT_EQ(jumps.mass, 1.0 / 4);
+  EXPECT_EQ(jumps.stiffness, 4.0 / 16);
   EXPECT_EQ(jumps.energy, 2.5 / 10);
   EXPECT_EQ(jumps.momentum, 1.0 / 8);
 }
 
 TEST(EventJumps, AreNoneWhereNothingChangesThoughThereWasNothing) {
-  const KeptSums nothing{.mass = 0, .energy = 0, .momentum = {0, 0, 0}, .size_of_momentum = 0};
+  const KeptSums nothing{.mass = 0, .stiffness = 0, .energy = 0, .momentum = {0, 0, 0}, .size_of_momentum = 0};
   EventJumps jumps;
   jumps.add(nothing, nothing);
   EXPECT_EQ(jumps.mass, 0.0);
@@ -108,6 +111,22 @@ TEST(EventJumps, OfAnEventThatFindsNothingToDoAreNotCounted) {
   EXPECT_EQ(jumps.events, 0u);
 }
 
+// A dissociation touches no mass of a cell: what goes missing does so where a vertex or an edge comes apart.
+TEST(EventJumps, AreOfTheMassesOfVerticesAndTheStiffnessesOfSprings) {
+  Problem problem;
+  problem.mesh = kuhn_box(2, 2, 2, 0.125);
+  problem.material = {.density = 768.0, .stiffness = 64.0, .damping = 0.0, .viscosity = 0.0};
+  const auto body = make_simulated_body(problem, true);
+  EventJumps jumps;
+  Push halving([&] {
+    const_cast<VertexColumns&>(body->vertices()).mass[5] *= 0.5;
+    return 1;
+  });
+  const double lost = 0.5 * body->vertices().mass[5];
+  EXPECT_EQ(apply_watched(halving, *body, jumps), 1u);
+  EXPECT_EQ(jumps.mass, lost / 12.0);
+}
+
 TEST(EventJumps, OfARemovalAreTheMassRemoved) {
   const SceneFile scene = parse(with_events(moving_box(), R"([{"at": 0.005, "remove": {"ids": [3, 7, 11]}}])"));
   const Simulation simulation(scene);
@@ -134,6 +153,7 @@ TEST(Simulation, WatchesTheEventsThatOnlyDissociateWhileItIsAskedTo) {
     EXPECT_EQ(simulation.jumps().events, watch ? 2u : 0u);
     // sums of at most 2^7 terms with at most 2^4 roundings each
     EXPECT_LE(simulation.jumps().mass, 0x1p-42);
+    EXPECT_LE(simulation.jumps().stiffness, 0x1p-42);
     EXPECT_LE(simulation.jumps().momentum, 0x1p-42);
     EXPECT_LE(simulation.jumps().energy, 0x1p-42);
   }

@@ -1,0 +1,20 @@
+#pragma once
+// The paper's sentences on maps, operations and embeddings, asked of its body in its situations: validation/paper.
+
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "core/plain/problem.h"
+#include "validation/topology/claim_answer.h"
+
+namespace dartboard {
+
+/// The claim of this id, answered: `where` tells on what body it was tried, and by which witness. Of a sentence that
+/// says that something is not possible, `tried.holds` is that it was done, and the sentence is not met.
+Claim tried_out(std::string_view id, const ClaimAnswer& tried, std::string where);
+
+/// All of them; some 3 seconds on the paper's body.   pre  its cells are tetrahedra
+std::vector<Claim> answer_by_trials(const Problem& problem);
+
+}  // namespace dartboard

@@ -1,0 +1,64 @@
+#include "validation/paper/removals_share.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/paper_problem_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+using Body = LiveBody<Map3>;
+
+RemovalAnswers with(const std::function<void(Body&, const TopologyChange&)>& spoil) {
+  return try_removals(small_tetrahedral_problem(), 40, 5, [&](Body& body, const TopologyChange& change) {
+    core_adapt(body, change);
+    spoil(body, change);
+  });
+}
+
+TEST(Removals, ShareMassAndStiffnessAndFreeTheFaces) {
+  const RemovalAnswers answers = try_removals(small_tetrahedral_problem(), 40, 5);
+  expect_yes(answers.shares);
+  expect_yes(answers.free_faces);
+}
+
+TEST(Removals, DoNotShareWhereANeighbourKeepsTheVolumesMass) {
+  expect_no(with([](Body& body, const TopologyChange& change) {
+              for (const auto& [kept, split] : change.vertices)
+                if (body.map.is_live(kept)) body.vertices.mass[body.vertex(body.map, kept)] *= 1.1;
+            }).shares);
+}
+
+TEST(Removals, DoNotShareWhereAnEdgeIsOffByABit) {
+  expect_no(with([](Body& body, const TopologyChange& change) {
+              for (const auto& [kept, split] : change.edges)
+                if (body.map.is_live(kept))
+                  body.springs.change(body.edge(body.map, kept), [](Spring& s) { s.stiffness *= 1.0 + 0x1p-52; });
+            }).shares);
+}
+
+// Far from the volume: nothing there may change.
+TEST(Removals, DoNotShareWhereSomeOtherVertexOrEdgeChanges) {
+  expect_no(with([](Body& body, const TopologyChange&) { body.vertices.mass.back() *= 1.0 + 1e-9; }).shares);
+  expect_no(with([](Body& body, const TopologyChange&) {
+              body.springs.change(body.springs.size() - 1, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
+            }).shares);
+}
+
+TEST(Removals, AreNotAnsweredWhereThereAreNone) {
+  const RemovalAnswers answers = try_removals(small_tetrahedral_problem(), 0, 5);
+  expect_no(answers.shares);
+  expect_no(answers.free_faces);
+}
+
+// The map is changed behind the body's back: another face is freed, too.
+TEST(Removals, FreeNoOtherFace) {
+  expect_no(with([](Body& body, const TopologyChange&) {
+              Dart sewn = no_dart;
+              body.map.for_each_dart([&](Dart d) { sewn = body.map.is_free<3>(d) ? sewn : d; });
+              for (const Dart d : orbit<0, 1>(body.map, sewn)) body.map.unlink<3>(d);
+            }).free_faces);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,39 @@
+#pragma once
+// A body that was taken apart, moved by the reference alone: no map, no core, extended precision.
+
+#include "reference/extended_motion.h"
+#include "validation/conservation/conservation.h"
+#include "validation/conservation/mesh_places.h"
+
+namespace dartboard {
+
+/// How many spreads of rounding (extended_motion.h) a body may be off: a program rounds some ten times in a step, the
+/// spread once, and is measured to end within one.
+inline constexpr double spreads_of_cut_body = 10.0;
+
+/// The cells that are left as a network: a point for each of their vertices, with the sum of its exact shares of mass,
+/// a spring for each of their edges, with the stiffness of its cells; and of each point one corner.
+struct RemainingNetwork {
+  reference::SpringNetwork network;
+  std::vector<std::uint32_t> corner;
+};
+/// pre  no Young's modulus
+RemainingNetwork remaining_network(const Problem& start, const RemainingCells& cells);
+
+/// How far the live body is, after some steps of the classical Runge-Kutta method, from the network of its cells that
+/// took the same steps from the same state; and the spread. The body does not change.
+struct ReferenceMotion {
+  reference::StateBound off, spread;
+};
+template <class Map>
+ReferenceMotion compare_with_reference(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
+                                       const MeshPlaces& places, const RemainingCells& cells, int steps);
+
+extern template ReferenceMotion compare_with_reference(const LiveBody<Map2>&, const CellArrays&, const Problem&,
+                                                       const MeshPlaces&, const RemainingCells&, int);
+extern template ReferenceMotion compare_with_reference(const LiveBody<Map3>&, const CellArrays&, const Problem&,
+                                                       const MeshPlaces&, const RemainingCells&, int);
+extern template ReferenceMotion compare_with_reference(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
+                                                       const MeshPlaces&, const RemainingCells&, int);
+
+}  // namespace dartboard

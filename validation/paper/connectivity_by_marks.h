@@ -1,0 +1,22 @@
+#pragma once
+// Conclusion: the loss of connectivity is verified by "checking if all the darts are marked while walking through the
+// structure following all the alpha-links".
+
+#include <functional>
+
+#include "core/plain/mesh.h"
+#include "core/topology/generalized_map.h"
+#include "validation/topology/claim_answer.h"
+
+namespace dartboard {
+
+/// Walks from some dart along all alphas, marking: whether all darts are marked then.
+bool all_darts_are_marked(const Map3& map);
+
+/// Dissociate random faces of a fresh body until a piece comes off, in several series. After each dissociation, whether
+/// all darts are marked must be whether the cells hang together by joined sides, as found without a dart. No where
+/// both answers were not met.
+ClaimAnswer try_marking(const Mesh& mesh, int series, std::uint64_t seed,
+                        const std::function<bool(const Map3&)>& is_connected = all_darts_are_marked);
+
+}  // namespace dartboard

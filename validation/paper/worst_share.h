@@ -1,0 +1,17 @@
+#pragma once
+// How close what was compared came to its bounds.
+
+namespace dartboard {
+
+/// Of a quantity that should be another: the largest deviation over its bound, NaN kept.
+class WorstShare {
+ public:
+  void compare(double is, double should_be, double bound);
+  bool within() const { return share_ <= 1.0; }
+  double share() const { return share_; }
+
+ private:
+  double share_ = 0.0;
+};
+
+}  // namespace dartboard
