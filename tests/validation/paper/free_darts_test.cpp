@@ -34,6 +34,17 @@ TEST(FreeDarts, AreNotWhereOneDartOfAFaceIs) {
   expect_no(free_darts_are_boundary(built.map, built.point, mesh));
 }
 
+TEST(FreeDarts, AreAllDartsOfASideOfTheBoundary) {
+  const Mesh mesh = kuhn_box(2, 2, 2, 1.0);
+  auto built = build_map<Map3>(mesh);
+  std::vector<Dart> free;
+  built.map.for_each_dart([&](Dart d) {
+    if (built.map.is_free<3>(d)) free.push_back(d);
+  });
+  built.map.link<3>(free.front(), free.back());  // one dart each of two sides
+  expect_no(free_darts_are_boundary(built.map, built.point, mesh));
+}
+
 TEST(FreeDarts, AreFreeForNothingElse) {
   const Mesh mesh = triangle_sheet(2, 2, 1.0);
   auto built = build_map<Map2>(mesh);
