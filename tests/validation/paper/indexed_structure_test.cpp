@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -37,11 +37,24 @@ TEST(Removals, DoNotShareWhereAnEdgeIsOffByABit) {
             }).shares);
 }
 
-// Far from the volume: nothing there may change.
+// One removal, and a change at the vertex and the edge that are farthest from it: nothing there may change.
 TEST(Removals, DoNotShareWhereSomeOtherVertexOrEdgeChanges) {
-  expect_no(with([](Body& body, const TopologyChange&) { body.vertices.mass.back() *= 1.0 + 1e-9; }).shares);
-  expect_no(with([](Body& body, const TopologyChange&) {
-              body.springs.change(body.springs.size() - 1, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
+  const auto far_away = [](const std::function<void(Body&, std::uint32_t vertex, std::uint32_t edge)>& spoil) {
+    return try_removals(small_tetrahedral_problem(), 1, 5, [&](Body& body, const TopologyChange& change) {
+      core_adapt(body, change);
+      Eigen::Vector3d there(0, 0, 0);
+      for (const auto& [kept, split] : change.vertices)
+        if (body.map.is_live(kept)) there = body.vertices.position[body.vertex(body.map, kept)];
+      std::uint32_t vertex = 0;
+      for (std::uint32_t k = 0; k < body.vertices.size(); ++k)
+        if ((body.vertices.position[k] - there).norm() > (body.vertices.position[vertex] - there).norm()) vertex = k;
+      spoil(body, vertex, body.edge(body.map, body.vertices.dart[vertex]));
+    });
+  };
+  expect_yes(far_away([](Body&, std::uint32_t, std::uint32_t) {}).shares);
+  expect_no(far_away([](Body& body, std::uint32_t v, std::uint32_t) { body.vertices.mass[v] *= 1.0 + 1e-9; }).shares);
+  expect_no(far_away([](Body& body, std::uint32_t, std::uint32_t e) {
+              body.springs.change(e, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
             }).shares);
 }
 

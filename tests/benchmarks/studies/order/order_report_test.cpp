@@ -72,7 +72,7 @@ TEST(OrderClaims, AreNotTestedWhereNothingWasStudied) {
 }
 
 TEST(OrderClaims, FallShortOfTheReferencesWhenACodeIsFarFromOneOfThem) {
-  EXPECT_EQ(short_with([](auto& r) { r.references[2].certified.codes[1].distance = 3e-13; }), Ids{"oracle-agreement"});
+  EXPECT_EQ(short_with([](auto& r) { r.references[2].certified.codes[1].distance = 3e-12; }), Ids{"oracle-agreement"});
   EXPECT_EQ(short_with([](auto& r) { r.references[1].certified.codes[0].distance = nan; }), Ids{"oracle-agreement"});
 }
 

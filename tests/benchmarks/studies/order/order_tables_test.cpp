@@ -129,7 +129,8 @@ TEST(OrderClaimsInWords, SayWhatIsAskedWhatWasMeasuredAndWhatItRestsOn) {
   };
   expect("order-aligned-cut", "three successive halvings within 0.1", "1 of 2 integrators, farthest 0.125", "",
          "rk4: ");
-  expect("oracle-agreement", "<= 2e-13", "2.0e-14 in extended precision, 7.0e-14 the farthest of all", "", "");
+  expect("oracle-agreement", "<= 2e-13; each code <= 1e-12",
+         "2.0e-14 in extended precision, 7.0e-14 the farthest of all", "", "");
   expect("discrete-exact", "<= 1e-10", "5.0e-12", "after 1000 steps, the farthest: rk4",
          "local-global states no amplification; rk4: it failed");
   expect("force-is-gradient", "within the rounding bound", "3.0e-15 N of 2.5 N", "bound 4.0e-14 N", "");

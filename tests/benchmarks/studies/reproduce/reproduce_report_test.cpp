@@ -341,7 +341,7 @@ TEST(ReproduceTables, HaveTheStateOfEachContenderBesideItsBound) {
 
 TEST(ReproduceTables, HaveASecondOfMotionBesideItsBounds) {
   ReproduceResults r;
-  r.second = {{"graph", 1000, 0.0123, 2e-16, 3e-15, 4e-18, 1e-15, false}};
+  r.second = {{"graph", 1000, 0.0123, 2e-16, 4e-18, 3e-15, 1e-15, false}};
   const Table table = second_table(r);
   EXPECT_EQ(alignment(table), "lrrrrrrl");
   EXPECT_EQ(labelled(table, 0),

@@ -1,4 +1,4 @@
-#include "validation/paper/cost_of_coverage.h"
+#include "validation/paper/maps/cost_of_coverage.h"
 
 #include <fmt/format.h>
 

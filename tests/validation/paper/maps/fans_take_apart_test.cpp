@@ -1,8 +1,8 @@
-#include "validation/paper/fans_take_apart.h"
+#include "validation/paper/maps/fans_take_apart.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "validation/paper/table_of_darts.h"
+#include "validation/paper/maps/table_of_darts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "validation/paper/free_darts.h"
+#include "validation/paper/maps/free_darts.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/paper/connectivity_by_marks.h"
+#include "validation/paper/maps/connectivity_by_marks.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "validation/paper/fans_take_apart.h"
+#include "validation/paper/maps/fans_take_apart.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "core/operations/tear_fan.h"
 #include "reference/dart_table.h"
 #include "validation/conservation/mesh_places.h"
-#include "validation/paper/dart_table_of.h"
+#include "validation/paper/maps/dart_table_of.h"
 
 namespace dartboard {
 namespace {

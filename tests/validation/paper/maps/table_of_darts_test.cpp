@@ -1,8 +1,8 @@
-#include "validation/paper/table_of_darts.h"
+#include "validation/paper/maps/table_of_darts.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -1,8 +1,8 @@
-#include "validation/paper/cost_of_coverage.h"
+#include "validation/paper/maps/cost_of_coverage.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -1,10 +1,10 @@
-#include "validation/paper/free_darts.h"
+#include "validation/paper/maps/free_darts.h"
 
 #include <gtest/gtest.h>
 
 #include "core/operations/dissociate_face.h"
 #include "core/topology/build.h"
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {
@@ -31,6 +31,17 @@ TEST(FreeDarts, AreNotWhereOneDartOfAFaceIs) {
   Dart inner = no_dart;
   built.map.for_each_dart([&](Dart d) { inner = built.map.is_free<3>(d) ? inner : d; });
   built.map.unlink<3>(inner);
+  expect_no(free_darts_are_boundary(built.map, built.point, mesh));
+}
+
+TEST(FreeDarts, AreAllDartsOfASideOfTheBoundary) {
+  const Mesh mesh = kuhn_box(2, 2, 2, 1.0);
+  auto built = build_map<Map3>(mesh);
+  std::vector<Dart> free;
+  built.map.for_each_dart([&](Dart d) {
+    if (built.map.is_free<3>(d)) free.push_back(d);
+  });
+  built.map.link<3>(free.front(), free.back());  // one dart each of two sides
   expect_no(free_darts_are_boundary(built.map, built.point, mesh));
 }
 

@@ -1,9 +1,9 @@
-#include "validation/paper/connectivity_by_marks.h"
+#include "validation/paper/maps/connectivity_by_marks.h"
 
 #include <gtest/gtest.h>
 
 #include "core/topology/build.h"
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -1,10 +1,10 @@
-#include "validation/paper/orbits_come_apart.h"
+#include "validation/paper/maps/orbits_come_apart.h"
 
 #include <gtest/gtest.h>
 
 #include "core/operations/dissociate_face.h"
 #include "core/topology/build.h"
-#include "tests/support/paper_problem_for_tests.h"
+#include "tests/validation/paper/paper_problem_for_tests.h"
 
 namespace dartboard {
 namespace {

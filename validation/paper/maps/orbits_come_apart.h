@@ -11,19 +11,20 @@ namespace dartboard {
 
 /// Dissociates the facet of a dart: core's operation, or a faulty stand-in.
 template <class Map>
-using Dissociate = std::function<TopologyChange(Map&, Dart)>;
+using DissociateFacet = std::function<TopologyChange(Map&, Dart)>;
 
 /// Dissociate random faces of a solid, or edges of a surface (Map2). After each the alphas, as plain numbers, are
 /// gathered into orbits by union-find; the vertices and edges whose two sides are in different ones must be those that
 /// the operation reports, each once. No where no vertex, or in a solid no edge, came apart, or all did.
 template <class Map>
-ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed, const Dissociate<Map>& dissociate);
+ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed,
+                       const DissociateFacet<Map>& dissociate);
 /// The same with core's operation.
 template <class Map>
 ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed);
 
-extern template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t, const Dissociate<Map2>&);
-extern template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t, const Dissociate<Map3>&);
+extern template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t, const DissociateFacet<Map2>&);
+extern template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t, const DissociateFacet<Map3>&);
 extern template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t);
 extern template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t);
 

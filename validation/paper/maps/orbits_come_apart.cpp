@@ -1,4 +1,4 @@
-#include "validation/paper/orbits_come_apart.h"
+#include "validation/paper/maps/orbits_come_apart.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/operations/dissociate_face.h"
 #include "core/plain/random.h"
-#include "validation/paper/dart_table_of.h"
+#include "validation/paper/maps/dart_table_of.h"
 
 namespace dartboard {
 namespace {
@@ -44,7 +44,8 @@ Pairs reported(const Labels& orbit, const std::vector<DissociatedCell>& cells) {
 }  // namespace
 
 template <class Map>
-ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed, const Dissociate<Map>& dissociate) {
+ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed,
+                       const DissociateFacet<Map>& dissociate) {
   constexpr int n = Map::dimension;
   Map map = at_rest;
   SplitMix64 random(seed);
@@ -89,8 +90,8 @@ ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed
   });
 }
 
-template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t, const Dissociate<Map2>&);
-template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t, const Dissociate<Map3>&);
+template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t, const DissociateFacet<Map2>&);
+template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t, const DissociateFacet<Map3>&);
 template ClaimAnswer try_orbits(const Map2&, int, std::uint64_t);
 template ClaimAnswer try_orbits(const Map3&, int, std::uint64_t);
 
