@@ -48,8 +48,8 @@ TEST(ForceBoundOfATetrahedron, StretchedAddsTheRoundingOfItsElongationsAndTheirS
   expect_all(force_bound(one.problem, one.state), slack * 3 * k_l * (3 * gamma(13) + gamma(13) + gamma(5)));
 }
 
-// A body that flies as a whole: drag m v viscosity, with gamma_{n+p+5}, n = 1 cell and p = 3 springs, and the rounding of
-// the mass of the cell, 11 u |e|^3 / 6 of its volume.
+// A body that flies as a whole: drag m v viscosity, with gamma_{n+p+5}, n = 1 cell and p = 3 springs, and the rounding
+// of the mass of the cell, 11 u |e|^3 / 6 of its volume.
 TEST(ForceBoundOfATetrahedron, FlyingAddsTheRoundingOfItsDrag) {
   OneTetrahedron one;
   for (auto& v : one.state.v) v = {0, 0, 1e6};

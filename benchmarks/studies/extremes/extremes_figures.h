@@ -5,9 +5,9 @@
 
 #include "benchmarks/figures/panels.h"
 #include "benchmarks/figures/plot.h"
-#include "validation/extremes/amplification_study.h"
-#include "validation/extremes/energy_rounding.h"
-#include "validation/extremes/stability_map.h"
+#include "validation/stability/amplification_study.h"
+#include "validation/stability/energy_rounding.h"
+#include "validation/stability/stability_map.h"
 
 namespace dartboard {
 

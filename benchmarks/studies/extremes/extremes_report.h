@@ -7,12 +7,12 @@
 
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/table.h"
-#include "validation/extremes/amplification_study.h"
-#include "validation/extremes/detection_study.h"
-#include "validation/extremes/energy_rounding.h"
 #include "validation/extremes/extremes.h"
-#include "validation/extremes/stability_limits.h"
-#include "validation/extremes/stability_map.h"
+#include "validation/stability/amplification_study.h"
+#include "validation/stability/detection_study.h"
+#include "validation/stability/energy_rounding.h"
+#include "validation/stability/stability_limits.h"
+#include "validation/stability/stability_map.h"
 
 namespace dartboard {
 

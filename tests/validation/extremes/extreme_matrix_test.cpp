@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "validation/extremes/frequency_oracle.h"
+#include "validation/stability/frequency_oracle.h"
 
 namespace dartboard {
 namespace {

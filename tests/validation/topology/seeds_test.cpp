@@ -8,7 +8,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/conservation/refinement_conservation.h"
-#include "validation/extremes/stability_limits.h"
+#include "validation/stability/stability_limits.h"
 #include "validation/tradeoff/work_precision.h"
 
 namespace dartboard {

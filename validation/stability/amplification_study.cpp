@@ -1,4 +1,4 @@
-#include "validation/extremes/amplification_study.h"
+#include "validation/stability/amplification_study.h"
 
 #include <fmt/format.h>
 

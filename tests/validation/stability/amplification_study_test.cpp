@@ -1,6 +1,6 @@
 // One step of every integrator against its closed form, over five decades of steps.
 
-#include "validation/extremes/amplification_study.h"
+#include "validation/stability/amplification_study.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/extremes/growth_run.h"
+#include "validation/stability/growth_run.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,12 +8,12 @@
 
 #include "core/plain/random.h"
 #include "tests/support/stand_in_integrators_for_tests.h"
-#include "validation/extremes/amplification_study.h"
-#include "validation/extremes/detection_study.h"
 #include "validation/extremes/extreme_run.h"
-#include "validation/extremes/frequency_oracle.h"
-#include "validation/extremes/stability_limits.h"
-#include "validation/extremes/stability_map.h"
+#include "validation/stability/amplification_study.h"
+#include "validation/stability/detection_study.h"
+#include "validation/stability/frequency_oracle.h"
+#include "validation/stability/stability_limits.h"
+#include "validation/stability/stability_map.h"
 
 namespace dartboard {
 namespace {

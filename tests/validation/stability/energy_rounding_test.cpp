@@ -1,6 +1,6 @@
 // Rounding over many steps, and steps that are lost in it.
 
-#include "validation/extremes/energy_rounding.h"
+#include "validation/stability/energy_rounding.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/extremes/stability_limits.h"
+#include "validation/stability/stability_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "core/plain/random.h"
 #include "core/time/watch/stable_step.h"
 #include "core/views/spring_ends.h"
-#include "validation/extremes/frequency_oracle.h"
-#include "validation/extremes/growth_run.h"
+#include "validation/stability/frequency_oracle.h"
+#include "validation/stability/growth_run.h"
 
 namespace dartboard {
 namespace {

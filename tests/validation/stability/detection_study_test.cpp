@@ -1,6 +1,6 @@
 // Runs with steps beyond the limit: predicted, and found soon after their energy passes the bound.
 
-#include "validation/extremes/detection_study.h"
+#include "validation/stability/detection_study.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/extremes/frequency_oracle.h"
+#include "validation/stability/frequency_oracle.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>

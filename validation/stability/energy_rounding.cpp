@@ -1,4 +1,4 @@
-#include "validation/extremes/energy_rounding.h"
+#include "validation/stability/energy_rounding.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
-#include "validation/extremes/stability_map.h"
+#include "validation/stability/stability_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 #include "core/plain/nan_maximum.h"
-#include "validation/extremes/growth_run.h"
 #include "validation/scenes/extreme_bodies.h"
+#include "validation/stability/growth_run.h"
 
 namespace dartboard {
 namespace {

@@ -1,6 +1,6 @@
 // Small maps of stability: boundaries by runs where theory has them, growth of the right sign on both sides.
 
-#include "validation/extremes/stability_map.h"
+#include "validation/stability/stability_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Lanczos' highest frequency against closed forms and all eigenvalues, and what its proof refuses.
 
-#include "validation/extremes/frequency_oracle.h"
+#include "validation/stability/frequency_oracle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/extremes/detection_study.h"
+#include "validation/stability/detection_study.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/preflight.h"
 #include "validation/extremes/extreme_run.h"
-#include "validation/extremes/frequency_oracle.h"
+#include "validation/stability/frequency_oracle.h"
 
 namespace dartboard {
 namespace {

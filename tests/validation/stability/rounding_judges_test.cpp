@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/time/integrators.h"
-#include "validation/extremes/energy_rounding.h"
+#include "validation/stability/energy_rounding.h"
 #include "validation/tradeoff/rounding_floor.h"
 
 namespace dartboard {
