@@ -110,6 +110,21 @@ Box seen_box(const BodyPanel& panel) {
   return box;
 }
 
+PictureArea picture_area(std::span<const Box> boxes, double thinnest) {
+  PictureArea area;
+  Vector2d largest(0, 0);
+  for (const Box& box : boxes) {
+    if (box.isEmpty()) continue;
+    area.all.extend(box);
+    largest = largest.cwiseMax(box.sizes());
+  }
+  if (area.all.isEmpty()) area.all = Box(Vector2d(0, 0), Vector2d(1, 1));
+  area.follows = (area.all.sizes().array() > 2.5 * largest.maxCoeff()).any();
+  area.size = 1.08 * (area.follows ? largest : Vector2d(area.all.sizes()));
+  area.size = area.size.cwiseMax(thinnest * area.size.maxCoeff());
+  return area;
+}
+
 std::string polygons_of(std::span<const DrawnFacet> facets, const Vector2d& shift, double pixels) {
   std::string data;
   for (const DrawnFacet& facet : facets) {
@@ -171,19 +186,10 @@ std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& fi
 
 std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& title,
                         const std::filesystem::path& folder, const std::string& name, const std::string& gnuplot) {
-  Box all;
-  Vector2d largest(0, 0);
-  for (const BodyPanel& panel : panels) {
-    if (panel.frame.mesh.points.empty()) continue;
-    const Box box = seen_box(panel);
-    all.extend(box);
-    largest = largest.cwiseMax(box.sizes());
-  }
-  if (all.isEmpty()) all = Box(Vector2d(0, 0), Vector2d(1, 1));
-  const bool follow = (all.sizes().array() > 2.5 * largest.maxCoeff()).any();
-  // a body that is flat as seen from here gets some room all the same
-  Vector2d size = 1.08 * (follow ? largest : Vector2d(all.sizes()));
-  size = size.cwiseMax(0.1 * size.maxCoeff());
+  std::vector<Box> boxes;
+  for (const BodyPanel& panel : panels) boxes.push_back(seen_box(panel));
+  const PictureArea area = picture_area(boxes, 0.1);
+  const Vector2d& size = area.size;
 
   constexpr double widest = 1400, highest = 900, above_and_below = 80;  // [pixels]
   const double count = static_cast<double>(std::max<std::size_t>(1, panels.size()));
@@ -193,7 +199,7 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const BodyPanel& panel = panels[k];
     const bool empty = panel.frame.mesh.points.empty();
-    const Vector2d centre = follow && !empty ? seen_box(panel).center() : all.center();
+    const Vector2d centre = area.centre_of(boxes[k]);
     const Vector2d shift(static_cast<double>(k) * size.x() - centre.x(), -centre.y());
     data += polygons_of(drawn_facets(panel, panels[0]), shift, pixels);
     labels +=

@@ -41,6 +41,19 @@ std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& fi
 /// What a body takes up in the plane of the picture [m]; empty for an empty body.
 Eigen::AlignedBox2d seen_box(const BodyPanel& panel);
 
+/// What pictures of one body at several times have in common.
+struct PictureArea {
+  Eigen::AlignedBox2d all;     // [m] what the body takes up at any of the times
+  Eigen::Vector2d size{0, 0};  // [m] of each picture
+  bool follows = false;        // the body moves far beyond its size, and each picture has it in the middle
+
+  Eigen::Vector2d centre_of(const Eigen::AlignedBox2d& box) const {
+    return follows && !box.isEmpty() ? box.center() : all.center();
+  }
+};
+/// A body that is flat as seen from here gets some room all the same: `thinnest` of the larger extent.
+PictureArea picture_area(std::span<const Eigen::AlignedBox2d> boxes, double thinnest);
+
 /// Facets as gnuplot's polygons, each with a darker rim, moved by `shift` [m], for so many pixels per metre.
 std::string polygons_of(std::span<const DrawnFacet> facets, const Eigen::Vector2d& shift, double pixels);
 

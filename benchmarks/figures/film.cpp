@@ -39,18 +39,10 @@ void Film::take(const Simulation& simulation) {
 
 std::string draw_film(std::span<const FilmFrame> frames, const std::string& title, const std::filesystem::path& folder,
                       const std::string& name, const std::string& gnuplot) {
-  Eigen::AlignedBox2d all;
-  Vector2d largest(0, 0);
-  for (const FilmFrame& frame : frames) {
-    if (frame.box.isEmpty()) continue;
-    all.extend(frame.box);
-    largest = largest.cwiseMax(frame.box.sizes());
-  }
-  if (all.isEmpty()) all = Eigen::AlignedBox2d(Vector2d(0, 0), Vector2d(1, 1));
-  const bool follow = (all.sizes().array() > 2.5 * largest.maxCoeff()).any();
-  // a body that is flat as seen from here gets some room all the same
-  Vector2d size = 1.08 * (follow ? largest : Vector2d(all.sizes()));
-  size = size.cwiseMax(0.25 * size.maxCoeff());
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const FilmFrame& frame : frames) boxes.push_back(frame.box);
+  const PictureArea area = picture_area(boxes, 0.25);
+  const Vector2d& size = area.size;
 
   constexpr double widest = 640, highest = 560, above_and_below = 70;                         // [pixels]
   const double pixels = std::min(widest / size.x(), (highest - above_and_below) / size.y());  // per metre
@@ -70,8 +62,7 @@ std::string draw_film(std::span<const FilmFrame> frames, const std::string& titl
   for (const FilmFrame& frame : frames) {
     const std::string time = fmt::format("t = {:.3g} s{}", frame.time, frame.box.isEmpty() ? ", nothing left" : "");
     script += fmt::format("set label 1 {} at graph 0.5,character 1.2 center font \",12\"\n", gnuplot_string(time));
-    const Vector2d centre = follow && !frame.box.isEmpty() ? frame.box.center() : all.center();
-    const std::string polygons = polygons_of(frame.facets, -centre, pixels);
+    const std::string polygons = polygons_of(frame.facets, -area.centre_of(frame.box), pixels);
     script += polygons.empty()
                   ? "plot NaN\n"
                   : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable\n", data.add(time, polygons));

@@ -283,7 +283,9 @@ std::vector<HashedRun> make_runs() {
       {"explicit-euler", 0x9d670412de3dd715},
       {"symplectic-euler", 0xa221d6391db7ac1d},
       {"verlet", 0x17fc079e69dd53aa},
+      {"verlet-compensated", 0xafbdb8dc3956508d},
       {"blanes-moan-4", 0xb394b59ccaaae07a},
+      {"blanes-moan-4-compensated", 0xea8cf1e7d27ba9b8},
       {"rk4", 0xb83fde209054429c},
       {"dormand-prince-54", 0x0a6b2928e28aeb53},
   };

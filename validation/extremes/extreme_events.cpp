@@ -18,6 +18,7 @@
 #include "core/views/spring_ends.h"
 #include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/extreme_matrix.h"
+#include "validation/extremes/step_evidence.h"
 
 namespace dartboard {
 namespace {
@@ -37,7 +38,7 @@ SpringSystem system_of(const TetBody& body, const SpringEndsView& ends) {
 ///
 /// `events` are those at the end of each step: d, a face somewhere is dissociated, r, a volume somewhere is removed; D
 /// and R, the same of the place where the event before was.
-ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool all_first) {
+ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool all_first, const MakeIntegrator& make) {
   ExtremeCell cell{which.axis, which.scene, which.integrator, which.value, ExtremeOutcome::ok, {}, 0, {}, ""};
   Problem problem;
   problem.mesh = kuhn_box(2, 2, 2, 0.1, 0.1, 5);
@@ -48,7 +49,7 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
   TetBody body = build_body<TetMap, Held::by_every_dart>(problem);
   SpringEndsView ends;
   ends.rebuild(body);
-  const auto integrator = make_integrator(which.integrator);
+  const auto integrator = make(which.integrator);
   SplitMix64 random(7);
   const auto motion = [&body] { return Motion{body.vertices.position, body.vertices.velocity}; };
   const auto change = [&] {
@@ -73,14 +74,18 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
   cell.refused = !result.ok();
   const double before = total_energy(system_of(body, ends), body.vertices.position, body.vertices.velocity);
   const auto deadline = std::chrono::steady_clock::now() + budget;
+  StepEvidence evidence(which.integrator, 60);
   for (; cell.step < 60 && result.ok(); ++cell.step) {
+    evidence.before(system_of(body, ends), motion(), h);
     result = integrator->step(system_of(body, ends), motion(), h);
     result = result.ok() ? detector.after_step(system_of(body, ends), motion())
                          : detector.with_witness(result, system_of(body, ends), motion());
     if (!result.ok()) break;
+    evidence.after(motion());
     change();
     if (!events.empty()) {
       integrator->restart();
+      evidence.restarted();
       result = detector.system_changed(system_of(body, ends), motion());
       if (estimate.refresh(system_of(body, ends), body.vertices.position).upper * h > 0.9 && cell.warnings.empty())
         cell.warnings.emplace_back("UNSTABLE_DT");
@@ -92,6 +97,7 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
   cell.diagnosis = result;
   if (!result.ok()) {
     cell.outcome = ExtremeOutcome::diagnosed;
+    cell.judged_by = JudgedBy::diagnosis;
     return cell;
   }
   cell.outcome = cell.warnings.empty() ? ExtremeOutcome::ok : ExtremeOutcome::degraded;
@@ -106,6 +112,8 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
     cell.outcome = verdict.outcome;
     cell.note = verdict.note;
   }
+  cell.end = numbers_of(body.vertices.position, body.vertices.velocity);
+  judge_steps(cell, evidence, false);
   return cell;
 }
 
@@ -113,8 +121,9 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
 
 void add_events(ExtremeMatrix& matrix) {
   const auto at = [&matrix](const char* value, std::string_view events, bool all_first = false) {
-    matrix.add_run(value, "box on a map",
-                   [events, all_first](const ExtremeCase& which) { return run_events(which, events, all_first); });
+    matrix.add_run(value, "box on a map", [events, all_first](const ExtremeCase& which, const MakeIntegrator& make) {
+      return run_events(which, events, all_first, make);
+    });
   };
   at("a dissociation per step", "d");
   at("two dissociations per step", "dd");

@@ -22,10 +22,10 @@ ExtremeVerdict verdict_of(const ExtremeObservation& run) {
   };
   const double growth = run.warned_of_instability ? 1e6 : 200.0;
   if (!(run.energy_after <= growth * (run.energy_before + run.energy_rounding))) return silent(energies("grown"));
-  if (run.distance_from_finer) {
-    if (!(*run.distance_from_finer <= run.bound_from_finer))
-      return silent(fmt::format("{:.3g} m from a finer run; the bound is {:.3g}", *run.distance_from_finer,
-                                run.bound_from_finer));
+  if (run.distance_from_truth) {
+    if (!(*run.distance_from_truth <= run.bound_from_truth))
+      return silent(fmt::format("{:.3g} m from the true motion; the bound is {:.3g}", *run.distance_from_truth,
+                                run.bound_from_truth));
   } else if (run.must_live && !run.warned_of_instability &&
              200.0L * (run.energy_after + run.energy_rounding) < run.energy_before) {
     return silent(energies("fallen"));
@@ -42,7 +42,7 @@ ExtremeVerdict verdict_of(const EventsObservation& run) {
   return {};
 }
 
-double finer_run_bound(const FinerRunScale& s) {
+double truth_bound(const TruthScale& s) {
   // of order p: theta^p at once and theta^(p+1) per step, with constants below 8; explicit Euler also grows
   const double order = std::pow(s.theta * (1 + 2 * s.zeta), s.order);
   const double growth = s.explicit_euler ? std::exp(s.theta * s.theta * s.steps) : 1.0;

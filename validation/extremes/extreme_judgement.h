@@ -19,8 +19,8 @@ struct ExtremeObservation {
   long double energy_before = 0.0L, energy_after = 0.0L;     // [J]
   double energy_rounding = 0.0;                              // [J] that rounding of the positions is worth
   bool must_live = false;                                    // nothing takes energy from the motion
-  std::optional<double> distance_from_finer = std::nullopt;  // [m]; nothing where there is no run to compare with
-  double bound_from_finer = 0.0;                             // [m]
+  std::optional<double> distance_from_truth = std::nullopt;  // [m]; nothing where there is none to compare with
+  double bound_from_truth = 0.0;                             // [m]
 };
 
 struct ExtremeVerdict {
@@ -30,7 +30,7 @@ struct ExtremeVerdict {
 
 /// Silent where the state is not finite, where energy has grown by more than 200 (by 10^6 after a warning of an
 /// unstable step: between two checks such a run may grow past the detector's bound), where it has fallen by as much and
-/// must not, and beyond the bound from the finer run.
+/// must not, and beyond the bound from the true motion.
 ExtremeVerdict verdict_of(const ExtremeObservation& run);
 
 /// A run of a body that comes apart while it moves; nothing damps it.
@@ -44,8 +44,8 @@ struct EventsObservation {
 /// gain), or where it has fallen two hundredfold and must not.
 ExtremeVerdict verdict_of(const EventsObservation& run);
 
-/// What the distance from a run in eighths of the step is measured by.
-struct FinerRunScale {
+/// What the distance from the true motion is measured by.
+struct TruthScale {
   double theta = 0.0, zeta = 0.0;  // h omega_max, damping ratio there
   int order = 1;                   // of the method
   bool explicit_euler = false;     // which makes everything grow
@@ -54,7 +54,7 @@ struct FinerRunScale {
 };
 /// [m] Truncation of the method's order with constants below 8, rounding of positions, and what implicit methods leave
 /// of their equations.
-double finer_run_bound(const FinerRunScale& scale);
+double truth_bound(const TruthScale& scale);
 
 /// A run at an offset beside the same run at the origin.
 struct OffsetObservation {

@@ -32,16 +32,18 @@ class ExtremeMatrix {
     for (const std::string_view scene : scenes)
       for (const IntegratorEntry& entry : integrators()) {
         ExtremeCase which{axis_, std::string(scene), std::string(entry.name), value, {}};
-        which.run = [which, make] { return run_extreme(which, make(which.scene)); };
+        which.make_run = [which, make](const MakeIntegrator& integrator) {
+          return run_extreme(which, make(which.scene), integrator);
+        };
         cases_.push_back(std::move(which));
       }
   }
   void add_run(const std::string& value, std::string_view scene,
-               const std::function<ExtremeCell(const ExtremeCase&)>& run_it) {
+               const std::function<ExtremeCell(const ExtremeCase&, const MakeIntegrator&)>& run_it) {
     if (quick_ && count_++ % 3 != 0) return;
     for (const IntegratorEntry& entry : integrators()) {
       ExtremeCase which{axis_, std::string(scene), std::string(entry.name), value, {}};
-      which.run = [which, run_it] { return run_it(which); };
+      which.make_run = [which, run_it](const MakeIntegrator& make) { return run_it(which, make); };
       cases_.push_back(std::move(which));
     }
   }

@@ -14,6 +14,7 @@
 #include "core/time/watch/stable_step.h"
 #include "reference/ode_intervals.h"
 #include "validation/extremes/extreme_judgement.h"
+#include "validation/extremes/motion_truth.h"
 
 namespace dartboard {
 namespace {
@@ -37,18 +38,6 @@ bool finite(const SpringColumns& body) {
   return true;
 }
 
-// The largest distance from a run of Dormand and Prince's method in eighths of the step; nothing where that fails.
-std::optional<double> distance_from_finer(const ExtremeSetup& setup, const SpringColumns& start,
-                                          const SpringColumns& end) {
-  SpringColumns fine = start;
-  const auto integrator = make_integrator("dormand-prince-54");
-  for (std::uint64_t k = 0; k < 8 * setup.steps; ++k)
-    if (!integrator->step(fine.system(), fine.motion(), setup.h / 8).ok()) return {};
-  double distance = 0.0;
-  for (std::size_t i = 0; i < fine.x.size(); ++i) distance = max_or_nan(distance, (fine.x[i] - end.x[i]).norm());
-  return distance;
-}
-
 /// Does nothing take energy from the motion? Of methods that keep the energy, or a quantity near it; within their limit
 /// of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
 bool must_live(const SpringColumns& start, const Scheme& scheme, const StableStep& limits) {
@@ -62,7 +51,8 @@ bool warned_of(const ExtremeCell& cell, StepCode code) {
 
 /// Look at a run that ended without a diagnosis.
 ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end,
-                           const Scheme& scheme, const StableStep& limits) {
+                           const Scheme& scheme, const StableStep& limits,
+                           const std::optional<MotionDistance>& motion) {
   const SpringColumns& start = setup.body;
   ExtremeObservation seen{.finite = finite(end),
                           .warned = !cell.warnings.empty(),
@@ -71,32 +61,32 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
   seen.energy_before = energy_of(start);
   seen.energy_after = energy_of(end);
   seen.must_live = must_live(start, scheme, limits);
-  FinerRunScale scale{.theta = setup.h * limits.upper,
-                      .zeta = limits.damping_ratio().upper,
-                      .order = scheme.order,
-                      .explicit_euler = scheme.name == "explicit-euler",
-                      .steps = static_cast<double>(setup.steps),
-                      .size = largest_coordinate(start.x)};
+  TruthScale scale{.theta = setup.h * limits.upper,
+                   .zeta = limits.damping_ratio().upper,
+                   .order = scheme.order,
+                   .explicit_euler = scheme.name == "explicit-euler",
+                   .steps = static_cast<double>(setup.steps),
+                   .size = largest_coordinate(start.x)};
   for (const Spring& s : start.springs)
     seen.energy_rounding += s.stiffness * std::pow(64 * epsilon * (scale.size + s.rest_length), 2);
-  if (!setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
+  if (!motion || !setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
   for (std::size_t i = 0; i < start.x.size(); ++i)
     scale.amplitude = std::max(scale.amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
   for (std::size_t s = 0; s < start.springs.size(); ++s)
     scale.amplitude = std::max(
         scale.amplitude,
         std::abs((start.x[start.ends[s][1]] - start.x[start.ends[s][0]]).norm() - start.springs[s].rest_length));
-  seen.distance_from_finer = distance_from_finer(setup, start, end);
-  seen.bound_from_finer = finer_run_bound(scale);
+  seen.distance_from_truth = motion->positions;
+  seen.bound_from_truth = truth_bound(scale);
   return seen;
 }
 
 /// How far a run at an offset is from the same run at the origin; nothing where that one fails.
 std::optional<OffsetObservation> observe_offset(const ExtremeCell& cell, const ExtremeSetup& setup,
-                                                const SpringColumns& end) {
+                                                const SpringColumns& end, const MakeIntegrator& make) {
   SpringColumns twin = setup.body;
   twin.x = setup.at_origin;
-  const auto integrator = make_integrator(cell.integrator);
+  const auto integrator = make(cell.integrator);
   for (std::uint64_t k = 0; k < cell.step; ++k)
     if (!integrator->step(twin.system(), twin.motion(), setup.h).ok()) return {};
   OffsetObservation seen{.offset = setup.offset,
@@ -111,8 +101,8 @@ std::optional<OffsetObservation> observe_offset(const ExtremeCell& cell, const E
   return seen;
 }
 
-void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end) {
-  const std::optional<OffsetObservation> seen = observe_offset(cell, setup, end);
+void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end, const MakeIntegrator& make) {
+  const std::optional<OffsetObservation> seen = observe_offset(cell, setup, end, make);
   if (!seen) return;
   cell.offset_error = seen->distance / seen->rounding();
   cell.note = fmt::format("{:.3g} eps D from the run at the origin", *cell.offset_error);
@@ -121,10 +111,10 @@ void judge_offset(ExtremeCell& cell, const ExtremeSetup& setup, const SpringColu
 
 }  // namespace
 
-ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
+ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const MakeIntegrator& make) {
   ExtremeCell cell{which.axis, which.scene, which.integrator, which.value, ExtremeOutcome::ok, {}, 0, {}, ""};
   SpringColumns body = setup.body;
-  const auto integrator = make_integrator(which.integrator);
+  const auto integrator = make(which.integrator);
   const Scheme& scheme = integrator->scheme();
   StableStepEstimate estimate;
   const Horizon horizon{.steps = static_cast<double>(setup.steps), .gain = 2.0};
@@ -133,6 +123,7 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
   for (const StepResult& warning : preflight.warnings) cell.warnings.emplace_back(to_string(warning.code));
   const auto diagnosed = [&cell](const StepResult& result) {
     cell.outcome = ExtremeOutcome::diagnosed;
+    cell.judged_by = JudgedBy::diagnosis;
     cell.diagnosis = result;
   };
   if (!preflight.refused.ok()) {
@@ -145,17 +136,21 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
   StepResult result = detector.start(body.system(), body.motion(), setup.h);
   cell.refused = !result.ok();
   const double deadline = reference::thread_cpu_seconds() + budget;
+  StepEvidence evidence(which.integrator, setup.steps);
   for (; cell.step < setup.steps && result.ok(); ++cell.step) {
     if (setup.halfway && cell.step == setup.steps / 2) {
       setup.halfway(body);
       integrator->restart();
+      evidence.restarted();
       if (setup.announced) result = detector.system_changed(body.system(), body.motion());
       if (!result.ok()) break;
     }
+    evidence.before(body.system(), body.motion(), setup.h);
     result = integrator->step(body.system(), body.motion(), setup.h);
+    if (result.ok()) evidence.after(body.motion());
     result = result.ok() ? detector.after_step(body.system(), body.motion())
                          : detector.with_witness(result, body.system(), body.motion());
-    if (result.ok() && cell.step % 16 == 15 && reference::thread_cpu_seconds() > deadline)
+    if (result.ok() && cell.step % 16 == 15 && reference::thread_cpu_seconds() > deadline + evidence.seconds())
       result = {StepCode::budget, Witness::none, 0, "steps", static_cast<double>(cell.step)};
   }
   if (result.ok()) result = detector.check_all(body.system(), body.motion());
@@ -173,16 +168,43 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup) {
     cell.note = "what was injected was not found";
     return cell;
   }
-  const ExtremeVerdict verdict = verdict_of(observe(cell, setup, body, scheme, limits));
+  const double duration = setup.h * static_cast<double>(setup.steps);
+  const auto motion = distance_from_truth(setup.body, body, duration);
+  if (motion && motion->moved > 0.0) cell.motion_error = motion->distance / motion->moved;
+  const ExtremeVerdict verdict = verdict_of(observe(cell, setup, body, scheme, limits, motion));
   cell.outcome = verdict.outcome;
   cell.note = verdict.note;
-  if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body);
+  cell.end = numbers_of(body.x, body.v);
+  judge_steps(cell, evidence, motion && motion->resolved());
+  if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body, make);
   // a step that theory calls unstable must have been predicted
-  if (cell.outcome == ExtremeOutcome::ok && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
+  const bool warned = cell.outcome == ExtremeOutcome::degraded || cell.outcome == ExtremeOutcome::silent;
+  if (!warned && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
     cell.outcome = ExtremeOutcome::silent;
     cell.note = "an unstable step was not predicted";
   }
   return cell;
+}
+
+void judge_steps(ExtremeCell& cell, const StepEvidence& evidence, bool motion_resolved) {
+  cell.scheme_excess = evidence.worst();
+  cell.judged_by = motion_resolved ? JudgedBy::motion : evidence.seeing() > 0 ? JudgedBy::scheme : JudgedBy::survival;
+  if (cell.outcome == ExtremeOutcome::silent) return;
+  if (!(evidence.worst() <= 1.0)) {
+    cell.outcome = ExtremeOutcome::silent;
+    cell.judged_by = JudgedBy::scheme;
+    cell.note =
+        fmt::format("step {} is {:.3g} bounds from what the scheme gives", evidence.worst_step() + 1, evidence.worst());
+  } else if (cell.outcome == ExtremeOutcome::ok && cell.judged_by != JudgedBy::motion) {
+    cell.outcome = cell.judged_by == JudgedBy::scheme ? ExtremeOutcome::scheme : ExtremeOutcome::survived;
+  }
+}
+
+std::vector<double> numbers_of(std::span<const Vector3d> x, std::span<const Vector3d> v) {
+  std::vector<double> numbers;
+  for (const auto& column : {x, v})
+    for (const Vector3d& p : column) numbers.insert(numbers.end(), p.begin(), p.end());
+  return numbers;
 }
 
 bool conserves_energy(const Scheme& scheme) { return scheme.symplectic || scheme.name == "energy-momentum"; }

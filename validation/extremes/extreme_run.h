@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "validation/extremes/extremes.h"
+#include "validation/extremes/step_evidence.h"
 #include "validation/scenes/extreme_bodies.h"
 
 namespace dartboard {
@@ -18,13 +20,18 @@ struct ExtremeSetup {
   std::uint64_t steps = 100;
   std::function<void(SpringColumns&)> halfway{};  // in mid-run
   bool announced = false;                         // as a change of the system, which only the state need not be
-  bool compare = true;                            // with a finer run
+  bool compare = true;                            // the end with the bound of the method's order
   double offset = 0.0;                            // [m] of the body, along x
   std::vector<Eigen::Vector3d> at_origin{};       // positions of the same body there; empty: no run to compare with
 };
 
 /// Check, run, watch and judge it.
-ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup);
+ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const MakeIntegrator& make = make_sound);
+
+/// The outcome of a run that nothing else has found wrong: by its steps, and by whether it resolves the motion.
+void judge_steps(ExtremeCell& cell, const StepEvidence& evidence, bool motion_resolved);
+/// All positions, then all velocities.
+std::vector<double> numbers_of(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
 
 /// Does the method keep the energy of what nothing damps, or a quantity near it?
 bool conserves_energy(const Scheme& scheme);

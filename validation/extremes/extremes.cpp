@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/plain/error.h"
+#include "core/time/integrators.h"
 #include "validation/extremes/extreme_matrix.h"
 
 namespace dartboard {
@@ -34,6 +35,8 @@ constexpr std::array axes{
 std::string_view to_string(ExtremeOutcome outcome) {
   switch (outcome) {
     case ExtremeOutcome::ok: return "OK";
+    case ExtremeOutcome::scheme: return "SCHEME";
+    case ExtremeOutcome::survived: return "SURVIVED";
     case ExtremeOutcome::degraded: return "DEGRADED";
     case ExtremeOutcome::diagnosed: return "DIAGNOSED";
     case ExtremeOutcome::silent: return "SILENT";
@@ -41,6 +44,18 @@ std::string_view to_string(ExtremeOutcome outcome) {
   }
   return "?";
 }
+
+std::string_view to_string(JudgedBy by) {
+  switch (by) {
+    case JudgedBy::motion: return "motion";
+    case JudgedBy::scheme: return "scheme";
+    case JudgedBy::survival: return "survival";
+    case JudgedBy::diagnosis: return "diagnosis";
+  }
+  return "?";
+}
+
+std::unique_ptr<Integrator> make_sound(std::string_view name) { return make_integrator(name); }
 
 bool names_a_quantity(const StepResult& diagnosis) {
   return !std::isnan(diagnosis.value) || diagnosis.code == StepCode::nonfinite;

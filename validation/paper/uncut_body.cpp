@@ -49,7 +49,8 @@ ClaimAnswer stiffnesses_are_of_cells(const MassSpringBody<Map3, Held::by_every_d
     const Dart d = body.edge_dart[e];
     const auto point = [&](Dart x) { return body.vertices.point[body.vertex(body.map, x)]; };
     const auto [a, b] = std::minmax({point(d), point(body.map.alpha<0>(d))});
-    const auto found = std::ranges::find_if(counted.springs, [&](const auto& s) { return s.a == a && s.b == b; });
+    const auto found =
+        std::ranges::find_if(counted.springs, [a = a, b = b](const auto& s) { return s.a == a && s.b == b; });
     if (found == counted.springs.end()) continue;
     const std::size_t around = counted.cells[static_cast<std::size_t>(found - counted.springs.begin())];
     right += body.springs[e].stiffness == static_cast<double>(around) * k ? 1 : 0;

@@ -54,6 +54,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   add_validate_conservation(*verb, outcome);
   add_validate_order(*verb, outcome);
   add_validate_solvers(*verb, outcome);
+  add_validate_judges(*verb, outcome);
 }
 
 }  // namespace dartboard

@@ -56,6 +56,22 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
   }
 }
 
+/// Whoever was not diagnosed has a witness: another code's motion, or the scheme in more digits.
+Claim judged_claim(const ExtremesResults& results) {
+  constexpr double target = 0.99;
+  std::size_t ended = 0, by_motion = 0, by_scheme = 0;
+  for (const Json& cell : results.cells) {
+    const auto by = cell.at("judged_by").get<std::string>();
+    ended += by != to_string(JudgedBy::diagnosis);
+    by_motion += by == to_string(JudgedBy::motion);
+    by_scheme += by == to_string(JudgedBy::scheme);
+  }
+  const double share = ended == 0 ? 1.0 : static_cast<double>(by_motion + by_scheme) / static_cast<double>(ended);
+  return claim("runs-are-judged", "runs that end without a diagnosis are judged by more than that they survived",
+               fmt::format(">= {:g} %", 100 * target), fmt::format("{:.2f} %", 100 * share), share >= target,
+               fmt::format("{} runs: {} by the motion, {} by the steps of the scheme", ended, by_motion, by_scheme));
+}
+
 void add_limit_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
   if (results.limits.empty()) return;
   for (const double tolerance : {1e-3, 5e-3}) {
@@ -96,6 +112,7 @@ Json to_json(const ExtremeCell& cell) {
             {"integrator", cell.integrator},
             {"value", cell.value},
             {"outcome", to_string(cell.outcome)},
+            {"judged_by", to_string(cell.judged_by)},
             {"step", cell.step}};
   if (!cell.diagnosis.ok()) {
     json["code"] = to_string(cell.diagnosis.code);
@@ -108,8 +125,10 @@ Json to_json(const ExtremeCell& cell) {
   if (!cell.warnings.empty()) json["warnings"] = cell.warnings;
   if (!cell.note.empty()) json["note"] = cell.note;
   if (cell.refused) json["refused"] = true;
-  if (cell.offset_error)
-    json["offset_error"] = std::isfinite(*cell.offset_error) ? Json(*cell.offset_error) : Json("not finite");
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json("not finite"); };
+  if (cell.scheme_excess > 0.0 || std::isnan(cell.scheme_excess)) json["scheme_excess"] = number(cell.scheme_excess);
+  if (cell.motion_error) json["motion_error"] = number(*cell.motion_error);
+  if (cell.offset_error) json["offset_error"] = number(*cell.offset_error);
   return json;
 }
 
@@ -175,6 +194,7 @@ std::vector<Claim> claims_of(const ExtremesResults& results) {
     const std::size_t forbidden = forbidden_cells(results).size();
     claims.push_back(claim("no-silent-run", "no run of the matrix is wrong without a word, or ends the process", "0",
                            fmt::format("{}", forbidden), forbidden == 0, fmt::format("{} runs", results.cells.size())));
+    claims.push_back(judged_claim(results));
     const std::vector<Json> nameless = nameless_cells(results);
     std::string first;
     if (!nameless.empty())

@@ -16,15 +16,10 @@ constexpr Range exact_integer{.least = 0.0,
                               .most = 9007199254740991.0};  // 2^53 - 1: every reader of JSON has it exactly
 constexpr Range count_from_1{.least = 1.0, .most = 4294967294.0};
 
-std::vector<std::string> solver_names() {
+template <class Entry>
+std::vector<std::string> names_of(std::span<const Entry> entries) {
   std::vector<std::string> names;
-  for (const SolverEntry& entry : linear_solvers()) names.emplace_back(entry.name);
-  return names;
-}
-
-std::vector<std::string> integrator_names() {
-  std::vector<std::string> names;
-  for (const IntegratorEntry& entry : integrators()) names.emplace_back(entry.name);
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
   return names;
 }
 
@@ -57,10 +52,10 @@ std::vector<SceneKey> make_keys() {
                "'step' that settle it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
-      {.shape = scene, .name = "integrator", .type = choice, .choices = integrator_names(),
+      {.shape = scene, .name = "integrator", .type = choice, .choices = names_of(integrators()),
        .help = "how the equations of motion are integrated; left out, 'rk4', or with an accuracy the cheapest that is "
                "expected to meet it"},
-      {.shape = scene, .name = "solver", .type = choice, .choices = solver_names(),
+      {.shape = scene, .name = "solver", .type = choice, .choices = names_of(linear_solvers()),
        .help = "how an implicit integrator solves its linear systems: with a factor that is kept for as long as it "
                "serves, which is the cheapest as a rule and what it does where this is left out; with a new one for each "
                "system, the most robust; or without, by conjugate gradients, which takes the least memory"},
@@ -157,14 +152,16 @@ std::vector<SceneKey> make_keys() {
       {.shape = vertex_selection, .name = "plane", .type = object, .of = plane,
        .help = "the vertices on a plane or on the side that its normal points to"},
       {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
-      {.shape = vertex_selection, .name = "around", .type = object, .of = around, .help = "the vertices near a path, or near what a blade sweeps"},
+      {.shape = vertex_selection, .name = "around", .type = object, .of = around,
+       .help = "the vertices near a path, or near what a blade sweeps"},
       {.shape = driven, .name = "ids", .type = integers, .range = number,
        .help = "these points of the mesh, counted from 0 in the order of the file"},
       {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
       {.shape = driven, .name = "plane", .type = object, .of = plane,
        .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
       {.shape = driven, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere at rest"},
-      {.shape = driven, .name = "around", .type = object, .of = around, .help = "the vertices that at rest are near a path, or near what a blade sweeps"},
+      {.shape = driven, .name = "around", .type = object, .of = around,
+       .help = "the vertices that at rest are near a path, or near what a blade sweeps"},
       {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
        .help = "that they keep, one for all or linear in their place at rest"},
       {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
@@ -181,7 +178,9 @@ std::vector<SceneKey> make_keys() {
        .help = "the cells with their centroid on a plane or on the side that its normal points to"},
       {.shape = cell_selection, .name = "sphere", .type = object, .of = sphere,
        .help = "the cells with their centroid in a sphere"},
-      {.shape = cell_selection, .name = "around", .type = object, .of = around, .help = "the cells with their centroid near a path, or near what a blade sweeps: refine them before a cut for a smoother one"},
+      {.shape = cell_selection, .name = "around", .type = object, .of = around,
+       .help = "the cells with their centroid near a path, or near what a blade sweeps: refine them before a cut for a "
+               "smoother one"},
       {.shape = cell_selection, .name = "random", .type = object, .of = random, .help = "cells drawn at random"},
       {.shape = box, .name = "min", .type = point, .unit = "m", .required = true, .help = "the lowest corner"},
       {.shape = box, .name = "max", .type = point, .unit = "m", .required = true, .help = "the highest corner"},
@@ -238,7 +237,8 @@ std::vector<SceneKey> make_keys() {
        .help = "a polygon, looked at along the plane's normal; its corners in turn"},
       {.shape = within, .name = "box", .type = object, .of = box, .help = "a box"},
       {.shape = within, .name = "sphere", .type = object, .of = sphere, .help = "a sphere"},
-      {.shape = within, .name = "around", .type = object, .of = around, .help = "all that is near a path, or near what a blade sweeps"},
+      {.shape = within, .name = "around", .type = object, .of = around,
+       .help = "all that is near a path, or near what a blade sweeps"},
       {.shape = tear, .name = "vertex", .type = integer, .range = number,
        .help = "at this point of the mesh, counted from 0 in the order of the file"},
       {.shape = tear, .name = "near", .type = point, .unit = "m", .help = "at the vertex nearest to this place"},

@@ -61,7 +61,7 @@ struct ScenePlan {
 /// Everything but the bytes (measured_plan.h) and the times (unit_costs.h).
 ///
 /// throws  InputError as make_problem does
-/// cost    a pass over the mesh
+/// cost    a pass over the mesh; with driven vertices a body is built
 ScenePlan plan_scene(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

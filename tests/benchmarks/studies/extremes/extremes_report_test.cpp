@@ -36,8 +36,13 @@ ExtremesResults matrix(std::vector<ExtremeCell> cells) {
 TEST(ExtremesMatrix, HoldsWhereEveryRunIsRightOrSaysSo) {
   ExtremeCell diagnosed = cell(ExtremeOutcome::diagnosed);
   diagnosed.diagnosis = {StepCode::unstable_step, Witness::vertex, 3, "speed", 1e30};
-  const auto results = matrix({cell(ExtremeOutcome::ok), cell(ExtremeOutcome::degraded), diagnosed});
+  diagnosed.judged_by = JudgedBy::diagnosis;
+  ExtremeCell right = cell(ExtremeOutcome::ok), warned = cell(ExtremeOutcome::degraded);
+  right.judged_by = JudgedBy::motion;
+  warned.judged_by = JudgedBy::scheme;
+  const auto results = matrix({right, warned, diagnosed});
   EXPECT_EQ(verdict_on(results, "no-silent-run"), Verdict::holds);
+  EXPECT_EQ(verdict_on(results, "runs-are-judged"), Verdict::holds);
   EXPECT_EQ(verdict_on(results, "diagnoses-name-a-quantity"), Verdict::holds);
   EXPECT_TRUE(forbidden_cells(results).empty());
 }
@@ -49,6 +54,15 @@ TEST(ExtremesMatrix, CountsSilentRunsAndCrashes) {
     EXPECT_EQ(verdict_on(results, "no-silent-run"), Verdict::falls_short);
     EXPECT_EQ(exit_code(claims_of(results)), 1);
   }
+}
+
+TEST(ExtremesMatrix, FallsShortWhereRunsAreJudgedByTheirSurvivalAlone) {
+  std::vector<ExtremeCell> cells(100, cell(ExtremeOutcome::scheme));
+  for (ExtremeCell& c : cells) c.judged_by = JudgedBy::scheme;
+  cells[0].judged_by = JudgedBy::survival;
+  EXPECT_EQ(verdict_on(matrix(cells), "runs-are-judged"), Verdict::holds);
+  cells[1].judged_by = JudgedBy::survival;
+  EXPECT_EQ(verdict_on(matrix(cells), "runs-are-judged"), Verdict::falls_short);
 }
 
 TEST(ExtremesMatrix, FallsShortWhereADiagnosisNamesNothing) {

@@ -1,0 +1,34 @@
+#pragma once
+// What `validate judges` says: tables and claims.
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "benchmarks/harness/table.h"
+#include "validation/judges/judge_trials.h"
+
+namespace dartboard {
+
+struct JudgesResults {
+  std::vector<JudgeTrial> trials;
+  std::vector<SchemeSlack> slack;
+};
+
+/// Of each judge: what it is independent of, its bound, how much of that sound integrators take up, and the share of
+/// wrong ones that it sees.
+Table judges_table(const JudgesResults& results);
+
+/// A row for each judge and part, a column for each way of being wrong: seen of those asked.
+Table trials_table(const JudgesResults& results);
+
+/// Every case in which a wrong integrator was not told from a right one.
+Table unseen_table(const JudgesResults& results);
+
+Table slack_table(const JudgesResults& results);
+
+std::vector<Claim> claims_of(const JudgesResults& results);
+
+nlohmann::ordered_json to_json(const JudgesResults& results);
+
+}  // namespace dartboard

@@ -1,0 +1,96 @@
+#include "reference/schemes/local_global_witness.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+
+#include "reference/schemes/stage_equation.h"
+#include "reference/schemes/step_comparison.h"
+#include "reference/schemes/step_matrix.h"
+
+namespace dartboard::reference {
+namespace {
+
+using Vector = Vector3<Extended>;
+using Vectors = std::vector<Vector>;
+
+// Liu, Bargteil, O'Brien, Kavan 2013: backward Euler's equation by twenty corrections with the constant matrix
+// m + h c + h^2 k of the spring graph, or fewer where it is solved.
+class LocalGlobalWitness {
+ public:
+  static constexpr int corrections = 20;
+
+  LocalGlobalWitness(const SpringNetwork& network, Extended h) : network_(network), h_(h) {
+    const auto n = static_cast<Eigen::Index>(network.point_count());
+    DenseMatrix a = DenseMatrix::Zero(n, n);
+    const auto fixed = [&](Eigen::Index i) { return network.fixed[static_cast<std::size_t>(i)] != 0; };
+    for (Eigen::Index i = 0; i < n; ++i)
+      a(i, i) =
+          fixed(i) ? Extended(1) : network.mass[static_cast<std::size_t>(i)] * (1 + h * Extended(network.viscosity));
+    for (const Spring& s : network.springs)
+      for (const Eigen::Index i : {s.a, s.b})
+        for (const Eigen::Index j : {s.a, s.b})
+          if (!fixed(i) && !fixed(j))
+            a(i, j) += (i == j ? 1 : -1) * (h * h * Extended(s.stiffness) + h * Extended(s.damping));
+    factor_ = Eigen::LLT<DenseMatrix>(a);
+  }
+
+  void step(std::vector<Extended>& y) const {
+    const std::size_t n = network_.point_count();
+    const StageEquation stage = equation(y);
+    Vectors w = stage.vh;
+    if (stage.starts_at_rest())
+      for (std::size_t i = 0; i < n; ++i)
+        if (!network_.fixed[i]) w[i].setZero();
+    for (int k = 0; k < corrections && stage.excess(w) > 0.5L; ++k) {  // `excess` allows twice the tolerance
+      const StageForces at = stage.forces(w);
+      DenseMatrix residual = DenseMatrix::Zero(static_cast<Eigen::Index>(n), 3);
+      for (std::size_t i = 0; i < n; ++i)
+        if (!network_.fixed[i])
+          residual.row(static_cast<Eigen::Index>(i)) =
+              network_.mass[i] * (w[i] - stage.vh[i] - h_ * at.acceleration[i]).transpose();
+      const DenseMatrix correction = factor_.solve(residual);
+      for (std::size_t i = 0; i < n; ++i)
+        if (!network_.fixed[i]) w[i] -= correction.row(static_cast<Eigen::Index>(i)).transpose();
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      three(y, i) += h_ * w[i];
+      three(y, n + i) = w[i];
+    }
+  }
+
+  // [m, m/s] What a correction too many or too few changes. The inverse of the matrix has no negative entry (no
+  // off-diagonal entry of the matrix is positive), so it is no more than the inverse times what residuals may be.
+  std::array<Extended, 2> tolerated(const std::vector<Extended>& y) const {
+    const StageEquation stage = equation(y);
+    const std::vector<Extended> allowed = stage.allowed(stage.vh);
+    DenseColumn residual = DenseColumn::Zero(static_cast<Eigen::Index>(allowed.size()));
+    for (std::size_t i = 0; i < allowed.size(); ++i)
+      if (!network_.fixed[i]) residual[static_cast<Eigen::Index>(i)] = network_.mass[i] * allowed[i];
+    if (residual.size() == 0) return {0, 0};
+    const Extended change = DenseColumn(factor_.solve(residual)).cwiseAbs().maxCoeff();
+    return {h_ * change, change};
+  }
+
+ private:
+  StageEquation equation(const std::vector<Extended>& y) const {
+    StageEquation stage{.network = network_, .xh = part_of(y, 0), .vh = part_of(y, 1), .tau = h_, .tolerance = 1e-10L};
+    for (const Vector& p : stage.vh) stage.top_speed = std::max(stage.top_speed, p.cwiseAbs().maxCoeff());
+    return stage;
+  }
+
+  const SpringNetwork& network_;
+  Extended h_;
+  Eigen::LLT<DenseMatrix> factor_;
+};
+
+}  // namespace
+
+StepJudgement judge_local_global(const SpringNetwork& network, const TakenStep& step) {
+  const LocalGlobalWitness method(network, step.h);
+  return compare_step(
+      network, step, [&](std::vector<Extended>& y) { method.step(y); }, {},
+      method.tolerated(vector_of<Extended>(step.before)));
+}
+
+}  // namespace dartboard::reference

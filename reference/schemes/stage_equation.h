@@ -1,0 +1,37 @@
+#pragma once
+// The equation that implicit methods solve in a stage, and by how much given velocities miss it.
+
+#include <vector>
+
+#include "reference/schemes/network_state.h"
+
+namespace dartboard::reference {
+
+/// Forces of a network at positions and velocities, and of what size their terms are; in extended precision.
+struct StageForces {
+  std::vector<Vector3<Extended>> acceleration;  // [m/s^2], zero where fixed
+  std::vector<Extended> sizes;                  // [m/s^2] sums of the terms' sizes
+};
+
+/// r(w) = M (w - vh) - tau f(xh + tau w, w), f the forces at the end or Gonzalez's discrete gradient between xh and
+/// xh + 2 tau w. A solution is w with r(w) = 0.
+struct StageEquation {
+  const SpringNetwork& network;
+  std::vector<Vector3<Extended>> xh, vh;  // [m], [m/s]
+  Extended tau;                           // [s]
+  bool discrete_gradient = false;
+  std::vector<Vector3<Extended>> guess{};  // [m/s] that a solver starts from; empty: vh
+  Extended tolerance = 0;  // that a solver may stop at, of the largest of |vh| and tau |f| / m at its start
+  Extended top_speed = 0;  // [m/s] of the step, for what rounding makes of tau w
+  Extended xh_rounding = 0, speed_rounding = 0;  // [m], [m/s] that xh, and vh and w, are known to
+
+  StageForces forces(const std::vector<Vector3<Extended>>& w) const;
+  /// [m/s] What the tolerance and rounding in double allow |r_i| to be, over the mass.
+  std::vector<Extended> allowed(const std::vector<Vector3<Extended>>& w) const;
+  /// The largest |r_i| over what is allowed there. A fixed point has to keep vh.
+  Extended excess(const std::vector<Vector3<Extended>>& w) const;
+  /// Does a solver begin with points that stand still, because that has the lower incremental potential?
+  bool starts_at_rest() const;
+};
+
+}  // namespace dartboard::reference

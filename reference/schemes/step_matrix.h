@@ -1,0 +1,31 @@
+#pragma once
+// The matrix of an implicit step, M + tau C + tau^2 K, dense and in extended precision.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reference/schemes/network_state.h"
+
+namespace dartboard::reference {
+
+using DenseMatrix = Eigen::Matrix<Extended, Eigen::Dynamic, Eigen::Dynamic>;
+using DenseColumn = Eigen::Matrix<Extended, Eigen::Dynamic, 1>;
+
+/// A compressed spring pushes its ends aside, and may cost the matrix its positive definiteness; `projected` leaves
+/// that part out.
+enum class Tangent : std::uint8_t { exact, projected };
+
+/// How the pull between two ends grows as they part: along the spring, and across it by what it is stretched. Of a
+/// spring without length, which has no direction, k in all.
+Eigen::Matrix<Extended, 3, 3> stiffness_of(const Spring& spring, const Vector3<Extended>& line, Tangent tangent);
+
+/// Rows and columns of held points are those of the identity.
+DenseMatrix step_matrix(const SpringNetwork& network, const std::vector<Vector3<Extended>>& x, Extended tau,
+                        Tangent tangent);
+
+bool is_positive_definite(const DenseMatrix& a);
+
+/// The three numbers of each free point below each other; zeros for held ones.
+DenseColumn column_of(const SpringNetwork& network, const std::vector<Vector3<Extended>>& b);
+
+}  // namespace dartboard::reference
