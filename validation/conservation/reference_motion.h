@@ -1,7 +1,7 @@
 #pragma once
 // A body that was taken apart, moved by the reference alone: no map, no core, extended precision.
 
-#include "reference/extended_motion.h"
+#include "reference/schemes/extended_motion.h"
 #include "validation/conservation/conservation.h"
 #include "validation/conservation/mesh_places.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "reference/extended_motion.h"
+#include "reference/schemes/extended_motion.h"
 
 namespace dartboard {
 

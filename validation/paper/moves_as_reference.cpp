@@ -3,7 +3,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/walks/cell_arrays.h"
 #include "core/walks/runge_kutta_4.h"
-#include "reference/extended_motion.h"
+#include "reference/schemes/extended_motion.h"
 #include "validation/paper/worst_share.h"
 
 namespace dartboard {

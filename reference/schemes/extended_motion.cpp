@@ -1,10 +1,11 @@
-#include "reference/extended_motion.h"
+#include "reference/schemes/extended_motion.h"
 
 #include <cmath>
 #include <limits>
 
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
+#include "reference/schemes/explicit_schemes.h"
 
 namespace dartboard::reference {
 namespace {
@@ -19,13 +20,6 @@ Numbers numbers_of(const SpringNetwork& network, const ExtendedState& s) {
     if (network.fixed[i])
       for (std::size_t k = 0; k < 3; ++k) y[s.x.size() + 3 * i + k] = 0.0L;
   return y;
-}
-
-// y + step * rate
-Numbers along(const Numbers& y, long double step, const Numbers& rate) {
-  Numbers at(y.size());
-  for (std::size_t k = 0; k < y.size(); ++k) at[k] = y[k] + step * rate[k];
-  return at;
 }
 
 double largest_difference(const Numbers& a, const Numbers& b) {
@@ -50,17 +44,11 @@ StateBound distance(const ExtendedState& a, const ExtendedState& b) {
 
 ExtendedState extended_run(const SpringNetwork& network, const PointState& start, double h, int steps,
                            std::uint64_t rounding_seed) {
-  const NetworkRates<long double> rates(network);
-  const long double step = h;
+  const ExplicitScheme<long double> scheme("rk4", network);
   Numbers y = numbers_of(network, extended(start));
-  Numbers k1(y.size()), k2(y.size()), k3(y.size()), k4(y.size());
   SplitMix64 random(rounding_seed);
   for (int n = 0; n < steps; ++n) {
-    rates(y.data(), k1.data());
-    rates(along(y, step / 2, k1).data(), k2.data());
-    rates(along(y, step / 2, k2).data(), k3.data());
-    rates(along(y, step, k3).data(), k4.data());
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] += step * (k1[k] + 2 * (k2[k] + k3[k]) + k4[k]) / 6;
+    scheme.step(y, h);
     if (rounding_seed == 0) continue;
     for (std::size_t i = 0; i < y.size(); ++i)
       if (!network.fixed[i / 3 % network.point_count()]) y[i] *= 1.0L + 0x1p-53L * random.next_signed();

@@ -1,4 +1,4 @@
-#include "reference/extended_motion.h"
+#include "reference/schemes/extended_motion.h"
 
 #include <gtest/gtest.h>
 
