@@ -152,19 +152,21 @@ TEST(StepJudge, CallsWhatIsNotANumberWrong) {
   }
 }
 
+// A held point that no spring reaches, so that nothing else tells.
 TEST(StepJudge, HoldsWhatIsHeldToItsVelocity) {
   SpringNetwork network = oscillator();
+  network.mass.push_back(1.0);
+  network.fixed.push_back(1);
   for (const char* name : all_methods) {
-    PointState start = state({0.0, 0.0});
-    start.v[0] = {0.5, 0, 0};  // the wall is driven, and the mass with it: nothing acts
-    start.v[1] = {0.5, 0, 0};
-    PointState end = start;
-    for (auto& x : end.x) x.x() += 0.1 * 0.5;
+    // driven, the mass with its wall: nothing acts
+    const std::vector<Eigen::Vector3d> driven(3, {0.5, 0, 0});
+    const PointState earlier{{{-0.05, 0, 0}, {0.95, 0, 0}, {4.95, 0, 0}}, driven};
+    const PointState start{{{0, 0, 0}, {1, 0, 0}, {5, 0, 0}}, driven};
+    PointState end{{{0.05, 0, 0}, {1.05, 0, 0}, {5.05, 0, 0}}, driven};
     const StepJudge judge(name, network);
-    const PointState earlier{{{-0.05, 0, 0}, {0.95, 0, 0}}, start.v};
     EXPECT_TRUE(judge.judge({0.1, start, end, earlier}).right()) << name;
-    end.v[0].x() = 0.4;
-    end.x[0].x() = 0.1 * 0.4;
+    end.v[2].x() = 0.4;
+    end.x[2].x() = 5 + 0.1 * 0.4;
     EXPECT_FALSE(judge.judge({0.1, start, end, earlier}).right()) << name;
   }
 }
