@@ -10,8 +10,8 @@
 
 namespace dartboard {
 
-/// How many spreads of rounding a contender may be off (reference/schemes/extended_motion.h): it rounds some ten times in a
-/// step, the spread once.
+/// How many spreads of rounding a contender may be off (reference/schemes/extended_motion.h): it rounds some ten times
+/// in a step, the spread once.
 inline constexpr double spreads_of_a_second = 10.0;
 
 /// Where one contender is after so many steps.

@@ -56,9 +56,10 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
   }
 }
 
-/// Whoever was not diagnosed has a witness: another code's motion, or the scheme in more digits.
+/// Whoever was not diagnosed has a witness: another code's motion, or the scheme in more digits. Not all: in steps of
+/// 10^6 s what local-global leaves of its equations is more than a step.
 Claim judged_claim(const ExtremesResults& results) {
-  constexpr double target = 0.99;
+  constexpr double target = 0.98;
   std::size_t ended = 0, by_motion = 0, by_scheme = 0;
   for (const Json& cell : results.cells) {
     const auto by = cell.at("judged_by").get<std::string>();

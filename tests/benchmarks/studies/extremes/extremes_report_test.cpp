@@ -59,9 +59,9 @@ TEST(ExtremesMatrix, CountsSilentRunsAndCrashes) {
 TEST(ExtremesMatrix, FallsShortWhereRunsAreJudgedByTheirSurvivalAlone) {
   std::vector<ExtremeCell> cells(100, cell(ExtremeOutcome::scheme));
   for (ExtremeCell& c : cells) c.judged_by = JudgedBy::scheme;
-  cells[0].judged_by = JudgedBy::survival;
+  cells[0].judged_by = cells[1].judged_by = JudgedBy::survival;
   EXPECT_EQ(verdict_on(matrix(cells), "runs-are-judged"), Verdict::holds);
-  cells[1].judged_by = JudgedBy::survival;
+  cells[2].judged_by = JudgedBy::survival;
   EXPECT_EQ(verdict_on(matrix(cells), "runs-are-judged"), Verdict::falls_short);
 }
 
