@@ -45,7 +45,7 @@ const std::vector<Feature>& features() {
       {"viscosity", [](auto&, Json& s) { s["material"]["viscosity"] = 0.5; }},
       {"gravity",
        [](auto&, Json& s) {
-         s["gravity"] = {0, 0, -9.81};
+         s["gravity"] = Json::array({0, 0, -9.81});
        }},
       {"fixed vertices",
        [](auto&, Json& s) {
