@@ -54,6 +54,17 @@ constexpr std::string_view runge_kutta_methods[]{"explicit-euler", "rk4", "dorma
 constexpr std::string_view splittings[]{"symplectic-euler", "verlet", "verlet-compensated", "blanes-moan-4",
                                         "blanes-moan-4-compensated"};
 
+SpringNetwork elastic_part(SpringNetwork network) {
+  network.viscosity = 0.0;
+  for (Spring& s : network.springs) s.damping = 0.0;
+  return network;
+}
+SpringNetwork dissipative_part(SpringNetwork network) {
+  network.gravity.setZero();
+  for (Spring& s : network.springs) s.stiffness = 0.0;
+  return network;
+}
+
 }  // namespace
 
 bool is_explicit_scheme(std::string_view name) {
@@ -63,12 +74,14 @@ bool is_explicit_scheme(std::string_view name) {
 
 template <class Real>
 ExplicitScheme<Real>::ExplicitScheme(std::string_view name, const SpringNetwork& network)
-    : name_(name), network_(&network), elastic_(network), dissipative_(network) {
+    : name_(name),
+      network_(&network),
+      elastic_(elastic_part(network)),
+      dissipative_(dissipative_part(network)),
+      rates_(network),
+      elastic_rates_(elastic_),
+      dissipative_rates_(dissipative_) {
   if (!is_explicit_scheme(name)) throw InputError("no explicit scheme has this name");
-  elastic_.viscosity = 0.0;
-  for (Spring& s : elastic_.springs) s.damping = 0.0;
-  dissipative_.gravity.setZero();
-  for (Spring& s : dissipative_.springs) s.stiffness = 0.0;
   dissipates_ = network.viscosity != 0.0 ||
                 std::ranges::any_of(network.springs, [](const Spring& s) { return s.damping != 0.0; });
 }
@@ -80,7 +93,6 @@ void ExplicitScheme<Real>::step(std::vector<Real>& y, Real h) const {
 
 template <class Real>
 void ExplicitScheme<Real>::runge_kutta(std::vector<Real>& y, Real h) const {
-  const NetworkRates<Real> rates(*network_);
   const Rows<Real> tableau = tableau_of<Real>(name_);
   Rows<Real> k;
   std::vector<Real> stage;
@@ -89,7 +101,7 @@ void ExplicitScheme<Real>::runge_kutta(std::vector<Real>& y, Real h) const {
     for (std::size_t j = 0; j < row.size(); ++j)
       if (row[j] != Real(0))
         for (std::size_t c = 0; c < stage.size(); ++c) stage[c] += h * row[j] * k[j][c];
-    if (k.size() + 1 < tableau.size()) rates(stage.data(), k.emplace_back(stage.size()).data());
+    if (k.size() + 1 < tableau.size()) rates_(stage.data(), k.emplace_back(stage.size()).data());
   }
   y = stage;
 }
@@ -98,14 +110,13 @@ template <class Real>
 void ExplicitScheme<Real>::splitting(std::vector<Real>& y, Real h) const {
   using Damping = typename Composition<Real>::Damping;
   const Composition<Real> parts = composition_of<Real>(name_);
-  const NetworkRates<Real> rates(elastic_);
   const std::size_t n = y.size() / 2;
   std::vector<Real> rate(y.size()), v(n), kick(n);
   for (std::size_t k = 0;; ++k) {
     for (std::size_t c = 0; c < n; ++c) y[c] += h * parts.drifts[k] * y[n + c];
     if (k == parts.kicks.size()) return;
     const Real t = h * parts.kicks[k];
-    rates(y.data(), rate.data());
+    elastic_rates_(y.data(), rate.data());
     std::copy(rate.begin() + static_cast<std::ptrdiff_t>(n), rate.end(), kick.begin());
     std::copy(y.begin() + static_cast<std::ptrdiff_t>(n), y.end(), v.begin());
     if (!dissipates_) {
@@ -163,12 +174,11 @@ void ExplicitScheme<Real>::decay_in_turn(const std::vector<Real>& y, std::vector
 template <class Real>
 void ExplicitScheme<Real>::decay_by_series(const std::vector<Real>& y, const std::vector<Real>& kick,
                                            std::vector<Real>& v, Real h) const {
-  const NetworkRates<Real> rates(dissipative_);
   const std::size_t n = v.size();
   std::vector<Real> state(y), rate(y.size());
   const auto minus_b = [&](const std::vector<Real>& of) {
     std::copy(of.begin(), of.end(), state.begin() + static_cast<std::ptrdiff_t>(n));
-    rates(state.data(), rate.data());
+    dissipative_rates_(state.data(), rate.data());
     return std::vector<Real>(rate.begin() + static_cast<std::ptrdiff_t>(n), rate.end());
   };
   std::vector<Real> term = minus_b(v);

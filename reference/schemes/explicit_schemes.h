@@ -18,6 +18,8 @@ template <class Real>
 class ExplicitScheme {
  public:
   ExplicitScheme(std::string_view name, const SpringNetwork& network);
+  ExplicitScheme(const ExplicitScheme&) = delete;
+  ExplicitScheme& operator=(const ExplicitScheme&) = delete;
 
   /// y = (x, v) moves on by h [s].
   void step(std::vector<Real>& y, Real h) const;
@@ -31,6 +33,7 @@ class ExplicitScheme {
   std::string name_;
   const SpringNetwork* network_;
   SpringNetwork elastic_, dissipative_;  // the forces that have a potential, and the others
+  NetworkRates<Real> rates_, elastic_rates_, dissipative_rates_;
   bool dissipates_;
 };
 

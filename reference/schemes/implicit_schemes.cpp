@@ -19,12 +19,6 @@ constexpr std::string_view names[]{"backward-euler", "implicit-midpoint", "energ
 constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
 constexpr Extended newton_tolerance = 1e-10L;  // what these methods promise to solve to, relative to what acts
 
-Vectors extended(const std::vector<Eigen::Vector3d>& column) {
-  Vectors result;
-  for (const Eigen::Vector3d& p : column) result.push_back(p.cast<Extended>());
-  return result;
-}
-
 // a + t b, by point
 Vectors sum(const Vectors& a, Extended t, const Vectors& b) {
   Vectors result(a);
@@ -134,8 +128,10 @@ Extended excess_of(std::string_view name, const SpringNetwork& network, Extended
 bool is_implicit_scheme(std::string_view name) { return std::ranges::find(names, name) != std::end(names); }
 
 StepJudgement judge_implicit_step(std::string_view name, const SpringNetwork& network, const TakenStep& step) {
-  Ends s{extended(step.before.x), extended(step.before.v),  extended(step.after.x),
-         extended(step.after.v),  extended(step.earlier.x), extended(step.earlier.v)};
+  const auto before = vector_of<Extended>(step.before), after = vector_of<Extended>(step.after),
+             earlier = vector_of<Extended>(step.earlier);
+  Ends s{part_of(before, 0), part_of(before, 1),  part_of(after, 0),
+         part_of(after, 1),  part_of(earlier, 0), part_of(earlier, 1)};
   StepJudgement judgement;
   judgement.excess = static_cast<double>(excess_of(name, network, step.h, s));
   for (Vector& p : s.x1) p *= 1 + 1e-6L;

@@ -38,10 +38,7 @@ class LocalGlobalWitness {
   void step(std::vector<Extended>& y) const {
     const std::size_t n = network_.point_count();
     const StageEquation stage = equation(y);
-    Vectors w = stage.vh;
-    if (stage.starts_at_rest())
-      for (std::size_t i = 0; i < n; ++i)
-        if (!network_.fixed[i]) w[i].setZero();
+    Vectors w = stage.start();
     for (int k = 0; k < corrections && stage.excess(w) > 0.5L; ++k) {  // `excess` allows twice the tolerance
       const StageForces at = stage.forces(w);
       DenseMatrix residual = DenseMatrix::Zero(static_cast<Eigen::Index>(n), 3);
@@ -63,7 +60,7 @@ class LocalGlobalWitness {
   // off-diagonal entry of the matrix is positive), so it is no more than the inverse times what residuals may be.
   std::array<Extended, 2> tolerated(const std::vector<Extended>& y) const {
     const StageEquation stage = equation(y);
-    const std::vector<Extended> allowed = stage.allowed(stage.vh);
+    const std::vector<Extended> allowed = stage.allowed(stage.vh, stage.forces(stage.vh));
     DenseColumn residual = DenseColumn::Zero(static_cast<Eigen::Index>(allowed.size()));
     for (std::size_t i = 0; i < allowed.size(); ++i)
       if (!network_.fixed[i]) residual[static_cast<Eigen::Index>(i)] = network_.mass[i] * allowed[i];
@@ -75,7 +72,7 @@ class LocalGlobalWitness {
  private:
   StageEquation equation(const std::vector<Extended>& y) const {
     StageEquation stage{.network = network_, .xh = part_of(y, 0), .vh = part_of(y, 1), .tau = h_, .tolerance = 1e-10L};
-    for (const Vector& p : stage.vh) stage.top_speed = std::max(stage.top_speed, p.cwiseAbs().maxCoeff());
+    stage.top_speed = largest_of(stage.vh);
     return stage;
   }
 

@@ -45,17 +45,13 @@ StageForces StageEquation::forces(const std::vector<Vector>& w) const {
   return result;
 }
 
-std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w) const {
+std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w, const StageForces& at) const {
   // A factor of 4 over the 8 roundings of a length vector and of the sums at a point.
   const Extended roundings = 32 * epsilon;
   const std::size_t n = network.point_count();
   Extended scale = 0;
   if (tolerance > 0) {
-    std::vector<Vector> start = guess.empty() ? vh : guess;
-    if (starts_at_rest())
-      for (std::size_t i = 0; i < n; ++i)
-        if (!network.fixed[i]) start[i].setZero();
-    const StageForces at_start = forces(start);
+    const StageForces at_start = forces(start());
     for (std::size_t i = 0; i < n; ++i)
       if (!network.fixed[i])
         scale = std::max({scale, largest_of(vh[i]), std::abs(tau) * largest_of(at_start.acceleration[i])});
@@ -66,7 +62,6 @@ std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w) const
     for (const auto i : {s.a, s.b})
       result[i] += t * (std::abs(Extended(s.stiffness)) * reach_loss + std::abs(Extended(s.damping)) * speed_loss) /
                    network.mass[i];
-  const StageForces at = forces(w);
   for (std::size_t i = 0; i < n; ++i) {
     const Extended speeds = largest_of(w[i]) + largest_of(vh[i]);
     if (network.fixed[i])
@@ -79,18 +74,25 @@ std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w) const
 }
 
 Extended StageEquation::excess(const std::vector<Vector>& w) const {
-  const std::vector<Extended> bound = allowed(w);
   const StageForces at = forces(w);
+  const std::vector<Extended> bound = allowed(w, at);
   Extended worst = 0;
   for (std::size_t i = 0; i < w.size(); ++i)
     worst = max_or_nan(worst, largest_of(w[i] - vh[i] - tau * at.acceleration[i]) / bound[i]);
   return worst;
 }
 
+std::vector<Vector> StageEquation::start() const {
+  std::vector<Vector> w = guess.empty() ? vh : guess;
+  if (rest_is_lower(w))
+    for (std::size_t i = 0; i < w.size(); ++i)
+      if (!network.fixed[i]) w[i].setZero();
+  return w;
+}
+
 // phi(w) = |w - vh|_M^2 / 2 + U(xh + tau w) + tau/2 (sum of c (d.w)^2 + viscosity |w|_M^2), d the directions at the
 // guess; at rest less at the guess.
-bool StageEquation::starts_at_rest() const {
-  const std::vector<Vector>& flight = guess.empty() ? vh : guess;
+bool StageEquation::rest_is_lower(const std::vector<Vector>& flight) const {
   Extended change = 0;
   for (std::size_t i = 0; i < network.point_count(); ++i) {
     if (network.fixed[i]) continue;

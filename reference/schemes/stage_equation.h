@@ -26,12 +26,16 @@ struct StageEquation {
   Extended xh_rounding = 0, speed_rounding = 0;  // [m], [m/s] that xh, and vh and w, are known to
 
   StageForces forces(const std::vector<Vector3<Extended>>& w) const;
-  /// [m/s] What the tolerance and rounding in double allow |r_i| to be, over the mass.
-  std::vector<Extended> allowed(const std::vector<Vector3<Extended>>& w) const;
+  /// [m/s] What the tolerance and rounding in double allow |r_i| to be, over the mass; `at` are the forces at w.
+  std::vector<Extended> allowed(const std::vector<Vector3<Extended>>& w, const StageForces& at) const;
   /// The largest |r_i| over what is allowed there. A fixed point has to keep vh.
   Extended excess(const std::vector<Vector3<Extended>>& w) const;
-  /// Does a solver begin with points that stand still, because that has the lower incremental potential?
-  bool starts_at_rest() const;
+  /// [m/s] What a solver begins with: the guess, or free points that stand still where that has the lower incremental
+  /// potential.
+  std::vector<Vector3<Extended>> start() const;
+
+ private:
+  bool rest_is_lower(const std::vector<Vector3<Extended>>& flight) const;
 };
 
 }  // namespace dartboard::reference

@@ -19,6 +19,7 @@
 #include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/extreme_matrix.h"
 #include "validation/extremes/step_evidence.h"
+#include "validation/scenes/spring_scene.h"
 
 namespace dartboard {
 namespace {
@@ -26,13 +27,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::chrono::milliseconds budget{1600};  // of a run
-
-using TetBody = MassSpringBody<TetMap, Held::by_every_dart>;
-
-SpringSystem system_of(const TetBody& body, const SpringEndsView& ends) {
-  const VertexColumns& v = body.vertices;
-  return {ends.ends, body.springs, v.mass, v.inverse_mass, v.viscosity, v.fixed, body.surroundings.gravity};
-}
 
 /// A run of a body on a map, with changes after every step.
 ///
