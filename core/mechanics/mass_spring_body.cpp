@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
 #include "core/topology/storage/hash.h"
@@ -23,7 +24,19 @@ void require_sane(const Problem& problem) {
   require(std::isfinite(m.density) && m.density > 0.0, "density", m.density, "a positive number of kg/m^3");
   require(std::isfinite(m.stiffness) && m.stiffness >= 0.0, "stiffness", m.stiffness, "at least 0 N/m");
   require(std::isfinite(m.young) && m.young >= 0.0, "young", m.young, "at least 0 Pa");
-  require(m.young == 0.0 || m.stiffness > 0.0, "stiffness", m.stiffness, "the mean of what 'young' makes of the edges");
+  if (m.model == Model::springs) {
+    require(m.young == 0.0 || m.stiffness > 0.0, "stiffness", m.stiffness,
+            "the mean of what 'young' makes of the edges");
+  } else {
+    require(m.young > 0.0, "young", m.young, "a positive number of Pa");
+    require(m.poisson > -1.0 && m.poisson < 0.5, "poisson", m.poisson, "more than -1 and less than 0.5");
+    require(m.stiffness == 0.0, "stiffness", m.stiffness, "0 N/m beside elements");
+    require(m.damping == 0.0, "damping", m.damping, "0 N s/m beside elements");
+    for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
+      if (const CellKind kind = problem.mesh.kinds[c]; dimension(kind) == 2)
+        throw InputError(fmt::format("cell {} is a {}, which the model '{}' has no element for; expected solid cells",
+                                     c, name(kind), name(m.model)));
+  }
   require(std::isfinite(m.damping) && m.damping >= 0.0, "damping", m.damping, "at least 0 N s/m");
   require(std::isfinite(m.viscosity) && m.viscosity >= 0.0, "viscosity", m.viscosity, "at least 0 1/s");
   for (int k = 0; k < 3; ++k)
@@ -47,6 +60,23 @@ void require_one_vertex_per_point(const VertexColumns& vertices, std::size_t poi
           fmt::format("point {} is more than one vertex of the map: the cells around it are not joined by faces", p));
   for (std::size_t p = 0; p < points; ++p)
     if (met[p] == 0) throw InputError(fmt::format("point {} belongs to no cell", p));
+}
+
+/// The shapes of cells of any kind, in the order in which their corners will be found.
+template <class Map>
+void add_solids(MassSpringBody<Map, Held::by_every_dart>& body, const Mesh& mesh) {
+  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    SolidNodes nodes;
+    find_nodes(body, c, nodes);
+    std::vector<Eigen::Vector3d> x;
+    for (std::size_t k = 0; k < nodes.count; ++k) x.push_back(body.vertices.position[nodes.at[k]]);
+    body.cell_solid.push_back(solid_shape_of(mesh.kinds[c], x));
+    const SolidShape& shape = body.cell_solid.back();
+    for (std::size_t q = 0; q < gauss_points(shape.kind); ++q)
+      if (!(shape.volume[q] > 0.0 && shape.inverse[q].allFinite()))
+        throw InputError(
+            fmt::format("cell {}, a {}, is flat or turned inside out at one of its corners", c, name(mesh.kinds[c])));
+  }
 }
 
 }  // namespace
@@ -76,7 +106,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
     body.cell_dart.push_back({built.first_dart[c]});
   }
-  if (material.young > 0.0) {
+  if (material.young > 0.0 && material.model == Model::springs) {
     body.edge_share.resize(map.template slot_count<1>());
     map.for_each_dart([&](Dart d) {
       const std::uint32_t c = body.cell(map, d);
@@ -99,6 +129,19 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     columns.point.back() = p;
     columns.dart.push_back(v.dart);
   });
+  const bool all_tetrahedra =
+      std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; });
+  if constexpr (Map::dimension == 3 && held == Held::by_every_dart)
+    if (material.model != Model::springs && !all_tetrahedra) add_solids(body, mesh);
+  if (material.model != Model::springs && all_tetrahedra) {
+    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+      const auto corners = corners_from(map, body.cell_dart[c]);
+      const auto place = [&](std::size_t k) { return mesh.points[point_of(corners[k])]; };
+      body.cell_shape.push_back(rest_shape_of(place(0), place(1), place(2), place(3)));
+      if (!body.cell_shape.back().allFinite())
+        throw InputError(fmt::format("cell {} is too flat: the gradients of its shape are not finite", c));
+    }
+  }
   body.vertices.rest = {};
   require_one_vertex_per_point(body.vertices, mesh.points.size());
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/solids.h"
+#include "core/elements/tetrahedra.h"
 #include "core/forces/springs.h"
 #include "core/mechanics/columns.h"
 #include "core/mechanics/embedding.h"
@@ -83,6 +85,10 @@ struct MassSpringBody {
   // 1 where the face of that dart, walked along alpha_0 alpha_1 from it, runs clockwise seen from outside the cell at
   // rest
   std::vector<std::uint8_t> cell_inside_out;
+  // What elements need of the rest shape of each cell, whose corners are those of `find_nodes`: where all are
+  // tetrahedra, or of cells of any kind; both empty with springs.
+  std::vector<RestShape> cell_shape;
+  std::vector<SolidShape> cell_solid;
   // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
   // the body is refined, where the material has no Young's modulus.
   std::vector<double> edge_share;
@@ -92,7 +98,9 @@ struct MassSpringBody {
     using B = MassSpringBody;
     return std::tuple{EmbeddedColumn{"cell mass", &B::cell_mass, Adapts::recomputed},
                       EmbeddedColumn{"node share", &B::node_share, Adapts::recomputed},
-                      EmbeddedColumn{"inside out", &B::cell_inside_out, Adapts::duplicated}};
+                      EmbeddedColumn{"inside out", &B::cell_inside_out, Adapts::duplicated},
+                      EmbeddedColumn{"rest shape", &B::cell_shape, Adapts::duplicated},
+                      EmbeddedColumn{"shape of a solid", &B::cell_solid, Adapts::duplicated}};
   }
 
   Material material;
@@ -131,11 +139,13 @@ struct MassSpringBody {
   std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + face.bytes() + cell.bytes(); }
 };
 
-/// Build the body of a problem. Embeddings are numbered in the order in which a coverage meets their cells.
+/// Build the body of a problem. With a model of elements its springs have no stiffness: what they have is their rest
+/// lengths, which refinement goes on with. Embeddings are numbered in the order in which a coverage meets their cells.
 ///
 /// throws  InputError if the mesh does not fit the map (build_map), a point belongs to no cell, a fixed point does not
 ///         exist, a number is not finite or a density is not positive, or one mesh point is several vertices of the map
-///         (cells that touch in a point or an edge only are not connected in a quasi-manifold)
+///         (cells that touch in a point or an edge only are not connected in a quasi-manifold); for a model of elements
+///         if a cell is a polygon, too flat for its shape to be a number, or turned inside out at a Gauss point
 template <class Map, Held held>
 MassSpringBody<Map, held> build_body(const Problem& problem);
 

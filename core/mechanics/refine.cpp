@@ -95,6 +95,36 @@ class Refinement {
     v.dart.push_back(s_.vertex());
   }
 
+  /// The gradients of the barycentric coordinates of a tetrahedron, by local node, from the rest shape whose first
+  /// corner is at the dart in place p.
+  static std::array<std::size_t, 4> local_corners(std::size_t p) {
+    const auto& alpha = tet_darts.alpha;
+    return {tet_darts.node[p], tet_darts.node[alpha[0][p]], tet_darts.node[alpha[0][alpha[1][p]]],
+            tet_darts.node[alpha[0][alpha[1][alpha[2][p]]]]};
+  }
+
+  /// Of a point, the coordinate mu of a new corner is the number of the cell's vertices m times lambda of the node r it
+  /// replaces, and that of another node of the cell is lambda less lambda_r: of the gradients too, whatever the shape.
+  RestShape shape_of_child(const Subdivision::Child& child, std::size_t lowest, const RestShape& parent,
+                           std::size_t parent_lowest) const {
+    std::array<Eigen::Vector3d, 4> gradient;
+    const auto of_parent = local_corners(parent_lowest), of_child = local_corners(lowest);
+    for (std::size_t k = 1; k < 4; ++k) gradient[of_parent[k]] = parent.row(static_cast<Eigen::Index>(k) - 1);
+    gradient[of_parent[0]] = -(gradient[of_parent[1]] + gradient[of_parent[2]] + gradient[of_parent[3]]);
+    const Eigen::Vector3d replaced = gradient[child.replaced];
+    RestShape shape;
+    for (std::size_t k = 1; k < 4; ++k) {
+      const std::size_t node = of_child[k];
+      Eigen::Vector3d own = gradient[node];
+      if (node == child.replaced)
+        own *= count();
+      else if (is_of_cell(child.parent, node))
+        own -= replaced;
+      shape.row(static_cast<Eigen::Index>(k) - 1) = own;
+    }
+    return shape;
+  }
+
   // The first child of a parent keeps its number.
   void add_cells() {
     for (const auto& child : s_.children) {
@@ -108,6 +138,8 @@ class Refinement {
         was_inside_out_ = body_.cell_inside_out[parent_cell] != 0;
         const auto at = std::find(parent.darts.begin(), parent.darts.end(), body_.cell_dart[parent_cell]);
         turned_ = (at - parent.darts.begin()) % 2 != 0;
+        parent_lowest_ = static_cast<std::size_t>(at - parent.darts.begin());
+        if (!body_.cell_shape.empty()) parent_shape_ = body_.cell_shape[parent_cell];
       } else {
         number = static_cast<std::uint32_t>(body_.cell_mass.size());
         add_element(body_, Body<Map>::embedded_in_cells(), number);
@@ -117,6 +149,9 @@ class Refinement {
       body_.node_share[number] = body_.cell_mass[number] / 4.0;
       const auto lowest = std::min_element(child.darts.begin(), child.darts.end());
       body_.cell_dart[number] = *lowest;
+      if (!body_.cell_shape.empty())
+        body_.cell_shape[number] = shape_of_child(child, static_cast<std::size_t>(lowest - child.darts.begin()),
+                                                  parent_shape_, parent_lowest_);
       // even steps away from the parent's dart, a child's lowest dart runs as that one did
       const bool odd = (lowest - child.darts.begin()) % 2 != 0;
       body_.cell_inside_out[number] = was_inside_out_ != (odd != turned_);
@@ -273,6 +308,8 @@ class Refinement {
   // of the parent whose children are added
   double whole_mass_ = 0.0;
   bool was_inside_out_ = false, turned_ = false;
+  std::size_t parent_lowest_ = 0;  // place of its lowest dart
+  RestShape parent_shape_ = RestShape::Zero();
   ChangedEmbeddings changed_;
 };
 
@@ -282,6 +319,8 @@ template <class Map>
 ChangedEmbeddings adapt(Body<Map>& body, const Subdivision& subdivision, double bracing) {
   if (!(std::isfinite(bracing) && bracing >= 0.0))
     throw InputError(fmt::format("bracing is {}, expected a number of at least 0", bracing));
+  if (!body.cell_solid.empty())
+    throw InputError("a body of elements of several kinds is refined; expected tetrahedra alone");
   return Refinement<Map>(body, subdivision, bracing).run();
 }
 

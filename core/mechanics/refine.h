@@ -19,10 +19,11 @@ namespace dartboard {
 /// from the new vertex to vertices across get `bracing` times the material's stiffness from each old tetrahedron.
 /// No positive value keeps all affine forces: the new springs resist strain too. With bracing 0 the forces
 /// are kept exactly, but nothing holds the new vertex except the two halves along a subdivided edge: one put into a
-/// face or a tetrahedron moves freely.
+/// face or a tetrahedron moves freely. Elements need no bracing: the rest shape of a child follows from its parent's,
+/// and an affine deformation keeps all forces and the energy.
 ///
 /// pre     every dart holds the embedding numbers, `subdivision` was just made on the body's map, bracing >= 0
-/// throws  InputError if bracing is negative or not finite
+/// throws  InputError if bracing is negative or not finite, or the body has elements and other cells than tetrahedra
 /// cost    O(darts around the vertices of the touched tetrahedra); the first time O(edges of cells), for a column of
 ///         shares of stiffness that unrefined bodies do without
 /// source  the paper's future work

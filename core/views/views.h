@@ -3,6 +3,7 @@
 
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
+#include "core/views/element_nodes_view.h"
 #include "core/views/spring_ends.h"
 #include "core/walks/cell_arrays.h"
 
@@ -11,6 +12,8 @@ namespace dartboard {
 struct Views {
   CellArrays cells;
   SpringEndsView ends;
+  TetrahedronNodesView tetrahedra;
+  SolidNodesView solids;
   BoundarySurface boundary;
   ComponentLabels components;
 
@@ -21,6 +24,8 @@ struct Views {
   static void for_each(Self& self, F&& f) {
     f("cell arrays", self.cells);
     f("spring ends", self.ends);
+    f("corners of tetrahedra", self.tetrahedra);
+    f("corners of solid cells", self.solids);
     f("boundary surface", self.boundary);
     f("component labels", self.components);
   }

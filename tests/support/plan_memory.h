@@ -54,7 +54,9 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::cells:
       // of a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart of a triangle
       return n.cells * (2 * real + 1 + number) +
-             (problem.material.young > 0.0 ? (tetrahedra ? 6 * n.cells : n.darts) * real : 0);
+             (problem.material.young > 0.0 && problem.material.model == Model::springs
+                  ? (tetrahedra ? 6 * n.cells : n.darts) * real
+                  : 0);
     case Part::components: return n.cells * number + n.components * (2 * number + sizeof(std::size_t));
     case Part::vertices: return n.vertices * (2 * real + 2 * vector + number);
     case Part::viscosity: return n.vertices * real;
@@ -68,6 +70,9 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       return vertices.bytes() + detector.driven_bytes();
     }
     case Part::springs: return n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds));
+    // of tetrahedra a matrix and four corners; of cells of any kind what eight corners and Gauss points take
+    case Part::elements:
+      return n.cells * (tetrahedra ? 9 * real + 4 * number : sizeof(SolidShape) + sizeof(SolidNodes));
     case Part::damping: return n.edges * sizeof(Spring::damping);
     case Part::integrator: return predicted_integrator_bytes(scene.integrator, counts_of(arrays.system()));
     case Part::solver: return predicted_solver_bytes(scene.integrator, arrays.system());

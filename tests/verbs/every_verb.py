@@ -30,6 +30,7 @@ RUNS = {
     "validate order": [(["--quick", "--integrator", "rk4", "sdirk2", "--json", "--out", "OUT"], AGREES)],
     "validate solvers": [(["--quick", "--json", "--only", "accuracy", "edits", "updates", "--out", "OUT"], MAY_BE_SLOW)],
     "validate judges": [(["--quick", "--json", "--out", "OUT"], AGREES)],
+    "validate elements": [(["--quick", "--json", "--out", "OUT"], AGREES)],
     "bench ablation": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench topology": [(["--quick", "--json", "--only", "liver564", "--out", "OUT"], MAY_BE_SLOW)],
     "bench operations": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],

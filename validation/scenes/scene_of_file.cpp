@@ -184,6 +184,7 @@ TradeoffScene scene_of_file(const SceneFile& file) {
     fail("/material/stiffness", "is 0 N/m beside a damping", "springs, or nothing between the vertices");
   // the networks of the references come from cells, and hold still what is fixed
   if (file.is_chain()) fail("/body/generate/chain", "is a chain", "a body of cells, to compare with references");
+  if (file.has_elements()) fail("/material/poisson", "asks for elements", "springs, to compare with references");
   if (!file.driven.empty()) fail("/driven", "moves vertices", "none driven, to compare with references");
   const Problem problem = make_problem(file);
   if (problem.mesh.points.empty()) fail("/body", "has no points", "a body that moves");

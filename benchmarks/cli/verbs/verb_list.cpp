@@ -26,7 +26,7 @@ std::vector<Entry> scene_entries() {
   std::vector<Entry> entries;
   for (const std::string& name : scene_names()) {
     const SceneFile scene = read_scene(gallery_folder() / (name + ".json"));
-    const bool studied = !scene.is_chain() && scene.driven.empty();  // scene_of_file.h
+    const bool studied = !scene.is_chain() && !scene.has_elements() && scene.driven.empty();  // scene_of_file.h
     entries.push_back({name, scene.about,
                        std::string("simulate, explain, explain-dt, scene --check, gallery") +
                            (studied ? ", tradeoff, recommend" : "")});

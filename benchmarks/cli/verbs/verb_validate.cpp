@@ -55,6 +55,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   add_validate_order(*verb, outcome);
   add_validate_solvers(*verb, outcome);
   add_validate_judges(*verb, outcome);
+  add_validate_elements(*verb, outcome);
 }
 
 }  // namespace dartboard

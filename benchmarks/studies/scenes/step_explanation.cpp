@@ -116,9 +116,11 @@ StepExplanation explain_step(SceneFile scene) {
   const Horizon horizon = horizon_of(scene.duration);
   StepExplanation e;
   e.body = columns_of(simulation.body());
-  e.limits = StableStepEstimate().refresh(e.body.system(), e.body.x);
+  const SpringSystem system = simulation.body().system();
+  e.limits = StableStepEstimate().refresh(system, e.body.x);
   e.limit = simulation.step_limit();
-  e.quick = quick_stable_step(e.body.system()).safe_step(integrator->scheme(), horizon);
+  e.quick = quick_stable_step(system).safe_step(integrator->scheme(), horizon);
+  if (!system.terms.empty()) return e;  // there is no spring to blame
   find_shares(e);
   find_remedies(e, integrator->scheme(), horizon);
   return e;
@@ -126,15 +128,16 @@ StepExplanation explain_step(SceneFile scene) {
 
 std::string to_text(const StepExplanation& e, const SceneFile& scene) {
   std::string text = fmt::format("{}\n{}, h = {:.6g} s\n\n", one_line(scene.name), scene.integrator, scene.step);
-  text += fmt::format("highest frequency: {:.6g} to {:.6g} 1/s (in any state at most {:.6g})\n", e.limits.lower,
-                      e.limits.upper, e.limits.any_state);
+  const bool bounded = std::isfinite(e.limits.any_state);  // elements stiffen without end as they are deformed
+  text += fmt::format("highest frequency: {:.6g} to {:.6g} 1/s ({})\n", e.limits.lower, e.limits.upper,
+                      bounded ? fmt::format("in any state at most {:.6g}", e.limits.any_state)
+                              : "in the state at the start; elements grow stiffer as they are deformed");
   const Bounds ratio = e.limits.damping_ratio();
   text += fmt::format("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper);
   text += fmt::format(
-      "longest stable step in the state at the start: {}{}, in any state at least {}; the scene's is {}\n",
-      step_text(e.limit.stable),
+      "longest stable step in the state at the start: {}{}{}; the scene's is {}\n", step_text(e.limit.stable),
       std::isfinite(e.limit.unstable) ? fmt::format(" (certainly below {})", step_text(e.limit.unstable)) : "",
-      step_text(e.quick),
+      bounded ? fmt::format(", in any state at least {}", step_text(e.quick)) : "",
       scene.step <= e.quick          ? "stable in any"
       : scene.step <= e.limit.stable ? "stable at the start"
                                      : "TOO LONG");

@@ -313,9 +313,11 @@ void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& c) {
     item.ns = size * cost;
     item.ns_below = cost > 0.0 ? 0.0 : size * c.noise;
   };
+  const bool has_elements = scene.has_elements();
   for (PlanItem& item : plan.items) {
     switch (item.part) {
-      case Part::springs: item.ns = m.springs * c.evaluations * c.force; break;
+      case Part::springs: item.ns = has_elements ? 0.0 : m.springs * c.evaluations * c.force; break;
+      case Part::elements: item.ns = m.cells * c.evaluations * c.force; break;
       case Part::damping: charge(item, m.springs, c.damping); break;
       case Part::viscosity: charge(item, m.vertices, c.viscosity); break;
       case Part::fixed: charge(item, m.vertices, c.fixed); break;

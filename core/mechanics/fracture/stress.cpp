@@ -7,6 +7,7 @@
 #include <boost/container/small_vector.hpp>
 #include <limits>
 
+#include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 
@@ -20,6 +21,31 @@ using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
   for (int j = 0; j < 3; ++j)
     for (int i = j; i < 3; ++i) sum(i, j) += term(i, j);
+}
+
+/// In the order of their numbers, as the pass over all elements has them.
+template <class Map>
+void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
+  boost::container::small_vector<std::uint32_t, 64> cells;
+  for (const auto c : incident_cells<3>(body.map, Vertex{body.vertices.dart[k]}))
+    cells.push_back(body.cell(body.map, c.dart));
+  std::sort(cells.begin(), cells.end());
+  for (const std::uint32_t c : cells) {
+    const auto& position = body.vertices.position;
+    if (body.cell_solid.empty()) {
+      TetrahedronNodes nodes;
+      find_nodes(body, c, nodes);
+      add_lower(sum,
+                tetrahedron_virial(body.material, body.cell_mass[c], body.cell_shape[c],
+                                   {position[nodes[0]], position[nodes[1]], position[nodes[2]], position[nodes[3]]}));
+    } else {
+      SolidNodes nodes;
+      find_nodes(body, c, nodes);
+      boost::container::small_vector<Eigen::Vector3d, 8> x;
+      for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(position[nodes.at[a]]);
+      add_lower(sum, solid_virial(body.material, body.cell_solid[c], {x.data(), x.size()}));
+    }
+  }
 }
 
 void finish(Eigen::Matrix3d& sum, double mass, double density) {
@@ -43,13 +69,15 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& [edge, other_end] : around)
     add_lower(sum, spring_virial(body.springs[edge], v.position[other_end] - v.position[k]));
+  if constexpr (Map::dimension == 3)
+    if (!body.cell_shape.empty() || !body.cell_solid.empty()) add_elements(body, k, sum);
   finish(sum, v.mass[k], body.material.density);
   return sum;
 }
 
 void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
                      std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
-                     std::vector<Eigen::Matrix3d>& stress) {
+                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms) {
   stress.assign(mass.size(), Eigen::Matrix3d::Zero());
   for (std::size_t e = 0; e < springs.size(); ++e) {
     const auto [a, b] = ends[e];
@@ -57,6 +85,11 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
     add_lower(stress[a], virial);
     add_lower(stress[b], virial);
   }
+  for (const ForceTerm* term : terms)
+    for (std::size_t piece = 0; piece < term->size(); ++piece) {
+      const Eigen::Matrix3d virial = term->virial(position, piece);
+      for (const std::uint32_t i : term->nodes(piece)) add_lower(stress[i], virial);
+    }
   for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/forces/force_term.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/error.h"
 
@@ -33,6 +34,8 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
 ///
 ///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T),  V = mass / density
 ///
+/// or with elements, over those around it, a fourth of their volume times J times Cauchy's stress.
+///
 /// V is the rest volume (area) that eq. (1) gives the vertex. So the sum of V sigma over all vertices is the virial of
 /// all springs, and a uniform stress is the same at every vertex of a regular lattice. Springs are found by walking
 /// the edges around the vertex, and summed by edge number, so that the order of the walk leaves no trace in the bits.
@@ -42,11 +45,11 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
 /// The same for all vertices at once, into `stress` by vertex number, to the bit: one pass over the springs and one
 /// over the vertices, for use in every time step.
 ///
-/// pre     ends, springs by edge number, mass, position by vertex number, as the body has them
+/// pre     ends, springs by edge number, mass, position by vertex number, as the body has them; the terms of its system
 /// cost    O(springs + vertices); no allocation once `stress` has had its size
 void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
                      std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
-                     std::vector<Eigen::Matrix3d>& stress);
+                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {});
 
 /// The stress of this vertex is not finite.
 struct StressError : SolverError {

@@ -149,12 +149,12 @@ Dart starting_face(const Body<Map>& body, std::uint32_t k, const Eigen::Vector3d
 template <class Map>
 TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std::uint32_t, 2>> ends,
                                  const TearRule& rule, const FaceFilter& filter, const FollowChange& follow,
-                                 std::vector<Eigen::Matrix3d>& stress) {
+                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms) {
   if (!(rule.threshold > 0.0))
     throw InputError(fmt::format("a tear threshold of {}, expected a positive number of Pa", rule.threshold));
   if (!(rule.least_alignment <= 1.0))
     throw InputError(fmt::format("a least alignment of {}, expected at most 1", rule.least_alignment));
-  vertex_stresses(ends, body.springs, body.vertices.mass, body.material.density, body.vertices.position, stress);
+  vertex_stresses(ends, body.springs, body.vertices.mass, body.material.density, body.vertices.position, stress, terms);
 
   TornVertices torn;
   std::vector<Stressed> stressed;

@@ -70,14 +70,14 @@ template <class Map>
 TornVertices tear_where_stressed(MassSpringBody<Map, Held::by_every_dart>& body,
                                  std::span<const std::array<std::uint32_t, 2>> ends, const TearRule& rule,
                                  const FaceFilter& filter, const FollowChange& follow,
-                                 std::vector<Eigen::Matrix3d>& stress);
+                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {});
 
 #define DARTBOARD_TEARING(prefix, Map)                                                                           \
   prefix template Dart starting_face(const MassSpringBody<Map, Held::by_every_dart>&, std::uint32_t,             \
                                      const Eigen::Vector3d&, const FaceFilter&, double);                         \
   prefix template TornVertices tear_where_stressed(                                                              \
       MassSpringBody<Map, Held::by_every_dart>&, std::span<const std::array<std::uint32_t, 2>>, const TearRule&, \
-      const FaceFilter&, const FollowChange&, std::vector<Eigen::Matrix3d>&);
+      const FaceFilter&, const FollowChange&, std::vector<Eigen::Matrix3d>&, ForceTerms);
 DARTBOARD_TEARING(extern, Map3)
 DARTBOARD_TEARING(extern, TetMap)
 

@@ -93,15 +93,28 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   if (!needs.viscosity) vertices_.viscosity.clear();
   if (!needs.fixed) vertices_.fixed.clear();
   if (needs.rest) vertices_.keep_rest();
-  springs_ = std::move(body.springs);
-  ends_ = std::move(ends.ends);
+  const auto nodes_of = [&body](auto view) {
+    view.rebuild(body);
+    return std::move(view.nodes);
+  };
+  nodes_ = nodes_of(TetrahedronNodesView());
+  solid_nodes_ = nodes_of(SolidNodesView());
+  shape_ = std::move(body.cell_shape);
+  solid_shape_ = std::move(body.cell_solid);
+  if (shape_.empty() && solid_shape_.empty()) {
+    springs_ = std::move(body.springs);
+    ends_ = std::move(ends.ends);
+  }
   cell_mass_ = std::move(body.cell_mass);
   gravity_ = body.surroundings.gravity;
   density_ = body.material.density;
+  if (!shape_.empty()) elements_ = make_tetrahedra(body.material, {nodes_, shape_, cell_mass_});
+  if (!solid_shape_.empty()) elements_ = make_solids(body.material, {solid_nodes_, solid_shape_});
+  terms_ = elements_.get();
   // columns that grew by doubling give back what they do not use
   for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-  fit(vertices_.dart, springs_, ends_);
+  fit(vertices_.dart, springs_, ends_, nodes_, shape_, solid_nodes_, solid_shape_);
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
 }
 
@@ -112,6 +125,7 @@ MemoryReport BodyOfColumns::memory() const {
           {Part::rest, bytes_of(vertices_.rest)},
           {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
           {Part::damping, springs_.damping_bytes()},
+          {Part::elements, bytes_of(nodes_, shape_, solid_nodes_, solid_shape_)},
           {Part::output_cells,
            bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_)}};
 }
@@ -123,7 +137,8 @@ SpringSystem BodyOfColumns::system() const {
           .inverse_mass = vertices_.inverse_mass,
           .viscosity = vertices_.viscosity,
           .fixed = vertices_.fixed,
-          .gravity = gravity_};
+          .gravity = gravity_,
+          .terms = elements_ ? ForceTerms{&terms_, 1} : ForceTerms{}};
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
@@ -170,7 +185,7 @@ double BodyOfColumns::largest_tension() const {
 double BodyOfColumns::largest_stress() const {
   if (counts_.cells == 0) return largest_tension();
   std::vector<Eigen::Matrix3d> stress;
-  vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress);
+  vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress, system().terms);
   return largest_principal_stress(stress);
 }
 
@@ -180,7 +195,7 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
   frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
-  fill_columns(frame, fields, vertices_, ends_, springs_, density_);
+  fill_columns(frame, fields, vertices_, system(), density_);
   return frame;
 }
 

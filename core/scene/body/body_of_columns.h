@@ -7,6 +7,7 @@
 
 #include "core/plain/mesh.h"
 #include "core/scene/body/simulated_body.h"
+#include "core/views/element_nodes_view.h"
 #include "core/views/spring_ends.h"
 
 namespace dartboard {
@@ -53,6 +54,12 @@ class BodyOfColumns final : public SimulatedBody {
   VertexColumns vertices_;  // without darts and forces; viscosity, fixed and places at rest only where needed
   Springs springs_;
   std::vector<SpringEnds> ends_;
+  std::vector<TetrahedronNodes> nodes_;  // of a body of elements, which has no springs
+  std::vector<RestShape> shape_;
+  std::vector<SolidNodes> solid_nodes_;  // or where not all cells are tetrahedra
+  std::vector<SolidShape> solid_shape_;
+  std::unique_ptr<ForceTerm> elements_;  // null with springs
+  const ForceTerm* terms_ = nullptr;     // the list of one of a system
   Eigen::Vector3d gravity_{0, 0, 0};
   double density_ = 0.0;
 

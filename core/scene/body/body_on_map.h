@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "core/mechanics/adapt.h"
+#include "core/mechanics/cell_nodes.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/plain/bytes.h"
-#include "core/scene/body/cell_nodes.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/scene_events.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
 #include "core/views/component_labels.h"
+#include "core/views/element_nodes_view.h"
 #include "core/views/spring_ends.h"
 
 namespace dartboard {
@@ -35,6 +36,12 @@ class BodyOnMap final : public SimulatedBody {
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
     if (needs.rest) body_.vertices.keep_rest();
+    nodes_.rebuild(body_);
+    solids_.rebuild(body_);
+    if (!body_.cell_shape.empty())
+      elements_ = make_tetrahedra(problem.material, {nodes_.nodes, body_.cell_shape, body_.cell_mass});
+    if (!body_.cell_solid.empty()) elements_ = make_solids(problem.material, {solids_.nodes, body_.cell_solid});
+    terms_ = elements_.get();
     fit_columns();
   }
 
@@ -55,6 +62,8 @@ class BodyOnMap final : public SimulatedBody {
       mesh_cell_.pop_back();
     }
     ends_.apply(body_, changed);
+    nodes_.apply(body_, changed);
+    solids_.apply(body_, changed);
     components_.apply(body_, change, changed);
   }
   /// The same for a subdivision of tetrahedra.
@@ -67,6 +76,8 @@ class BodyOnMap final : public SimulatedBody {
       mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
     }
     ends_.apply(body_, changed);
+    nodes_.apply(body_, changed);
+    solids_.apply(body_, changed);
     components_.apply(body_, {}, changed);
   }
   void count_removed(double mass) { removed_mass_ += mass; }
@@ -79,13 +90,19 @@ class BodyOnMap final : public SimulatedBody {
   const VertexColumns& vertices() const override { return body_.vertices; }
   SpringSystem system() const override {
     const VertexColumns& v = body_.vertices;
-    return {.ends = ends_.ends,
-            .springs = body_.springs,
-            .mass = v.mass,
-            .inverse_mass = v.inverse_mass,
-            .viscosity = v.viscosity,
-            .fixed = v.fixed,
-            .gravity = body_.surroundings.gravity};
+    SpringSystem system{.ends = ends_.ends,
+                        .springs = body_.springs,
+                        .mass = v.mass,
+                        .inverse_mass = v.inverse_mass,
+                        .viscosity = v.viscosity,
+                        .fixed = v.fixed,
+                        .gravity = body_.surroundings.gravity};
+    if (elements_) {
+      system.ends = {};
+      system.springs = {};
+      system.terms = {&terms_, 1};
+    }
+    return system;
   }
   Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override { return make_event_ready(*this, event); }
@@ -128,7 +145,7 @@ class BodyOnMap final : public SimulatedBody {
   double largest_stress() const override {
     const VertexColumns& v = body_.vertices;
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress);
+    vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress, system().terms);
     return largest_principal_stress(stress);
   }
 
@@ -139,7 +156,7 @@ class BodyOnMap final : public SimulatedBody {
       frame.mesh_cell.push_back(mesh_cell_[c]);
       frame.component.push_back(components_.label(c));
     }
-    fill_columns(frame, fields, body_.vertices, ends_.ends, body_.springs, body_.material.density);
+    fill_columns(frame, fields, body_.vertices, system(), body_.material.density);
     return frame;
   }
 
@@ -147,7 +164,7 @@ class BodyOnMap final : public SimulatedBody {
   std::string violation() const override { return check(body_.map); }
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
-    archive(body_, ends_, components_, mesh_cell_, removed_mass_);
+    archive(body_, ends_, nodes_, solids_, components_, mesh_cell_, removed_mass_);
   }
 
   MemoryReport memory() const override {
@@ -170,7 +187,8 @@ class BodyOnMap final : public SimulatedBody {
             {Part::fixed, bytes_of(v.fixed)},
             {Part::rest, bytes_of(v.rest)},
             {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
-            {Part::damping, body_.springs.damping_bytes()}};
+            {Part::damping, body_.springs.damping_bytes()},
+            {Part::elements, bytes_of(body_.cell_shape, nodes_.nodes, body_.cell_solid, solids_.nodes)}};
   }
 
  private:
@@ -180,7 +198,8 @@ class BodyOnMap final : public SimulatedBody {
     const auto fit_column = [](auto& column, const auto&) { column.shrink_to_fit(); };
     for_each_column(body_.vertices, VertexColumns::embedded(), fit_column);
     for_each_column(body_, Body::embedded_in_cells(), fit_column);
-    fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_);
+    fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
+        solids_.nodes);
   }
 
   /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is
@@ -198,6 +217,10 @@ class BodyOnMap final : public SimulatedBody {
 
   Body body_;
   SpringEndsView ends_;
+  TetrahedronNodesView nodes_;           // of a body of elements, all tetrahedra
+  SolidNodesView solids_;                // or of cells of any kind
+  std::unique_ptr<ForceTerm> elements_;  // null with springs
+  const ForceTerm* terms_ = nullptr;     // the list of one of a system
   ComponentLabels components_;
   std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
   double removed_mass_ = 0.0;             // [kg]

@@ -12,8 +12,10 @@ double or_infinity(double x) { return std::isfinite(x) ? x : std::numeric_limits
 
 }  // namespace
 
-void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices,
-                  std::span<const SpringEnds> ends, SpringSpan springs, double density) {
+void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
+                  double density) {
+  const auto& ends = system.ends;
+  const SpringSpan& springs = system.springs;
   const auto& x = vertices.position;
   frame.fields = fields;
   frame.mesh.points = x;
@@ -24,7 +26,7 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
     for (std::size_t k = 0; k < x.size(); ++k) frame.displacement.push_back(x[k] - vertices.rest[k]);
   if (fields.stress && !is_chain) {
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(ends, springs, vertices.mass, density, x, stress);
+    vertex_stresses(ends, springs, vertices.mass, density, x, stress, system.terms);
     for (const Eigen::Matrix3d& sigma : stress) {
       const StressMeasures measures = measures_of(sigma);
       frame.largest_principal_stress.push_back(measures.largest_principal);

@@ -6,17 +6,18 @@
 #include "core/forces/springs.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/scene/body/frame.h"
+#include "core/time/system/spring_system.h"
 
 namespace dartboard {
 
-/// Fill what a frame has of vertices and springs: places, velocities and masses always, stress, displacement and strain
-/// where `fields` asks for them; who holds vertices is known to the run alone.
+/// Fill what a frame has of the vertices and springs of a system: places, velocities and masses always, stress,
+/// displacement and strain where `fields` asks for them; who holds vertices is known to the run alone.
 ///
 /// Stresses are those of `vertex_stresses`, strains (l - L) / L. A number that is not finite, as the strain of a spring
 /// without length at rest, is infinity.
 /// pre   the cells and links of the frame are there; vertices have their places at rest where displacement is asked for
 /// cost  O(vertices + springs)
-void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices,
-                  std::span<const SpringEnds> ends, SpringSpan springs, double density);
+void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
+                  double density);
 
 }  // namespace dartboard

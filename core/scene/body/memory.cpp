@@ -19,6 +19,7 @@ std::string_view name(Part part) {
     case Part::rest: return "places at rest";
     case Part::driven: return "driven vertices";
     case Part::springs: return "springs";
+    case Part::elements: return "elements";
     case Part::damping: return "damping";
     case Part::gravity: return "gravity";
     case Part::integrator: return "integrator";

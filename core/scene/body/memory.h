@@ -27,6 +27,7 @@ enum class Part {
   driven,        // paths of driven vertices, and what their work is summed over
   springs,       // rest length, stiffness, and the two ends
   damping,       // by spring; beside them in one row
+  elements,      // rest shape and corners of each tetrahedron, in place of springs
   gravity,       // a force term: time only
   integrator,    // columns kept between steps
   solver,        // matrices, factor and vectors of implicit methods

@@ -51,7 +51,10 @@ class Reader {
                       .stiffness = material.at("stiffness"),
                       .damping = material.at("damping"),
                       .viscosity = material.at("viscosity"),
-                      .young = material.value("young", 0.0)};
+                      .young = material.value("young", 0.0),
+                      .poisson = material.value("poisson", Material{}.poisson),
+                      .model = model(material)};
+    if (scene.material.model != Model::springs) scene.material.stiffness = scene.material.damping = 0.0;
     scene.gravity = point(json.at("gravity"));
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
@@ -122,6 +125,24 @@ class Reader {
     const double degrees = rotate.at("degrees");
     return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180.0), direction(rotate.at("axis"), "/body/rotate/axis"))
         .toRotationMatrix();
+  }
+
+  /// Elements have a Young's modulus and a Poisson's ratio, springs of a ratio of their own have none.
+  Model model(const Json& material) const {
+    const bool has_ratio = material.contains("poisson");
+    Model model = has_ratio ? Model::neo_hookean : Model::springs;
+    if (material.contains("model"))
+      model = static_cast<Model>(std::ranges::find(model_names, material.at("model").get<std::string>()) -
+                                 model_names.begin());
+    if (model == Model::springs && has_ratio)
+      fail("/material/poisson", "stands beside the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface",
+           "another model, or no 'poisson'");
+    if (model != Model::springs && !has_ratio)
+      fail("/material/model", "is " + shown(material.at("model")) + " beside no 'poisson'",
+           "'young' and 'poisson' beside it");
+    if (model != Model::springs && !material.contains("young"))
+      fail("/material/poisson", "stands beside no 'young'", "Young's modulus beside it");
+    return model;
   }
 
   BodySource body(const Json& json) const {
@@ -318,6 +339,15 @@ class Reader {
       } catch (const InputError& error) {
         fail("/solver", error.what(), "one of those as 'integrator', or no 'solver'");
       }
+    }
+    if (scene.material.model != Model::springs) {
+      const char* without = scene.is_chain()                                     ? "/body/generate/chain"
+                            : std::holds_alternative<SheetMesh>(scene.body.mesh) ? "/body/generate/sheet"
+                                                                                 : nullptr;
+      if (without != nullptr) fail("/material/poisson", fmt::format("stands beside {}", without), "solid cells");
+      if (scene.accuracy)
+        fail("/accuracy", "stands beside /material/poisson: the codes it compares with know springs alone",
+             "'step' in its place");
     }
     if (scene.exact_events && !scene.driven.empty())
       fail("/event_times", "is \"exact\" beside /driven, which turns at steps alone", "\"steps\"");

@@ -182,6 +182,7 @@ struct SceneFile {
   std::filesystem::path folder;  // that its paths are relative to
   std::uint64_t added_seed = 0;  // by `reseed`
 
+  bool has_elements() const { return material.model != Model::springs; }
   bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
 };
 

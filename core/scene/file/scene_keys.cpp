@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/plain/material.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -134,6 +135,15 @@ std::vector<SceneKey> make_keys() {
                "Poisson's ratio 1/4, where tetrahedra are well shaped, whatever the material has. Of a surface of triangles "
                "[N/m], with their areas and the ratio 1/3; of a chain [N], young / l. Other cells have no such springs. The "
                "damping is then a mean over the edges of all cells, shared out as the stiffness is"},
+      {.shape = material, .name = "poisson", .type = real, .range = {.least = -0.99, .most = 0.4999},
+       .help = "Poisson's ratio of elements, which resist in place of springs; 'young' stands beside it. Solid cells of all "
+               "kinds have them; hexahedra bend four times as truly as tetrahedra of as many nodes. All are too stiff above "
+               "some 0.45, and nothing but viscosity damps them"},
+      {.shape = material, .name = "model", .type = choice,
+       .choices = {model_names.begin(), model_names.end()},
+       .help = "what resists deformation: springs, or elements of an elastic law: stable neo-Hookean (smooth, also where it "
+               "is turned inside out), corotational (linear elasticity that turns with the material) or St. "
+               "Venant-Kirchhoff. Without it, neo-hookean where there is a 'poisson', and springs where there is none"},
       {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
        .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
@@ -390,6 +400,7 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
       {at_most_one, Shape::material, {"stiffness", "young"}},
+      {excludes, Shape::material, {"poisson", "stiffness", "damping"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},

@@ -70,6 +70,16 @@ double stiffness_of_young(const SceneFile& scene, const Mesh& mesh) {
   return mean;
 }
 
+/// Elements are solid.
+void require_elements(const SceneFile& scene, const Mesh& mesh) {
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    if (dimension(mesh.kinds[c]) == 2)
+      throw InputError(
+          fmt::format("{}: /material/poisson: stands beside cell {}, a {}, which has no element; expected "
+                      "solid cells, or springs",
+                      scene.file, c, name(mesh.kinds[c])));
+}
+
 }  // namespace
 
 Mesh make_mesh(const SceneFile& scene) {
@@ -106,7 +116,10 @@ Problem make_problem(const SceneFile& scene) {
   Problem problem;
   problem.mesh = make_mesh(scene);
   problem.material = scene.material;
-  if (scene.material.young > 0.0) problem.material.stiffness = stiffness_of_young(scene, problem.mesh);
+  if (scene.material.model != Model::springs)
+    require_elements(scene, problem.mesh);
+  else if (scene.material.young > 0.0)
+    problem.material.stiffness = stiffness_of_young(scene, problem.mesh);
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
   try {

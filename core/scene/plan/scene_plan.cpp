@@ -86,7 +86,8 @@ class Planner {
     add(Part::marks, "marks by dart, for walks", changed);
     add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
     add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed);
-    if (problem_.material.young > 0.0)
+    const bool springs = problem_.material.model == Model::springs;
+    if (springs && problem_.material.young > 0.0)
       add(Part::cells, "mass, share of a node, side and mesh number of each cell, stiffness shares of its edges",
           changed + "; " + elasticity());
     else
@@ -95,7 +96,7 @@ class Planner {
         changed + "; /output: frames and diagnostics tell the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
-    if (!plan_.needs.refinement && problem_.material.young == 0.0)
+    if (!plan_.needs.refinement && (!springs || problem_.material.young == 0.0))
       leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
   }
 
@@ -142,12 +143,23 @@ class Planner {
 
   void forces() {
     const MeshTally& n = plan_.counts;
-    add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
-        source_of(scene_) + "; " + elasticity());
+    const bool elements = problem_.material.model != Model::springs;
+    if (elements) {
+      add(Part::elements, fmt::format("{} solid cells: rest shape, corners", n.cells),
+          source_of(scene_) + "; " + elasticity());
+      leave_out("springs and their damping", model_in_words());
+      if (plan_.needs.body.topology_changes)
+        add(Part::springs,
+            fmt::format("{} edges: rest length and ends, of which refinement makes new ones; no force", n.edges),
+            "changes of the map follow them");
+    } else {
+      add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
+          source_of(scene_) + "; " + elasticity());
+    }
     const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
     if (plan_.needs.damping)
       add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
-    else
+    else if (!elements)
       leave_out("damping of springs, its term or sweep", damping);
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity = told("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
@@ -206,9 +218,14 @@ class Planner {
 
   std::string elasticity() const {
     const Material& material = problem_.material;
+    if (material.model != Model::springs)
+      return told("/material/young", Shape::material, "young", material.young) + ", " +
+             told("poisson", Shape::material, "poisson", material.poisson) + "; " + model_in_words();
     return material.young > 0.0 ? told("/material/young", Shape::material, "young", material.young)
                                 : told("/material/stiffness", Shape::material, "stiffness", material.stiffness);
   }
+
+  std::string model_in_words() const { return fmt::format("/material/model: {}", name(problem_.material.model)); }
 
   std::string fields_in_words() const {
     const FrameFields& fields = scene_.output.fields;

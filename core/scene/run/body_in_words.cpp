@@ -40,6 +40,7 @@ std::string in_words(const SimulatedBody& body) {
   const Eigen::Vector3d size = box.sizes();
   std::string text = fmt::format("{:.3g} m along x, {:.3g} m along y, {:.3g} m along z; {}", size[0], size[1], size[2],
                                  mass_in_words(body.mass()));
+  for (const ForceTerm* term : system.terms) text += fmt::format("; {} {}", term->size(), term->pieces_name());
   if (system.springs.size() == 0) return text;
   Span length, stiffness;
   for (std::size_t k = 0; k < system.springs.size(); ++k) {

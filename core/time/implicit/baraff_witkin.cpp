@@ -32,9 +32,10 @@ StepResult BaraffWitkin::step(const SpringSystem& system, Motion motion, double 
     end_.v[i] = system.fixed[i] ? motion.v[i] : Eigen::Vector3d(0, 0, 0);
     end_.x[i] = motion.x[i] + h * end_.v[i];
   }
-  const TangentsAt tangents = [this, &system](Compression compression, std::vector<SpringTangent>& result) {
-    evaluate_tangents(system, end_.x, compression, result);
-  };
+  const TangentsAt tangents{[this, &system](Compression compression, std::vector<SpringTangent>& result) {
+                              evaluate_tangents(system, end_.x, compression, result);
+                            },
+                            {end_.x}};
   accelerations(system, terms_.of(system), end_.x, end_.v, right_);
   ++work_.force_evaluations;
   for (std::size_t i = 0; i < n; ++i)

@@ -66,6 +66,13 @@ void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, 
   ++work.force_evaluations;
   residual_.assign(w.size(), Vector3d::Zero());
   terms_.of(s).damping ? subtract_forces<true>(p, w) : subtract_forces<false>(p, w);
+  if (!s.terms.empty()) {
+    forces_.assign(w.size(), Vector3d::Zero());
+    for (const ForceTerm* term : s.terms)
+      p.force == StageForce::discrete_gradient ? term->add_discrete_forces({p.xh, w, p.tau}, forces_)
+                                               : term->add_forces({p.xh, w, p.tau}, forces_);
+    for (std::size_t i = 0; i < w.size(); ++i) residual_[i] -= forces_[i];
+  }
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (s.fixed[i]) {
       residual_[i].setZero();
@@ -101,6 +108,7 @@ void ImplicitStage::set_allowed(const Problem& p, std::span<const Vector3d> w) {
     allowed_[a] += force;
     allowed_[b] += force;
   }
+  for (const ForceTerm* term : s.terms) term->add_force_sizes({p.xh, w, p.tau}, allowed_);
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double speeds = w[i].cwiseAbs().maxCoeff() + p.vh[i].cwiseAbs().maxCoeff();
     const double rounding = 8.0 * epsilon * (s.mass[i] * speeds + std::abs(p.tau) * allowed_[i]);
@@ -171,6 +179,11 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
         }
     }
   });
+  for (const ForceTerm* term : s.terms) {
+    const EnergyChange change = term->energy_change({p.xh, w, p.tau}, direction_, p.tau * alpha);
+    sum += unit * change.value;
+    sizes += unit * change.sizes;
+  }
   return {sum, 4.0 * epsilon * sizes};
 }
 
@@ -234,7 +247,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
   for (std::size_t i = 0; i < w.size(); ++i)
     if (system.fixed[i]) w[i] = vh[i];
   direction_.resize(w.size());
-  const TangentsAt tangents = [&p, &w](Compression compression, std::vector<SpringTangent>& result) {
+  const auto of_springs = [&p, &w](Compression compression, std::vector<SpringTangent>& result) {
     result.resize(p.system.springs.size());
     for (std::size_t e = 0; e < result.size(); ++e) {
       const auto [a, b] = p.system.ends[e];
@@ -244,6 +257,8 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
                       : discrete_tangent(p.system.springs[e], d0, d0 + (2.0 * p.tau) * dw, compression);
     }
   };
+  // the derivative of a term's discrete gradient is not symmetric; that of its forces half way is close to it
+  const TangentsAt tangents{of_springs, {xh, w, tau}};
 
   set_residual(p, w, work);
   choose_start(p, w, work);

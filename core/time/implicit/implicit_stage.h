@@ -52,7 +52,7 @@ class ImplicitStage {
   }
 
   StepSolver& solver() { return solver_; }
-  std::size_t bytes() const { return solver_.bytes() + bytes_of(residual_, direction_, trial_, allowed_); }
+  std::size_t bytes() const { return solver_.bytes() + bytes_of(residual_, direction_, trial_, forces_, allowed_); }
   std::size_t solver_bytes() const { return solver_.bytes(); }
   const ImplicitOptions& options() const { return options_; }
 
@@ -82,6 +82,7 @@ class ImplicitStage {
   StepSolver solver_;
   KnownTerms terms_;
   std::vector<Eigen::Vector3d> residual_, direction_, trial_;
+  std::vector<Eigen::Vector3d> forces_;  // of force terms
   std::vector<double> allowed_;
 };
 

@@ -27,6 +27,7 @@ bool Ros2::solve_stage(const SpringSystem& system, double tau) {
   StepSolver& solver = stage_.solver();
   if (status_ != SolveStatus::ok) return false;
   multiply_stiffness(system, solver.tangents(), rx_, kx_);
+  solver.matrix().add_stiffness_of_terms(rx_, kx_);
   for (std::size_t i = 0; i < kx_.size(); ++i)
     right_[i] = system.fixed[i] ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(system.mass[i] * rv_[i] - tau * kx_[i]);
   status_ = solver.solve(right_, kv_, Accuracy::full, work_);
@@ -41,9 +42,10 @@ StepResult Ros2::step(const SpringSystem& system, Motion motion, double h) {
   for (auto* column : {&right_, &k1x_, &k1v_, &kx_, &kv_, &rx_, &rv_}) column->resize(n);
   StepSolver& solver = stage_.solver();
   solver.begin_step(work_);
-  const TangentsAt tangents = [&system, motion](Compression compression, std::vector<SpringTangent>& result) {
-    evaluate_tangents(system, motion.x, compression, result);
-  };
+  const TangentsAt tangents{[&system, motion](Compression compression, std::vector<SpringTangent>& result) {
+                              evaluate_tangents(system, motion.x, compression, result);
+                            },
+                            {motion.x}};
   status_ = SolveStatus::ok;
   const Terms terms = terms_.of(system);
   for (bool again = true; again;) {

@@ -13,7 +13,7 @@ std::vector<Vector3d> absolute_product(const BlockMatrix& m, std::span<const Vec
   for (std::size_t i = 0; i < y.size(); ++i) result[i] = m.diagonal[i].cwiseAbs() * y[i];
   for (std::size_t j = 0; j < y.size(); ++j)
     for (std::uint32_t k = m.pattern.column_start[j]; k < m.pattern.column_start[j + 1]; ++k) {
-      result[j] += m.below[k].cwiseAbs() * y[m.pattern.row[k]];
+      result[j] += m.below[k].transpose().cwiseAbs() * y[m.pattern.row[k]];
       result[m.pattern.row[k]] += m.below[k].cwiseAbs() * y[j];
     }
   return result;
@@ -29,7 +29,7 @@ std::vector<ExtendedVector> extended_residual(const BlockMatrix& m, std::span<co
   for (std::size_t j = 0; j < b.size(); ++j)
     for (std::uint32_t k = m.pattern.column_start[j]; k < m.pattern.column_start[j + 1]; ++k) {
       const Eigen::Matrix<long double, 3, 3> block = m.below[k].cast<long double>();
-      r[j] -= block * x[m.pattern.row[k]].cast<long double>();
+      r[j] -= block.transpose() * x[m.pattern.row[k]].cast<long double>();
       r[m.pattern.row[k]] -= block * x[j].cast<long double>();
     }
   return r;

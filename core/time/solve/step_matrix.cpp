@@ -72,6 +72,30 @@ void StepMatrix::evaluate(const SpringSystem& system, std::span<const SpringTang
   sum_diagonal();
 }
 
+void StepMatrix::evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau,
+                          const NodePattern& pattern, const TermTangents& terms) {
+  evaluate(system, tangents, tau);
+  sum_terms(system, pattern, terms);
+}
+
+void StepMatrix::sum_terms(const SpringSystem& system, const NodePattern& pattern, const TermTangents& tangents) {
+  if (!terms_.pattern.same_entries(pattern) || terms_.pattern.place != pattern.place) terms_.pattern = pattern;
+  stiffness_of_terms(system, tangents, terms_);
+  const double square = tau_ * tau_;
+  for (Matrix3d& block : terms_.below) block *= square;
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+    terms_.diagonal[i] *= square;
+    diagonal_[i] += terms_.diagonal[i];
+  }
+}
+
+void StepMatrix::add_stiffness_of_terms(std::span<const Vector3d> x, std::span<Vector3d> y) const {
+  if (terms_.diagonal.empty()) return;
+  std::vector<Vector3d> product(x.size());
+  terms_.multiply(x, product);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += product[i] / (tau_ * tau_);
+}
+
 void StepMatrix::multiply(std::span<const Vector3d> x, std::span<Vector3d> y) const {
   for (std::size_t i = 0; i < inertia_.size(); ++i) y[i] = inertia_[i] * x[i];
   for (const std::uint32_t e : links_) {
@@ -87,6 +111,7 @@ void StepMatrix::multiply(std::span<const Vector3d> x, std::span<Vector3d> y) co
     const std::uint32_t a = fixed_[block.ends[0]] ? block.ends[1] : block.ends[0];
     y[a] += block.p * x[a] + (block.q * block.d.dot(x[a])) * block.d;
   }
+  if (!terms_.diagonal.empty()) terms_.add_product(x, y);
 }
 
 void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const {
@@ -99,6 +124,7 @@ void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const
     entry -= (block.q * block.d) * block.d.transpose();
     entry.diagonal().array() -= block.p;
   }
+  for (std::size_t k = 0; k < terms_.below.size(); ++k) matrix.below[k] += terms_.below[k];
 }
 
 std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::span<const SpringTangent> tangents,

@@ -1,5 +1,6 @@
 #pragma once
-// The matrix of every implicit step, A = M + tau C + tau^2 K, as the springs give it: no entry is formed.
+// The matrix of every implicit step, A = M + tau C + tau^2 K, as the springs give it: no entry is formed but for force
+// terms.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -8,6 +9,7 @@
 
 #include "core/time/system/node_matrix.h"
 #include "core/time/system/tangent.h"
+#include "core/time/system/term_tangents.h"
 
 namespace dartboard {
 
@@ -24,14 +26,20 @@ struct RankOneTerm {
 /// C holds the damping of the springs and the ambient viscosity.
 class StepMatrix {
  public:
+  /// Of the springs and, given what they are like and the pattern of the system, of its force terms.
+  ///
   /// cost    O(vertices + springs); no memory is taken after the first call for a body
   void evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau);
+  void evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau,
+                const NodePattern& pattern, const TermTangents& terms);
 
   std::size_t node_count() const { return inertia_.size(); }
-  std::size_t bytes() const { return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_); }
+  std::size_t bytes() const {
+    return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_) + terms_.bytes();
+  }
   template <class Archive>
   void state(Archive& archive) {
-    archive(tau_, inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_);
+    archive(tau_, inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_, terms_);
   }
   double tau() const { return tau_; }
   const Eigen::Matrix3d& diagonal_block(std::size_t i) const { return diagonal_[i]; }
@@ -41,12 +49,15 @@ class StepMatrix {
   /// y = A x, from the springs: five numbers and two ends each, where entries would take nine.
   void multiply(std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y) const;
 
+  /// y += K x with the stiffness of the force terms alone, fixed vertices being still.
+  void add_stiffness_of_terms(std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y) const;
+
   /// The entries, on a pattern of the same system.
   /// cost    O(vertices + springs)
   void assemble(const NodePattern& pattern, BlockMatrix& matrix) const;
 
   /// Follow a topological change while keeping what was evaluated for springs that are the same as before: the terms
-  /// that lead from this matrix to the one returned in its place.
+  /// that lead from this matrix to the one returned in its place. Of springs alone: pre  there are no force terms
   ///
   /// Springs and vertices are matched by number; those that changed are evaluated at `tangents`. A vertex whose number
   /// is beyond the old ones starts from `spare` times the identity.
@@ -74,6 +85,7 @@ class StepMatrix {
   Block block_of(const SpringSystem& system, std::size_t e, const SpringTangent& tangent) const;
   void set_inertia(const SpringSystem& system);
   void sum_diagonal();
+  void sum_terms(const SpringSystem& system, const NodePattern& pattern, const TermTangents& tangents);
 
   double tau_ = 0.0;
   std::vector<double> inertia_;
@@ -83,6 +95,7 @@ class StepMatrix {
   std::vector<Eigen::Matrix3d> diagonal_;
   std::vector<std::uint32_t> links_;    // springs between two free vertices
   std::vector<std::uint32_t> anchors_;  // springs between a free and a fixed vertex
+  BlockMatrix terms_;                   // tau^2 K of the force terms; nothing without
 };
 
 }  // namespace dartboard

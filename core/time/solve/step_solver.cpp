@@ -15,8 +15,19 @@ void StepSolver::evaluate(const TangentsAt& tangents, const SpringSystem& system
       tangents_[e] = {Vector3d::Zero(), k, k, 0.0};
     }
   } else {
-    tangents(projecting_ ? Compression::projected : Compression::exact, tangents_);
+    tangents.springs(projecting_ ? Compression::projected : Compression::exact, tangents_);
   }
+  if (system.terms.empty()) {
+    matrix_.evaluate(system, tangents_, tau);
+    return;
+  }
+  using Kind = TermTangents::Kind;
+  const Kind kind = options_.solver == LinearSolver::laplacian ? Kind::constant
+                    : projecting_                              ? Kind::projected
+                                                               : Kind::exact;
+  // conjugate gradients know no pattern: then it is that of the last change here
+  if (changed_ || pattern_.node_count() != system.vertex_count()) pattern_ = node_pattern_of(system);
+  matrix_.evaluate(system, tangents_, tau, pattern_, {tangents.at, kind});
 }
 
 // The factor of `factored_`, to which the terms lead.
@@ -76,13 +87,15 @@ SolveStatus StepSolver::prepare(const SpringSystem& system, const TangentsAt& ta
   const bool usable = keeps && ready_ && !due_ && same_step;
   if (laplacian && usable && !changed_) return SolveStatus::ok;
   evaluate(tangents, system, tau);
-  matrix_.evaluate(system, tangents_, tau);
-  if (options_.solver == LinearSolver::conjugate_gradients || (usable && !changed_)) return SolveStatus::ok;
+  if (options_.solver == LinearSolver::conjugate_gradients || (usable && !changed_)) {
+    if (!system.terms.empty()) changed_ = false;  // its pattern is found
+    return SolveStatus::ok;
+  }
 
-  if (changed_) pattern_ = node_pattern_of(system);
+  if (changed_ && system.terms.empty()) pattern_ = node_pattern_of(system);
   ready_ = false;
   std::vector<RankOneTerm> terms;
-  const bool follow = usable;
+  const bool follow = usable && system.terms.empty();  // what elements change by is of rank nine each
   if (follow) {
     terms = factored_.follow(system, tangents_, cholesky_.spare_diagonal());
   } else {

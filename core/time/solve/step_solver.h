@@ -40,8 +40,11 @@ struct ImplicitOptions {
   ConjugateGradientsOptions conjugate_gradients = {.tolerance = 1e-6, .max_iterations = 2000};
 };
 
-/// The tangents of all springs at some linearisation.
-using TangentsAt = std::function<void(Compression, std::vector<SpringTangent>&)>;
+/// The tangents at some linearisation: of all springs, and where those of the force terms are taken.
+struct TangentsAt {
+  std::function<void(Compression, std::vector<SpringTangent>&)> springs;
+  StagePlaces at{};
+};
 
 /// The matrix and what solves with it, kept between steps.
 ///

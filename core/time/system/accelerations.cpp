@@ -70,6 +70,7 @@ void accelerations(const SpringSystem& system, const Terms& terms, std::span<con
   else
     terms.damping ? add_spring_forces<true>(system, springs.damped(), x, v, a)
                   : add_spring_forces<false>(system, springs.damped(), x, v, a);
+  for (const ForceTerm* term : system.terms) term->add_forces({x}, a);
   terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
   if (!terms.fixed) return;
   const std::uint8_t* const fixed = system.fixed.data();
@@ -81,6 +82,13 @@ double frequency_bound(const SpringSystem& system) {
   std::vector<double> sum(system.vertex_count(), 0.0);
   for (std::size_t s = 0; s < system.springs.size(); ++s)
     for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
+  for (const ForceTerm* term : system.terms)
+    term->for_each_constant_tangent([&sum](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+      // half of what all blocks in a row of the piece add up to: the sum is doubled below
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+          sum[nodes[a]] += 0.5 * std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));
+    });
   double highest = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (!system.fixed[i]) highest = max_or_nan(highest, 2.0 * sum[i] * system.inverse_mass[i]);

@@ -18,7 +18,8 @@ struct Terms {
 /// cost    O(springs + vertices); ask once, not in every step
 Terms terms_of(const SpringSystem& system);
 
-/// Accelerations [m/s^2] of all vertices at x, v: springs, gravity and what `terms` says; zero where fixed.
+/// Accelerations [m/s^2] of all vertices at x, v: springs, force terms, gravity and what `terms` says; zero where
+/// fixed.
 ///
 /// Leaving damping and viscosity out of the terms gives the conservative part. Springs are added in the order of their
 /// numbers with the operations of `spring_force` and `acceleration` (core/walks/spring_forces.h): the same bits.
@@ -27,7 +28,8 @@ void accelerations(const SpringSystem& system, const Terms& terms, std::span<con
                    std::span<const Eigen::Vector3d> v, std::span<Eigen::Vector3d> a);
 
 /// An upper bound of the highest angular frequency [1/s] of the undamped system in any state where no spring is
-/// compressed: Gershgorin's, max over i of sqrt(2 sum_j k_ij / m_i). 0 without springs.
+/// compressed: Gershgorin's, max over i of sqrt(2 sum_j k_ij / m_i). 0 without springs. With force terms no bound but
+/// a measure: their stiffness is that near rest.
 double frequency_bound(const SpringSystem& system);
 
 }  // namespace dartboard

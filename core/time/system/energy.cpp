@@ -58,7 +58,9 @@ double elastic_energy(const SpringSystem& system, std::span<const Vector3d> x) {
     const double stretch = (x[j] - x[i]).norm() - system.springs[s].rest_length;
     twice.add(system.springs[s].stiffness * stretch * stretch);
   }
-  return twice.value() / 2;
+  double sum = twice.value() / 2;
+  for (const ForceTerm* term : system.terms) sum += term->energy(x);
+  return sum;
 }
 
 double gravity_energy(const SpringSystem& system, std::span<const Vector3d> x) {

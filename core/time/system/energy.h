@@ -17,7 +17,7 @@ double sum_of_squares(std::span<const Eigen::Vector3d> v);
 
 /// Sum of m v^2 / 2 [J].
 double kinetic_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> v);
-/// Sum of k (l - L)^2 / 2 over the springs [J].
+/// Sum of k (l - L)^2 / 2 over the springs, and of the energies of the force terms [J].
 double elastic_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// - sum of m g . x [J], zero at the origin.
 double gravity_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);

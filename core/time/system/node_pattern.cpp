@@ -4,6 +4,22 @@
 
 namespace dartboard {
 
+namespace {
+
+/// visit(ends) for every spring, then for every pair of each piece of each force term.
+template <class Visit>
+void for_each_pair(const SpringSystem& system, const Visit& visit) {
+  for (const SpringEnds& ends : system.ends) visit(ends);
+  for (const ForceTerm* term : system.terms)
+    for (std::size_t piece = 0; piece < term->size(); ++piece) {
+      const ForceTerm::Nodes nodes = term->nodes(piece);
+      for (std::size_t a = 1; a < nodes.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) visit(SpringEnds{nodes[a], nodes[b]});
+    }
+}
+
+}  // namespace
+
 NodePattern node_pattern_of(const SpringSystem& system) {
   const std::size_t n = system.vertex_count();
   NodePattern pattern;
@@ -12,29 +28,33 @@ NodePattern node_pattern_of(const SpringSystem& system) {
   };
 
   std::vector<std::uint32_t> start(n + 1, 0);
-  for (const SpringEnds& ends : system.ends)
+  std::uint32_t pairs = 0;
+  for_each_pair(system, [&](const SpringEnds& ends) {
     if (coupled(ends)) ++start[std::min(ends[0], ends[1]) + 1];
+    ++pairs;
+  });
   for (std::size_t j = 0; j < n; ++j) start[j + 1] += start[j];
 
   struct Entry {
-    std::uint32_t row, spring;
+    std::uint32_t row, pair;
   };
   std::vector<Entry> entries(start[n]);
   std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-  for (std::uint32_t e = 0; e < system.ends.size(); ++e) {
-    const SpringEnds& ends = system.ends[e];
-    if (coupled(ends)) entries[next[std::min(ends[0], ends[1])]++] = {std::max(ends[0], ends[1]), e};
-  }
+  std::uint32_t pair = 0;
+  for_each_pair(system, [&](const SpringEnds& ends) {
+    if (coupled(ends)) entries[next[std::min(ends[0], ends[1])]++] = {std::max(ends[0], ends[1]), pair};
+    ++pair;
+  });
 
   pattern.column_start.assign(n + 1, 0);
   pattern.row.reserve(entries.size());
-  pattern.place.assign(system.ends.size(), NodePattern::none);
+  pattern.place.assign(pairs, NodePattern::none);
   for (std::size_t j = 0; j < n; ++j) {
     const auto first = entries.begin() + start[j], last = entries.begin() + start[j + 1];
     std::sort(first, last, [](const Entry& a, const Entry& b) { return a.row < b.row; });
     for (auto entry = first; entry != last; ++entry) {
       if (entry == first || entry->row != std::prev(entry)->row) pattern.row.push_back(entry->row);
-      pattern.place[entry->spring] = static_cast<std::uint32_t>(pattern.row.size() - 1);
+      pattern.place[entry->pair] = static_cast<std::uint32_t>(pattern.row.size() - 1);
     }
     pattern.column_start[j + 1] = static_cast<std::uint32_t>(pattern.row.size());
   }

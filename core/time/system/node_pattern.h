@@ -1,5 +1,6 @@
 #pragma once
-// Which vertices are coupled by springs: the sparsity of every matrix of a spring system, one row per vertex.
+// Which vertices are coupled by springs and force terms: the sparsity of every matrix of a spring system, one row per
+// vertex.
 
 #include <cstdint>
 #include <vector>
@@ -11,13 +12,15 @@ namespace dartboard {
 
 /// The lower triangle of a symmetric matrix on the free vertices, in compressed columns.
 ///
-/// Fixed vertices keep a row, with the diagonal alone. Rows ascend in each column; parallel springs share an entry.
+/// Fixed vertices keep a row, with the diagonal alone. Rows ascend in each column; parallel springs share an entry. The
+/// pairs of a piece are (1, 0), (2, 0), (2, 1), (3, 0) and so on.
 struct NodePattern {
   static constexpr std::uint32_t none = 0xffffffffu;
 
   std::vector<std::uint32_t> column_start{0};  // nodes + 1
   std::vector<std::uint32_t> row;              // of the entries below the diagonal
-  std::vector<std::uint32_t> place;            // by spring: its entry below the diagonal; none if an end is fixed
+  // by spring, then by pair of each piece of each force term: its entry below the diagonal; none if an end is fixed
+  std::vector<std::uint32_t> place;
 
   std::size_t node_count() const { return column_start.size() - 1; }
   template <class Archive>
@@ -28,7 +31,7 @@ struct NodePattern {
   bool same_entries(const NodePattern& other) const { return column_start == other.column_start && row == other.row; }
 };
 
-/// cost    O(vertices + springs log(springs at a vertex))
+/// cost    O(vertices + pairs log(pairs at a vertex))
 NodePattern node_pattern_of(const SpringSystem& system);
 
 }  // namespace dartboard

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/forces/force_term.h"
 #include "core/forces/springs.h"
 
 namespace dartboard {
@@ -30,8 +31,8 @@ class OptionalColumn {
   std::span<const T> column_;
 };
 
-/// What acts on a set of vertices: springs between them, ambient viscosity and gravity (the formulas:
-/// core/plain/problem.h).
+/// What acts on a set of vertices: springs between them, other force terms, ambient viscosity and gravity (the
+/// formulas: core/plain/problem.h).
 ///
 /// A view of columns that somebody else owns; valid until they change their size. Columns are by vertex or by spring
 /// number.
@@ -43,6 +44,7 @@ struct SpringSystem {
   OptionalColumn<double> viscosity;      // [kg/s]
   OptionalColumn<std::uint8_t> fixed;    // 1: held still
   Eigen::Vector3d gravity{0, 0, 0};      // [m/s^2]
+  ForceTerms terms{};                    // beside the springs
 
   std::size_t vertex_count() const { return mass.size(); }
 };

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/forces/compression.h"
 #include "core/time/system/spring_system.h"
 
 namespace dartboard {
@@ -27,12 +28,6 @@ struct SpringTangent {
     return across * Eigen::Matrix3d::Identity() + (along - across) * direction * direction.transpose();
   }
   Eigen::Matrix3d damping_block() const { return damping * direction * direction.transpose(); }
-};
-
-/// What is done about the negative eigenvalues of compressed springs.
-enum class Compression {
-  exact,     // nothing: the tangent may be indefinite
-  projected  // across is max(0, k (1 - L/l)), the nearest positive semidefinite block; no eigenvalue problem is solved
 };
 
 /// The blocks of a spring from its length vector.

@@ -14,6 +14,22 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Twice the energy of force terms whose vertices are off by rounding, each in the same direction as no other: by the
+// stiffness near rest, K <= trace of its blocks.
+double energy_of_rounding(const SpringSystem& system, Motion motion, double place) {
+  double sum = 0.0;
+  for (const ForceTerm* term : system.terms)
+    term->for_each_constant_tangent([&](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+      double moved = 0.0, stiffness = 0.0;
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        moved = std::max(moved, place * motion.x[nodes[a]].norm());
+        stiffness += blocks[a * (a + 3) / 2](0, 0);
+      }
+      sum += stiffness * moved * moved;
+    });
+  return sum;
+}
+
 // Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; gravity sets
 // vertices going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no energy,
 // but must be finite: zero times one that is not is not a number.
@@ -25,6 +41,7 @@ double small_energy(const SpringSystem& system, Motion motion, double h) {
     const double moved = place * (motion.x[i].norm() + motion.x[j].norm() + system.springs[s].rest_length);
     elastic += system.springs[s].stiffness * moved * moved + 0.0 * system.springs[s].damping;
   }
+  if (!system.terms.empty()) elastic += energy_of_rounding(system, motion, place);
   for (std::size_t i = 0; i < motion.x.size(); ++i) {
     mass += system.mass[i] + 0.0 * system.viscosity[i];
     if (system.fixed[i]) driven = std::max(driven, motion.v[i].squaredNorm());
@@ -51,6 +68,7 @@ double DivergenceDetector::available(const Sums& now) const { return supply() + 
 void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) {
   driven_.clear();
   driven_springs_.clear();
+  driven_pieces_.clear();
   const auto is_driven = [&](std::uint32_t i) { return system.fixed[i] && motion.v[i] != Vector3d(0, 0, 0); };
   for (std::uint32_t i = 0; i < motion.v.size(); ++i)
     if (is_driven(i)) driven_.push_back(i);
@@ -61,10 +79,15 @@ void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) 
     const bool rigid = system.fixed[i] && system.fixed[j] && motion.v[i] == motion.v[j];
     if (!rigid) driven_springs_.push_back(s);
   }
+  for (const ForceTerm* term : system.terms) {
+    driven_pieces_.emplace_back();
+    for (std::uint32_t piece = 0; piece < term->size(); ++piece)
+      if (std::ranges::any_of(term->nodes(piece), is_driven)) driven_pieces_.back().push_back(piece);
+  }
 }
 
 // What moves a driven vertex does work against the springs and the weight there.
-double DivergenceDetector::power(const SpringSystem& system, Motion motion) const {
+double DivergenceDetector::power(const SpringSystem& system, Motion motion) {
   double sum = 0.0;
   for (const std::uint32_t s : driven_springs_) {
     const auto [i, j] = system.ends[s];
@@ -72,20 +95,31 @@ double DivergenceDetector::power(const SpringSystem& system, Motion motion) cons
     if (system.fixed[i]) sum -= f.dot(motion.v[i]);
     if (system.fixed[j]) sum += f.dot(motion.v[j]);
   }
+  if (!driven_pieces_.empty()) {
+    driven_velocity_.assign(motion.v.size(), Vector3d(0, 0, 0));
+    for (const std::uint32_t i : driven_) driven_velocity_[i] = motion.v[i];
+    for (std::size_t k = 0; k < driven_pieces_.size(); ++k)
+      sum -= system.terms[k]->power(driven_pieces_[k], motion.x, driven_velocity_);
+  }
   for (const std::uint32_t i : driven_) sum -= system.mass[i] * system.gravity.dot(motion.v[i]);
   return sum;
 }
 
-double DivergenceDetector::energy_of_some_springs(const SpringSystem& system, Motion motion) {
+double DivergenceDetector::energy_of_some(const SpringSystem& system, Motion motion) {
   const std::size_t count = system.springs.size(), stride = std::clamp<std::size_t>(count / 8, 1, spring_share);
-  first_spring_ = first_spring_ + 1 < stride ? first_spring_ + 1 : 0;
+  first_spring_ = first_spring_ + 1 < (system.terms.empty() ? stride : spring_share) ? first_spring_ + 1 : 0;
   double twice = 0.0;
-  for (std::size_t s = first_spring_; s < count; s += stride) {
+  for (std::size_t s = first_spring_ % stride; s < count; s += stride) {
     const auto [i, j] = system.ends[s];
     const double stretch = (motion.x[j] - motion.x[i]).norm() - system.springs[s].rest_length;
     twice += system.springs[s].stiffness * stretch * stretch;
   }
-  return static_cast<double>(stride) * twice / 2;
+  double sum = static_cast<double>(stride) * twice / 2;
+  for (const ForceTerm* term : system.terms) {
+    const std::size_t every = std::clamp<std::size_t>(term->size() / 8, 1, spring_share);
+    sum += static_cast<double>(every) * term->energy(motion.x, first_spring_ % every, every);
+  }
+  return sum;
 }
 
 void DivergenceDetector::keep(Motion motion) {
@@ -136,7 +170,7 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
   if (++since_start_ < next_check_) return {};
   next_check_ += std::min(since_start_, check_steps);
   ++checks_;
-  const double elastic = energy_of_some_springs(system, motion);
+  const double elastic = energy_of_some(system, motion);
   // Comparisons that a NaN fails. Most checks end at the first, but for gravity, whose work has to be summed.
   if (since_kept_ < keep_steps && system.gravity.isZero(0.0) &&
       heaviest_ / 2 * sum_of_squares(motion.v) + elastic <= suspicion * supply())

@@ -65,7 +65,8 @@ class DivergenceDetector {
   /// What its later verdicts depend on, and the state kept.
   template <class Archive>
   void state(Archive& archive) {
-    archive(step_, energy_, gravity_, small_, heaviest_, driven_, driven_springs_, power_, work_, most_work_);
+    archive(step_, energy_, gravity_, small_, heaviest_, driven_, driven_springs_, driven_pieces_);
+    archive(power_, work_, most_work_);
     archive(first_spring_, since_start_, next_check_, since_kept_, checks_, since_all_, kept_x_, kept_v_);
   }
 
@@ -85,8 +86,8 @@ class DivergenceDetector {
   double available(const Sums& now) const;
   double supply() const { return energy_ + small_ + most_work_; }  // what is available but for the work of gravity
   void find_driven(const SpringSystem& system, Motion motion);
-  double power(const SpringSystem& system, Motion motion) const;
-  double energy_of_some_springs(const SpringSystem& system, Motion motion);
+  double power(const SpringSystem& system, Motion motion);
+  double energy_of_some(const SpringSystem& system, Motion motion);
   StepResult begin(const SpringSystem& system, Motion motion, double ceiling);
   StepResult diagnose(const SpringSystem& system, Motion motion) const;
   void keep(Motion motion);
@@ -97,7 +98,9 @@ class DivergenceDetector {
   double small_ = 0.0;     // what rounding, the first step of gravity, and driven vertices may supply
   double heaviest_ = 0.0;  // [kg] the largest mass
   std::vector<std::uint32_t> driven_, driven_springs_;  // vertices, and the springs at them that may change in length
-  double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;   // [W] now, [J] of driven vertices since the run began, its peak
+  std::vector<std::vector<std::uint32_t>> driven_pieces_;  // by force term: those with a driven vertex
+  std::vector<Eigen::Vector3d> driven_velocity_;           // of all vertices, zero where not driven
+  double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;  // [W] now, [J] of driven vertices since the run began, its peak
   std::size_t first_spring_ = 0;
   std::uint64_t since_start_ = 0, next_check_ = 1, since_kept_ = 0, checks_ = 0;
   std::uint64_t since_all_ = 0;  // steps since the last sum over all springs

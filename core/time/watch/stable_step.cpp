@@ -74,6 +74,12 @@ Bounds viscous_rates(const SpringSystem& system) {
   return b;
 }
 
+std::size_t pieces_of(const SpringSystem& system) {
+  std::size_t sum = 0;
+  for (const ForceTerm* term : system.terms) sum += term->size();
+  return sum;
+}
+
 /// Gershgorin's bound for all damping over the masses, whatever the directions.
 double damping_bound(const SpringSystem& system) {
   std::vector<double> sum(system.vertex_count(), 0.0);
@@ -109,14 +115,25 @@ StableStep quick_stable_step(const SpringSystem& system) {
   for (const Spring& s : system.springs) finite += 0.0 * (s.stiffness + s.damping);
   for (std::size_t i = 0; i < system.vertex_count(); ++i)
     if (!system.fixed[i]) finite += 0.0 * (system.inverse_mass[i] + system.viscosity[i]);
-  if (finite != 0.0) step.any_state = step.upper = unlimited;
+  if (finite != 0.0 || !system.terms.empty()) step.any_state = step.upper = unlimited;
   return step;
 }
 
 bool StableStepEstimate::prepare(const SpringSystem& system, std::span<const Vector3d> x) {
   const std::size_t n = system.vertex_count();
-  latest_.any_state = frequency_bound(system);
-  unit_ = latest_.any_state * latest_.any_state;
+  latest_.any_state = scale_frequency_ = frequency_bound(system);
+  if (!system.terms.empty()) {
+    if (terms_.pattern.node_count() != n || springs_ != system.springs.size() || pieces_of(system) != pieces_)
+      terms_.pattern = node_pattern_of(system);
+    stiffness_of_terms(system, {{x}, TermTangents::Kind::projected}, terms_);
+    SpringSystem springs = system;
+    springs.terms = {};
+    const double of_springs = frequency_bound(springs);
+    scale_frequency_ = std::sqrt(of_springs * of_springs + largest_row_sum(system, terms_));
+    latest_.any_state = unlimited;
+  }
+  pieces_ = pieces_of(system);
+  unit_ = scale_frequency_ * scale_frequency_;
   springs_ = system.springs.size();
   scale_.resize(n);
   double finite = 0.0;  // 0 times what is finite, else not a number
@@ -137,12 +154,14 @@ struct StableStepEstimate::Operator {
   const SpringSystem& system;
   std::span<const SpringTangent> tangents;
   double unit;
-  bool viscous;  // C has viscosities too
+  bool viscous;              // C has viscosities too
+  const BlockMatrix* terms;  // the stiffness of force terms, or null
 };
 
 void StableStepEstimate::multiply(const Operator& m, std::span<const Vector3d> in, std::span<Vector3d> out) {
   for (std::size_t i = 0; i < in.size(); ++i) scaled_[i] = scale_[i] * in[i];
   multiply_stiffness(m.system, m.tangents, scaled_, out);
+  if (m.terms) m.terms->add_product(scaled_, out);
   if (m.viscous)
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += m.system.viscosity[i] * scaled_[i];
   for (std::size_t i = 0; i < in.size(); ++i) out[i] *= scale_[i] / m.unit;
@@ -235,7 +254,7 @@ Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, doub
     t.across = 0.0;
   }
   SplitMix64 random(2);
-  const Bounds found = largest_eigenvalue({system, dampers_, bound, true}, random, factor);
+  const Bounds found = largest_eigenvalue({system, dampers_, bound, true, nullptr}, random, factor);
   return {bound * std::max(0.0, found.lower * (1.0 - rounding)), std::min(bound, bound * (found.upper + rounding))};
 }
 
@@ -252,12 +271,13 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
     latest_.damping_rate = largest_damping_rate(system, std::sqrt(excess));
     return latest_;
   }
-  const Operator stiffness{system, tangents_, unit_, false};
+  const Operator stiffness{system, tangents_, unit_, false, system.terms.empty() ? nullptr : &terms_};
   Bounds squared = largest_eigenvalue(stiffness, random_, excess);
   squared.lower = std::max(squared.lower, power_iteration(stiffness));
   latest_.across = across_bound(system, tangents_);
-  latest_.lower = latest_.any_state * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
-  latest_.upper = std::min(latest_.any_state, latest_.any_state * std::sqrt(std::max(0.0, squared.upper + rounding)));
+  if (!system.terms.empty()) latest_.across = unlimited;  // elements have no direction of their own
+  latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
+  latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));
   // just above a ratio of 1 the rate of decay grows with the root of what is missing: 10 % are 0.9 % of a rate
   const Bounds ratio = latest_.damping_ratio();
   const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
@@ -266,11 +286,13 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
 }
 
 const StableStep& StableStepEstimate::follow(const SpringSystem& system, std::span<const Vector3d> x) {
-  if (scale_.size() != system.vertex_count() || springs_ != system.springs.size()) return refresh(system, x);
+  if (scale_.size() != system.vertex_count() || springs_ != system.springs.size() || pieces_ != pieces_of(system))
+    return refresh(system, x);
   if (!prepare(system, x)) return refresh(system, x);
   if (unit_ == 0.0) return latest_;
   evaluate_tangents(system, x, Compression::projected, tangents_);
-  const double lower = latest_.any_state * std::sqrt(std::max(0.0, power_iteration({system, tangents_, unit_, false})));
+  const Operator stiffness{system, tangents_, unit_, false, system.terms.empty() ? nullptr : &terms_};
+  const double lower = scale_frequency_ * std::sqrt(std::max(0.0, power_iteration(stiffness)));
   if (lower > latest_.upper) return refresh(system, x);
   latest_.lower = std::max(latest_.lower, lower);
   return latest_;

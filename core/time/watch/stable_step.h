@@ -11,11 +11,13 @@
 #include "core/time/method/step_limit.h"
 #include "core/time/system/spring_system.h"
 #include "core/time/system/tangent.h"
+#include "core/time/system/term_tangents.h"
 
 namespace dartboard {
 
 /// What Gershgorin's bound says: `upper` is `any_state`, `lower` is 0, and nothing is known of directions. Where a step
-/// is stable by that, there is nothing to look at more closely. cost  a third of a force evaluation
+/// is stable by that, there is nothing to look at more closely. Of force terms, whose stiffness grows with what they
+/// are deformed by, it knows nothing: no step is stable by it. cost  a third of a force evaluation
 StableStep quick_stable_step(const SpringSystem& system);
 
 /// An estimate that is kept from step to step.
@@ -38,7 +40,8 @@ class StableStepEstimate {
   static constexpr double critical_excess = 1.0045;  // squared, of the rate of damping where it is nearly critical
 
   /// Bracket anew: about 40 multiplications by the stiffness, each the cost of a force evaluation; and where there is
-  /// damping as many by that, thrice as many where it is nearly critical.
+  /// damping as many by that, thrice as many where it is nearly critical. Force terms are linearised once, projected,
+  /// into a matrix that is let go of.
   const StableStep& refresh(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
   /// One power iteration on a vector that is kept, which raises the lower bound to where the highest frequency is now.
@@ -65,8 +68,10 @@ class StableStepEstimate {
   std::vector<SpringTangent> tangents_, dampers_;
   std::vector<double> scale_;  // 1 / sqrt(m), 0 where fixed
   std::vector<Eigen::Vector3d> scaled_, shape_, q_, previous_, w_;
-  double unit_ = 0.0;  // [1/s^2] Gershgorin's bound, which the matrix is divided by
-  std::size_t springs_ = 0;
+  double scale_frequency_ = 0.0;  // [1/s] Gershgorin's bound of the matrix here; `any_state` without force terms
+  double unit_ = 0.0;             // [1/s^2] its square, which the matrix is divided by
+  BlockMatrix terms_;             // the stiffness of force terms, while it is looked at
+  std::size_t springs_ = 0, pieces_ = 0;  // of force terms
   std::uint64_t multiplications_ = 0;
   SplitMix64 random_{1};
 };

@@ -53,6 +53,15 @@ const char* const eventful = R"([
 
 TEST(ContinuedRun, OfABodyWithoutAMapIsTheSame) { expect_same_wherever_interrupted(moving_box()); }
 
+TEST(ContinuedRun, OfABodyOfElementsIsTheSame) {
+  for (const char* integrator : {"verlet", "backward-euler", "energy-momentum"}) {
+    Json scene = with_events(moving_box(), eventful);
+    scene["material"] = Json::parse(R"({"density": 768, "young": 2e4, "poisson": 0.3})");
+    scene["integrator"] = integrator;
+    expect_same_wherever_interrupted(scene);
+  }
+}
+
 TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {
   // what all of the following would be worth little without
   const RecordedRun one = whole(parse(recorded_scene(with_events(moving_box(), eventful))));

@@ -12,9 +12,9 @@ namespace {
 using Eigen::Vector3d;
 
 TangentsAt tangents_at(const SpringArrays& body) {
-  return [&body](Compression compression, std::vector<SpringTangent>& result) {
+  return {[&body](Compression compression, std::vector<SpringTangent>& result) {
     evaluate_tangents(body.system(), body.x, compression, result);
-  };
+  }};
 }
 
 SpringArrays damped_grid() {

@@ -1,0 +1,254 @@
+#include "benchmarks/studies/elements/elements_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "benchmarks/harness/paired.h"
+#include "benchmarks/harness/statistics.h"
+#include "core/plain/nan_maximum.h"
+#include "core/time/system/accelerations.h"
+#include "core/time/watch/stable_step.h"
+
+namespace dartboard {
+namespace {
+
+// Half the frequencies of a square beam are pairs: bending either way.
+double bending_of(const CantileverAnswers& a) { return 0.5 * (a.frequency[0] + a.frequency[1]); }
+
+std::string percent(double share) { return fmt::format("{:+.1f} %", 100.0 * share); }
+
+constexpr std::array models{std::pair{Model::springs, CellKind::tetrahedron},
+                            {Model::neo_hookean, CellKind::tetrahedron},
+                            {Model::corotational, CellKind::tetrahedron},
+                            {Model::stvk, CellKind::tetrahedron},
+                            {Model::neo_hookean, CellKind::hexahedron}};
+
+std::string in_words(Model model, CellKind cells) {
+  if (model == Model::springs) return "springs";
+  return fmt::format("{} {}", name(model), cells == CellKind::hexahedron ? "hexahedra" : "tetrahedra");
+}
+
+/// A body that is bent a little, its forces taken over and over.
+struct Timed {
+  ModelCost cost;
+  std::unique_ptr<SimulatedBody> body;
+  std::vector<Eigen::Vector3d> a;
+  int evaluations = 1;
+
+  Timed(Model model, CellKind cells, int across, int times)
+      : cost{model, cells}, body(cantilever_body(model, across, 0.25, cells)), evaluations(times) {
+    for (Eigen::Vector3d& x : body->motion().x) x[2] += 0.05 * x[0] * x[0];
+    const SpringSystem system = body->system();
+    a.resize(system.vertex_count());
+    cost.pieces = system.springs.size();
+    for (const ForceTerm* term : system.terms) cost.pieces += term->size();
+    cost.frequency = StableStepEstimate().refresh(system, body->vertices().position).upper;
+  }
+  void run() {
+    const SpringSystem system = body->system();
+    for (int k = 0; k < evaluations; ++k)
+      accelerations(system, {}, body->vertices().position, body->vertices().velocity, a);
+  }
+};
+
+std::vector<ModelCost> measure_costs(const ElementsPlan& plan, int across, StudyLog& log) {
+  std::vector<Timed> timed;
+  for (const auto& [model, cells] : models) timed.emplace_back(model, cells, across, plan.quick ? 20 : 200);
+  std::vector<TimedTask> tasks;
+  for (Timed& t : timed)
+    tasks.push_back({in_words(t.cost.model, t.cost.cells), [] {}, [&t] { t.run(); }, [] { return std::uint64_t{0}; }});
+  std::vector<std::vector<double>> ns(timed.size());
+  run_rounds(tasks, {.rounds = plan.quick ? 4 : 40}, [&](const Sample& sample) {
+    log.sample(nlohmann::json(sample));
+    for (std::size_t k = 0; k < timed.size(); ++k)
+      if (tasks[k].name == sample.task) ns[k].push_back(static_cast<double>(sample.cpu_ns) / timed[k].evaluations);
+  });
+  std::vector<ModelCost> costs;
+  for (std::size_t k = 0; k < timed.size(); ++k) {
+    timed[k].cost.ns = median(ns[k]);
+    costs.push_back(timed[k].cost);
+  }
+  return costs;
+}
+
+}  // namespace
+
+ModelErrors errors_of(Model model, CellKind cells, int across, double poisson, const CantileverAnswers& truth) {
+  const CantileverAnswers a = cantilever_of(model, across, poisson, cells);
+  return {model,
+          cells,
+          across,
+          poisson,
+          a.nodes,
+          a.work / truth.work - 1.0,
+          bending_of(a) / bending_of(truth) - 1.0,
+          a.frequency[2] / truth.frequency[2] - 1.0,
+          a.frequency[5] / truth.frequency[5] - 1.0};
+}
+
+std::vector<Claim> claims_of(const ElementsResults& results) {
+  // our own reference is trusted because another code has the same numbers
+  double off = results.references.empty() ? NAN : 0.0;
+  for (const auto& [published, ours] : results.references)
+    for (const double ratio : {ours.work / published.work, bending_of(ours) / published.first,
+                               ours.frequency[2] / published.torsion, ours.frequency[5] / published.axial})
+      off = max_or_nan(off, std::abs(ratio - 1.0));
+  Claim reference{.id = "elements-reference",
+                  .text = "quadratic tetrahedra have the beam that 27-node hexahedra of another code have",
+                  .paper_value = "<= 1 %",
+                  .measured = fmt::format("{:.2f} %", 100.0 * off)};
+  reference.verdict = off <= 0.01 ? Verdict::holds : Verdict::falls_short;
+
+  // elements fit together: they are too stiff, and less so the finer they are
+  bool from_below = !results.errors.empty();
+  const ModelErrors* before = nullptr;
+  for (const ModelErrors& e : results.errors) {
+    if (e.model == Model::springs) continue;
+    const bool coarser = before != nullptr && before->poisson == e.poisson && before->cells == e.cells;
+    from_below = from_below && e.tip > (coarser ? before->tip : -1.0) && e.tip < 0.0;
+    before = &e;
+  }
+  Claim finer{.id = "elements-from-below",
+              .text = "linear elements bend less than the truth, and nearer to it the finer they are",
+              .paper_value = "always",
+              .measured = from_below ? "always" : "not always"};
+  finer.verdict = from_below ? Verdict::holds : Verdict::falls_short;
+  return {reference, finer};
+}
+
+Table errors_table(const ElementsResults& results) {
+  Table table({{"model"},
+               {"Poisson's ratio", Align::right},
+               {"across", Align::right},
+               {"nodes", Align::right},
+               {"tip", Align::right},
+               {"bending", Align::right},
+               {"torsion", Align::right},
+               {"along the axis", Align::right}});
+  for (const ModelErrors& e : results.errors)
+    table.add_row({e.model == Model::springs         ? "springs"
+                   : e.cells == CellKind::hexahedron ? "hexahedra"
+                                                     : "tetrahedra",
+                   fmt::format("{}", e.poisson), fmt::format("{}", e.across), fmt::format("{}", e.nodes),
+                   percent(e.tip), percent(e.bending), percent(e.torsion), percent(e.axial)});
+  return table;
+}
+
+Table references_table(const ElementsResults& results) {
+  Table table({{"Poisson's ratio", Align::right},
+               {"", Align::left},
+               {"work [J]", Align::right},
+               {"bending [1/s]", Align::right},
+               {"torsion [1/s]", Align::right},
+               {"along the axis [1/s]", Align::right}});
+  for (const auto& [published, ours] : results.references) {
+    table.add_row({fmt::format("{}", published.poisson), "quadratic tetrahedra", fmt::format("{:.4e}", ours.work),
+                   fmt::format("{:.5f}", bending_of(ours)), fmt::format("{:.5f}", ours.frequency[2]),
+                   fmt::format("{:.5f}", ours.frequency[5])});
+    table.add_row({"", "27-node hexahedra", fmt::format("{:.4e}", published.work),
+                   fmt::format("{:.5f}", published.first), fmt::format("{:.5f}", published.torsion),
+                   fmt::format("{:.5f}", published.axial)});
+  }
+  return table;
+}
+
+Table costs_table(const ElementsResults& results) {
+  Table table({{"model"},
+               {"springs or elements", Align::right},
+               {"ns each", Align::right},
+               {"highest frequency [1/s]", Align::right},
+               {"processor ms per simulated second", Align::right}});
+  for (const ModelCost& c : results.costs) {
+    table.add_row({in_words(c.model, c.cells), fmt::format("{}", c.pieces),
+                   fmt::format("{:.1f}", c.ns / static_cast<double>(std::max<std::size_t>(c.pieces, 1))),
+                   fmt::format("{:.0f}", c.frequency), fmt::format("{:.1f}", 1e3 * c.per_second())});
+  }
+  return table;
+}
+
+std::string in_words(const ElementsResults& results) {
+  const auto cost = [&](Model model, CellKind cells) {
+    for (const ModelCost& c : results.costs)
+      if (c.model == model && c.cells == cells) return c.per_second();
+    return NAN;
+  };
+  // at the first ratio, on the mesh whose cost was measured or the finest
+  const auto errors = [&](bool springs, CellKind cells) {
+    const ModelErrors* found = nullptr;
+    for (const ModelErrors& e : results.errors)
+      if ((e.model == Model::springs) == springs && e.cells == cells && e.poisson == results.errors.front().poisson &&
+          (found == nullptr || e.across <= results.across))
+        found = &e;
+    return found;
+  };
+  const ModelErrors *springs = errors(true, CellKind::tetrahedron), *tetrahedra = errors(false, CellKind::tetrahedron),
+                    *hexahedra = errors(false, CellKind::hexahedron);
+  if (!springs || !tetrahedra || !hexahedra) return "";
+  const double unit = cost(Model::springs, CellKind::tetrahedron);
+  return fmt::format(
+      "On {} nodes springs miss the tip by {} and torsion by {}, tetrahedra by {} and {}, hexahedra by {} and {}. For the "
+      "same simulated time neo-hookean tetrahedra take {:.1f} times as long as springs, corotational ones {:.1f} times, "
+      "neo-hookean hexahedra {:.1f} times.",
+      springs->nodes, percent(springs->tip), percent(springs->torsion), percent(tetrahedra->tip),
+      percent(tetrahedra->torsion), percent(hexahedra->tip), percent(hexahedra->torsion),
+      cost(Model::neo_hookean, CellKind::tetrahedron) / unit, cost(Model::corotational, CellKind::tetrahedron) / unit,
+      cost(Model::neo_hookean, CellKind::hexahedron) / unit);
+}
+
+Report elements_study(const ElementsPlan& plan, StudyLog& log) {
+  ElementsResults results{.across = plan.quick ? 2 : 4};
+  const int truth_across = plan.quick ? 2 : 4;
+  const std::vector<int> meshes = plan.quick ? std::vector{1, 2} : std::vector{1, 2, 4, 8};
+  log.begin("validate elements", published_cantilevers.size() + 2 * 3 * meshes.size() + 1);
+  for (const PublishedCantilever& published : published_cantilevers) {
+    results.references.emplace_back(published, quadratic_cantilever(truth_across, published.poisson));
+    log.advance(fmt::format("quadratic tetrahedra, {}", published.poisson));
+  }
+  for (const std::size_t k : {0u, 2u})
+    for (const auto& [model, cells] : {models[0], models[1], models[4]})  // near rest all laws are alike
+      for (const int across : meshes) {
+        const auto& [published, truth] = results.references[k];
+        results.errors.push_back(errors_of(model, cells, across, published.poisson, truth));
+        log.advance(fmt::format("{}, {} across", in_words(model, cells), across));
+      }
+  results.costs = measure_costs(plan, results.across, log);
+  log.advance("cost");
+
+  Report report;
+  report.claims = claims_of(results);
+  Table confined({{"Poisson's ratio", Align::right},
+                  {"truth [E]", Align::right},
+                  {"springs", Align::right},
+                  {"tetrahedra", Align::right}});
+  for (const double poisson : {0.25, 0.45}) {
+    const auto in_young = [](double modulus) { return fmt::format("{:.3f}", modulus / cantilever::young); };
+    confined.add_row({fmt::format("{}", poisson), in_young(confined_modulus(poisson)),
+                      in_young(confined_modulus_of(Model::springs, poisson)),
+                      in_young(confined_modulus_of(Model::neo_hookean, poisson))});
+  }
+  report.tables = {
+      {"references", "The beam by two kinds of element: ours, and those of another code", references_table(results)},
+      {"errors", "What models miss of it: work at the tip, frequencies", errors_table(results)},
+      {"confined", "Stiffness of what cannot give way to the sides, in Young's moduli", std::move(confined)},
+      {"costs",
+       fmt::format("What they cost, {} across: one evaluation of forces, and a second at Verlet's longest step",
+                   results.across),
+       costs_table(results)}};
+  report.sentence = in_words(results);
+  for (const ModelErrors& e : results.errors)
+    log.sample({{"model", in_words(e.model, e.cells)},
+                {"across", e.across},
+                {"poisson", e.poisson},
+                {"nodes", e.nodes},
+                {"tip", e.tip},
+                {"bending", e.bending},
+                {"torsion", e.torsion},
+                {"axial", e.axial}});
+  return report;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,53 @@
+#pragma once
+// `dartboard validate elements`: what does each model of a body cost, in truth and in time?
+
+#include <vector>
+
+#include "benchmarks/report/report.h"
+#include "benchmarks/report/study_log.h"
+#include "validation/elements/cantilever.h"
+
+namespace dartboard {
+
+struct ElementsPlan {
+  bool quick = false;  // coarser meshes, fewer rounds
+};
+
+/// The answers of one mesh, over those of the reference, less 1.
+struct ModelErrors {
+  Model model;
+  CellKind cells;
+  int across;
+  double poisson;
+  std::size_t nodes;
+  double tip, bending, torsion, axial;
+};
+ModelErrors errors_of(Model model, CellKind cells, int across, double poisson, const CantileverAnswers& truth);
+
+/// What a model's forces cost on one mesh.
+struct ModelCost {
+  Model model;
+  CellKind cells = CellKind::tetrahedron;
+  std::size_t pieces = 0;                                            // springs, or elements
+  double ns = 0.0;                                                   // of one evaluation of all forces, processor time
+  double frequency = 0.0;                                            // [1/s] the highest
+  double per_second() const { return 0.5 * frequency * ns * 1e-9; }  // evaluations at Verlet's limit, 2 over it
+};
+
+struct ElementsResults {
+  int across = 4;                                                             // of the mesh on which costs are measured
+  std::vector<std::pair<PublishedCantilever, CantileverAnswers>> references;  // by another code, and ours
+  std::vector<ModelErrors> errors;
+  std::vector<ModelCost> costs;
+};
+
+std::vector<Claim> claims_of(const ElementsResults& results);
+Table errors_table(const ElementsResults& results);
+Table references_table(const ElementsResults& results);
+Table costs_table(const ElementsResults& results);
+/// Which model is nearer to the truth for the same work, in words.
+std::string in_words(const ElementsResults& results);
+
+Report elements_study(const ElementsPlan& plan, StudyLog& log);
+
+}  // namespace dartboard

@@ -1,0 +1,202 @@
+#include "core/elements/tetrahedra.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/elements/with_law.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// V P F' is the virial of an element, V times Cauchy's stress times J; a fourth of it for each corner.
+template <class Law>
+Matrix3d virial_share(const Law& law, double volume, const Matrix3d& f) {
+  const Matrix3d whole = (0.25 * volume) * (law.stress(f) * f.transpose());
+  return 0.5 * (whole + whole.transpose());
+}
+
+template <class Law>
+class Tetrahedra final : public ForceTerm {
+ public:
+  Tetrahedra(const Law& law, double density, const TetrahedronColumns& columns)
+      : law_(law), per_mass_(1.0 / density), columns_(columns) {}
+
+  std::string_view pieces_name() const override { return "tetrahedra"; }
+  std::size_t size() const override { return columns_.nodes.size(); }
+  Nodes nodes(std::size_t piece) const override { return columns_.nodes[piece]; }
+
+  void add_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
+    if (at.w.empty())
+      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at.x, n, shape); },
+                    force);
+    else
+      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at, n, shape); }, force);
+  }
+
+  void add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
+    for (std::size_t c = 0; c < size(); ++c) {
+      const TetrahedronNodes& n = columns_.nodes[c];
+      const Matrix3d from = gradient(at.x, n, columns_.shape[c]);
+      const Matrix3d move = (2.0 * at.t) * gradient(at.w, n, columns_.shape[c]);
+      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(law_, from, move), force);
+    }
+  }
+
+  // F is wrong by a few units of what it is the sum of, and stress by the Hessian times that; a law's Hessian grows
+  // with the square of F.
+  void add_force_sizes(const StagePlaces& at, std::span<double> size) const override {
+    for (std::size_t c = 0; c < columns_.nodes.size(); ++c) {
+      const TetrahedronNodes& n = columns_.nodes[c];
+      const auto gradients = shape_gradients(columns_.shape[c]);
+      double summed = 0.0;
+      for (std::size_t a = 1; a < 4; ++a) {
+        double length = (at.x[n[a]] - at.x[n[0]]).norm();
+        if (!at.w.empty()) length += std::abs(at.t) * (at.w[n[a]] - at.w[n[0]]).norm();
+        summed += length * gradients[a].norm();
+      }
+      const double stress = law_.modulus() * (1.0 + summed) * (1.0 + summed * summed);
+      for (std::size_t a = 0; a < 4; ++a) size[n[a]] += volume(c) * stress * gradients[a].norm();
+    }
+  }
+
+  double energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const override {
+    double sum = 0.0, lost = 0.0;  // compensated
+    for (std::size_t c = first; c < size(); c += stride) {
+      const double term = volume(c) * law_.energy(gradient(x, columns_.nodes[c], columns_.shape[c]));
+      const double next = sum + term;
+      lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
+      sum = next;
+    }
+    return sum + lost;
+  }
+
+  EnergyChange energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const override {
+    EnergyChange sum;
+    for (std::size_t c = 0; c < size(); ++c) {
+      const TetrahedronNodes& n = columns_.nodes[c];
+      const EnergyChange change =
+          law_.change(gradient(at, n, columns_.shape[c]), scale * gradient(step, n, columns_.shape[c]));
+      sum.value += volume(c) * change.value;
+      sum.sizes += volume(c) * change.sizes;
+    }
+    return sum;
+  }
+
+  double power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
+               std::span<const Vector3d> w) const override {
+    double sum = 0.0;
+    for (const std::uint32_t c : pieces) {
+      const TetrahedronNodes& n = columns_.nodes[c];
+      const Matrix3d stress = law_.stress(gradient(x, n, columns_.shape[c]));
+      sum -= volume(c) * stress.cwiseProduct(gradient(w, n, columns_.shape[c])).sum();
+    }
+    return sum;
+  }
+
+  void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override {
+    std::array<Matrix3d, 10> blocks;
+    for (std::size_t c = 0; c < size(); ++c) {
+      const TetrahedronNodes& n = columns_.nodes[c];
+      const Hessian h = law_.hessian(gradient(at, n, columns_.shape[c]), compression);
+      const auto gradients = shape_gradients(columns_.shape[c]);
+      const double v = volume(c);
+      // along the gradient of each corner, three columns of the Hessian
+      std::array<Eigen::Matrix<double, 9, 3>, 4> along;
+      for (std::size_t b = 0; b < 4; ++b)
+        along[b] = v * (gradients[b][0] * h.middleCols<3>(0) + gradients[b][1] * h.middleCols<3>(3) +
+                        gradients[b][2] * h.middleCols<3>(6));
+      for (std::size_t a = 0, k = 0; a < 4; ++a)
+        for (std::size_t b = 0; b <= a; ++b)
+          blocks[k++] = gradients[a][0] * along[b].middleRows<3>(0) + gradients[a][1] * along[b].middleRows<3>(3) +
+                        gradients[a][2] * along[b].middleRows<3>(6);
+      visit(n, blocks);
+    }
+  }
+
+  void for_each_constant_tangent(const VisitTangent& visit) const override {
+    std::array<Matrix3d, 10> blocks;
+    for (std::size_t c = 0; c < size(); ++c) {
+      const auto gradients = shape_gradients(columns_.shape[c]);
+      for (std::size_t a = 0, k = 0; a < 4; ++a)
+        for (std::size_t b = 0; b <= a; ++b)
+          blocks[k++] = (volume(c) * law_.modulus() * gradients[a].dot(gradients[b])) * Matrix3d::Identity();
+      visit(columns_.nodes[c], blocks);
+    }
+  }
+
+  Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
+    return virial_share(law_, volume(c), gradient(x, columns_.nodes[c], columns_.shape[c]));
+  }
+
+ private:
+  double volume(std::size_t c) const { return per_mass_ * columns_.mass[c]; }
+
+  static Matrix3d gradient(std::span<const Vector3d> x, const TetrahedronNodes& n, const Matrix3d& shape) {
+    const Vector3d origin = x[n[0]];
+    Matrix3d edges;
+    edges << x[n[1]] - origin, x[n[2]] - origin, x[n[3]] - origin;
+    return edges * shape;
+  }
+  static Matrix3d gradient(const StagePlaces& at, const TetrahedronNodes& n, const Matrix3d& shape) {
+    Matrix3d edges;
+    edges << at.line(n[0], n[1]), at.line(n[0], n[2]), at.line(n[0], n[3]);
+    return edges * shape;
+  }
+  /// The gradients [1/m] of the linear functions that are 1 at one corner and 0 at the others.
+  static std::array<Vector3d, 4> shape_gradients(const Matrix3d& shape) {
+    const Vector3d one = shape.row(0), two = shape.row(1), three = shape.row(2);
+    return {-(one + two + three), one, two, three};
+  }
+  static void add_force(const TetrahedronNodes& n, const Matrix3d& shape, const Matrix3d& weighted,
+                        std::span<Vector3d> force) {
+    const Matrix3d f = weighted * shape.transpose();
+    force[n[0]] -= f.col(0) + f.col(1) + f.col(2);
+    force[n[1]] += f.col(0);
+    force[n[2]] += f.col(1);
+    force[n[3]] += f.col(2);
+  }
+  template <class Gradient>
+  void add_forces_of(const Gradient& gradient_of, std::span<Vector3d> force) const {
+    const TetrahedronNodes* const nodes = columns_.nodes.data();
+    const Matrix3d* const shape = columns_.shape.data();
+    const double* const mass = columns_.mass.data();
+    for (std::size_t c = 0, count = columns_.nodes.size(); c < count; ++c) {
+      const Matrix3d stress = law_.stress(gradient_of(nodes[c], shape[c]));
+      add_force(nodes[c], shape[c], (-per_mass_ * mass[c]) * stress, force);
+    }
+  }
+
+  Law law_;
+  double per_mass_;
+  TetrahedronColumns columns_;
+};
+
+}  // namespace
+
+RestShape rest_shape_of(const Vector3d& x0, const Vector3d& x1, const Vector3d& x2, const Vector3d& x3) {
+  Matrix3d edges;
+  edges << x1 - x0, x2 - x0, x3 - x0;
+  // by cofactors, column by column: as exact for slivers as the determinant is
+  return cofactors(edges).transpose() / edges.row(0).dot(cofactors(edges).row(0));
+}
+
+std::unique_ptr<ForceTerm> make_tetrahedra(const Material& material, const TetrahedronColumns& columns) {
+  return with_law_of(material, [&]<class Law>(const Law& law) -> std::unique_ptr<ForceTerm> {
+    return std::make_unique<Tetrahedra<Law>>(law, material.density, columns);
+  });
+}
+
+Matrix3d tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
+                            const std::array<Vector3d, 4>& x) {
+  Matrix3d edges;
+  edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
+  return with_law_of(material, [&](const auto& law) {
+    return virial_share(law, 1.0 / material.density * mass, Matrix3d(edges * shape));
+  });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,59 @@
+#pragma once
+// The corners of every element, by cell number: all that elements need to know of the topology.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mechanics/adapt.h"
+#include "core/mechanics/element_nodes.h"
+
+namespace dartboard {
+
+/// One row of corners per cell, in one stream: TetrahedronNodes, sixteen bytes, or SolidNodes. Of a body that has no
+/// such elements, nothing.
+template <class Nodes>
+class ElementNodesView {
+ public:
+  std::vector<Nodes> nodes;
+  friend bool operator==(const ElementNodesView&, const ElementNodesView&) = default;
+
+  /// cost    O(cells)
+  template <class Body>
+  void rebuild(const Body& body) {
+    nodes.resize(element_count(body, Nodes{}));
+    if constexpr (Body::dimension == 3)
+      for (std::uint32_t c = 0; c < nodes.size(); ++c) find_nodes(body, c, nodes[c]);
+  }
+
+  /// Follow what `adapt` reports; gives what `rebuild` would.
+  ///
+  /// cost    O(changed cells, and the cells around changed vertices), whatever the size of the body
+  template <class Body>
+  void apply(const Body& body, const ChangedEmbeddings& changed) {
+    nodes.resize(element_count(body, Nodes{}));
+    if constexpr (Body::dimension == 3)
+      if (!nodes.empty()) follow(body, changed);
+  }
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(nodes);
+  }
+
+ private:
+  template <class Body>
+  void follow(const Body& body, const ChangedEmbeddings& changed) {
+    for (const std::uint32_t c : changed.cells) find_nodes(body, c, nodes[c]);
+    Mark seen(body.map);
+    for (const std::uint32_t k : changed.vertices)
+      for_each_place_of(body.map, Vertex{body.vertices.dart[k]}, seen, [&](Dart d) {
+        const std::uint32_t c = body.cell(body.map, d);
+        find_nodes(body, c, nodes[c]);
+      });
+  }
+};
+
+using TetrahedronNodesView = ElementNodesView<TetrahedronNodes>;
+using SolidNodesView = ElementNodesView<SolidNodes>;
+
+}  // namespace dartboard

@@ -1,0 +1,69 @@
+#pragma once
+// A body of elements as bare columns, from a mesh of tetrahedra: no map.
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/elements/tetrahedra.h"
+#include "core/plain/mesh.h"
+#include "core/plain/random.h"
+#include "core/time/system/spring_system.h"
+
+namespace dartboard {
+
+struct ElementBody {
+  Material material;
+  std::vector<TetrahedronNodes> nodes;
+  std::vector<RestShape> shape;
+  std::vector<double> cell_mass, mass, inverse_mass, viscosity;
+  std::vector<std::uint8_t> fixed;
+  std::vector<Eigen::Vector3d> rest, x, v;
+  Eigen::Vector3d gravity{0, 0, 0};
+  std::unique_ptr<ForceTerm> term;
+  const ForceTerm* terms = nullptr;
+
+  ElementBody(const Mesh& mesh, Model model, double young, double poisson, double density = 1000.0) {
+    material = {
+        .density = density, .stiffness = 0.0, .damping = 0.0, .young = young, .poisson = poisson, .model = model};
+    rest = x = mesh.points;
+    v.assign(x.size(), Eigen::Vector3d(0, 0, 0));
+    mass.assign(x.size(), 0.0);
+    fixed.assign(x.size(), 0);
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+      const auto cell = mesh.cell(c);
+      nodes.push_back({cell[0], cell[1], cell[2], cell[3]});
+      shape.push_back(rest_shape_of(x[cell[0]], x[cell[1]], x[cell[2]], x[cell[3]]));
+      cell_mass.push_back(density * std::abs(signed_measure(mesh, c)));
+      for (const std::uint32_t i : cell) mass[i] += cell_mass.back() / 4;
+    }
+    for (const double m : mass) inverse_mass.push_back(1.0 / m);
+    term = make_tetrahedra(material, {nodes, shape, cell_mass});
+    terms = term.get();
+  }
+
+  SpringSystem system() const {
+    return {.ends = {},
+            .springs = {},
+            .mass = mass,
+            .inverse_mass = inverse_mass,
+            .viscosity = viscosity,
+            .fixed = fixed,
+            .gravity = gravity,
+            .terms = {&terms, 1}};
+  }
+  Motion motion() { return {x, v}; }
+  /// Every coordinate by up to `size`, from a seed.
+  void shake(double size, std::uint64_t seed) {
+    SplitMix64 random(seed);
+    for (Eigen::Vector3d& p : x)
+      for (double& c : p) c += size * random.next_signed();
+  }
+};
+
+inline constexpr std::array element_models{Model::neo_hookean, Model::corotational, Model::stvk};
+
+}  // namespace dartboard

@@ -1,0 +1,51 @@
+#pragma once
+// A clamped beam by every model of a body, beside quadratic elements: what a model costs in truth.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/plain/material.h"
+#include "core/scene/body/simulated_body.h"
+
+namespace dartboard {
+
+/// 1 x 0.2 x 0.2 m, held at x = 0, 1e5 Pa, 1000 kg/m^3.
+namespace cantilever {
+inline constexpr double length = 1.0, side = 0.2, young = 1e5, density = 1000.0;
+}
+
+/// What is asked of it: linear answers near rest.
+struct CantileverAnswers {
+  std::size_t nodes = 0;
+  double work = 0.0;                  // [J] of a shear traction of 1 Pa on the end face, which its displacements do
+  std::array<double, 6> frequency{};  // [1/s] the lowest: two bendings, torsion, two bendings, along the axis
+};
+
+/// Of a mesh of `across` cubes of six tetrahedra across the beam.
+CantileverAnswers quadratic_cantilever(int across, double poisson);
+/// The same with the stiffness of a model's own forces and masses at the vertices, as it is simulated; of tetrahedra,
+/// or of the cubes as hexahedra.
+CantileverAnswers cantilever_of(Model model, int across, double poisson, CellKind cells = CellKind::tetrahedron);
+
+/// What scikit-fem 12.0.2 has with 27-node hexahedra, 6 across; the edges of the clamp are singular, so that such
+/// numbers are some 0.1 % off (0.4 % at 0.45).
+struct PublishedCantilever {
+  double poisson, work, first, torsion, second, axial;
+};
+inline constexpr std::array<PublishedCantilever, 3> published_cantilevers{
+    {{0.25, 4.0801e-5, 1.98303, 9.15479, 10.73468, 15.76598},
+     {0.30, 4.0665e-5, 1.98710, 8.97822, 10.71319, 15.79413},
+     {0.45, 3.9919e-5, 2.01056, 8.50750, 10.69368, 15.93341}}};
+
+/// The body of a model, nobody holding it but the clamp.
+std::unique_ptr<SimulatedBody> cantilever_body(Model model, int across, double poisson,
+                                               CellKind cells = CellKind::tetrahedron);
+
+/// The modulus [Pa] of a slab that cannot give way to the sides: E (1 - nu) / ((1 + nu) (1 - 2 nu)); and that of a
+/// model's forces in a box of cubes, which a strain that is the same everywhere does not move from its places.
+double confined_modulus(double poisson);
+double confined_modulus_of(Model model, double poisson);
+
+}  // namespace dartboard
