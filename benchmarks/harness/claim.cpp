@@ -41,21 +41,27 @@ bool is_number(const Figure& figure) {
   return !std::isnan(figure.median) && !std::isnan(figure.interval.low) && !std::isnan(figure.interval.high);
 }
 
+/// `worse` and `better`: does that end of the interval keep the bound?
+Met told_by(const Figure& figure, bool worse, bool better) {
+  if (!is_number(figure)) return Met::no;
+  if (!figure.interval.reached) return Met::open;
+  return worse ? Met::yes : better ? Met::open : Met::no;
+}
+
 }  // namespace
 
 Met at_most(const Figure& figure, double bound) {
-  if (!is_number(figure)) return Met::no;
-  return figure.median <= bound ? Met::yes : figure.interval.low <= bound ? Met::open : Met::no;
+  return told_by(figure, figure.interval.high <= bound, figure.interval.low <= bound);
 }
 
 Met at_least(const Figure& figure, double bound) {
-  if (!is_number(figure)) return Met::no;
-  return figure.median >= bound ? Met::yes : figure.interval.high >= bound ? Met::open : Met::no;
+  return told_by(figure, figure.interval.low >= bound, figure.interval.high >= bound);
 }
 
 void judge(Claim& claim, Met met) {
   claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::not_tested;
-  if (met == Met::open) claim.reason = "the interval lies on both sides of the bound: this run cannot tell";
+  if (met == Met::open)
+    claim.reason = "the interval lies on both sides of the bound, or rests on too little: this run cannot tell";
 }
 
 int exit_code(std::span<const Claim> claims) {

@@ -36,8 +36,9 @@ struct Claim {
   bool surprises() const;
 };
 
-/// What a measurement says of a bound: the median keeps it; the median does not, but the interval reaches it; nothing
-/// does. What is not a number keeps no bound.
+/// What a measurement says of a bound: its whole interval keeps it, a part of it does, or none. The median has no say:
+/// that of another run may be anywhere in the interval. An interval of too few values tells nothing. What is not a
+/// number keeps no bound. What is counted in full (bytes, the runs of a list) has no interval and needs none.
 enum class Met { no, open, yes };
 Met at_most(const Figure& figure, double bound);
 Met at_least(const Figure& figure, double bound);

@@ -29,6 +29,11 @@ double quantile_of_sorted(std::span<const double> values, double p) {
   return part == 0.0 ? values[below] : std::lerp(values[below], values[below + 1], part);
 }
 
+void require_confidence(double confidence) {
+  if (!(confidence > 0.0 && confidence < 1.0))
+    throw InputError(fmt::format("confidence {} is not in ]0, 1[", confidence));
+}
+
 }  // namespace
 
 double median(std::span<const double> sample) { return median_of(sorted(sample)); }
@@ -39,8 +44,7 @@ double quantile(std::span<const double> sample, double p) {
 }
 
 Interval median_interval(std::span<const double> sample, double confidence) {
-  if (!(confidence > 0.0 && confidence < 1.0))
-    throw InputError(fmt::format("confidence {} is not in ]0, 1[", confidence));
+  require_confidence(confidence);
   const auto values = sorted(sample);
   const std::size_t n = values.size();
   const boost::math::binomial below_median(static_cast<double>(n), 0.5);
@@ -51,6 +55,17 @@ Interval median_interval(std::span<const double> sample, double confidence) {
   std::size_t k = 1;
   while (2 * (k + 1) <= n && coverage_of(k + 1) >= confidence) ++k;
   return {values[k - 1], values[n - k], coverage_of(k), coverage_of(k) >= confidence};
+}
+
+Interval share_interval(std::size_t good, std::size_t all, double confidence) {
+  require_confidence(confidence);
+  if (all == 0 || good > all) throw InputError(fmt::format("there is no share of {} in {}", good, all));
+  // each end leaves half of what is allowed: the share at which so many, or more (or fewer), are just that unlikely
+  using Share = boost::math::binomial;
+  const auto n = static_cast<double>(all), k = static_cast<double>(good);
+  const double beyond = (1.0 - confidence) / 2.0;
+  return {good == 0 ? 0.0 : Share::find_lower_bound_on_p(n, k, beyond),
+          good == all ? 1.0 : Share::find_upper_bound_on_p(n, k, beyond), confidence, true};
 }
 
 std::string to_string(const Interval& interval) {

@@ -1,6 +1,7 @@
 #pragma once
 // The statistics of the reports: order statistics only, since times are skewed and no distribution is known for them.
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ struct Interval {
 ///
 /// throws  InputError unless 0 < confidence < 1
 Interval median_interval(std::span<const double> sample, double confidence = 0.95);
+
+/// The interval of Clopper and Pearson for the share of a population of which `good` of `all` that were drawn are good:
+/// it covers that share at least so often, whatever it is.
+///
+/// throws  InputError unless good <= all, 0 < all and 0 < confidence < 1
+Interval share_interval(std::size_t good, std::size_t all, double confidence = 0.95);
 
 /// "[1.02, 1.07] at 96.9 %", with "only" before the percentage when the confidence was not reached.
 std::string to_string(const Interval& interval);

@@ -202,6 +202,18 @@ class Study {
 
 }  // namespace
 
+std::optional<Crossover::Enclosure> Crossover::enclosure() const {
+  double explicit_wins = 0.0, implicit_wins = infinity;
+  for (const CostPair& c : costs) {
+    if (c.ratio() < 1.0)
+      explicit_wins = std::max(explicit_wins, c.phase);
+    else
+      implicit_wins = std::min(implicit_wins, c.phase);
+  }
+  if (explicit_wins == 0.0 || implicit_wins == infinity) return {};
+  return Enclosure{std::min(explicit_wins, implicit_wins), std::max(explicit_wins, implicit_wins)};
+}
+
 Crossover find_crossover(int side, const CrossoverOptions& options, const CpuClock& clock,
                          const std::function<void(const CostPair&)>& each) {
   Study study(side, options, clock);

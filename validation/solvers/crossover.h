@@ -2,6 +2,7 @@
 // Where implicit methods become cheaper than explicit ones: predicted by the break-even law, and measured.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ struct Crossover {
   std::vector<CostPair> costs;
   std::string failure;  // empty when it was found
   double deviation() const { return predicted_phase / measured_phase - 1.0; }
+
+  /// T omega_max of the stiffest body that was seen to cost less by explicit steps, and of the softest by implicit
+  /// ones, the smaller first: what is measured lies between. Nothing where no run was on one of the two sides.
+  struct Enclosure {
+    double low, high;
+  };
+  std::optional<Enclosure> enclosure() const;
 };
 
 /// A box of `side`^3 vertices, the tenth of its cells in the middle stiffer by a factor, moving softly and undamped.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/plain/error.h"
@@ -86,8 +87,29 @@ double exponent_of(std::span<const RoundingGrowth::Point> points) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+double exponent_error(std::span<const RoundingGrowth::Point> points, const std::vector<std::vector<double>>& squares) {
+  const auto n = static_cast<double>(squares.size());
+  if (squares.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> without;
+  for (std::size_t left_out = 0; left_out < squares.size(); ++left_out) {
+    std::vector<RoundingGrowth::Point> rest(points.begin(), points.end());
+    for (std::size_t p = 0; p < rest.size(); ++p) {
+      double sum = 0.0;
+      for (std::size_t start = 0; start < squares.size(); ++start)
+        if (start != left_out) sum += squares[start][p];
+      rest[p].error = std::sqrt(sum / (n - 1.0));
+    }
+    without.push_back(exponent_of(rest));
+  }
+  const double mean = std::accumulate(without.begin(), without.end(), 0.0) / n;
+  double sum = 0.0;
+  for (const double e : without) sum += (e - mean) * (e - mean);
+  return std::sqrt((n - 1.0) / n * sum);
+}
+
 RoundingGrowth measure_rounding_growth(std::string_view integrator, std::uint64_t steps, int starts) {
-  RoundingGrowth growth{std::string(integrator), 0.05, starts, {}, 0.0};
+  RoundingGrowth growth{.integrator = std::string(integrator), .h_omega = 0.05, .starts = starts};
+  std::vector<std::vector<double>> squares;
   const double h = growth.h_omega / omega;
   const long double weight = weight_of_positions(integrator, h);
   for (double at = steps < 1000000 ? 1e3 : 1e4; at < 1.01 * static_cast<double>(steps); at *= std::sqrt(10.0))
@@ -99,14 +121,17 @@ RoundingGrowth measure_rounding_growth(std::string_view integrator, std::uint64_
     const auto energy = [&] { return body.v() * body.v() + weight * body.q() * body.q(); };
     const long double before = energy();
     std::uint64_t done = 0;
+    squares.emplace_back();
     for (RoundingGrowth::Point& point : growth.points) {
       for (; done < point.steps; ++done) body.step(h);
       const auto error = static_cast<double>((energy() - before) / before);
+      squares.back().push_back(error * error);
       point.error += error * error / starts;
     }
   }
   for (RoundingGrowth::Point& point : growth.points) point.error = std::sqrt(point.error);
   growth.exponent = exponent_of(growth.points);
+  growth.standard_error = exponent_error(growth.points, squares);
   return growth;
 }
 

@@ -18,12 +18,17 @@ struct RoundingGrowth {
     std::uint64_t steps;
     double error;  // root mean square over the starts, relative to the energy
   };
-  std::vector<Point> points;
-  double exponent = 0.0;  // of the steps, by least squares on logarithms; 1/2 where errors are a random walk
+  std::vector<Point> points{};
+  double exponent = 0.0;        // of the steps, by least squares on logarithms; 1/2 where errors are a random walk
+  double standard_error = 0.0;  // of the exponent, for the starts that were drawn; not a number for one start
 };
 
 /// The power of the steps that the errors grow with, by least squares on logarithms.
 double exponent_of(std::span<const RoundingGrowth::Point> points);
+
+/// The standard error of the exponent of the root mean square over starts, by leaving out one start after the other
+/// (jackknife): `squares` has the squared errors of each start at each of the steps.
+double exponent_error(std::span<const RoundingGrowth::Point> points, const std::vector<std::vector<double>>& squares);
 
 /// Runs of an oscillator from `starts` random states, h omega = 0.05, looked at after 10^4 steps (10^3 if there are
 /// fewer than 10^6) and then at every half decade up to `steps`.

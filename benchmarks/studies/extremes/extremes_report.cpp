@@ -172,6 +172,9 @@ Json to_json(const ExtremesResults& results) {
   for (const RoundingGrowth& g : results.rounding)
     for (const auto& p : g.points)
       json["rounding"].push_back({{"integrator", g.integrator}, {"steps", p.steps}, {"energy_error", p.error}});
+  for (const RoundingGrowth& g : results.rounding)
+    json["rounding_exponents"].push_back(
+        {{"integrator", g.integrator}, {"exponent", g.exponent}, {"standard_error", g.standard_error}});
   for (const TinySteps& t : results.tiny)
     json["tiny"].push_back({{"integrator", t.integrator},
                             {"h", t.h},
@@ -245,11 +248,18 @@ std::vector<Claim> claims_of(const ExtremesResults& results) {
                            "all; <= 64", fmt::format("{} of {}; {}", predicted, results.detections.size(), above),
                            held == results.detections.size(), fmt::format("{} runs", results.detections.size())));
   }
-  for (const RoundingGrowth& g : results.rounding)
-    claims.push_back(claim(
-        "rounding-" + g.integrator, fmt::format("rounding of the energy of {} grows like a random walk", g.integrator),
-        "0.5 +- 0.1", fmt::format("{:.3f}", g.exponent), std::abs(g.exponent - 0.5) <= 0.1,
-        fmt::format("{} starts, {:.0e} steps", g.starts, static_cast<double>(g.points.back().steps))));
+  for (const RoundingGrowth& g : results.rounding) {
+    // starts are drawn: two standard errors, some 95 %
+    const double low = g.exponent - 2.0 * g.standard_error, high = g.exponent + 2.0 * g.standard_error;
+    const Figure figure{g.exponent, {low, high, 0.954, true}};
+    Claim made = claim("rounding-" + g.integrator,
+                       fmt::format("rounding of the energy of {} grows like a random walk", g.integrator), "0.5 +- 0.1",
+                       fmt::format("{:.3f}", g.exponent), false,
+                       fmt::format("[{:.3f}, {:.3f}], two standard errors; {} starts, {:.0e} steps", low, high,
+                                   g.starts, static_cast<double>(g.points.back().steps)));
+    judge(made, std::min(at_least(figure, 0.4), at_most(figure, 0.6)));
+    claims.push_back(std::move(made));
+  }
   if (!results.tiny.empty()) {
     bool keeps = true;
     for (const TinySteps& t : results.tiny) keeps &= t.keeps_all() || !t.integrator.ends_with("compensated");

@@ -27,6 +27,7 @@ struct SolverTimes {
   /// how steady it was, not what another process would find (paired.h), and is to be printed as such.
   Figure ratio(const std::string& task, const std::string& baseline) const;
   double milliseconds(const std::string& task) const;  // median
+  Figure time_ms(const std::string& task) const;       // and its interval over the rounds
 };
 
 /// How large the normwise backward error of a solution by a factor may be, after so many updates of rank one.

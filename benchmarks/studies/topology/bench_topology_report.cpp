@@ -150,8 +150,8 @@ Table peers_table() {
 }
 
 std::string figures_note() {
-  return "Verdicts are for the tetrahedral storage, medians of processor time over processes; ratios are paired within "
-         "rounds, their intervals distribution-free over processes. Before each run the map is put back and read "
+  return "Figures are medians of processor time over processes; ratios are paired within rounds. Verdicts are for the "
+         "tetrahedral storage and go by distribution-free intervals over processes. Before each run the map is put back and read "
          "through once, so that what fits the caches is there.\n"
          "\n"
          "CGAL's map carries what the memory counts for all, a number on each vertex and edge, and is_valid() checks "

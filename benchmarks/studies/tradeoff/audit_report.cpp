@@ -33,9 +33,12 @@ Claim claim_on_part(std::string id, std::string text, const std::vector<AuditedP
     claim.reason = "no pair to tell it from";
     return claim;
   }
-  const double part = static_cast<double>(good) / static_cast<double>(all);
-  claim.measured = fmt::format("{} of {}, {:.1f} %", good, all, 100.0 * part);
-  claim.verdict = part >= part_asked ? Verdict::holds : Verdict::falls_short;
+  // pairs are drawn: what is asserted is the share among all that could be
+  const Figure part{static_cast<double>(good) / static_cast<double>(all), share_interval(good, all)};
+  claim.measured = fmt::format("{} of {}, {:.1f} %", good, all, 100.0 * part.median);
+  claim.bound_or_interval = fmt::format("[{:.1f}, {:.1f}] % at {:g} %", 100.0 * part.interval.low,
+                                        100.0 * part.interval.high, 100.0 * part.interval.coverage);
+  judge(claim, at_least(part, part_asked));
   return claim;
 }
 
@@ -71,10 +74,11 @@ std::vector<Claim> audit_claims(const std::vector<AuditedPair>& pairs) {
   if (regrets.empty()) {
     regret.reason = left_out > 0 ? without : "no sweep";
   } else {
+    const Figure figure{median(regrets), median_interval(regrets)};
     regret.measured =
-        fmt::format("{:.3f}, {} pairs{}{}", median(regrets), regrets.size(), left_out > 0 ? "; " : "", without);
-    regret.bound_or_interval = to_string(median_interval(regrets));
-    regret.verdict = median(regrets) <= most_regret ? Verdict::holds : Verdict::falls_short;
+        fmt::format("{:.3f}, {} pairs{}{}", figure.median, regrets.size(), left_out > 0 ? "; " : "", without);
+    regret.bound_or_interval = to_string(figure.interval);
+    judge(regret, at_most(figure, most_regret));
   }
   claims.push_back(std::move(regret));
 

@@ -381,7 +381,8 @@ class Reader {
   ExpectedPlace place(const Json& json, const std::string& path, const std::vector<Probe>& probes) const {
     const auto name = json.at("probe").get<std::string>();
     for (std::size_t k = 0; k < probes.size(); ++k)
-      if (probes[k].name == name) return {k, point(json.at("position")), json.at("within")};
+      if (probes[k].name == name)
+        return {k, point(json.at("position")), json.at("within"), json.at("of") == "part", json.at("why")};
     fail(path + "/probe", "is " + shown(json.at("probe")), "the name of one of /output/probes");
   }
 
@@ -400,6 +401,7 @@ class Reader {
     take("components_at_least", e.components_at_least);
     take("operations", e.operations);
     take("mass", e.mass);
+    e.why = json.at("why");
     take("kinetic_at_most", e.kinetic_at_most);
     take("energy_drift_at_most", e.energy_drift_at_most);
     if (e.energy_drift_at_most) {

@@ -141,7 +141,9 @@ struct Probe {
 struct ExpectedPlace {
   std::size_t probe;  // its place in the list of probes
   Eigen::Vector3d position;
-  double within;  // [m]
+  double within;         // [m]
+  bool of_part = false;  // the centre of mass of the component, not the vertex
+  std::string why;       // where the numbers come from
 };
 
 struct Expectation {
@@ -151,6 +153,7 @@ struct Expectation {
   std::optional<double> energy_drift_at_most;  // of the largest kinetic plus elastic energy
   std::vector<ExpectedPlace> places;
   std::optional<std::uint64_t> hash;
+  std::string why;
 
   bool empty() const;
 };

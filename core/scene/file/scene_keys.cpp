@@ -320,10 +320,17 @@ std::vector<SceneKey> make_keys() {
        .help = "where probes are"},
       {.shape = expect, .name = "hash", .type = text,
        .help = "of positions and velocities, 16 hexadecimal digits: equal bits only"},
+      {.shape = expect, .name = "why", .type = text, .standard = "\"\"",
+       .help = "where these numbers come from, for readers"},
       {.shape = expected_place, .name = "probe", .type = text, .required = true, .help = "the name of a probe"},
       {.shape = expected_place, .name = "position", .type = point, .unit = "m", .required = true, .help = "its place"},
       {.shape = expected_place, .name = "within", .type = real, .unit = "m", .range = not_negative, .required = true,
        .help = "distance from there that is allowed"},
+      {.shape = expected_place, .name = "of", .type = choice, .choices = {"vertex", "part"}, .standard = "\"vertex\"",
+       .help = "what has its place there: the probe's vertex; or the centre of mass of all that hangs together with it, "
+               "whose way through the air needs no simulation to be known"},
+      {.shape = expected_place, .name = "why", .type = text, .standard = "\"\"",
+       .help = "where the place comes from, for readers"},
   };
   // clang-format on
 }
@@ -381,7 +388,7 @@ std::span<const ShapeHelp> scene_shapes() {
        "One vertex, wherever it goes: its position and velocity. Of a vertex that comes apart it follows the part that "
        "keeps its number; once that is removed, the fields are empty."},
       {Shape::expect, "expect", "What must be true at the end."},
-      {Shape::expected_place, "expected_place", "Where a probe is at the end."},
+      {Shape::expected_place, "expected_place", "Where a probe, or the part of the body that it is in, is at the end."},
   };
   return shapes;
 }

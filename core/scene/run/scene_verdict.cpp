@@ -5,10 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/plain/disjoint_sets.h"
 #include "core/scene/run/event_jumps.h"
 #include "core/time/system/energy.h"
 
 namespace dartboard {
+
+std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::uint32_t vertex) {
+  if (vertex == SimulatedBody::no_vertex) return {};
+  const SpringSystem system = body.system();
+  // a spring is an edge of the map, and whatever is connected is so along edges
+  DisjointSets parts(system.mass.size());
+  for (const SpringEnds& ends : system.ends) parts.join(ends[0], ends[1]);
+  double mass = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::uint32_t v = 0; v < system.mass.size(); ++v)
+    if (parts.set_of(v) == parts.set_of(vertex)) {
+      mass += system.mass[v];
+      moment += system.mass[v] * body.vertices().position[v];
+    }
+  return moment / mass;
+}
 
 std::vector<ExpectedRow> compare_with_expectation(const SceneFile& scene, const Simulation& simulation,
                                                   const RunResult& result) {
@@ -50,11 +67,15 @@ std::vector<ExpectedRow> compare_with_expectation(const SceneFile& scene, const 
   if (!expect.places.empty()) {
     const ProbeRow now = simulation.probes();
     for (const ExpectedPlace& place : expect.places) {
-      const auto& found = now.probes.at(place.probe);
-      rows.push_back({fmt::format("place of {} [m]", scene.probes.at(place.probe).name),
-                      fmt::format("{} within {:.6g}", place_text(place.position), place.within),
-                      found ? place_text(found->position) : "removed",
-                      found && (found->position - place.position).norm() <= place.within});
+      std::optional<Eigen::Vector3d> found;
+      if (place.of_part)
+        found = centre_of_part(simulation.body(), simulation.body().tracked()[place.probe]);
+      else if (const auto& probe = now.probes.at(place.probe))
+        found = probe->position;
+      rows.push_back(
+          {fmt::format("place of {}{} [m]", place.of_part ? "the part of " : "", scene.probes.at(place.probe).name),
+           fmt::format("{} within {:.6g}", place_text(place.position), place.within),
+           found ? place_text(*found) : "removed", found && (*found - place.position).norm() <= place.within});
     }
   }
   if (expect.hash) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a scene expects of its own end, beside what came out.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ struct ExpectedRow {
   std::string what, expected, actual;
   bool holds;
 };
+
+/// The centre of mass of all that hangs together with a vertex; nothing for one that has been removed.
+std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::uint32_t vertex);
 
 /// One row for each expectation of the scene, in the order of the reference page.
 ///

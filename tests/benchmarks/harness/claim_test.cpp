@@ -56,15 +56,29 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 Figure figure(double low, double median, double high) { return {median, {low, high, 0.98, true}}; }
 
-TEST(Bound, IsMetByAMedianWithinItMissedByAWholeIntervalAndElseOpen) {
+TEST(Bound, IsMetByAWholeIntervalMissedByAWholeIntervalAndElseOpenWhereverTheMedianIs) {
   EXPECT_EQ(at_most(figure(0.8, 0.9, 0.95), 1.0), Met::yes);
-  EXPECT_EQ(at_most(figure(0.8, 1.0, 1.2), 1.0), Met::yes);
+  EXPECT_EQ(at_most(figure(0.8, 0.9, 1.0), 1.0), Met::yes);
+  EXPECT_EQ(at_most(figure(0.8, 0.9, 1.01), 1.0), Met::open);
   EXPECT_EQ(at_most(figure(0.9, 1.1, 1.2), 1.0), Met::open);
+  EXPECT_EQ(at_most(figure(1.0, 1.1, 1.2), 1.0), Met::open);
   EXPECT_EQ(at_most(figure(1.01, 1.1, 1.2), 1.0), Met::no);
   EXPECT_EQ(at_least(figure(1.1, 1.2, 1.3), 1.0), Met::yes);
-  EXPECT_EQ(at_least(figure(0.9, 1.0, 1.3), 1.0), Met::yes);
+  EXPECT_EQ(at_least(figure(1.0, 1.2, 1.3), 1.0), Met::yes);
+  EXPECT_EQ(at_least(figure(0.99, 1.2, 1.3), 1.0), Met::open);
   EXPECT_EQ(at_least(figure(0.7, 0.9, 1.1), 1.0), Met::open);
+  EXPECT_EQ(at_least(figure(0.7, 0.9, 1.0), 1.0), Met::open);
   EXPECT_EQ(at_least(figure(0.7, 0.9, 0.99), 1.0), Met::no);
+}
+
+// One process has an interval without width: it would decide everything.
+TEST(Bound, IsOpenWhereTheIntervalRestsOnTooFewValues) {
+  Figure few = figure(0.5, 0.5, 0.5);
+  few.interval.reached = false;
+  for (const double bound : {0.4, 0.5, 0.6}) {
+    EXPECT_EQ(at_most(few, bound), Met::open);
+    EXPECT_EQ(at_least(few, bound), Met::open);
+  }
 }
 
 TEST(Bound, IsNotMetByWhatIsNotANumber) {

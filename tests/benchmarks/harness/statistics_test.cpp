@@ -112,5 +112,35 @@ TEST(Outliers, FlagNothingInAConstantSample) {
   EXPECT_EQ(outliers(std::vector{3.0, 3.0, 3.0}), (std::vector<bool>{false, false, false}));
 }
 
+// Clopper and Pearson: where all of n are good, the share at which that has a chance of 2.5 % is its n-th root; where k
+// of n are, the chance of k or more is 2.5 % at the lower end, and of k or fewer at the upper one.
+TEST(ShareInterval, EndsWhereWhatWasSeenIsJustThatUnlikely) {
+  const auto chance_of_at_most = [](int k, int n, double share) {
+    double sum = 0.0, term = std::pow(1.0 - share, n);
+    for (int j = 0; j <= k; ++j) {
+      sum += term;
+      term *= (n - j) / (j + 1.0) * share / (1.0 - share);
+    }
+    return sum;
+  };
+  const Interval all = share_interval(44, 44);
+  EXPECT_NEAR(all.low, std::pow(0.025, 1.0 / 44.0), 1e-12);
+  EXPECT_EQ(all.high, 1.0);
+  EXPECT_TRUE(all.reached);
+  const Interval none = share_interval(0, 44);
+  EXPECT_EQ(none.low, 0.0);
+  EXPECT_NEAR(none.high, 1.0 - std::pow(0.025, 1.0 / 44.0), 1e-12);
+  const Interval some = share_interval(17, 20, 0.9);
+  EXPECT_NEAR(1.0 - chance_of_at_most(16, 20, some.low), 0.05, 1e-9);
+  EXPECT_NEAR(chance_of_at_most(17, 20, some.high), 0.05, 1e-9);
+  EXPECT_EQ(some.coverage, 0.9);
+}
+
+TEST(ShareInterval, IsRefusedOfNothing) {
+  EXPECT_THROW(share_interval(0, 0), InputError);
+  EXPECT_THROW(share_interval(3, 2), InputError);
+  EXPECT_THROW(share_interval(1, 2, 1.0), InputError);
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -47,6 +47,21 @@ TEST(RoundingExponent, IsThatOfTheErrorsMeasured) {
   EXPECT_NEAR(growth.exponent, xy / xx, 1e-9);
 }
 
+// Of two starts whose squares grow tenfold and hundredfold in a decade, exponents 1/2 and 1: half their distance.
+TEST(RoundingExponent, IsAsUncertainAsTheStartsDiffer) {
+  const std::vector<RoundingGrowth::Point> decade{{10, 0.0}, {100, 0.0}};
+  EXPECT_NEAR(exponent_error(decade, {{1e-30, 1e-29}, {1e-30, 1e-28}}), 0.25, 1e-12);
+  EXPECT_NEAR(exponent_error(decade, {{1e-30, 1e-29}, {4e-30, 4e-29}, {9e-30, 9e-29}}), 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(exponent_error(decade, {{1e-30, 1e-29}})));
+}
+
+// Exponents of sixteen starts differ by some of their own standard errors from that of sixteen others, not by tens.
+TEST(RoundingExponent, OfMeasuredStartsHasAnErrorOfTheirOwn) {
+  const RoundingGrowth growth = measure_rounding_growth("verlet", 10000, 16);
+  EXPECT_GT(growth.standard_error, 0.01);
+  EXPECT_LT(growth.standard_error, 0.5);
+}
+
 TEST(TinyStepsJudge, CallsKeptWhatOnlyLacksDigitsThatCannotBeRead) {
   TinySteps steps;
   steps.readable = 1e-3;

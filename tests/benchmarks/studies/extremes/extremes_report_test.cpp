@@ -207,6 +207,26 @@ TEST(ExtremesRounding, HoldsOfARandomWalk) {
   }
 }
 
+// Two standard errors on either side have to be within 0.4 .. 0.6, or without.
+TEST(ExtremesRounding, IsNotJudgedByAnExponentThatTheStartsDoNotSettle) {
+  for (const auto& [exponent, error, verdict] : {std::tuple(0.45, 0.02, Verdict::holds),
+                                                 {0.45, 0.03, Verdict::not_tested},
+                                                 {0.55, 0.03, Verdict::not_tested},
+                                                 {0.35, 0.03, Verdict::not_tested},
+                                                 {0.65, 0.03, Verdict::not_tested},
+                                                 {0.35, 0.02, Verdict::falls_short},
+                                                 {0.65, 0.02, Verdict::falls_short},
+                                                 {0.5, nan, Verdict::falls_short}}) {
+    ExtremesResults results;
+    results.rounding.resize(1);
+    results.rounding[0].integrator = "verlet";
+    results.rounding[0].points = {{10, 1e-15}};
+    results.rounding[0].exponent = exponent;
+    results.rounding[0].standard_error = error;
+    EXPECT_EQ(verdict_on(results, "rounding-verlet"), verdict) << exponent << " " << error;
+  }
+}
+
 TEST(ExtremesTinySteps, HoldWhereACompensatedStateLosesNothingThatCanBeRead) {
   const auto tiny = [](const char* integrator, double lost) {
     TinySteps t;

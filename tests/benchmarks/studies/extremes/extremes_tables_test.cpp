@@ -254,7 +254,8 @@ TEST(ExtremesClaimsInWords, SayWhatIsAskedWhatWasMeasuredAndWhatItRestsOn) {
   expect_words(claims, "estimate-meshes", "<= 10 %", "2.50 %", "omega_max proven by a Cholesky factor");
   expect_words(claims, "map-boundaries", "<= 0.1 %", "100.000 %", "3 places");
   expect_words(claims, "unstable-steps", "all; <= 64", "3 of 4; 12", "4 runs");
-  expect_words(claims, "rounding-verlet", "0.5 +- 0.1", "0.562", "32 starts, 1e+05 steps");
+  expect_words(claims, "rounding-verlet", "0.5 +- 0.1", "0.562",
+               "[0.562, 0.562], two standard errors; 32 starts, 1e+05 steps");
   expect_words(claims, "tiny-steps", "what can be read", "kept", "table of tiny steps");
   EXPECT_EQ(find_claim(claims, "amplification").bound_or_interval, "0 of 1 within rounding");
 }

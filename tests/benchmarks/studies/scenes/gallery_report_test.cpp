@@ -64,6 +64,17 @@ TEST(GalleryPage, ShowsThePictureOfEachSceneAndWhatItIs) {
                 "expectations hold.\n");
 }
 
+TEST(GalleryPage, SaysWhereExpectedNumbersComeFrom) {
+  ShownScene s = shown_scene();
+  s.scene.probes = {{"foot", 0u, ""}, {"tip", 1u, ""}};
+  s.scene.expect.why = "It weighs what it weighs.";
+  s.scene.expect.places = {
+      {1, {0, 0, 0}, 0.0, true, "it falls"}, {0, {0, 0, 0}, 0.0, false, ""}, {0, {0, 0, 0}, 0.0, false, "it stays"}};
+  EXPECT_TRUE(gallery_page({s}).ends_with(
+      "23 of 23 expectations hold. It weighs what it weighs.\n\n- the part of tip: it falls\n- foot: it stays\n"))
+      << gallery_page({s});
+}
+
 TEST(GalleryJson, HoldsEveryFigureOfAScene) {
   EXPECT_EQ(to_json(shown_scene()),
             Json::parse(R"({"scene": "a beam", "map": "tetrahedral 3-g-map", "integrator": "rk4", "steps": 21,

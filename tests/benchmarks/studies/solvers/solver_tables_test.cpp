@@ -243,8 +243,11 @@ TEST(SolverClaimsInWords, SayWhatIsAskedWhatWasMeasuredAndWhatItRestsOn) {
   expect("update-512", ">= 2", "2.50 with AMD, 4.00 with METIS, 3.33 the best of each",
          "AMD " + to_string(median_interval(std::vector<double>(rounds, 2.5))) + ", over the rounds of one process",
          "one interior vertex dissociated, a box");
-  expect("break-even-law", "within 25 %", "512: +10 %", "", "at an error of 0.003 edges");
-  expect("implicit-step", "<= 0.9 ms", "0.50 ms", "fresh factor 9.00 ms, kept 2.00 ms", "implicit step of liver");
+  expect("break-even-law", "within 25 %", "512: +10 %", "512: no run on one of the sides",
+         "at an error of 0.003 edges");
+  expect("implicit-step", "<= 0.9 ms", "0.50 ms",
+         "[0.5, 0.5] at 98.4 %, over the rounds of one process; fresh factor 9.00 ms, kept 2.00 ms",
+         "implicit step of liver");
 }
 
 TEST(SolverClaimsInWords, AskMoreOfLargeBodiesAndNameStretchedOnes) {
@@ -286,7 +289,7 @@ TEST(SolverSamples, HoldEveryFigure) {
     "last": null, "componentwise": 7e-15, "follow_s": 0.125, "solve_s": 0.25, "failure": "not finite"})")});
   EXPECT_EQ(samples_of(r, "crossover"), std::vector{Json::parse(R"({"study": "crossover", "vertices": 512,
     "factor": 71.0, "phase": 72.0, "explicit_s": 73.0, "explicit_error": 75.0, "implicit": "ros2", "implicit_s": 74.0,
-    "implicit_steps": 76.0})")});
+    "implicit_steps": 76.0, "predicted_phase": 1100.0})")});
   EXPECT_EQ(samples_of(r, "updates").size(), 4u * rounds);
   EXPECT_EQ(samples_of(r, "updates").at(0).at("body"), "a box");
   EXPECT_EQ(samples_of(r, "steps").size(), 3u * rounds);

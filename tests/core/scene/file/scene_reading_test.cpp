@@ -230,7 +230,8 @@ TEST(SceneReading, OfWhatIsExpected) {
   json["output"]["probes"] = Json::parse(R"([{"name": "a", "vertex": 0}, {"name": "b", "vertex": 1}])");
   json["expect"] = Json::parse(R"({"vertices": 1, "edges": 2, "faces": 3, "cells": 4, "components": 5,
       "operations": 6, "mass": 7, "kinetic_at_most": 8, "energy_drift_at_most": 9, "hash": "0123456789abcdef",
-      "places": [{"probe": "b", "position": [10, 11, 12], "within": 13}]})");
+      "places": [{"probe": "b", "position": [10, 11, 12], "within": 13},
+                 {"probe": "a", "position": [0, 0, 0], "within": 0, "of": "part", "why": "a reason"}]})");
   const Expectation e = read(json).expect;
   EXPECT_EQ(e.vertices, 1u);
   EXPECT_EQ(e.edges, 2u);
@@ -246,6 +247,10 @@ TEST(SceneReading, OfWhatIsExpected) {
   EXPECT_EQ(e.places.at(0).probe, 1u);
   EXPECT_EQ(e.places.at(0).position, Vector3d(10, 11, 12));
   EXPECT_EQ(e.places.at(0).within, 13.0);
+  EXPECT_FALSE(e.places.at(0).of_part);
+  EXPECT_TRUE(e.places.at(1).of_part);
+  EXPECT_EQ(e.places.at(1).why, "a reason");
+  EXPECT_EQ(with("expect", R"({"why": "so it is"})").expect.why, "so it is");
   EXPECT_EQ(with("expect", R"({"components_at_least": 3})").expect.components_at_least, 3u);
   for (const auto& [key, value] : json["expect"].items()) {
     Json one = json;

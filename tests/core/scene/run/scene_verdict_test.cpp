@@ -172,6 +172,53 @@ TEST(Verdict, LooksWhereProbesAre) {
             "removed");
 }
 
+// The box is cut at x = 0.125 into halves of 6 kg, whose centres of mass are 0.0625 m on either side by symmetry, and
+// flies on at 3 m/s for 0.01 s.
+TEST(Verdict, LooksWhereTheCentreOfThePartIsThatAProbeIsIn) {
+  Json scene = with_events(moving_box(),
+                           R"([{"at": 0, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}])");
+  scene["gravity"] = {0, 0, 0};
+  scene["initial_velocity"] = {3, 0, 0};
+  scene["material"]["viscosity"] = 0;
+  scene["output"]["probes"] = Json::parse(R"([{"name": "left", "vertex": 0}, {"name": "right", "vertex": 26}])");
+  const auto place = [&scene](const char* probe, double x, const char* of) {
+    Json expect;
+    expect["places"] = {{{"probe", probe}, {"position", {x, 0.125, 0.125}}, {"within", 1e-12}, {"of", of}}};
+    return only_row(scene, expect.dump().c_str());
+  };
+  EXPECT_TRUE(place("left", 0.0925, "part").holds) << place("left", 0.0925, "part").actual;
+  EXPECT_TRUE(place("right", 0.2175, "part").holds) << place("right", 0.2175, "part").actual;
+  EXPECT_FALSE(place("left", 0.155, "part").holds);  // that of both
+  EXPECT_FALSE(place("left", 0.0925, "vertex").holds);
+  EXPECT_EQ(place("left", 0.0925, "part").what, "place of the part of left [m]");
+  scene["events"][1] = Json::parse(R"({"at": 0, "remove": {"sphere": {"centre": [0, 0, 0], "radius": 9}}})");
+  EXPECT_EQ(place("left", 0.0925, "part").actual, "removed");
+}
+
+// Masses of one cell to six: a vertex at a corner weighs less than the one in the middle.
+TEST(Verdict, WeighsTheVerticesOfAPart) {
+  Json json = moving_box();
+  json["output"]["probes"] = Json::parse(R"([{"name": "corner", "vertex": 0}])");
+  json["body"]["generate"]["box"]["cells"] = {1, 1, 2};
+  json["events"] = Json::parse(R"([{"at": 0, "remove": {"ids": [0]}}])");
+  const SceneFile scene = parse(json);
+  Simulation simulation(scene);
+  ASSERT_FALSE(simulation.advance());
+  const SimulatedBody& body = simulation.body();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0.0;
+  for (std::uint32_t v = 0; v < body.vertices().size(); ++v) {
+    mass += body.system().mass[v];
+    moment += body.system().mass[v] * body.vertices().position[v];
+  }
+  const auto centre = centre_of_part(body, 0);
+  ASSERT_TRUE(centre);
+  EXPECT_NEAR((*centre - moment / mass).norm(), 0.0, 1e-15);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : body.vertices().position) mean += x / static_cast<double>(body.vertices().size());
+  EXPECT_GT((mean - *centre).norm(), 1e-3);
+}
+
 TEST(Scenes, OfTheProjectEndAsTheyExpect) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {

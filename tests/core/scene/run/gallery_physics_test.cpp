@@ -1,0 +1,344 @@
+// What the scenes of the gallery expect to end with, by other ways than core's: closed forms, a chain in the plane, and
+// a body of corners (corner_body.h) that is no map and is integrated here.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/file/selection.h"
+#include "tests/support/corner_body.h"
+
+namespace dartboard {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+SceneFile gallery(const std::string& name) {
+  return read_scene(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes" / (name + ".json"));
+}
+
+const ExpectedPlace& place_of(const SceneFile& scene, const std::string& probe, bool of_part = false) {
+  for (const ExpectedPlace& place : scene.expect.places)
+    if (scene.probes[place.probe].name == probe && place.of_part == of_part) return place;
+  throw std::runtime_error(scene.name + " expects no place of " + probe);
+}
+
+void expect_place(const SceneFile& scene, const ExpectedPlace& place, const Vector3d& derived) {
+  EXPECT_LE((derived - place.position).norm(), place.within)
+      << scene.name << ", " << scene.probes[place.probe].name << (place.of_part ? ", part" : "") << ": derived "
+      << derived.transpose() << ", expected " << place.position.transpose();
+  EXPECT_FALSE(place.why.empty()) << scene.name << ": the reader is not told where the place comes from";
+}
+
+/// After a time, of what starts at x with v, pulled by gravity and held back by viscosity alone: v' = g - c v.
+Vector3d flight(const Vector3d& x, const Vector3d& v, const SceneFile& scene, double time) {
+  const double c = scene.material.viscosity;
+  return x + scene.gravity / c * time + (v - scene.gravity / c) * (1 - std::exp(-c * time)) / c;
+}
+
+std::uint32_t point_of(const Probe& probe, const Mesh& mesh) {
+  if (const auto* point = std::get_if<std::uint32_t>(&probe.vertex)) return *point;
+  const auto& near = std::get<Vector3d>(probe.vertex);
+  std::uint32_t best = 0;
+  for (std::uint32_t p = 0; p < mesh.points.size(); ++p)
+    if ((mesh.points[p] - near).norm() < (mesh.points[best] - near).norm()) best = p;
+  return best;
+}
+
+/// A body of corners through the events of a scene, in steps a quarter as long as its own.
+CornerBody body_at_end(const SceneFile& scene) {
+  const Problem problem = make_problem(scene);
+  CornerBody::Drive drive;
+  if (!scene.driven.empty()) {
+    const SceneDrive& driven = scene.driven.at(0);
+    const auto points = select_points(driven.vertices, problem.mesh.points, "");
+    drive = [driven, points, rest = problem.mesh.points](std::uint32_t p, double time, Vector3d& x, Vector3d& v) {
+      if (!std::ranges::binary_search(points, p)) return false;
+      const double turn = driven.reverse_every.value_or(1e9), legs = std::floor(time / turn + 1e-6);
+      const bool forth = std::fmod(legs, 2.0) == 0.0;
+      v = (forth ? 1.0 : -1.0) * driven.velocity.at(rest[p]);
+      const double since = time - legs * turn;
+      x = rest[p] + driven.velocity.at(rest[p]) * (forth ? since : turn - since);
+      return true;
+    };
+  }
+  CornerBody body(problem, drive);
+  const double step = scene.accuracy ? 2e-4 : scene.step;
+  std::vector<std::pair<double, const Action*>> events;
+  for (const SceneEvent& event : scene.events)
+    for (double at = event.from; at <= event.until * (1 + 1e-9); at += event.every.value_or(1e9))
+      events.emplace_back(std::ceil(at / step - 1e-6) * step, &event.action);
+  std::ranges::stable_sort(events, {}, &std::pair<double, const Action*>::first);
+  double now = 0.0;
+  for (const auto& [time, action] : events) {
+    if (time > now) body.run(now, time, step / 4);
+    now = time;
+    if (const auto* remove = std::get_if<Remove>(action)) {
+      const auto& sphere = std::get<SphereSelection>(remove->cells);
+      body.remove([&](const Vector3d& x) { return (x - sphere.centre).norm() <= sphere.radius; });
+    } else if (const auto* cut = std::get_if<Dissociate>(action)) {
+      if (const auto* plane = std::get_if<PlaneSelection>(&cut->faces))
+        body.cut([&](const Vector3d& x) { return plane->normal.dot(x - plane->point) >= 0; });
+      else
+        for (const auto& points : std::get<0>(cut->faces)) body.open(points);
+    } else {
+      throw std::runtime_error(scene.name + ": an event that bodies of corners know nothing of");
+    }
+  }
+  body.run(now, scene.duration, step / 4);
+  return body;
+}
+
+// ---- scenes that a body of corners can follow to the end
+
+class FollowedScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(FollowedScene, EndsWhereABodyOfCornersEnds) {
+  const SceneFile scene = gallery(GetParam());
+  const CornerBody body = body_at_end(scene);
+  const Mesh mesh = make_problem(scene).mesh;
+  ASSERT_FALSE(scene.expect.places.empty());
+  for (const ExpectedPlace& place : scene.expect.places) {
+    const std::uint32_t point = point_of(scene.probes[place.probe], mesh);
+    expect_place(scene, place, place.of_part ? body.part_of(point).centre : body.x.at(body.class_at(point)));
+  }
+  EXPECT_EQ(scene.expect.cells, body.cells());
+  EXPECT_NEAR(body.mass() / *scene.expect.mass, 1.0, 5e-12 + static_cast<double>(body.cells()) * 0x1p-52);
+}
+
+INSTANTIATE_TEST_SUITE_P(Gallery, FollowedScene,
+                         testing::Values("ball_twisted", "beam_to_accuracy", "liver_cut", "liver_removal", "sheet_cut"),
+                         [](const auto& which) { return which.param; });
+
+// The part that is cut off is a free body: whatever its springs do, its centre of mass flies.
+TEST(GalleryPhysics, ThePartCutOffTheLiverFlies) {
+  SceneFile scene = gallery("liver_cut");
+  const std::uint32_t point = point_of(scene.probes.at(place_of(scene, "right", true).probe), make_problem(scene).mesh);
+  const double end = scene.duration, cut = scene.events.at(0).from;
+  scene.duration = cut;
+  const CornerBody::Part part = body_at_end(scene).part_of(point);
+  expect_place(scene, place_of(scene, "right", true), flight(part.centre, part.velocity, scene, end - cut));
+}
+
+// ---- a chain that hangs: link k of n holds the n - k + 1/2 link masses below its upper end
+
+TEST(GalleryPhysics, TheChainIsAsLongAsTheWeightBelowEachLinkMakesIt) {
+  const SceneFile scene = gallery("chain_hanging");
+  const auto& mesh = std::get<ChainMesh>(scene.body.mesh);
+  double x = 0.0;
+  for (int k = 1; k <= mesh.links; ++k) {
+    const double below = scene.material.density * mesh.spacing * (mesh.links - k + 0.5);
+    x += mesh.spacing + below * scene.gravity.x() / scene.material.stiffness;
+    if (k == 10) expect_place(scene, place_of(scene, "middle"), {x, 0, 0});
+  }
+  expect_place(scene, place_of(scene, "tip"), {x, 0, 0});
+  EXPECT_NEAR(*scene.expect.mass, scene.material.density * mesh.spacing * mesh.links, 1e-15);
+}
+
+// ---- hexahedra shear without a force, and all strings along the beam weigh and pull in proportion, so that sections
+// stay as they are and each string moves alike: a chain in the plane
+
+/// Backward Euler for a chain along x that sags along z: n + 1 nodes, the first held, and the last held too or half as
+/// heavy as the others. Newton's method with differences for derivatives.
+struct PlaneChain {
+  double spacing, mass, stiffness, damping, viscosity, gravity;
+  bool last_held;
+  std::vector<Vector2d> x, v;
+
+  Eigen::VectorXd rest(const Eigen::VectorXd& next_v, double h) const {
+    const std::size_t n = x.size();
+    std::vector<Vector2d> at(x), speed(v), f(n, Vector2d::Zero());
+    for (std::size_t k = 1; k < n; ++k) {
+      if (k + 1 == n && last_held) break;
+      speed[k] = next_v.segment<2>(2 * static_cast<Eigen::Index>(k - 1));
+      at[k] = x[k] + h * speed[k];
+    }
+    for (std::size_t k = 0; k + 1 < n; ++k) {
+      const Vector2d d = at[k + 1] - at[k], u = d.normalized();
+      const Vector2d pull = (stiffness * (d.norm() - spacing) + damping * (speed[k + 1] - speed[k]).dot(u)) * u;
+      f[k] += pull;
+      f[k + 1] -= pull;
+    }
+    Eigen::VectorXd residual(next_v.size());
+    for (Eigen::Index k = 0; k < next_v.size() / 2; ++k) {
+      const auto node = static_cast<std::size_t>(k) + 1;
+      const double m = node + 1 == n ? mass / 2 : mass;
+      const Vector2d a = f[node] / m - viscosity * speed[node] + Vector2d(0, gravity);
+      residual.segment<2>(2 * k) = speed[node] - v[node] - h * a;
+    }
+    return residual;
+  }
+  void step(double h) {
+    const Eigen::Index free = static_cast<Eigen::Index>(x.size()) - (last_held ? 2 : 1);
+    Eigen::VectorXd next(2 * free);
+    for (Eigen::Index k = 0; k < free; ++k) next.segment<2>(2 * k) = v[static_cast<std::size_t>(k) + 1];
+    for (int iteration = 0; iteration < 30; ++iteration) {
+      const Eigen::VectorXd r = rest(next, h);
+      if (r.norm() < 1e-13) break;
+      Eigen::MatrixXd slope(2 * free, 2 * free);
+      for (Eigen::Index j = 0; j < 2 * free; ++j) {
+        Eigen::VectorXd ahead = next, behind = next;
+        ahead[j] += 1e-6;
+        behind[j] -= 1e-6;
+        slope.col(j) = (rest(ahead, h) - rest(behind, h)) / 2e-6;
+      }
+      next -= slope.partialPivLu().solve(r);
+    }
+    for (Eigen::Index k = 0; k < free; ++k) {
+      v[static_cast<std::size_t>(k) + 1] = next.segment<2>(2 * k);
+      x[static_cast<std::size_t>(k) + 1] += h * v[static_cast<std::size_t>(k) + 1];
+    }
+  }
+};
+
+TEST(GalleryPhysics, TheBeamOfHexahedraMovesAsAChainDoes) {
+  const SceneFile scene = gallery("beam_of_hexahedra");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  // a string with one cell around each link: an eighth of a hexahedron on either side of a node
+  const double cell = scene.material.density * std::pow(box.spacing, 3);
+  PlaneChain chain{box.spacing,
+                   2 * cell / 8,
+                   scene.material.stiffness,
+                   scene.material.damping,
+                   scene.material.viscosity,
+                   scene.gravity.z(),
+                   true,
+                   {},
+                   {}};
+  for (int k = 0; k <= box.cells[0]; ++k) chain.x.emplace_back(box.spacing * k, 0.0);
+  chain.v.assign(chain.x.size(), Vector2d::Zero());
+  const auto steps_to = [&scene](double time) { return std::lround(time / scene.step); };
+  const double cut = scene.events.at(0).from;
+  for (long k = 0; k < steps_to(cut); ++k) chain.step(scene.step);
+  chain.x.resize(static_cast<std::size_t>(box.cells[0]) / 2 + 1);
+  chain.v.resize(chain.x.size());
+  chain.last_held = false;
+  for (long k = steps_to(cut); k < steps_to(scene.duration); ++k) chain.step(scene.step);
+  const ExpectedPlace& place = place_of(scene, "left");
+  const auto& rest = std::get<Vector3d>(scene.probes[place.probe].vertex);
+  const Vector2d moved = chain.x.at(static_cast<std::size_t>(std::lround(rest.x() / box.spacing)));
+  expect_place(scene, place, {moved.x(), rest.y(), rest.z() + moved.y()});
+  EXPECT_NEAR(*scene.expect.mass, cell * box.cells[0] * box.cells[1] * box.cells[2], 1e-14);
+}
+
+// ---- free bodies
+
+// Pulled apart from its centre without gravity: momentum is 0 by symmetry, and tearing changes neither it nor the
+// masses.
+TEST(GalleryPhysics, TheBlockThatTearsStaysWhereItIs) {
+  const SceneFile scene = gallery("vertex_tear");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const Vector3d centre = 0.5 * box.spacing * Vector3d(box.cells[0], box.cells[1], box.cells[2]);
+  EXPECT_EQ(scene.initial_velocity.centre, centre);
+  EXPECT_EQ(scene.gravity, Vector3d(0, 0, 0));
+  expect_place(scene, place_of(scene, "corner", true), centre);
+  EXPECT_NEAR(*scene.expect.mass, scene.material.density * 8 * centre.prod(), 1e-14);
+}
+
+// A block that spins about its centre, as a rigid one: what is removed takes its momentum along, and the rest goes the
+// other way. Springs let it grow by some percent, and whole tetrahedra are removed, so the estimate is good to a third
+// of the way.
+TEST(GalleryPhysics, TheSpinningBlockGivesWayWhereACornerIsTaken) {
+  const SceneFile scene = gallery("corner_refined");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const double side = box.spacing * box.cells[0], c = scene.material.viscosity,
+               spin = scene.initial_velocity.linear(1, 0);
+  const Vector3d centre = Vector3d::Constant(side / 2);
+  const double taken_at = scene.events.at(2).from, mass = scene.material.density * std::pow(side, 3);
+  const Eigen::AngleAxisd turn(spin * (1 - std::exp(-c * taken_at)) / c, Vector3d::UnitZ());
+  const auto& sphere = std::get<SphereSelection>(std::get<Remove>(scene.events.at(2).action).cells);
+  constexpr int n = 60;
+  int inside = 0;
+  Vector3d sum = Vector3d::Zero();
+  for (int k = 0; k < n * n * n; ++k) {
+    const Vector3d p = side / n * (Vector3d(k % n, k / n % n, k / n / n) + Vector3d::Constant(0.5));
+    const Vector3d now = centre + turn * (p - centre);
+    if ((now - sphere.centre).norm() > sphere.radius) continue;
+    ++inside;
+    sum += now;
+  }
+  const double taken = mass * inside / (n * n * n);
+  const Vector3d where = sum / inside;
+  EXPECT_NEAR(*scene.expect.mass, mass - taken, 0.3 * taken);
+  const double lost = mass - *scene.expect.mass;  // whole cells
+  const Vector3d speed = spin * std::exp(-c * taken_at) * Vector3d::UnitZ().cross(where - centre);
+  const Vector3d left = centre - lost / (mass - lost) * (where - centre), left_speed = -lost / (mass - lost) * speed;
+  const ExpectedPlace& place = place_of(scene, "far", true);
+  const Vector3d end = left + left_speed * (1 - std::exp(-c * (scene.duration - taken_at))) / c;
+  expect_place(scene, place, end);
+  EXPECT_LE(place.within, (end - centre).norm() / 3);
+}
+
+// Each of the 6 n^3 tetrahedra is removed once: ten at a time are gone before the last draw, and their mass with them.
+TEST(GalleryPhysics, TheErodedBlockIsGoneWhenEveryTetrahedronHasBeenDrawn) {
+  const SceneFile scene = gallery("block_eroded");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const auto tetrahedra = static_cast<std::uint64_t>(6 * box.cells[0] * box.cells[1] * box.cells[2]);
+  EXPECT_EQ(scene.expect.operations, tetrahedra);
+  EXPECT_EQ(scene.expect.mass, 0.0);
+  EXPECT_EQ(scene.expect.vertices, 0u);
+  const auto& random = std::get<RandomSelection>(std::get<Remove>(scene.events.at(0).action).cells);
+  const double draws = std::floor(scene.events.at(0).until / *scene.events.at(0).every + 1e-9);
+  EXPECT_GE(draws * random.count, static_cast<double>(tetrahedra));
+  EXPECT_FALSE(scene.expect.why.empty());
+}
+
+// ---- what tears by stress
+
+TEST(GalleryPhysics, ThePlateIsWhereItsSpeedTakesIt) {
+  const SceneFile scene = gallery("plate_pulled");
+  const SceneDrive& plate = scene.driven.at(0);
+  const ExpectedPlace& place = place_of(scene, "plate");
+  const Vector3d rest = std::get<Vector3d>(scene.probes[place.probe].vertex);
+  expect_place(scene, place, rest + *plate.until * plate.velocity.constant);
+}
+
+// The seam tears at vertices where the largest stress passes the threshold. The mean over the section cannot be above
+// it by then, and is not below half of it: two times, and from each the part below flies. The end has to lie between.
+TEST(GalleryPhysics, TheBarFallsFromWhenItsWeightPullsEnough) {
+  const SceneFile scene = gallery("bar_torn_by_weight");
+  const auto& tear = std::get<TearWhereStressed>(scene.events.at(0).action);
+  const Problem problem = make_problem(scene);
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const double area = box.cells[0] * box.cells[1] * box.spacing * box.spacing;
+  const auto above = [&](const Vector3d& x) { return contains(*tear.seam, x); };
+  std::vector<Vector3d> ends;
+  for (const double part : {0.5, 1.0}) {
+    CornerBody body(problem);
+    double now = 0.0;
+    while (body.pull_across(above, -Vector3d::UnitZ()) < part * tear.threshold * area && now < scene.duration) {
+      body.step(now, scene.step);
+      now += scene.step;
+    }
+    ASSERT_LT(now, scene.duration) << part;
+    body.cut(above);
+    const CornerBody::Part lower = body.part_of(0);
+    ends.push_back(flight(lower.centre, lower.velocity, scene, scene.duration - now));
+  }
+  const ExpectedPlace& place = place_of(scene, "foot", true);
+  expect_place(scene, place, ends[0]);
+  expect_place(scene, place, ends[1]);
+  // no wider than what lies between
+  EXPECT_LE(place.within, 0.55 * (ends[1] - ends[0]).norm() + 1e-3);
+}
+
+// ---- none is left out
+
+TEST(GalleryPhysics, IsExpectedOfEveryScene) {
+  for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {
+    const SceneFile scene = read_scene(entry.path());
+    EXPECT_TRUE(!scene.expect.places.empty() || scene.name == "block_eroded") << entry.path();
+    EXPECT_FALSE(scene.expect.why.empty()) << entry.path();
+    for (const ExpectedPlace& place : scene.expect.places) EXPECT_FALSE(place.why.empty()) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace dartboard

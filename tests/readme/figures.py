@@ -1,0 +1,380 @@
+"""Every figure of README.md and results/README.md: where it stands, what it rests on, how it is derived.
+
+A row of FIGURES is a piece of a page with {} in place of each figure, and a function that gives the figures, as they are
+printed, from committed samples. A row of NO_MEASUREMENT is a piece of a page whose numbers are not measured: constants
+of ours, with the file and the words that say the same, or what others say. figures_test.py puts the figures into the
+pieces, looks for them in the page, and finds numbers that are in no row. No figure without a sample: measure it again,
+keep the sample and add a row here, or leave it out.
+"""
+
+from samples import *
+
+README, RESULTS = "README.md", "results/README.md"
+RUN = "results/2026-11-21-epyc-"
+STEPS = RUN + "reproduce/samples.jsonl"
+TOPOLOGY = RUN + "topology/samples.jsonl"
+OPERATIONS = RUN + "operations/samples.jsonl"
+ABLATION = RUN + "ablation/samples.jsonl"
+SOLVERS = RUN + "solvers/samples.jsonl"
+AUDIT = RUN + "audit/samples.jsonl"
+EXTREMES = RUN + "reproduce/extremes/"
+JUDGES = "results/2026-11-23-epyc-judges/judges.json"
+MESH = "benchmarks/meshes/liver564.mesh"
+
+
+# ---- how figures are printed
+
+def digits(number, count, sign=""):
+    """So many significant digits, without an exponent and without a point that nothing follows."""
+    number = float("%.*e" % (count - 1, number))
+    places = max(0, count - 1 - math.floor(math.log10(abs(number)))) if number else 0
+    return "%{}.{}f".format(sign, places) % number
+
+
+def two(number):
+    return digits(number, 2)
+
+
+def three(number):
+    return digits(number, 3)
+
+
+def ends(f, show=two):
+    return show(f.low), show(f.high)
+
+
+def all_of(f, show=two):
+    return show(f.median), show(f.low), show(f.high)
+
+
+def percent(f):
+    return ["%+.2f" % (100 * (x - 1)) for x in f]
+
+
+def words(number):
+    return ("none", "one", "two", "three", "four", "five", "six", "seven")[number]
+
+
+# ---- what is measured
+
+def ms(task):
+    return 1e-6 * time(lines(STEPS), task).median
+
+
+def over_graph(task):
+    return ratio(lines(STEPS), task, "graph").median
+
+
+def cells_of_liver():
+    """Vertices, edges and tetrahedra, counted in the file."""
+    text = read(MESH).split()
+    at = text.index("Tetrahedra")
+    count = int(text[at + 1])
+    numbers = [int(n) for n in text[at + 2:at + 2 + 5 * count]]
+    cells = [numbers[k:k + 4] for k in range(0, 5 * count, 5)]
+    edges = {tuple(sorted((a, b))) for c in cells for a in c for b in c if a != b}
+    return len({v for c in cells for v in c}), len(edges), count
+
+
+def topology(body, what):
+    return [r for r in lines(TOPOLOGY) if r["body"] == body and r["figure"] == what]
+
+
+def faster_than(who, body, what):
+    return ratio(topology(body, what), who, "tetrahedral")
+
+
+SMALL, LARGE = ("liver564", "kuhn-2058"), ("kuhn-48000", "kuhn-105456", "kuhn-998250")
+
+
+def operation(body, name, phases=None):
+    """Of each process the median over times [us]; all phases, or some: 0 is the map, 1 embeddings, from 2 on views."""
+    rows = sorted((r for r in lines(OPERATIONS) if r["body"] == body and r.get("operation") == name),
+                  key=lambda r: r["process"])
+    return [median([sum(ns) / 1e3 for ns in zip(*(r["ns"] if phases is None else [r["ns"][k] for k in phases]))]) for r in rows]
+
+
+def medians(bodies, name):
+    values = [median(operation(body, name)) for body in bodies]
+    return min(values), max(values)
+
+
+def growth(name):
+    return figure([a / b for a, b in zip(operation("kuhn-998250", name), operation("kuhn-2058", name))])
+
+
+def rebuild_over_removal():
+    rebuild = [median(r["rebuild_ns"][0]) / 1e3 for r in
+               sorted((r for r in lines(OPERATIONS) if r["body"] == "liver564" and "rebuild_ns" in r), key=lambda r: r["process"])]
+    removal = [a + b for a, b in zip(operation("liver564", "remove", [0]), operation("liver564", "remove", [1]))]
+    return figure([a / b for a, b in zip(rebuild, removal)])
+
+
+def cut_ends():
+    found = [figure(operation(body, "dissociate, cut")) for body in SMALL + LARGE]
+    return two(min(f.low for f in found)), two(max(f.high for f in found))
+
+
+def crossover(vertices):
+    """The deviation of the law: by a straight line in logarithms between the last runs on both sides, and with either of
+    the nearest runs in its place. The first runs are where the law predicts the crossover."""
+    costs = [r for r in lines(SOLVERS) if r["study"] == "crossover" and r["vertices"] == vertices]
+    rate = lambda r: r["explicit_s"] / r["implicit_s"]
+    below, above = [r for r in costs if rate(r) < 1][-1], [r for r in costs if rate(r) >= 1][-1]
+    part = math.log(1 / rate(below)) / math.log(rate(above) / rate(below))
+    measured = below["phase"] * (above["phase"] / below["phase"]) ** part
+    nearest = max(r["phase"] for r in costs if rate(r) < 1), min(r["phase"] for r in costs if rate(r) >= 1)
+    return [costs[0]["phase"] / phase - 1 for phase in (measured, *nearest)]
+
+
+def solver_step(h_omega, task):
+    return figure([1e-6 * r["cpu_ns"] for r in lines(SOLVERS)
+                   if r["study"] == "steps" and r["body"].endswith("= " + h_omega) and r["task"] == task])
+
+
+def following(vertices):
+    """Analysing and factoring again over following, by AMD: rounds of one process, at rest and stretched."""
+    found = []
+    for state in ("at rest", "stretched"):
+        rounds = collections.defaultdict(dict)
+        for r in lines(SOLVERS):
+            if r["study"] == "updates" and r["body"] == "%d vertices, %s" % (vertices, state):
+                rounds[r["round"]][r["task"]] = r["cpu_ns"]
+        found.append(figure([r["again, AMD"] / r["follows, AMD"] for r in rounds.values()]))
+    return found
+
+
+def followings():
+    return [f for vertices in (512, 1728, 4096) for f in following(vertices)]
+
+
+def met():
+    return [a for a in lines(AUDIT) if a["told"] and a["actual_error"] <= a["error"]]
+
+
+def in_time():
+    return [a for a in lines(AUDIT) if abs(a["predicted_s"] / a["actual_s"] - 1) <= 0.15]
+
+
+def regrets():
+    return [a["actual_cost"] / a["best_cost"] for a in met() if a["swept"] and a["best_cost"]]
+
+
+def pilots():
+    return [a["pilot_s"] for a in lines(AUDIT)]
+
+
+def enough_pairs():
+    count = 1
+    while share_at_least(count, count) < 0.95:
+        count += 1
+    return count
+
+
+def frequencies():
+    return rows_of(EXTREMES + "frequencies.md")
+
+
+def rows_of(path):
+    table = [[cell.strip() for cell in line.strip("|").split("|")] for line in read(path).splitlines() if line.startswith("|")]
+    return [dict(zip(table[0], row)) for row in table[2:]]
+
+
+def detected(factor):
+    return max(d["detected"] for d in document(EXTREMES + "measurements.json")["detection"]
+               if d["integrator"] == "verlet" and d["factor"] == factor)
+
+
+IMPLICIT = ("backward-euler", "baraff-witkin", "local-global", "ros2", "sdirk2", "implicit-midpoint", "energy-momentum", "bdf2")
+
+
+def offset(implicit):
+    return max((r["offset_error"], r["integrator"]) for r in lines(EXTREMES + "extremes.jsonl")
+               if "offset_error" in r and r["integrator"] != "explicit-euler" and (r["integrator"] in IMPLICIT) == implicit)
+
+
+def trials(judge):
+    return [t for t in document(JUDGES)["trials"] if t["judge"] == judge]
+
+
+def seen():
+    count = lambda key: sum(t[key] for t in trials("extremes"))
+    return count("seen") / (count("called_right") - count("no_difference"))
+
+
+def judged(figures, bound, expected, at_least=False):
+    """A figure that is only there to hold the words beside it."""
+    found = verdict(figures, bound, at_least)
+    assert found == expected, "the samples say '%s', the page '%s'" % (found, expected)
+    return ()
+
+
+
+FIGURES = [
+    # ---- README.md
+    (README, "| one step: {} vertices, {} springs, {} tetrahedra |", [MESH], lambda: ["{:,}".format(n) for n in cells_of_liver()]),
+    (README, "| map, dart to dart, one dart of a cell holds its data | 12 ms | 6 | {} ms | {} |", [STEPS],
+     lambda: (three(ms("coverage")), three(over_graph("coverage")))),
+    (README, "| map, lists of embeddings, one dart holds | 8 ms | 4 | {} ms | {} |", [STEPS],
+     lambda: (three(ms("lists")), three(over_graph("lists")))),
+    (README, "lists of embeddings, one dart holds | 8 ms | 4 | 8.65 ms | 141 | | the same, every dart holds it | | | {} ms | {} |", [STEPS],
+     lambda: (three(ms("lists-every")), three(over_graph("lists-every")))),
+    (README, "one dart of a cell holds its data | 12 ms | 6 | 11.6 ms | 188 | | the same, every dart holds it | | | {} ms | {} |", [STEPS],
+     lambda: (three(ms("coverage-every")), three(over_graph("coverage-every")))),
+    (README, "| **map, cell arrays (section 5.2)** | 2 ms | <= 1.10 | **{} ms** | **{}** |", [STEPS],
+     lambda: (three(ms("arrays")), three(over_graph("arrays")))),
+    (README, "| plain arrays: an indexed graph | 2 ms | 1 | {} ms | 1 |", [STEPS], lambda: (three(ms("graph")),)),
+    (README, "| CGAL linear cell complex, dart to dart | | | {} ms | {} |", [STEPS],
+     lambda: (three(ms("cgal-coverage")), three(over_graph("cgal-coverage")))),
+    (README, "| the same, over its attributes | | | {} ms | {} |", [STEPS],
+     lambda: (three(ms("cgal-attributes")), three(over_graph("cgal-attributes")))),
+    (README, "a map that can be cut costs {} % more than arrays that cannot", [STEPS],
+     lambda: ("%.0f" % (100 * (over_graph("arrays") - 1)), *judged([ratio(lines(STEPS), "arrays", "graph")], 1.10, "holds"))),
+    (README, "arrays have become {} times as fast since", [STEPS], lambda: ("%.0f" % (2.0 / ms("arrays")),)),
+
+    # ---- results/README.md
+    (RESULTS, "| {} runs whose last bits are the same under two compilers |", [RUN + "determinism/determinism.json"],
+     lambda: (str(len(document(RUN + "determinism/determinism.json")["rows"][0]["hashes"])),)),
+    (RESULTS, "it takes the time of {} [{}, {}] removals.", [OPERATIONS],
+     lambda: all_of(rebuild_over_removal())),
+    (RESULTS, "The incremental arrays take {} [{}, {}] us.", [OPERATIONS],
+     lambda: ["%.2f" % x for x in figure(operation("liver564", "remove", [2]))]),
+
+    (RESULTS, "the vertex orbit falls short: it is {} [{}, {}] times as fast as CGAL's (target 20)", [TOPOLOGY],
+     lambda: all_of(faster_than("CGAL", "liver564", "vertex-orbit"))
+     + judged([faster_than("CGAL", "liver564", "vertex-orbit")], 20, "falls short", at_least=True)),
+    (RESULTS, "and takes {} [{}, {}] ns a dart (target 3: cannot tell)", [TOPOLOGY],
+     lambda: all_of(time(topology("liver564", "vertex-orbit"), "tetrahedral"))
+     + judged([time(topology("liver564", "vertex-orbit"), "tetrahedral")], 3, "cannot tell")),
+    (RESULTS, "on 48,000 tetrahedra it is {} [{}, {}] times as fast", [TOPOLOGY],
+     lambda: all_of(faster_than("CGAL", "kuhn-48000", "vertex-orbit"))
+     + judged([faster_than("CGAL", "kuhn-48000", "vertex-orbit")], 20, "holds", at_least=True)),
+    (RESULTS, "The full check is {} and {} times as fast as CGAL's `is_valid` with attributes, which checks those too, and {} and {} "
+     "times without.", [TOPOLOGY],
+     lambda: (*("%.0f" % faster_than("CGAL", b, "full-check").median for b in ("liver564", "kuhn-48000")),
+              *(two(faster_than("bare CGAL", b, "full-check").median) for b in ("liver564", "kuhn-48000")))),
+    (RESULTS, "the general one takes {} and {} ns for the orbit", [TOPOLOGY],
+     lambda: [two(time(topology(b, "vertex-orbit"), "general").median) for b in ("liver564", "kuhn-48000")]),
+
+    (RESULTS, "a removal takes {} to {} us up to 2,058 tetrahedra and {} to {} from 48,000 on (target 10)", [OPERATIONS],
+     lambda: tuple(map(two, medians(SMALL, "remove") + medians(LARGE, "remove")))
+     + judged([figure(operation(b, "remove")) for b in LARGE], 10, "falls short")),
+    (RESULTS, "a torn fan {} to {} and {} to {} (20)", [OPERATIONS],
+     lambda: tuple(map(two, medians(SMALL, "tear fan") + medians(LARGE, "tear fan")))
+     + judged([figure(operation(b, "tear fan")) for b in LARGE], 20, "falls short")),
+    (RESULTS, "Of a dissociation along a cut, {} to {} with intervals from {} to {}, the run cannot tell (5).", [OPERATIONS],
+     lambda: tuple(map(two, medians(SMALL + LARGE, "dissociate, cut"))) + cut_ends()
+     + judged([figure(operation(b, "dissociate, cut")) for b in SMALL + LARGE], 5, "cannot tell")),
+    (RESULTS, "it grows {} [{}, {}] times (target 1.5), a random one {} [{}, {}] times (3): it cannot tell either", [OPERATIONS],
+     lambda: (two(growth("dissociate, cut").median), "%.2f" % growth("dissociate, cut").low, two(growth("dissociate, cut").high))
+     + all_of(growth("dissociate, random")) + judged([growth("dissociate, cut")], 1.5, "cannot tell")
+     + judged([growth("dissociate, random")], 3, "cannot tell")),
+
+    (RESULTS, "Events, map and output cost {} [{}, {}] % of a step (target 0.5: holds)", [ABLATION],
+     lambda: (*percent(ratio(lines(ABLATION), "simulation", "watched loop")),
+              *judged([ratio(lines(ABLATION), "simulation", "watched loop")], 1.005, "holds"))),
+    (RESULTS, "the detector of divergence {} [{}, {}] and the watch on speeds {} [{}, {}] (cannot tell)", [ABLATION],
+     lambda: (*percent(ratio(lines(ABLATION), "loop and detector", "loop")),
+              *percent(ratio(lines(ABLATION), "watched loop", "loop and detector")),
+              *judged([ratio(lines(ABLATION), "loop and detector", "loop")], 1.005, "cannot tell"),
+              *judged([ratio(lines(ABLATION), "watched loop", "loop and detector")], 1.005, "cannot tell"))),
+    (RESULTS, "the integrator takes {} [{}, {}] % and falls short", [ABLATION],
+     lambda: (*("%+.1f" % (100 * (x - 1)) for x in ratio(lines(ABLATION), "loop", "plain loop")),
+              *judged([ratio(lines(ABLATION), "loop", "plain loop")], 1.005, "falls short"))),
+
+    (RESULTS, "methods {}, {} and {} % too low for 512, 1,728 and 4,096 vertices (target 25)", [SOLVERS],
+     lambda: ["%.0f" % (-100 * crossover(n)[0]) for n in (512, 1728, 4096)]),
+    (RESULTS, "the last is {} to {} % too low, so the run cannot tell", [SOLVERS],
+     lambda: ["%.0f" % (-100 * x) for x in crossover(4096)[1:]]
+     + list(judged([Figure(0, min(crossover(n)), max(crossover(n))) for n in (512, 1728, 4096)], -0.25, "cannot tell", at_least=True))),
+    (RESULTS, "A step by conjugate gradients takes {} [{}, {}] ms on the paper's body at h omega_max = 2.83 (target 0.9), {} at 10 and {} "
+     "at 100; with a kept factor {} to {}.", [SOLVERS],
+     lambda: (*all_of(solver_step("2.83", "conjugate gradients")), *(two(solver_step(h, "conjugate gradients").median) for h in ("10", "100")),
+              *(two(end([solver_step(h, "kept factor").median for h in ("2.83", "10", "100")])) for end in (min, max)),
+              *judged([solver_step("2.83", "conjugate gradients")], 0.9, "holds"))),
+    (RESULTS, "To follow a dissociation is {} to {} times as fast as to factor again (targets 2, and 4 for 4,096 vertices, of which "
+     "[{}, {}] cannot tell)", [SOLVERS],
+     lambda: (*(two(end([f.median for f in followings()])) for end in (min, max)), *ends(following(4096)[0]),
+              *judged(following(512) + following(1728), 2, "holds", at_least=True),
+              *judged(following(4096), 4, "cannot tell", at_least=True))),
+
+    (RESULTS, "All {} errors that a reference could judge were met, and {} of {} times were within 15 %", [AUDIT],
+     lambda: (str(len([a for a in lines(AUDIT) if a["told"]])), str(len(in_time())), str(len(lines(AUDIT))))),
+    (RESULTS, "All {} errors that", [AUDIT], lambda: (str(len(met())),)),
+    (RESULTS, "of so few pairs that shows {} and {} % (target 95: cannot tell; {} pairs without a miss would do)", [AUDIT],
+     lambda: ("%.0f" % (100 * share_at_least(len(met()), len([a for a in lines(AUDIT) if a["told"]]))),
+              "%.0f" % (100 * share_at_least(len(in_time()), len(lines(AUDIT)))), str(enough_pairs()))),
+    (RESULTS, "The median regret of the {} pairs with a sweep was {} [{}, {}], the largest {}.", [AUDIT],
+     lambda: (str(len(regrets())), *all_of(figure(regrets()), three), three(max(regrets())), *judged([figure(regrets())], 1.2, "holds"))),
+    (RESULTS, "{} could not be judged: {} outran their reference (chaotic), {} are checked for cost only.", [AUDIT],
+     lambda: (words(len([a for a in lines(AUDIT) if not a["told"]])).capitalize(),
+              words(len([a for a in lines(AUDIT) if not a["told"] and a["floor"] is not None])),
+              words(len([a for a in lines(AUDIT) if not a["told"] and a["floor"] is None])))),
+    (RESULTS, "Pilots took {} to {} s, and at most {} % of the {} runs longer than 5 s", [AUDIT],
+     lambda: (digits(min(pilots()), 1), two(max(pilots())),
+              "%.0f" % (100 * max(a["pilot_s"] / a["actual_s"] for a in lines(AUDIT) if a["actual_s"] > 5)),
+              words(len([a for a in lines(AUDIT) if a["actual_s"] > 5])))),
+
+    (RESULTS, "on {} bodies of one material, at most {} % below", [EXTREMES + "frequencies.md"],
+     lambda: (words(len(frequencies())), "%.1f" % max(float(r["upper"].split()[0]) for r in frequencies()))),
+    (RESULTS, "In {} unstable runs the energy", [EXTREMES + "measurements.json"],
+     lambda: (str(len(document(EXTREMES + "measurements.json")["detection"])),)),
+    (RESULTS, "for at most {} steps before it was told (target 64)", [EXTREMES + "detection.md"],
+     lambda: (str(max(int(r["most steps above"]) for r in rows_of(EXTREMES + "detection.md"))),)),
+    (RESULTS, "at 1.01 times its limit is found at step {} of the run, at 1.003 at step {}, at 1.001 at step {}.",
+     [EXTREMES + "measurements.json"], lambda: ["{:,}".format(detected(f)) for f in (1.01, 1.003, 1.001)]),
+
+    (RESULTS, "{} wrong integrators in all {} methods", [JUDGES],
+     lambda: (words(len({t["wrong"] for t in document(JUDGES)["trials"]})).capitalize(), str(len(document(JUDGES)["slack"])))),
+    (RESULTS, "in {} % of the runs called right in which being wrong makes a difference", [JUDGES], lambda: ("%.1f" % (100 * seen()),)),
+    (RESULTS, "off by up to {} eps D after 100 steps ({}; implicit methods by up to {})", [EXTREMES + "extremes.jsonl"],
+     lambda: ("%.0f" % offset(False)[0], {"blanes-moan-4": "Blanes-Moan"}[offset(False)[1]], "%.0f" % offset(True)[0])),
+]
+
+PAPER = "what the paper says"
+NAME = "a name or a place"
+
+# page, piece, and who says so: PAPER, NAME, or a file of ours and words of it
+NO_MEASUREMENT = [
+    (README, "*3-dimensional generalized map*", NAME),
+    (README, "(Meseure, Darles, Skapin, VRIPHYS 2010)", PAPER),
+    (README, "VRIPHYS 2010, pp. 1-10, hal-00563396", PAPER),
+    (README, "On Debian 12, with nothing installed", NAME),
+    (README, "GPL-3.0-or-later", NAME),
+    (README, "| 2010 | ratio | here | ratio |", PAPER),
+    (README, "one dart of a cell holds its data | 12 ms | 6 |", PAPER),
+    (README, "one dart holds | 8 ms | 4 |", PAPER),
+    (README, "| **map, cell arrays (section 5.2)** | 2 ms | <= 1.10 |", PAPER),
+    (README, "| plain arrays: an indexed graph | 2 ms | 1 |", PAPER),
+
+    (RESULTS, "answers all 35.", ("benchmarks/paper/paper_claims.cpp", "std::array<PaperClaim, 35>")),
+    (RESULTS, "from 2,000 to 1,000,000 tetrahedra", NAME),
+    (RESULTS, "times as fast as CGAL's (target 20)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
+    (RESULTS, "ns a dart (target 3: cannot tell)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
+    (RESULTS, "on 48,000 tetrahedra", NAME),
+    (RESULTS, "up to 2,058 tetrahedra", NAME),
+    (RESULTS, "from 48,000 on (target 10)", ("benchmarks/studies/operations/bench_operations_report.cpp", '"remove", {"remove"}, 10.0')),
+    (RESULTS, "to 28 (20).", ("benchmarks/studies/operations/bench_operations_report.cpp", '"tear-fan", {"tear fan"}, 20.0')),
+    (RESULTS, "the run cannot tell (5).", ("benchmarks/studies/operations/bench_operations_report.cpp", '"dissociate, random"}, 5.0')),
+    (RESULTS, "From 2,058 to 998,250 tetrahedra", NAME),
+    (RESULTS, "times (target 1.5)", ("benchmarks/studies/operations/bench_operations_report.cpp", 'std::pair("dissociate, cut", 1.5)')),
+    (RESULTS, "times (3): it cannot tell", ("benchmarks/studies/operations/bench_operations_report.cpp", 'std::pair("dissociate, random", 3.0)')),
+    (RESULTS, "% of a step (target 0.5: holds)", ("benchmarks/studies/scenes/ablation_study.cpp", "at_most(figure, 1.005)")),
+    (RESULTS, "for 512, 1,728 and 4,096 vertices (target 25)", ("benchmarks/studies/solvers/solver_report.cpp", "crossover_gate = 0.25")),
+    (RESULTS, "at h omega_max = 2.83 (target 0.9)", ("benchmarks/studies/solvers/solver_report.cpp", "step_gate_ms = 0.9")),
+    (RESULTS, "at 10 and 2.0 at 100;", ("benchmarks/studies/solvers/solver_study.cpp", "{2.83, 10.0, 100.0}")),
+    (RESULTS, "(targets 2, and 4 for 4,096 vertices,", ("benchmarks/studies/solvers/solver_report.cpp", "large ? 4.0 : 2.0")),
+    (RESULTS, "times were within 15 %", ("benchmarks/studies/tradeoff/audit_report.cpp", "cost_margin = 0.15")),
+    (RESULTS, "(target 95: cannot tell;", ("benchmarks/studies/tradeoff/audit_report.cpp", "part_asked = 0.95")),
+    (RESULTS, "runs longer than 5 s", ("benchmarks/studies/tradeoff/audit_report.cpp", "long_run_s = 5.0")),
+    (RESULTS, "`dartboard recommend --audit --seed 20261123`", NAME),
+    (RESULTS, "before it was told (target 64)", ("benchmarks/studies/extremes/extremes_report.cpp", '"all; <= 64"')),
+    (RESULTS, "Verlet at 1.01 times its limit", NAME),
+    (RESULTS, "at 1.003 at step", NAME),
+    (RESULTS, "at 1.001 at step", NAME),
+    (RESULTS, "at most 1,200 steps of the eighth order", ("validation/extremes/motion_truth.cpp", "most_steps = 1200")),
+    (RESULTS, "runs of 40 bodies drawn", ("tests/validation/extremes/step_evidence_test.cpp", "k < 40")),
+    (RESULTS, "eps D after 100 steps", NAME),
+    (RESULTS, "at most 134,217,728 tetrahedra, or 2^30 darts", NAME),
+    (RESULTS, "promised on x86-64", NAME),
+]
