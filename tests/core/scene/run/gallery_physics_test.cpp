@@ -11,6 +11,7 @@
 
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/file/selection.h"
+#include "core/scene/run/simulation.h"
 #include "tests/support/corner_body.h"
 
 namespace dartboard {
@@ -327,6 +328,47 @@ TEST(GalleryPhysics, TheBarFallsFromWhenItsWeightPullsEnough) {
   expect_place(scene, place, ends[1]);
   // no wider than what lies between
   EXPECT_LE(place.within, 0.55 * (ends[1] - ends[0]).norm() + 1e-3);
+}
+
+// ---- elements
+
+// d'Alembert: a bar that is let go sinks by density g L^2 / E until the wave from its support is back, after 2 L / c.
+TEST(GalleryPhysics, TheBarOfElementsIsLowestWhenItsWaveIsBack) {
+  const SceneFile scene = gallery("bar_of_elements");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const double length = box.cells[2] * box.spacing, speed = std::sqrt(scene.material.young / scene.material.density);
+  EXPECT_NEAR(scene.duration, 2.0 * length / speed, scene.step);
+  EXPECT_EQ(scene.material.poisson, 0.0);  // one dimension
+  const double sinks = -scene.gravity.z() * scene.material.density * length * length / scene.material.young;
+  expect_place(scene, place_of(scene, "foot"), {0, 0, -sinks});
+}
+
+// Elements or springs, what is cut off is a free body.
+TEST(GalleryPhysics, ThePartCutOffTheLiverOfElementsFlies) {
+  SceneFile scene = gallery("liver_of_elements");
+  const double end = scene.duration, cut = scene.events.at(0).from;
+  const std::size_t right = place_of(scene, "right", true).probe;
+  scene.duration = cut + scene.step;
+  Simulation simulation(scene);
+  while (simulation.steps_done() < simulation.step_count()) ASSERT_FALSE(simulation.advance());
+  const Frame frame = simulation.body().frame({});
+  const std::uint32_t vertex = simulation.body().tracked()[right];
+  std::uint32_t component = 0;
+  for (std::size_t c = 0; c < frame.mesh.cell_count(); ++c)
+    for (const std::uint32_t k : frame.mesh.cell(c))
+      if (k == vertex) component = frame.component[c];
+  std::set<std::uint32_t> part;
+  for (std::size_t c = 0; c < frame.mesh.cell_count(); ++c)
+    if (frame.component[c] == component) part.insert(frame.mesh.cell(c).begin(), frame.mesh.cell(c).end());
+  double mass = 0.0;
+  Vector3d centre(0, 0, 0), velocity(0, 0, 0);
+  for (const std::uint32_t k : part) {
+    mass += frame.mass[k];
+    centre += frame.mass[k] * frame.mesh.points[k];
+    velocity += frame.mass[k] * frame.velocity[k];
+  }
+  expect_place(scene, place_of(scene, "right", true),
+               flight(centre / mass, velocity / mass, scene, end - scene.duration));
 }
 
 // ---- none is left out
