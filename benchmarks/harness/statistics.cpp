@@ -29,6 +29,28 @@ double quantile_of_sorted(std::span<const double> values, double p) {
   return part == 0.0 ? values[below] : std::lerp(values[below], values[below + 1], part);
 }
 
+/// The chance that at most `good` of `all` that are drawn are good where a share of them is.
+double chance_of_at_most(std::size_t good, std::size_t all, double share) {
+  const auto n = static_cast<double>(all);
+  double sum = 0.0;
+  for (std::size_t j = 0; j <= good; ++j) {
+    const auto k = static_cast<double>(j);
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) + k * std::log(share) +
+                    (n - k) * std::log1p(-share));
+  }
+  return sum;
+}
+
+/// The share with that chance, by halving: it falls from 1 to 0 as the share grows.
+double share_with_chance(std::size_t good, std::size_t all, double chance) {
+  double low = 0.0, high = 1.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (chance_of_at_most(good, all, middle) > chance ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 void require_confidence(double confidence) {
   if (!(confidence > 0.0 && confidence < 1.0))
     throw InputError(fmt::format("confidence {} is not in ]0, 1[", confidence));
@@ -61,11 +83,11 @@ Interval share_interval(std::size_t good, std::size_t all, double confidence) {
   require_confidence(confidence);
   if (all == 0 || good > all) throw InputError(fmt::format("there is no share of {} in {}", good, all));
   // each end leaves half of what is allowed: the share at which so many, or more (or fewer), are just that unlikely
-  using Share = boost::math::binomial;
-  const auto n = static_cast<double>(all), k = static_cast<double>(good);
   const double beyond = (1.0 - confidence) / 2.0;
-  return {good == 0 ? 0.0 : Share::find_lower_bound_on_p(n, k, beyond),
-          good == all ? 1.0 : Share::find_upper_bound_on_p(n, k, beyond), confidence, true};
+  // what is good in one direction is not in the other
+  const double low = good == 0 ? 0.0 : 1.0 - share_with_chance(all - good, all, beyond);
+  const double high = good == all ? 1.0 : share_with_chance(good, all, beyond);
+  return {low, high, confidence, true};
 }
 
 std::string to_string(const Interval& interval) {

