@@ -57,7 +57,10 @@ Matrix3d polar_rotation(const Matrix3d& f) {
   if (!(z > 1e-6 * size * std::sqrt(size))) return rotation_by_eigenvectors(f);
   const Matrix3d r = ((k + size) * f + sum * cof - f * (f.transpose() * f)) / z;
   const Matrix3d r_cof = cofactors(r);
-  return 0.5 * (r + r_cof / r.row(0).dot(r_cof.row(0)));  // one step of Newton's method to R R' = I
+  const double r_det = r.row(0).dot(r_cof.row(0));
+  // next to a root that is threefold, rounding may throw Newton's method off it
+  if (!(std::abs(r_det - 1.0) < 1e-6)) return rotation_by_eigenvectors(f);
+  return 0.5 * (r + r_cof / r_det);  // one step of Newton's method to R R' = I
 }
 
 }  // namespace dartboard

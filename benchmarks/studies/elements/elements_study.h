@@ -36,6 +36,7 @@ struct ModelCost {
 
 struct ElementsResults {
   int across = 4;                                                             // of the mesh on which costs are measured
+  double trusted = 0.01;                                                      // how far the two references may be apart
   std::vector<std::pair<PublishedCantilever, CantileverAnswers>> references;  // by another code, and ours
   std::vector<ModelErrors> errors;
   std::vector<ModelCost> costs;

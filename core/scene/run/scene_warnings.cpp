@@ -35,7 +35,8 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
     said.push_back(to_string(*warning, simulation.step(), scene.integrator) + what_to_do_about(*warning, scene));
   if (const auto& coarse = simulation.coordinate_warning()) said.push_back(to_string(*coarse) + " (/body/translate)");
   for (const StepResult& warning : simulation.warnings()) said.push_back(explained(warning));
-  if (const std::string shapes = free_shapes_of(simulation.cell_kinds()); !shapes.empty()) said.push_back(shapes);
+  const std::string shapes = scene.has_elements() ? "" : free_shapes_of(simulation.cell_kinds());
+  if (!shapes.empty()) said.push_back(shapes);
   // an event that was due at the start may have its time yet
   if (simulation.steps_done() == 0 && simulation.step_count() > 0) return said;
   for (const std::string& path : simulation.idle_events())
