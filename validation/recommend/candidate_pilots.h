@@ -31,6 +31,12 @@ void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
 
 enum class Longer : std::uint8_t { confirmed, skipped, unstable };
 
+/// Where the prefix was a small part of a long scene: two pilots in the coarsest steps of those over as much more as
+/// there is time for. They say how errors grow with time, which the prefix is then corrected by.
+///
+/// pre  the candidate has been solved for an error
+Longer pilot_far(Candidate& candidate, Pilots& pilots);
+
 /// Two or three pilots over the whole duration, or over as much of it as there is time for, in steps coarser than those
 /// of the run, where they say something.
 ///
