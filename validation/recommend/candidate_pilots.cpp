@@ -115,8 +115,8 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   double part = all_times[prefix - 1] / pilots.scene().duration;
   std::optional<TradeoffScene> shorter;
   if (const double expected_s = 7.0 * part * steps_in_all * step_s; expected_s > allowed_s) {
-    // sixteen steps at least, and no less than a hundredth or 128 steps: growth is told from what is seen
-    const double least = std::max(16.0 / steps_in_all, std::min(0.01, 128.0 / steps_in_all));
+    // sixteen steps at least, and no less than a hundredth or 64 steps: growth is told from what is seen
+    const double least = std::max(16.0 / steps_in_all, std::min(0.01, 64.0 / steps_in_all));
     part = std::min(part, std::max(part * allowed_s / expected_s, least));
     prefix = part < short_part ? 16 : 4;
     shorter = first_part(pilots.scene(), part, prefix);
@@ -125,6 +125,7 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   auto steps = whole_steps(scene, h);
   std::vector<PilotRun> runs;
   std::vector<std::vector<double>> change;
+  bool at_once = false;
   for (int k = 0; k < 5; ++k, steps *= 2) {
     if (!runs.empty() && 2.0 * runs.back().cpu_s > pilots.left_s()) break;
     runs.push_back(pilots.run(c, scene, {.steps = steps}, prefix));
@@ -146,13 +147,15 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     }
     if (runs.size() >= 2) change.push_back(differences(scene, runs[runs.size() - 2].run, runs.back().run));
     // the largest step that is stable is accurate enough by far: how its error falls is of no interest
-    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) break;
+    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) {
+      at_once = true;
+      break;
+    }
     if (change.size() < 2) continue;
     c.observed_order = std::log2(max_or_nan(change[change.size() - 2]) / max_or_nan(change.back()));
     if (shows_its_order(c)) break;
     if (3.0 * runs.back().cpu_s > allowed_s) break;
   }
-  const bool at_once = change.size() == 1 && std::isfinite(max_or_nan(change[0])) && runs.size() == 2;
   if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
     c.untried = !runs.empty();
     c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";

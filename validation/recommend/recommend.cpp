@@ -128,7 +128,12 @@ class Search {
     return implicit ? 0.0 : for_implicit * options_.pilot_floor_s;
   }
   bool has_time(Candidate& c) const {
-    if (pilots_->left_s() > left_for_others(c.implicit)) return true;
+    // where dampers are swept, a long look at amplification factors tells the stable step of many stages
+    constexpr double long_look_s = 0.1;
+    const Scheme& scheme = make_integrator(c.contender)->scheme();
+    const bool long_look =
+        options_.budget_s > 0.0 && scheme.symplectic && scheme.stages > 1 && r_.features.damping_ratio > 0.0;
+    if (pilots_->left_s() > left_for_others(c.implicit) + (long_look ? long_look_s : 0.0)) return true;
     c.untried = true;
     c.pruned = "the time for pilots is up";
     return false;

@@ -161,9 +161,9 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
     problem.material.viscosity = draw.uniform(0.0, 0.02) * ratio * rate;
     what += fmt::format(", damping ratio {:.2g}", ratio);
   }
-  const double least = std::max(options.least_phase, options.least_work / static_cast<double>(springs));
-  const double most = std::clamp(options.most_work / static_cast<double>(springs), least,
-                                 std::max(options.most_phase, least));
+  const double a_spring = (ratio > 0.0 ? options.damped_work : 1.0) / static_cast<double>(springs);
+  const double least = std::max(options.least_phase, options.least_work * a_spring);
+  const double most = std::clamp(options.most_work * a_spring, least, std::max(options.most_phase, least));
   scene.duration = draw.logarithmic(least, std::max(most, 1.01 * least)) / rate;
   if (cut) {
     scene.events.push_back(plane_cut(cut_at * scene.duration, Vector3d(0, 0, 0), normal));

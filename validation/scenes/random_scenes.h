@@ -12,6 +12,7 @@ struct RandomSceneOptions {
   int most_points = 3000;     // of the body, about
   double most_work = 4e5;     // springs times duration times omega_max: what a reference costs
   double least_work = 0.0;    // what a run costs at least
+  double damped_work = 1.0;   // times both of a scene that is damped, whose runs take longer steps
   double least_phase = 30.0;  // duration times omega_max,
   double most_phase = 400.0;  // as far as the work allows
   double least_strain = 0.01;  // at the start,

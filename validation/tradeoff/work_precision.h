@@ -75,7 +75,7 @@ struct WorkPrecisionOptions {
   double repetitions_s = 0.5;     // this
   double enough_error = 0.0;      // [edges] who is as good is not run with shorter steps
   // [edges] who is not as good by most_s is of no interest, and given up as soon as that is plain: his error falls by a
-  // power of his cost that is his order and one more at the most
+  // power of his cost that is hardly more than his order
   double useful_error = std::numeric_limits<double>::infinity();
   double largest_implicit = 1e4;  // h omega_max that implicit methods start with, or the distance of checkpoints
   std::uint64_t seed = 1;         // of the order of the contenders

@@ -15,7 +15,7 @@ struct ForetoldCase {
 };
 
 /// Long motions of small bodies, of which pilots see a hundredth at most: some 1e5 / omega_max, thousands of the slow
-/// periods. Strains and gravity are a tenth of those of the other audit, and nothing is cut: chaotic motions have no
+/// periods. Strains and gravity are a fortieth of those of the other audit, and nothing is cut: chaotic motions have no
 /// error to foretell, and what an event sets free shows in no pilot before it.
 class ForetoldCases {
  public:

@@ -118,7 +118,8 @@ Table foretold_table(const std::vector<ForetoldPair>& pairs) {
   for (const ForetoldPair& p : pairs) {
     const Audit& a = p.audit;
     if (!has_pick(p)) {
-      table.add_row({p.scene, fmt::format("{:.1e}", a.error), "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-"});
+      table.add_row({p.scene, fmt::format("{:.1e}", a.error), "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-",
+                     p.confidence.empty() ? "-" : p.confidence});
       continue;
     }
     table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick,

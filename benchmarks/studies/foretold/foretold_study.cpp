@@ -14,7 +14,9 @@ namespace {
 
 // Of the smallest error asked for, how far the other codes may be apart; of the dearest pick, how long a run of the
 // sweep may take: what takes longer cannot be cheaper, but steps are powers of two.
-constexpr double resolved = 0.03, sweep_over_pick = 2.2;
+constexpr double resolved = 0.1, sweep_over_pick = 2.2;
+// [s] Nobody waits for longer runs.
+constexpr double longest_run_s = 15.0;
 
 WorkPrecision sweep_for(const TradeoffScene& scene, const SceneReference& reference, const std::vector<double>& errors,
                         double dearest_s) {
@@ -29,13 +31,14 @@ WorkPrecision sweep_for(const TradeoffScene& scene, const SceneReference& refere
   return work_precision(scene, reference, all, thread_cpu_ns, how);
 }
 
-std::vector<ForetoldPair> follow(const ForetoldCase& drawn, double budget_s) {
+std::vector<ForetoldPair> follow(const ForetoldCase& drawn, double budget_s, StudyLog& log) {
   const TradeoffScene& scene = drawn.scene;
   const CpuClock clock = thread_cpu_ns;
   std::vector<Recommendation> all;
   for (const double error : drawn.errors) all.push_back(recommend(scene, error, clock, {.budget_s = budget_s}));
   const SceneReference reference =
       reference_by_other_codes(scene, resolved * *std::ranges::min_element(drawn.errors));
+  log.say(fmt::format("{}: {}", scene.name, reference.what));
   std::vector<ForetoldPair> pairs;
   double dearest_s = 0.0;
   for (const Recommendation& r : all) {
@@ -47,7 +50,11 @@ std::vector<ForetoldPair> follow(const ForetoldCase& drawn, double budget_s) {
     p.omega_phase = scene.duration * scene.fastest_rate;
     p.floor = reference.floor;
     p.audit.error = r.error;
-    if (const Candidate* pick = r.pick()) {
+    p.audit.pilot_s = r.pilot_s;
+    const Candidate* pick = r.pick();
+    if (pick != nullptr && pick->predicted_s > longest_run_s) {
+      p.confidence = fmt::format("{} for {:.0f} s: too long to follow", pick->contender, pick->predicted_s);
+    } else if (pick != nullptr) {
       p.pick = pick->contender;
       p.confidence = name(pick->confidence);
       p.setting = pick->setting();
@@ -90,7 +97,7 @@ Report foretold_study(std::uint64_t seed, bool quick, StudyLog& log) {
   log.begin("audit of long motions", cases.size());
   for (std::uint64_t k = 0; k < cases.size(); ++k) {
     const ForetoldCase drawn = cases.next();
-    for (const ForetoldPair& p : follow(drawn, cases.budget_s())) {
+    for (const ForetoldPair& p : follow(drawn, cases.budget_s(), log)) {
       log.sample(json_of(p));
       report.numbers["pairs"].push_back(nlohmann::ordered_json(json_of(p)));
       pairs.push_back(p);
