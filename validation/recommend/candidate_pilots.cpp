@@ -67,11 +67,13 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   }
 }
 
-/// [edges] How far a body has gone from where it started, mass-weighted, at the checkpoint where that is most.
-double motion_size(const TradeoffScene& scene, const TimedRun& run) {
+/// Errors as large as the motion itself grow no more, neither with time nor with the step: they tell of nothing. An
+/// event that gives numbers to other points gives no size to compare with.
+bool saturated(const TradeoffScene& scene, const std::vector<double>& errors, const TimedRun& run) {
+  if (!scene.motion.events.empty()) return false;
   TimedRun rest;
   rest.states.assign(run.states.size(), scene.motion.start);
-  return max_or_nan(differences(scene, rest, run));
+  return !(max_or_nan(errors) < 0.1 * max_or_nan(differences(scene, rest, run)));
 }
 
 /// How far a body may have moved that has not exploded [edges]: as a thousand edges beside its flight.
@@ -106,10 +108,10 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   const RecommendOptions& options = pilots.options();
   if (options.budget_s > 0.0) step_s = std::max(step_s, pilots.step_seconds(c, h));
   const double run_s = steps_in_all * step_s;
-  const double allowed_s = (options.budget_s > 0.0
-                                ? pilots.left_s() - options.kept_back * options.budget_s
-                                : std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s)) /
-                           3.0;
+  const double allowed_s =
+      (options.budget_s > 0.0 ? pilots.left_s() - options.kept_back * options.budget_s
+                              : std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s)) /
+      3.0;
   std::size_t prefix = pilot_checkpoints(pilots.scene());
   const auto& all_times = pilots.scene().motion.checkpoints;
   double part = all_times[prefix - 1] / pilots.scene().duration;
@@ -156,7 +158,11 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     if (shows_its_order(c)) break;
     if (3.0 * runs.back().cpu_s > allowed_s) break;
   }
-  if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
+  // of two runs no order is seen: a part of the method's, where there is nothing else to go by
+  const bool blindly = !at_once && change.size() == 1 && !std::isfinite(pilots.cheapest_s());
+  if (blindly) c.observed_order = 0.7 * c.order;
+  if (!at_once &&
+      ((change.size() < 2 && !blindly) || !(max_or_nan(change.back()) > 0.0) || !std::isfinite(c.observed_order))) {
     c.untried = !runs.empty();
     c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
     return;
@@ -240,8 +246,7 @@ Longer pilot_far(Candidate& c, Pilots& pilots) {
     return Longer::unstable;
   }
   std::vector<double> left = differences(scene, coarse.run, fine.run);
-  // errors as large as the motion itself grow no more
-  if (!(max_or_nan(left) > 0.0) || !(max_or_nan(left) < 0.1 * motion_size(scene, fine.run))) return Longer::skipped;
+  if (!(max_or_nan(left) > 0.0) || saturated(scene, left, fine.run)) return Longer::skipped;
   for (double& e : left) e += richardson(c, e);
   const double ratio = beyond(left, 1.0 / part, lasts(scene)) * max_or_nan(left) / c.error_at(coarse.run.h);
   if (!(ratio > 0.0) || !std::isfinite(ratio)) return Longer::skipped;
@@ -276,7 +281,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     return Longer::unstable;
   }
   const std::vector<double> change = differences(scene, coarse.run, fine.run);
-  if (!(max_or_nan(change) > 0.0)) return Longer::skipped;
+  if (!(max_or_nan(change) > 0.0) || saturated(scene, change, fine.run)) return Longer::skipped;
   // a third, where there is time for it, tells whether the order shows
   const PilotRun* finest = &fine;
   PilotRun third;

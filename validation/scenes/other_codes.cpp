@@ -54,7 +54,8 @@ SceneReference reference_by_other_codes(const TradeoffScene& scene, double accep
   }
   for (const auto& y : odeint.states) found.states.push_back(rounded(y));
   found.floor = 10.0 * found.agreement;
-  found.what = fmt::format("{} ({:.1f} s); {} ({:.1f} s): {:.1e} edges away", odeint.code, odeint.cpu_s, other.code, other.cpu_s, found.agreement);
+  found.what = fmt::format("{} ({:.1f} s); {} ({:.1f} s): {:.1e} edges away", odeint.code, odeint.cpu_s, other.code,
+                           other.cpu_s, found.agreement);
   return found;
 }
 

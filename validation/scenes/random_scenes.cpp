@@ -114,8 +114,8 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
   const double strain = draw.logarithmic(options.least_strain, options.most_strain), slowness = draw.uniform(4.0, 24.0);
   if (draw.happens(0.5)) {
     // moves the body by about an edge within a slow turn
-    problem.surroundings.gravity =
-        draw.direction() * (draw.uniform(options.least_sag, options.most_sag) * edge * std::pow(soft_rate / slowness, 2));
+    problem.surroundings.gravity = draw.direction() * (draw.uniform(options.least_sag, options.most_sag) * edge *
+                                                       std::pow(soft_rate / slowness, 2));
     what += ", gravity";
   }
 

@@ -156,8 +156,9 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
       if (!last.failed() && error <= options.enough_error) break;
       if (const double reached = error * std::pow(last.cpu_s / options.most_s, scheme.order + 0.5);
           !last.failed() && error < result.useless_from && reached > options.useful_error) {
-        result.omissions.push_back(fmt::format("{}: nothing below h omega_max = {:.2g}, within {:g} s it would come to {:.1e} at best",
-                                               contender.name, last.h_omega, options.most_s, reached));
+        result.omissions.push_back(
+            fmt::format("{}: nothing below h omega_max = {:.2g}, within {:g} s it would come to {:.1e} at best",
+                        contender.name, last.h_omega, options.most_s, reached));
         break;
       }
       // rounding: two smaller steps have not helped

@@ -62,7 +62,8 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
       "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
   verb->add_flag("--long", options->long_motions,
                  "audit long motions, of which the pilots take a twentieth of the run's time and see some thousandths");
-  for (const char* of_the_audit : {"--seed", "--quick", "--out", "--long"}) verb->get_option(of_the_audit)->needs(audit);
+  for (const char* of_the_audit : {"--seed", "--quick", "--out", "--long"})
+    verb->get_option(of_the_audit)->needs(audit);
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }
 

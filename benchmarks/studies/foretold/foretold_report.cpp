@@ -124,10 +124,10 @@ Table foretold_table(const std::vector<ForetoldPair>& pairs) {
     }
     table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick,
                    p.told() ? fmt::format("{:.3f}", a.actual_error / a.error) : "-",
-                   !p.told()         ? "not judged: the other codes differ by more"
-                   : !a.met()        ? "NO"
-                   : !p.foretold()   ? "yes, but not counted"
-                                     : "yes",
+                   !p.told()       ? "not judged: the other codes differ by more"
+                   : !a.met()      ? "NO"
+                   : !p.foretold() ? "yes, but not counted"
+                                   : "yes",
                    p.told() ? fmt::format("{:.3f}", a.actual_error / a.predicted_error) : "-",
                    fmt::format("{:.3g}", a.actual_s), fmt::format("{:.3f}", p.seconds_ratio()),
                    fmt::format("{:.1f}", a.actual_s / a.pilot_s), fmt::format("{:.2f} %", 100.0 * p.seen_part),

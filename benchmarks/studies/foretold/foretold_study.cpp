@@ -36,8 +36,7 @@ std::vector<ForetoldPair> follow(const ForetoldCase& drawn, double budget_s, Stu
   const CpuClock clock = thread_cpu_ns;
   std::vector<Recommendation> all;
   for (const double error : drawn.errors) all.push_back(recommend(scene, error, clock, {.budget_s = budget_s}));
-  const SceneReference reference =
-      reference_by_other_codes(scene, resolved * *std::ranges::min_element(drawn.errors));
+  const SceneReference reference = reference_by_other_codes(scene, resolved * *std::ranges::min_element(drawn.errors));
   log.say(fmt::format("{}: {}", scene.name, reference.what));
   std::vector<ForetoldPair> pairs;
   double dearest_s = 0.0;
@@ -106,13 +105,12 @@ Report foretold_study(std::uint64_t seed, bool quick, StudyLog& log) {
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
   report.facts["cpu_s"] = cpu_s;
-  report.tables = {{"scenes", "The scenes", foretold_scenes_table(pairs)},
-                   {"foretold", "Recommendations for long motions and what happened", foretold_table(pairs),
-                    std::string(reading)}};
+  report.tables = {
+      {"scenes", "The scenes", foretold_scenes_table(pairs)},
+      {"foretold", "Recommendations for long motions and what happened", foretold_table(pairs), std::string(reading)}};
   report.claims = foretold_claims(pairs);
-  report.pictures = {
-      {"foretold",
-       foretold_plot(pairs, fmt::format("{} pairs of a long motion and an error, seed {}", pairs.size(), seed))}};
+  report.pictures = {{"foretold", foretold_plot(pairs, fmt::format("{} pairs of a long motion and an error, seed {}",
+                                                                   pairs.size(), seed))}};
   report.sentence = fmt::format("{:.0f} s of processor time. {}", cpu_s, in_words(report.claims));
   return report;
 }

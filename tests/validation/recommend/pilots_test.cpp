@@ -229,16 +229,17 @@ TEST(Pilots, TimeTheForcesForLessWhereTheBudgetIsSmall) {
 // A chain is linear, and errors of phase grow with time: what a prefix sees of it has to be grown to the whole.
 TEST(PilotFar, FindsThatTheErrorsOfALongChainGrowWithTime) {
   const TradeoffScene scene = chain_scene(8, 2e4);
-  const CpuClock clock = ticking();  // sixteen steps between two looks
+  const CpuClock clock = ticking();
   RecommendOptions options;
-  options.budget_s = 0.02;
+  options.budget_s = 2e-3;
   Pilots pilots(scene, clock, options, clock());
   Candidate c = candidate("verlet", false);
-  pilot_prefix(c, pilots, 0.5 / scene.fastest_rate, 1e-6, 1e-9);
+  pilot_prefix(c, pilots, 0.05 / scene.fastest_rate, 1e-6, 1e-9);
   ASSERT_TRUE(c.usable()) << c.pruned;
   EXPECT_LT(c.seen_part, 0.1);
-  solve_for_error(c, 1e-2, scene.motion, 1e-7, options);
   const double seen = c.seen_part;
+  c.h = c.pilot_h;
+  c.predicted_s = 0.3e-3 * 0.5 / (3.0 * seen);  // so much that some times the prefix is affordable
   ASSERT_EQ(pilot_far(c, pilots), Longer::confirmed);
   EXPECT_GT(c.seen_part, 1.5 * seen);
   EXPECT_EQ(c.growth_rate, 0.0);

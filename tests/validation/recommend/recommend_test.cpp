@@ -319,7 +319,7 @@ TEST(Recommend, ForetellsALongMotionWithinABudget) {
   const TradeoffScene scene = chain_scene(8, 2e4);
   for (const double error : {1e-2, 1e-4}) {
     RecommendOptions options;
-    options.budget_s = 0.05;
+    options.budget_s = 3e-4;
     const Recommendation r = recommend(scene, error, ticking(), options);
     const Candidate* pick = r.pick();
     ASSERT_NE(pick, nullptr) << error;
@@ -335,7 +335,7 @@ TEST(Recommend, ForetellsALongMotionWithinABudget) {
 TEST(Recommend, ALargerBudgetTriesMore) {
   const TradeoffScene scene = chain_scene(8, 64.0);
   std::size_t before = 100;
-  for (const double budget : {2e-3, 2.0}) {
+  for (const double budget : {2e-4, 2.0}) {
     RecommendOptions options;
     options.budget_s = budget;
     const Recommendation r = recommend(scene, 1e-5, ticking(), options);

@@ -22,7 +22,7 @@ TEST(OtherCodes, FindAMotionThatIsKnownExactly) {
 
 TEST(OtherCodes, AreMadeFinerUntilTheyAgree) {
   const TradeoffScene chain = chain_scene(6, 300.0);
-  const SceneReference coarse = reference_by_other_codes(chain, 1.0), fine = reference_by_other_codes(chain, 1e-11);
+  const SceneReference coarse = reference_by_other_codes(chain, 1.0), fine = reference_by_other_codes(chain, 1e-9);
   EXPECT_LT(fine.agreement, 0.1 * coarse.agreement);
   EXPECT_NE(coarse.what, fine.what);
 }

@@ -137,7 +137,8 @@ TEST(ForetoldTable, SaysWhatWasMetMissedAndNotJudged) {
   pairs[3].audit.pilot_s = 1.0;
   pairs[4].pick.clear();
   const std::string table = to_text(foretold_table(pairs));
-  for (const char* word : {"yes", "NO", "not judged", "not counted", "none", "0.500", "0.950", "40.0", "1.25 %", "1.10"})
+  for (const char* word :
+       {"yes", "NO", "not judged", "not counted", "none", "0.500", "0.950", "40.0", "1.25 %", "1.10"})
     EXPECT_NE(table.find(word), std::string::npos) << word << '\n' << table;
   EXPECT_EQ(foretold_table(pairs).rows().size(), 5u);
 }
