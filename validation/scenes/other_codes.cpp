@@ -38,9 +38,9 @@ SceneReference reference_by_other_codes(const TradeoffScene& scene, double accep
   // damped motions forget their errors
   const auto& springs = scene.motion.network.springs;
   const bool damped = std::ranges::any_of(springs, [](const reference::Spring& s) { return s.damping > 0.0; });
-  double step = damped ? 2.0 : 0.9, tolerance = damped ? 1e-9 : 1e-11;
+  double step = damped ? 2.0 : 0.7, tolerance = damped ? 1e-9 : 1e-11;
   reference::CodeRun odeint, other;
-  for (int round = 0; round < 2; ++round, step *= 0.5, tolerance *= 1e-2) {
+  for (int round = 0; round < 2; ++round, step *= 0.5, tolerance *= 0.1) {
     auto beside = std::async(std::launch::async, [&scene, tolerance] {
       return reference::have_sundials() ? reference::run_cvode_adams(scene.motion, tolerance)
                                         : reference::run_odeint_bulirsch_stoer(scene.motion, 1e-2 * tolerance);

@@ -7,14 +7,14 @@
 namespace dartboard {
 namespace {
 
-constexpr std::uint64_t errors_of_a_scene = 3;
+constexpr std::uint64_t errors_of_a_scene = 5;
 constexpr double largest_error = 3e-5, smallest_error = 3e-7;  // [edges]
 
 }  // namespace
 
 ForetoldCases::ForetoldCases(std::uint64_t seed, bool quick) : seed_(seed), quick_(quick), random_(seed + 177) {}
 
-std::uint64_t ForetoldCases::size() const { return quick_ ? 2 : 17; }
+std::uint64_t ForetoldCases::size() const { return quick_ ? 2 : 10; }
 
 double ForetoldCases::budget_s() const { return 0.03; }
 
