@@ -22,6 +22,8 @@ struct RecommendOptions {
   double pilot_part = 0.1;                          // of the cheapest predicted run that all pilots together may take,
   double pilot_floor_s = 0.5;                       // beyond this
   double most_pilot_s = 4.0;                        // of one pilot, as long as nothing is predicted
+  double budget_s = 0.0;                            // that all pilots together may take; 0: the three above say it
+  double kept_back = 0.4;                           // of a budget, for longer pilots and timings of the best
   double most_steps = 1e9;                          // of a run; what needs more is left out
   bool adaptive = true;                             // may the method choose its steps?
   std::string only{};                               // the one integrator to consider; empty for all
@@ -45,6 +47,8 @@ struct Candidate {
   bool untried = false;  // because there was no time left for pilots: nothing is known against it
   Confidence confidence = Confidence::none;
   bool full_length = false;  // pilots over the whole duration confirm it
+  double seen_part = 1.0;    // of the duration, by the longest pilots; the rest is foretold
+  double growth_rate = 0.0;  // [1/s] of errors, where they were seen to grow as those of chaotic motions do; else 0
   int order = 1;
   double observed_order = 0.0;  // of an adaptive one, the power of the tolerance
   double limit_h = 0.0;         // [s] the predicted limit of stability; infinite when there is none

@@ -7,9 +7,13 @@
 #include <optional>
 
 #include "core/plain/nan_maximum.h"
+#include "validation/recommend/error_growth.h"
 
 namespace dartboard {
 namespace {
+
+// Of the duration: pilots that see less foretell the rest by `beyond`.
+constexpr double short_part = 0.1;
 
 /// The power of h that errors are extrapolated with.
 ///
@@ -37,13 +41,22 @@ void take_cost(Candidate& c, const PilotRun& pilot) {
                        static_cast<double>(std::max<std::uint64_t>(pilot.run.work.steps, 1));
 }
 
+/// Does a motion go on for ever? Damping brings a body to rest that is held, and leaves a free one its rotation.
+bool lasts(const TradeoffScene& scene) {
+  const reference::SpringNetwork& network = scene.motion.network;
+  if (std::ranges::find(network.fixed, std::uint8_t{1}) == network.fixed.end()) return true;
+  return !(network.viscosity > 0.0) &&
+         std::ranges::none_of(network.springs, [](const reference::Spring& s) { return s.damping > 0.0; });
+}
+
 /// The errors of the pilots, the last of them the finest: Richardson's estimate there, and of the coarser ones what
 /// they are away from it; grown from the part that was run to the whole.
 void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<const PilotRun*>& runs, double part) {
   const TimedRun& finest = runs.back()->run;
   std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
   for (double& e : left) e = richardson(c, e);
-  const double growth = std::pow(1.0 / part, growth_with_time(left, scene.motion.checkpoints));
+  const double growth = part < short_part ? beyond(left, 1.0 / part, lasts(scene))
+                                          : std::pow(1.0 / part, growth_with_time(left, scene.motion.checkpoints));
   c.pilot_h = finest.h;
   c.error_at_pilot = growth * max_or_nan(left);
   c.coarser.clear();
@@ -52,6 +65,15 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
     const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
     if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k]->run.h, error});
   }
+}
+
+/// Errors as large as the motion itself grow no more, neither with time nor with the step: they tell of nothing. An
+/// event that gives numbers to other points gives no size to compare with.
+bool saturated(const TradeoffScene& scene, const std::vector<double>& errors, const TimedRun& run) {
+  if (!scene.motion.events.empty()) return false;
+  TimedRun rest;
+  rest.states.assign(run.states.size(), scene.motion.start);
+  return !(max_or_nan(errors) < 0.1 * max_or_nan(differences(scene, rest, run)));
 }
 
 /// How far a body may have moved that has not exploded [edges]: as a thousand edges beside its flight.
@@ -84,22 +106,28 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   // a third of what there is, for three pilots; no run with this method takes less than its largest steps do
   const double steps_in_all = pilots.scene().duration / h;
   const RecommendOptions& options = pilots.options();
+  if (options.budget_s > 0.0) step_s = std::max(step_s, pilots.step_seconds(c, h));
   const double run_s = steps_in_all * step_s;
-  const double allowed_s = std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s) / 3.0;
+  const double allowed_s =
+      (options.budget_s > 0.0 ? pilots.left_s() - options.kept_back * options.budget_s
+                              : std::min(pilots.left_s(), options.pilot_floor_s + options.pilot_part * run_s)) /
+      3.0;
   std::size_t prefix = pilot_checkpoints(pilots.scene());
   const auto& all_times = pilots.scene().motion.checkpoints;
   double part = all_times[prefix - 1] / pilots.scene().duration;
   std::optional<TradeoffScene> shorter;
   if (const double expected_s = 7.0 * part * steps_in_all * step_s; expected_s > allowed_s) {
-    // sixteen steps at least, and no less than a hundredth: growth is told from what is seen
-    part = std::min(part, std::max({part * allowed_s / expected_s, 16.0 / steps_in_all, 0.01}));
-    shorter = first_part(pilots.scene(), part, 4);
-    prefix = 4;
+    // sixteen steps at least, and no less than a hundredth or 64 steps: growth is told from what is seen
+    const double least = std::max(16.0 / steps_in_all, std::min(0.01, 64.0 / steps_in_all));
+    part = std::min(part, std::max(part * allowed_s / expected_s, least));
+    prefix = part < short_part ? 16 : 4;
+    shorter = first_part(pilots.scene(), part, prefix);
   }
   const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
   auto steps = whole_steps(scene, h);
   std::vector<PilotRun> runs;
   std::vector<std::vector<double>> change;
+  bool at_once = false;
   for (int k = 0; k < 5; ++k, steps *= 2) {
     if (!runs.empty() && 2.0 * runs.back().cpu_s > pilots.left_s()) break;
     runs.push_back(pilots.run(c, scene, {.steps = steps}, prefix));
@@ -121,14 +149,20 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     }
     if (runs.size() >= 2) change.push_back(differences(scene, runs[runs.size() - 2].run, runs.back().run));
     // the largest step that is stable is accurate enough by far: how its error falls is of no interest
-    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) break;
+    if (change.size() == 1 && max_or_nan(change[0]) * 10.0 / (part * part) < error) {
+      at_once = true;
+      break;
+    }
     if (change.size() < 2) continue;
     c.observed_order = std::log2(max_or_nan(change[change.size() - 2]) / max_or_nan(change.back()));
     if (shows_its_order(c)) break;
     if (3.0 * runs.back().cpu_s > allowed_s) break;
   }
-  const bool at_once = change.size() == 1 && std::isfinite(max_or_nan(change[0])) && runs.size() == 2;
-  if (!at_once && (change.size() < 2 || !std::isfinite(c.observed_order))) {
+  // of two runs no order is seen: a part of the method's, where there is nothing else to go by
+  const bool blindly = !at_once && change.size() == 1 && !std::isfinite(pilots.cheapest_s());
+  if (blindly) c.observed_order = 0.7 * c.order;
+  if (!at_once &&
+      ((change.size() < 2 && !blindly) || !(max_or_nan(change.back()) > 0.0) || !std::isfinite(c.observed_order))) {
     c.untried = !runs.empty();
     c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
     return;
@@ -141,6 +175,7 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   std::vector<const PilotRun*> all;
   for (const PilotRun& run : runs) all.push_back(&run);
   take_errors(c, scene, all, part);
+  c.seen_part = part;
   take_cost(c, runs.back());
   if (c.implicit) {
     const PilotRun& before = runs[runs.size() - 2];
@@ -194,6 +229,34 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
   c.full_length = true;
 }
 
+Longer pilot_far(Candidate& c, Pilots& pilots) {
+  if (c.coarser.empty() || c.implicit) return Longer::skipped;
+  const double h = c.coarser.back().h;
+  const double whole_s = c.predicted_s * c.h / h;
+  const double part = std::min(0.5, 0.5 * pilots.left_s() / (3.0 * whole_s));
+  if (!(part > 1.5 * c.seen_part)) return Longer::skipped;
+  const TradeoffScene scene = first_part(pilots.scene(), part, 16);
+  const auto steps = whole_steps(scene, h);
+  const PilotRun coarse = pilots.run(c, scene, {.steps = steps});
+  const PilotRun fine = pilots.run(c, scene, {.steps = 2 * steps});
+  for (const PilotRun* pilot : {&fine, &coarse}) {
+    if (pilot->run.result.code == StepCode::budget) return Longer::skipped;
+    if (pilot->run.result.ok() && distance_from_start(scene, pilot->run) < farthest_flight(scene)) continue;
+    c.limit_h = pilot->run.h;
+    return Longer::unstable;
+  }
+  std::vector<double> left = differences(scene, coarse.run, fine.run);
+  if (!(max_or_nan(left) > 0.0) || saturated(scene, left, fine.run)) return Longer::skipped;
+  for (double& e : left) e += richardson(c, e);
+  const double ratio = beyond(left, 1.0 / part, lasts(scene)) * max_or_nan(left) / c.error_at(coarse.run.h);
+  if (!(ratio > 0.0) || !std::isfinite(ratio)) return Longer::skipped;
+  c.error_at_pilot *= ratio;
+  for (Candidate::Seen& seen : c.coarser) seen.error *= ratio;
+  c.seen_part = part;
+  c.growth_rate = exponential_growth(left) / scene.duration;
+  return Longer::confirmed;
+}
+
 Longer pilot_longer(Candidate& c, Pilots& pilots) {
   // three pilots with k, k/2 and k/4 times the step take 7/k of the run
   const double budget = 0.8 * pilots.left_s();
@@ -202,8 +265,8 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   const double h = std::min(times_h * c.h, pilots.options().stability * c.limit_h);
   double part = 1.0;
   if (const double expected_s = 3.0 * c.predicted_s * c.h / h; expected_s > budget) part = budget / expected_s;
-  // half of the run foretells it no better than the prefix
-  if (part < 0.5) return Longer::skipped;
+  // half of the run foretells it no better than the prefix; of a prefix that saw little, coarser ones see more
+  if (part < 0.5) return c.seen_part < short_part ? pilot_far(c, pilots) : Longer::skipped;
   std::optional<TradeoffScene> shorter;
   if (part < 1.0) shorter = first_part(pilots.scene(), part, pilots.scene().motion.checkpoints.size());
   const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
@@ -218,7 +281,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     return Longer::unstable;
   }
   const std::vector<double> change = differences(scene, coarse.run, fine.run);
-  if (!(max_or_nan(change) > 0.0)) return Longer::skipped;
+  if (!(max_or_nan(change) > 0.0) || saturated(scene, change, fine.run)) return Longer::skipped;
   // a third, where there is time for it, tells whether the order shows
   const PilotRun* finest = &fine;
   PilotRun third;
@@ -236,6 +299,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   take_errors(c, scene, finest == &third ? std::vector{&coarse, &fine, finest} : std::vector{&coarse, finest}, part);
   take_cost(c, *finest);
   c.full_length = part == 1.0;
+  c.seen_part = part;
   return Longer::confirmed;
 }
 

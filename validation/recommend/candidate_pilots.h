@@ -25,11 +25,17 @@ double growth_with_time(const std::vector<double>& errors, const std::vector<dou
 /// of the whole run. `step_s` is about what a step takes.
 void pilot_prefix(Candidate& candidate, Pilots& pilots, double h, double step_s, double error);
 
-/// Runs that choose their steps, with three tolerances from ten times the error down, over the whole duration: where
+/// Runs that choose their steps, with three or four tolerances from ten times the error down, over the whole duration: where
 /// steps follow the motion, a part says little about the rest.
 void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
 
 enum class Longer : std::uint8_t { confirmed, skipped, unstable };
+
+/// Where the prefix was a small part of a long scene: two pilots in the coarsest steps of those over as much more as
+/// there is time for. They say how errors grow with time, which the prefix is then corrected by.
+///
+/// pre  the candidate has been solved for an error
+Longer pilot_far(Candidate& candidate, Pilots& pilots);
 
 /// Two or three pilots over the whole duration, or over as much of it as there is time for, in steps coarser than those
 /// of the run, where they say something.

@@ -20,22 +20,33 @@ TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t ch
 }
 
 Pilots::Pilots(const TradeoffScene& scene, const CpuClock& clock, const RecommendOptions& options, std::int64_t start)
-    : scene_(scene), clock_(clock), options_(options), start_(start), force_(scene, clock, 500'000) {}
+    : scene_(scene),
+      clock_(clock),
+      options_(options),
+      start_(start),
+      force_(scene, clock, static_cast<std::int64_t>(1e9 * timing_s())) {}
+
+double Pilots::timing_s() const {
+  constexpr double least_s = 2e-5, most_s = 5e-4;
+  return options_.budget_s > 0.0 ? std::clamp(0.0025 * options_.budget_s, least_s, most_s) : most_s;
+}
 
 double Pilots::spent_s() const { return 1e-9 * static_cast<double>(clock_() - start_); }
 
 double Pilots::left_s() const {
+  if (options_.budget_s > 0.0) return options_.budget_s - spent_s();
   if (!std::isfinite(cheapest_s_)) return options_.most_pilot_s;
   return options_.pilot_floor_s + options_.pilot_part * cheapest_s_ - spent_s();
 }
 
 PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, const RunSetting& setting,
                      std::size_t checkpoints) {
-  const double limit_s = std::clamp(left_s(), 0.01, options_.most_pilot_s);
+  const double limit_s =
+      std::clamp(left_s(), std::min(0.01, 20.0 * timing_s()), std::max(options_.most_pilot_s, options_.budget_s));
   // a neighbour only ever makes things slower: the least times are compared
   PilotRun pilot;
   double least_s = std::numeric_limits<double>::infinity(), total_s = 0.0;
-  for (int k = 0; k < 5 && total_s < 0.005; ++k) {
+  for (int k = 0; k < 5 && total_s < 10.0 * timing_s(); ++k) {
     force_ns_ = std::min(force_ns_, force_.measure());
     const auto integrator = candidate.make();
     pilot.run = run_timed(scene, *integrator, setting, clock_,
@@ -55,8 +66,17 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
   return pilot;
 }
 
+double Pilots::step_seconds(const Candidate& candidate, double h) {
+  constexpr double steps = 16.0;
+  const TradeoffScene scene = first_part(scene_, std::min(1.0, steps * h / scene_.duration), 1);
+  const auto integrator = candidate.make();
+  const TimedRun run = run_timed(scene, *integrator, {.steps = whole_steps(scene, h)}, clock_);
+  return 1e-9 * static_cast<double>(run.cpu_ns) / static_cast<double>(std::max<std::uint64_t>(run.work.steps, 1));
+}
+
 double Pilots::step_cost(const Candidate& candidate) {
-  constexpr double run_s = 0.008, all_s = 0.15;
+  const double run_s = 16.0 * timing_s(),
+               all_s = options_.budget_s > 0.0 ? std::clamp(0.4 * left_s(), 0.0, 0.15) : 0.15;
   // sixteen steps at least; a run that is short anyway is timed whole, with all that belongs to its start
   const double steps = static_cast<double>(candidate.steps);
   const double part = std::min(1.0, std::max(run_s / candidate.predicted_s, 16.0 / steps));

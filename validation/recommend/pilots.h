@@ -35,12 +35,18 @@ class Pilots {
   /// timings of the forces.   pre  the candidate has been solved for an error
   double step_cost(const Candidate& candidate);
 
+  /// What a step of h takes, by some steps from the start.
+  double step_seconds(const Candidate& candidate, double h);
+
   double spent_s() const;
-  /// What is left for pilots; at least `most_pilot_s` for the next one as long as nothing is predicted.
+  /// What is left for pilots; without a budget, `most_pilot_s` for the next one as long as nothing is predicted.
   double left_s() const;
   /// A run was predicted to take so long [s]: the cheapest counts.
   void predicted(double seconds) { cheapest_s_ = std::min(cheapest_s_, seconds); }
   double cheapest_s() const { return cheapest_s_; }
+
+  /// [s] What a timing of the forces takes: little of a budget where that is little.
+  double timing_s() const;
 
   const TradeoffScene& scene() const { return scene_; }
   const RecommendOptions& options() const { return options_; }

@@ -19,6 +19,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // An implicit step has not been seen to cost fewer force evaluations.
 constexpr double least_implicit_step = 10.0;
+// A stage of a splitting that sweeps through dampers costs as many.
+constexpr double swept_stage = 3.0;
 // The law knows the motion at the start only: it has to be wrong by this before a method is lost to it.
 constexpr double doubt = 4.0;
 // Of the least time for pilots, what explicit methods leave to implicit ones.
@@ -55,14 +57,21 @@ class Search {
     r_.scene = scene.name;
     r_.error = error;
     r_.best_error = std::numeric_limits<double>::quiet_NaN();
-    r_.features = features_of(scene, clock);
+    r_.features =
+        options.budget_s > 0.0
+            ? features_of(scene, clock, static_cast<std::int64_t>(std::clamp(5e6 * options.budget_s, 5e4, 1e6)))
+            : features_of(scene, clock);
     for (const IntegratorEntry& entry : integrators())
       least_error_ = std::min(least_error_, rounding_floor(scene, entry.make()->scheme()).at(per_interval()));
     pilots_.emplace(scene, clock, options, start_);
   }
 
   Recommendation run() {
-    const auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
+    auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
+    // where there may be no time for all, those first that the law thinks cheapest; of motions that last it knows less
+    // than their symplectic method
+    if (options_.budget_s > 0.0 && r_.features.damping_ratio > 0.0)
+      std::ranges::stable_sort(schemes, {}, [this](const Scheme& s) { return expected_s(s); });
     for (const Scheme& scheme : schemes) {
       if (scheme.implicit) continue;
       const bool first = r_.candidates.empty();
@@ -103,7 +112,6 @@ class Search {
     c.implicit = scheme.implicit;
     c.order = scheme.order;
     c.rounding = rounding_floor(scene_, scheme);
-    c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
     return c;
   }
   void solve(Candidate& c) {
@@ -114,15 +122,37 @@ class Search {
     else
       c.pruned = "its pilots say nothing about its errors";
   }
+  /// [s] What explicit methods leave to implicit ones; and all of them, of a budget, to a second look at the best.
+  double left_for_others(bool implicit) const {
+    if (options_.budget_s > 0.0) return pilots_->cheapest_s() < infinity ? options_.kept_back * options_.budget_s : 0.0;
+    return implicit ? 0.0 : for_implicit * options_.pilot_floor_s;
+  }
+  bool has_time(Candidate& c) const {
+    // where dampers are swept, a long look at amplification factors tells the stable step of many stages
+    constexpr double long_look_s = 0.1;
+    const Scheme& scheme = make_integrator(c.contender)->scheme();
+    const bool long_look =
+        options_.budget_s > 0.0 && scheme.symplectic && scheme.stages > 1 && r_.features.damping_ratio > 0.0;
+    if (pilots_->left_s() > left_for_others(c.implicit) + (long_look ? long_look_s : 0.0)) return true;
+    c.untried = true;
+    c.pruned = "the time for pilots is up";
+    return false;
+  }
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
-    else if (!(pilots_->left_s() > (c.implicit ? 0.0 : for_implicit * options_.pilot_floor_s))) {
-      c.untried = true;
-      c.pruned = "the time for pilots is up";
-    } else
+    else
       pilot_prefix(c, *pilots_, h, step_s, sought());
     if (c.usable()) solve(c);
+  }
+
+  /// What a run takes by the law, or by stability where nothing is damped.
+  double expected_s(const Scheme& scheme) const {
+    const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
+    if (scheme.implicit) return needed * scheme.stages * least_implicit_step * r_.features.force_s;
+    // dampers are swept through in every stage of a splitting
+    const double stage = scheme.symplectic && r_.features.damping_ratio > 0.0 ? swept_stage : 1.0;
+    return std::max(needed, r_.features.phase / scheme.imaginary_limit) * scheme.stages * stage * r_.features.force_s;
   }
 
   /// A last resort has no cheaper method to be compared with: those so far do not meet the error.
@@ -130,13 +160,15 @@ class Search {
     Candidate c = begin(scheme);
     const double step_s = scheme.stages * r_.features.force_s;
     const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
-    const double least_s = scene_.duration / c.limit_h * step_s;
     if (!last_resort && needed * step_s > doubt * pilots_->cheapest_s())
       c.pruned = law(needed, step_s);
-    else if (!last_resort && least_s > 1.2 * pilots_->cheapest_s())
+    else if (has_time(c))  // the limit alone may take as long as a pilot
+      c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
+    const double least_s = c.usable() ? scene_.duration / c.limit_h * step_s : 0.0;
+    if (!last_resort && least_s > 1.2 * pilots_->cheapest_s())
       c.pruned = fmt::format("its largest stable step takes {:.1e} s in all, against {:.1e} s", least_s,
                              pilots_->cheapest_s());
-    else
+    else if (c.usable())
       // the longest step that could be recommended is tried: close to the limit errors grow faster than any order says
       pilot(c, std::min({options_.stability * c.limit_h, per_interval(), 2.7 / r_.features.omega_low}), step_s);
     r_.candidates.push_back(std::move(c));
@@ -164,8 +196,9 @@ class Search {
     }
     if (!(needed * step_s <= doubt * pilots_->cheapest_s()))
       c.pruned = law(needed, step_s);
-    else
-      pilot(c, std::min(per_interval(), 4.0 * scene_.duration / needed), step_s);
+    else if (has_time(c))
+      c.limit_h = stability_limit(scheme, r_.features, scene_.duration);
+    if (c.usable()) pilot(c, std::min(per_interval(), 4.0 * scene_.duration / needed), step_s);
     r_.candidates.push_back(std::move(c));
   }
 

@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 Audit audit(const TradeoffScene& scene, const SceneReference& reference, const Recommendation& recommendation,
-            std::span<const WorkPoint> sweep, const CpuClock& clock) {
+            std::span<const WorkPoint> sweep, const CpuClock& clock, int fewest) {
   const Candidate* pick = recommendation.pick();
   if (pick == nullptr) throw InputError("nothing was recommended");
   Audit a;
@@ -24,11 +24,12 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
   a.predicted_error = pick->predicted_error;
   a.predicted_cost = pick->predicted_cost;
   a.predicted_evaluations = pick->predicted_evaluations;
+  a.printed_s = pick->predicted_s;
   a.pilot_s = recommendation.pilot_s;
   ForceTimer force(scene, clock);
   std::vector<double> costs, seconds;
   double before = force.measure(), total = 0.0;
-  for (int k = 0; k < 15 && (k < 3 || total < 0.3) && total < 4.0; ++k) {
+  for (int k = 0; k < 15 && (k < fewest || total < 0.3) && total < 4.0; ++k) {
     const auto integrator = pick->make();
     const TimedRun run = run_timed(scene, *integrator, pick->setting(), clock);
     const double after = force.measure();

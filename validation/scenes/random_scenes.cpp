@@ -111,18 +111,18 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
   }
   const double soft_rate = reference::fastest_rate(reference::spring_network(problem), problem.mesh.points);
   const double edge = reference::mean_rest_length(reference::spring_network(problem));
-  const double strain = draw.logarithmic(0.01, 0.1), slowness = draw.uniform(4.0, 24.0);
+  const double strain = draw.logarithmic(options.least_strain, options.most_strain), slowness = draw.uniform(4.0, 24.0);
   if (draw.happens(0.5)) {
     // moves the body by about an edge within a slow turn
-    problem.surroundings.gravity =
-        draw.direction() * (draw.uniform(0.02, 0.2) * edge * std::pow(soft_rate / slowness, 2));
+    problem.surroundings.gravity = draw.direction() * (draw.uniform(options.least_sag, options.most_sag) * edge *
+                                                       std::pow(soft_rate / slowness, 2));
     what += ", gravity";
   }
 
   // what happens to it
   const double lot = draw.uniform(0.0, 1.0);
   const double contrast = lot < 0.35 ? draw.logarithmic(3.0, 1e4) : 1.0;
-  const bool cut = lot >= 0.35 && lot < 0.65;
+  const bool cut = options.cuts && lot >= 0.35 && lot < 0.65;
   const double cut_at = draw.uniform(0.15, 0.85);
   const Vector3d normal = draw.direction();
   std::vector<std::uint8_t> stiff;
@@ -161,9 +161,10 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
     problem.material.viscosity = draw.uniform(0.0, 0.02) * ratio * rate;
     what += fmt::format(", damping ratio {:.2g}", ratio);
   }
-  const double most =
-      std::clamp(options.most_work / static_cast<double>(springs), options.least_phase, options.most_phase);
-  scene.duration = draw.logarithmic(options.least_phase, std::max(most, 1.01 * options.least_phase)) / rate;
+  const double a_spring = (ratio > 0.0 ? options.damped_work : 1.0) / static_cast<double>(springs);
+  const double least = std::max(options.least_phase, options.least_work * a_spring);
+  const double most = std::clamp(options.most_work * a_spring, least, std::max(options.most_phase, least));
+  scene.duration = draw.logarithmic(least, std::max(most, 1.01 * least)) / rate;
   if (cut) {
     scene.events.push_back(plane_cut(cut_at * scene.duration, Vector3d(0, 0, 0), normal));
     what += fmt::format(", cut in two at {:.2f} of the time", cut_at);

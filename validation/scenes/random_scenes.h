@@ -9,10 +9,17 @@ namespace dartboard {
 
 struct RandomSceneOptions {
   int least_points = 100;
-  int most_points = 3000;     // of the body, about
-  double most_work = 4e5;     // springs times duration times omega_max: what a reference costs
-  double least_phase = 30.0;  // duration times omega_max,
-  double most_phase = 400.0;  // as far as the work allows
+  int most_points = 3000;      // of the body, about
+  double most_work = 4e5;      // springs times duration times omega_max: what a reference costs
+  double least_work = 0.0;     // what a run costs at least
+  double damped_work = 1.0;    // times both of a scene that is damped, whose runs take longer steps
+  double least_phase = 30.0;   // duration times omega_max,
+  double most_phase = 400.0;   // as far as the work allows
+  double least_strain = 0.01;  // at the start,
+  double most_strain = 0.1;    // at which bodies that nothing damps are chaotic after some hundred periods
+  double least_sag = 0.02;     // [edges] by which gravity moves a body, about
+  double most_sag = 0.2;
+  bool cuts = true;  // may a plane cut it?
 };
 
 /// Scene `number` of a seed, whatever the others are.

@@ -49,7 +49,7 @@ std::vector<StableStep> limits_of(const TradeoffScene& scene) {
 
 }  // namespace
 
-SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock) {
+SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock, std::int64_t timing_ns) {
   SceneFeatures f;
   const reference::SpringNetwork& start = scene.motion.network;
   f.vertices = start.point_count();
@@ -86,7 +86,7 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock) {
   if (f.motion_rate == 0.0) f.motion_rate = 1.0 / scene.duration;
   f.motion_size = speed / f.motion_rate / scene.edge;
 
-  ForceTimer force(scene, clock, 1'000'000);
+  ForceTimer force(scene, clock, timing_ns);
   f.force_s = 1e-9 * std::min({force.measure(), force.measure(), force.measure()});
   return f;
 }

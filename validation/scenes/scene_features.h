@@ -22,8 +22,8 @@ struct SceneFeatures {
   std::vector<StableStep> limits{};          // of the step: at the start, and there after each event
 };
 
-/// All but `implicit_step_s`, which takes a factorisation to know.
-SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock);
+/// All but `implicit_step_s`, which takes a factorisation to know. The forces are timed three times, `timing_ns` each.
+SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock, std::int64_t timing_ns = 1'000'000);
 
 /// The less of the second and third of three linearly implicit steps of h [s], of which the first finds a factor;
 /// infinite when they fail.

@@ -75,6 +75,7 @@ std::string_view name(ReferenceKind kind) {
     case ReferenceKind::closed_form: return "closed form";
     case ReferenceKind::certified: return "certified";
     case ReferenceKind::self_converged: return "self-converged";
+    case ReferenceKind::other_codes: return "other codes";
   }
   return "?";
 }

@@ -11,8 +11,9 @@ namespace dartboard {
 
 enum class ReferenceKind : std::uint8_t {
   closed_form,
-  certified,      // reference/ode_oracle; `what` says how far
-  self_converged  // the finest run of our own; another method of ours agrees
+  certified,       // reference/ode_oracle; `what` says how far
+  self_converged,  // the finest run of our own; another method of ours agrees
+  other_codes      // scenes/other_codes
 };
 std::string_view name(ReferenceKind kind);
 

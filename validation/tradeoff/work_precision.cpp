@@ -153,6 +153,14 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
       const WorkPoint& last = points.back();
       const double error = last.errors.x;
       if (!last.failed() && error < 3.0 * reference.floor) break;
+      if (!last.failed() && error <= options.enough_error) break;
+      if (const double reached = error * std::pow(last.cpu_s / options.most_s, scheme.order + 0.5);
+          !last.failed() && error < result.useless_from && reached > options.useful_error) {
+        result.omissions.push_back(
+            fmt::format("{}: nothing below h omega_max = {:.2g}, within {:g} s it would come to {:.1e} at best",
+                        contender.name, last.h_omega, options.most_s, reached));
+        break;
+      }
       // rounding: two smaller steps have not helped
       if (points.size() > 2 && !last.failed() && error < 1e-8 && error > 0.5 * points[points.size() - 3].errors.x)
         break;

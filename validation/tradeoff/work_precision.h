@@ -69,10 +69,14 @@ struct WorkPrecision {
 };
 
 struct WorkPrecisionOptions {
-  double most_s = 8.0;            // processor time of one run; what would take longer is left out, and said so
-  int fewest_repetitions = 3;     // of a run
-  int most_repetitions = 20;      // as long as all of them together take less than
-  double repetitions_s = 0.5;     // this
+  double most_s = 8.0;         // processor time of one run; what would take longer is left out, and said so
+  int fewest_repetitions = 3;  // of a run
+  int most_repetitions = 20;   // as long as all of them together take less than
+  double repetitions_s = 0.5;  // this
+  double enough_error = 0.0;   // [edges] who is as good is not run with shorter steps
+  // [edges] who is not as good by most_s is of no interest, and given up as soon as that is plain: his error falls by a
+  // power of his cost that is hardly more than his order
+  double useful_error = std::numeric_limits<double>::infinity();
   double largest_implicit = 1e4;  // h omega_max that implicit methods start with, or the distance of checkpoints
   std::uint64_t seed = 1;         // of the order of the contenders
 };

@@ -3,6 +3,7 @@
 #include "benchmarks/cli/study_names.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/studies/foretold/foretold_study.h"
 #include "benchmarks/studies/tradeoff/audit_study.h"
 #include "benchmarks/studies/tradeoff/recommend_study.h"
 #include "core/plain/error.h"
@@ -12,7 +13,7 @@ namespace {
 
 struct Options : StudyOptions {
   RecommendPlan plan;
-  bool audit = false;
+  bool audit = false, long_motions = false;
 };
 
 void recommend_verb(const Options& options, Outcome& outcome) {
@@ -22,7 +23,11 @@ void recommend_verb(const Options& options, Outcome& outcome) {
       throw InputError("--audit draws its scenes and errors itself: give neither SCENE nor --error");
     run_study(
         options, {.label = "recommend", .facts = {.seeds = {{"scenes and errors", options.seed}}}},
-        [&](StudyLog& log) { return audit_study(options.seed, options.quick, log); }, outcome);
+        [&](StudyLog& log) {
+          return options.long_motions ? foretold_study(options.seed, options.quick, log)
+                                      : audit_study(options.seed, options.quick, log);
+        },
+        outcome);
     return;
   }
   if (plan.scene.empty() || plan.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
@@ -46,13 +51,19 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
   verb->add_option("--error", options->plan.errors,
                    "largest error of positions, in mean edge lengths; several may be given")
       ->check(positive_number());
+  verb->add_option("--budget", options->plan.budget_s,
+                   "seconds that the pilots of a recommendation may take [0.5 and a tenth of the run]")
+      ->check(positive_number());
   verb->add_flag("--realtime", options->plan.realtime,
                  "say whether that is as fast as the motion itself, and what would be");
   verb->add_flag("--verify", options->plan.verify, "run it, against the oracle and a sweep of all methods");
   auto* audit = verb->add_flag(
       "--audit", options->audit,
       "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
-  for (const char* of_the_audit : {"--seed", "--quick", "--out"}) verb->get_option(of_the_audit)->needs(audit);
+  verb->add_flag("--long", options->long_motions,
+                 "audit long motions, of which the pilots take a twentieth of the run's time and see some thousandths");
+  for (const char* of_the_audit : {"--seed", "--quick", "--out", "--long"})
+    verb->get_option(of_the_audit)->needs(audit);
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }
 

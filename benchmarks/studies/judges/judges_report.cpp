@@ -25,6 +25,8 @@ constexpr Judge judges[]{
      "30 roundings of a step, or twice the solver's tolerance"},
     {"order", "orders-see-wrong-integrators", "core's forces and methods: Odeint, SUNDIALS", "three orders within 0.1"},
     {"exact maps", "maps-see-wrong-integrators", "all code: powers of a closed form", "1e-10"},
+    {"recommend --verify", "verify-sees-wrong-integrators", "core's methods: a closed form, Odeint, SUNDIALS",
+     "the error asked for"},
 };
 
 std::string_view word(Wrong kind) { return std::ranges::find(wrong_integrators(), kind, &WrongIntegrator::kind)->name; }
@@ -78,6 +80,20 @@ Table judges_table(const JudgesResults& results) {
     table.add_row({std::string(judge.name), percent(sum.share()), fmt::format("{}", sum.asked()),
                    fmt::format("{}", sum.same), std::string(judge.independent_of), std::string(judge.bound)});
   }
+  return table;
+}
+
+Table others_table() {
+  Table table({{"study", Align::left}, {"what it says of integrators", Align::left}});
+  table.add_row({"tradeoff",
+                 "nothing: it shows their errors beside a reference, and says no only where none of them "
+                 "follows the motion"});
+  table.add_row({"validate conservation",
+                 "nothing: it judges what operations keep, and moves bodies by the Runge-Kutta "
+                 "method of the walks, which is none of these"});
+  table.add_row({"reproduce",
+                 "the walks and their Runge-Kutta method are held against extended precision before they "
+                 "are timed; integrators are judged by its part 'extremes', as above"});
   return table;
 }
 

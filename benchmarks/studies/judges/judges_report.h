@@ -19,6 +19,9 @@ struct JudgesResults {
 /// wrong ones that it sees.
 Table judges_table(const JudgesResults& results);
 
+/// The studies that run integrators, or might seem to, and do not judge them: no wrong one is to be seen there.
+Table others_table();
+
 /// A row for each judge and part, a column for each way of being wrong: seen of those asked.
 Table trials_table(const JudgesResults& results);
 

@@ -4,8 +4,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/judges/judges_report.h"
+#include "core/meshes/generators/mesh_generators.h"
 #include "core/time/integrators.h"
+#include "validation/judges/followed_trials.h"
 
 namespace dartboard {
 namespace {
@@ -53,7 +56,7 @@ Report judges_study(const JudgesPlan& plan, StudyLog& log) {
     };
     // a wrong integrator may have any order: it would go on halving steps until there is time for no more
     const OrderOptions options{.most_error = 0.05, .most_steps = 24 << 7, .most_implicit_steps = 24 << 7};
-    log.begin("validate judges: wrong integrators and their orders", 4);
+    log.begin("validate judges: wrong integrators and their orders", 6);
     for (const OrderCase which : {OrderCase::undamped, OrderCase::damped}) {
       add(try_order(order_stage(which), methods_of(plan), options));
       log.advance(name(which));
@@ -62,10 +65,20 @@ Report judges_study(const JudgesPlan& plan, StudyLog& log) {
       add(try_exact_maps(zeta, plan.quick ? 1000 : 10000));
       log.advance("exact maps");
     }
+    // a motion that is known exactly, and one with dampers
+    std::vector<IntegratorEntry> plain = methods_of(plan);
+    std::erase_if(plain, [](const IntegratorEntry& entry) { return entry.make()->scheme().compensated; });
+    TradeoffScene damped = stiff_scene("damped", kuhn_box(2, 2, 2, 0.1, 0.2, 3), 1.0, {.damped = true});
+    damped.name = "a damped box";
+    for (const TradeoffScene& scene : {chain_scene(8, 64.0), damped}) {
+      add(try_followed(scene, reference_of(scene, thread_cpu_ns, {.gain = false}), plain, 1e-5, thread_cpu_ns));
+      log.advance("recommend --verify");
+    }
   }
   Report report;
   report.claims = claims_of(results);
   report.tables = {{"judges", "Judges of integrators, and what they rest on", judges_table(results)},
+                   {"others", "Studies that do not judge integrators", others_table()},
                    {"trials", "Wrong integrators seen, of those whose results differ", trials_table(results)},
                    {"slack", "Steps of sound integrators in the matrix of extremes", slack_table(results)}};
   if (Table unseen = unseen_table(results); !unseen.rows().empty())

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,8 @@ nlohmann::json json_of(const Candidate& c) {
   if (c.adaptive) json["tolerance"] = c.tolerance;
   json.update({{"confidence", name(c.confidence)},
                {"full_length_pilots", c.full_length},
+               {"seen_part", number(c.seen_part)},
+               {"growth_rate", number(c.growth_rate)},
                {"observed_order", number(c.observed_order)},
                {"stability_limit_h", number(c.limit_h)},
                {"limited_by_stability", c.limited_by_stability},
@@ -117,8 +120,10 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
   for (const Candidate& c : r.candidates)
     if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   if (const auto untried = r.untried(); !untried.empty())
-    text += fmt::format("{} of {} methods were not tried for want of time, and another run may pick one of them: {}\n",
-                        untried.size(), r.candidates.size(), fmt::join(untried, "; "));
+    text += fmt::format(
+        "{} of {} methods were not tried for want of time, and another run may pick one of them (--budget SECONDS "
+        "grants more): {}\n",
+        untried.size(), r.candidates.size(), fmt::join(untried, "; "));
   const Candidate* pick = r.pick();
   if (pick == nullptr)
     return text +
@@ -136,6 +141,13 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
       : pick->fewest_steps       ? ", the fewest steps tried"
                                  : "",
       pick->predicted_error, milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
+  if (!pick->full_length && pick->seen_part < 1.0)
+    text += fmt::format("Its pilots saw {:.2g} % of the motion; the rest is foretold.\n", 100.0 * pick->seen_part);
+  if (pick->growth_rate > 0.0)
+    text += fmt::format(
+        "Errors were seen to grow e-fold in {:.3g} s: the motion is chaotic, and soon no error can be foretold; from "
+        "this one to that of an edge it takes {:.3g} s.\n",
+        1.0 / pick->growth_rate, std::max(0.0, -std::log(pick->predicted_error)) / pick->growth_rate);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,

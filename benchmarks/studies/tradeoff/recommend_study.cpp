@@ -20,6 +20,7 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
   std::vector<Recommendation> all;
   for (const double error : plan.errors) {
     RecommendOptions options;
+    options.budget_s = plan.budget_s;
     options.tells = [&log](const std::string& integrator) { log.advance(integrator); };
     log.begin(fmt::format("short runs for an error of {:g} edges", error), 0);
     all.push_back(recommend(scene, error, clock, options));
@@ -36,24 +37,18 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
     const SceneReference reference = reference_of(scene, clock, {.gain = false});
     log.say(
         fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
-    // the sweep: everything that was not left out for some error, no longer than a few times the longest pick
+    // of all methods, no longer than a few times the longest pick; those that cannot reach the largest error are given
+    // up
     double longest = 0.05;
-    std::vector<TradeoffContender> contenders;
-    for (const Recommendation& r : all) {
+    for (const Recommendation& r : all)
       if (r.pick() != nullptr) longest = std::max(longest, 3.0 * r.pick()->predicted_s);
-      for (const TradeoffContender& c : tradeoff_contenders()) {
-        const auto usable = [&](const Candidate& candidate) {
-          return candidate.contender == c.name && candidate.usable();
-        };
-        if (std::ranges::any_of(r.candidates, usable) &&
-            std::ranges::find(contenders, c.name, &TradeoffContender::name) == contenders.end())
-          contenders.push_back(c);
-      }
-    }
+    std::vector<TradeoffContender> contenders = tradeoff_contenders();
+    std::erase_if(contenders, &TradeoffContender::peer);
     WorkPrecisionOptions how;
     how.most_s = longest;
     how.fewest_repetitions = 2;
     how.repetitions_s = 0.1;
+    how.useful_error = *std::ranges::max_element(plan.errors);
     log.begin(fmt::format("sweep of {} methods", contenders.size()), 0);
     const WorkPrecision sweep = work_precision(scene, reference, contenders, clock, how,
                                                [&log](const WorkPoint& p) { log.advance(p.contender); });

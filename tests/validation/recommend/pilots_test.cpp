@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/time/integrators.h"
+#include "reference/error_norms.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/candidate_pilots.h"
 
@@ -193,6 +194,61 @@ TEST(Pilots, HaveAFloorAndAPartOfTheCheapestRunLessWhatTheyHaveSpent) {
   pilots.predicted(24.0);  // the cheapest counts
   EXPECT_EQ(pilots.cheapest_s(), 8.0);
   EXPECT_DOUBLE_EQ(pilots.left_s(), 0.25 + 1.0 - 0.125);
+}
+
+TEST(Pilots, HaveTheirBudgetAndNoMoreWhateverIsPredicted) {
+  const TradeoffScene scene = chain_scene(4, 8.0, 4);
+  std::int64_t now = 0;
+  const CpuClock clock = [&now] { return now += 1000; };
+  RecommendOptions options;
+  options.budget_s = 0.75;
+  Pilots pilots(scene, clock, options, 0);
+  now = 250'000'000 - 1000;
+  EXPECT_DOUBLE_EQ(pilots.left_s(), 0.5);
+  pilots.predicted(1e6);
+  now = 250'000'000 - 1000;
+  EXPECT_DOUBLE_EQ(pilots.left_s(), 0.5);
+  now = 1'000'000'000 - 1000;
+  EXPECT_DOUBLE_EQ(pilots.left_s(), -0.25);
+}
+
+TEST(Pilots, TimeTheForcesForLessWhereTheBudgetIsSmall) {
+  const TradeoffScene scene = chain_scene(4, 8.0, 4);
+  const CpuClock clock = ticking();
+  const auto timing = [&](double budget) {
+    RecommendOptions options;
+    options.budget_s = budget;
+    return Pilots(scene, clock, options, 0).timing_s();
+  };
+  EXPECT_EQ(timing(0.0), 5e-4);
+  EXPECT_EQ(timing(10.0), 5e-4);
+  EXPECT_DOUBLE_EQ(timing(0.04), 1e-4);
+  EXPECT_EQ(timing(1e-6), 2e-5);
+}
+
+// A chain is linear, and errors of phase grow with time: what a prefix sees of it has to be grown to the whole.
+TEST(PilotFar, FindsThatTheErrorsOfALongChainGrowWithTime) {
+  const TradeoffScene scene = chain_scene(8, 2e4);
+  const CpuClock clock = ticking();
+  RecommendOptions options;
+  options.budget_s = 2e-3;
+  Pilots pilots(scene, clock, options, clock());
+  Candidate c = candidate("verlet", false);
+  pilot_prefix(c, pilots, 0.05 / scene.fastest_rate, 1e-6, 1e-9);
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  EXPECT_LT(c.seen_part, 0.1);
+  const double seen = c.seen_part;
+  c.h = c.pilot_h;
+  c.predicted_s = 0.3e-3 * 0.5 / (3.0 * seen);  // so much that some times the prefix is affordable
+  ASSERT_EQ(pilot_far(c, pilots), Longer::confirmed);
+  EXPECT_GT(c.seen_part, 1.5 * seen);
+  EXPECT_EQ(c.growth_rate, 0.0);
+  const auto verlet = make_integrator("verlet");
+  const auto steps = whole_steps(scene, c.pilot_h);
+  const TimedRun run = run_timed(scene, *verlet, {.steps = steps}, clock);
+  const double actual = reference::motion_errors(scene.motion, run.states, scene.closed_form()).x;
+  EXPECT_GT(c.error_at(run.h), 0.4 * actual);
+  EXPECT_LT(c.error_at(run.h), 3.0 * actual);
 }
 
 TEST(PilotCheckpoints, AreAQuarterOrUpToTheOneAfterTheFirstEvent) {

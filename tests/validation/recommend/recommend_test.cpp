@@ -314,6 +314,38 @@ TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
   }
 }
 
+// The pilots see some hundredths of it.
+TEST(Recommend, ForetellsALongMotionWithinABudget) {
+  const TradeoffScene scene = chain_scene(8, 2e4);
+  for (const double error : {1e-2, 1e-4}) {
+    RecommendOptions options;
+    options.budget_s = 3e-4;
+    const Recommendation r = recommend(scene, error, ticking(), options);
+    const Candidate* pick = r.pick();
+    ASSERT_NE(pick, nullptr) << error;
+    EXPECT_LT(pick->seen_part, 0.5) << error;
+    EXPECT_FALSE(pick->full_length) << error;
+    const Audit a = audit(scene, reference_of(scene, ticking()), r, {}, ticking(), 1);
+    EXPECT_TRUE(a.met()) << pick->contender << ": " << a.actual_error << " for " << error;
+    EXPECT_GT(a.actual_error, 0.02 * error) << pick->contender;
+    EXPECT_EQ(a.printed_s, pick->predicted_s);
+  }
+}
+
+TEST(Recommend, ALargerBudgetTriesMore) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  std::size_t before = 100;
+  for (const double budget : {2e-4, 2.0}) {
+    RecommendOptions options;
+    options.budget_s = budget;
+    const Recommendation r = recommend(scene, 1e-5, ticking(), options);
+    ASSERT_NE(r.pick(), nullptr) << budget;
+    EXPECT_LT(r.untried().size(), before) << budget;
+    before = r.untried().size();
+  }
+  EXPECT_EQ(before, 0u);
+}
+
 TEST(Recommend, AnErrorThatDoublesCannotMeetIsNotPromised) {
   for (const double error : {1e-16, 1e-30}) {
     const Recommendation r = recommend(chain_scene(8, 64.0), error, ticking());

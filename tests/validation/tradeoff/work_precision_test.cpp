@@ -370,5 +370,34 @@ TEST(CvodeAdamsPeer, FollowsTheChainWithinItsToleranceOrSaysThatThereIsNoSundial
   EXPECT_LT(error(1e-10), 1e-7);
 }
 
+TEST(WorkPrecisionEnds, WhereAMethodIsGoodEnough) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  WorkPrecisionOptions options;
+  options.fewest_repetitions = options.most_repetitions = 1;
+  options.enough_error = 1e-3;
+  const std::vector<TradeoffContender> verlet{{"verlet", [] { return make_integrator("verlet"); }, false, false}};
+  const auto points = work_precision(scene, reference_of(scene, ticking()), verlet, ticking(), options).points;
+  ASSERT_GE(points.size(), 2u);
+  EXPECT_LE(points.back().errors.x, 1e-3);
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) EXPECT_FALSE(points[k].errors.x <= 1e-3) << k;
+}
+
+// With as much time as a run of 4096 steps takes, Verlet comes to some 1e-6, and not to 1e-9: that is plain at once.
+TEST(WorkPrecisionEnds, WhereAMethodCannotBecomeUseful) {
+  const TradeoffScene scene = chain_scene(4, 16.0, 4);
+  const std::vector<TradeoffContender> verlet{{"verlet", [] { return make_integrator("verlet"); }, false, false}};
+  const auto points_for = [&](double error) {
+    WorkPrecisionOptions options;
+    options.fewest_repetitions = options.most_repetitions = 1;
+    options.most_s = 4e-5;  // on this clock a look takes a microsecond
+    options.useful_error = error;
+    return work_precision(scene, reference_of(scene, ticking()), verlet, ticking(), options);
+  };
+  const WorkPrecision all = points_for(1.0), few = points_for(1e-12);
+  EXPECT_LT(few.points.size(), all.points.size());
+  ASSERT_FALSE(few.omissions.empty());
+  EXPECT_NE(few.omissions.back().find("at best"), std::string::npos) << few.omissions.back();
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -104,7 +104,8 @@ TEST(RecommendText, SaysWhatToTakeAndWhatElseThereIs) {
             "damping ratio there 0.5, T omega_max = 86; a force evaluation takes 9 us here\n\n" +
                 to_text(candidates_table(recommendation())) +
                 "  not bdf2: no time was left\n"
-                "1 of 3 methods were not tried for want of time, and another run may pick one of them: bdf2\n"
+                "1 of 3 methods were not tried for want of time, and another run may pick one of them (--budget "
+                "SECONDS grants more): bdf2\n"
                 "\nTake rk4 with h = 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
                 "it makes 285).\n"
                 "It is stable up to h = 0.5 s.\n"
@@ -137,6 +138,26 @@ TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
   EXPECT_EQ(text.find("It is stable up to"), std::string::npos) << text;
 }
 
+TEST(RecommendText, SaysHowMuchOfTheMotionIsForetold) {
+  Recommendation r = recommendation();
+  r.candidates[0].seen_part = 0.0125;
+  EXPECT_NE(text_of(r, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is foretold.\n"),
+            std::string::npos)
+      << text_of(r, false, 1.0);
+  r.candidates[0].full_length = true;
+  EXPECT_EQ(text_of(r, false, 1.0).find("Its pilots saw"), std::string::npos);
+}
+
+// exp(2 t) takes an error of 1/16 to an edge in ln(16) / 2.
+TEST(RecommendText, WarnsOfErrorsThatGrowExponentially) {
+  Recommendation r = recommendation();
+  EXPECT_EQ(text_of(r, false, 1.0).find("chaotic"), std::string::npos);
+  r.candidates[0].growth_rate = 2.0;
+  const std::string text = text_of(r, false, 1.0);
+  EXPECT_NE(text.find("grow e-fold in 0.5 s: the motion is chaotic"), std::string::npos) << text;
+  EXPECT_NE(text.find("it takes 1.39 s.\n"), std::string::npos) << text;
+}
+
 TEST(RecommendText, SaysWhatCanBeReachedWhereNothingMeetsTheError) {
   Recommendation r = recommendation();
   r.error = 1e-15;
@@ -154,6 +175,8 @@ TEST(RecommendText, SaysWhatCanBeReachedWhereNothingMeetsTheError) {
 TEST(RecommendJson, HoldsEveryFigure) {
   Recommendation r = recommendation();
   r.candidates[0].full_length = r.candidates[0].limited_by_stability = true;
+  r.candidates[0].seen_part = 0.03125;
+  r.candidates[0].growth_rate = 4.0;
   r.candidates[1].fewest_steps = true;
   r.candidates[1].full_length = false;
   r.candidates[2].least_error = 0.75;
@@ -163,11 +186,12 @@ TEST(RecommendJson, HoldsEveryFigure) {
       "implicit_step_s": 90.0},
     "candidates": [
       {"integrator": "rk4", "implicit": false, "order": 4, "confidence": "asymptotic", "full_length_pilots": true,
+       "seen_part": 0.03125, "growth_rate": 4.0,
        "observed_order": 3.875, "stability_limit_h": 0.5, "limited_by_stability": true, "fewest_steps_tried": false,
        "steps": 71, "h": 0.25, "predicted_error": 0.0625, "predicted_seconds": 0.125, "predicted_cost": 200.0,
        "predicted_evaluations": 285.0},
       {"integrator": "dormand-prince-54-adaptive", "implicit": false, "order": 4, "tolerance": 0.001,
-       "confidence": "asymptotic", "full_length_pilots": false, "observed_order": 3.875, "stability_limit_h": null,
+       "confidence": "asymptotic", "full_length_pilots": false, "seen_part": 1.0, "growth_rate": 0.0, "observed_order": 3.875, "stability_limit_h": null,
        "limited_by_stability": false, "fewest_steps_tried": true, "steps": 71, "h": 0.25, "predicted_error": 0.0625,
        "predicted_seconds": 0.125, "predicted_cost": 300.0, "predicted_evaluations": 285.0},
       {"integrator": "bdf2", "implicit": true, "order": 2, "pruned": "no time was left", "untried": true,
