@@ -105,8 +105,9 @@ void ConservationChecks<Map>::columns_fit(const CountsByDimension& predicted) {
   });
   ledger_.equal(counts, v.dart.size(), n[0], "column of dimension", 0);
   ledger_.equal(counts, body.edge_dart.size(), n[1], "column of dimension", 1);
-  for_each_column(body, LiveBody<Map>::embedded_in_cells(), [&](const auto& column, const auto&) {
-    ledger_.equal(counts, column.size(), n[Map::dimension], "column of dimension", Map::dimension);
+  for_each_column(body, LiveBody<Map>::embedded_in_cells(), [&](const auto& column, const auto& row) {
+    const bool is_left_out = body.material.model == Model::springs && row.name.find("shape") != row.name.npos;
+    ledger_.equal(counts, column.size(), is_left_out ? 0 : n[Map::dimension], "column of dimension", Map::dimension);
   });
   // the sums below read the arrays
   const CellArrays& arrays = at_.views.cells;
@@ -232,6 +233,8 @@ void ConservationChecks<Map>::all_views() {
   };
   agree("cell arrays", now.cells == rebuilt.cells);
   agree("spring ends", now.ends == rebuilt.ends);
+  agree("corners of tetrahedra", now.tetrahedra == rebuilt.tetrahedra);
+  agree("corners of solid cells", now.solids == rebuilt.solids);
   agree("boundary surface", now.boundary == rebuilt.boundary);
   agree("component labels", now.components == rebuilt.components);
   ledger_.equal(views, now.components.count(), at_.cells.count_components(), "components of cells",

@@ -25,8 +25,8 @@ double growth_with_time(const std::vector<double>& errors, const std::vector<dou
 /// of the whole run. `step_s` is about what a step takes.
 void pilot_prefix(Candidate& candidate, Pilots& pilots, double h, double step_s, double error);
 
-/// Runs that choose their steps, with three or four tolerances from ten times the error down, over the whole duration: where
-/// steps follow the motion, a part says little about the rest.
+/// Runs that choose their steps, with three or four tolerances from ten times the error down, over the whole duration:
+/// where steps follow the motion, a part says little about the rest.
 void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
 
 enum class Longer : std::uint8_t { confirmed, skipped, unstable };

@@ -7,6 +7,8 @@
 #include <boost/container/small_vector.hpp>
 #include <limits>
 
+#include "core/elements/solids.h"
+#include "core/elements/tetrahedra.h"
 #include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"

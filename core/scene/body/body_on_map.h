@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/solids.h"
+#include "core/elements/tetrahedra.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/cell_nodes.h"
 #include "core/mechanics/fracture/stress.h"

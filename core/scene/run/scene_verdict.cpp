@@ -17,6 +17,9 @@ std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::ui
   // a spring is an edge of the map, and whatever is connected is so along edges
   DisjointSets parts(system.mass.size());
   for (const SpringEnds& ends : system.ends) parts.join(ends[0], ends[1]);
+  for (const ForceTerm* term : system.terms)
+    for (std::size_t piece = 0; piece < term->size(); ++piece)
+      for (const std::uint32_t node : term->nodes(piece)) parts.join(term->nodes(piece)[0], node);
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (std::uint32_t v = 0; v < system.mass.size(); ++v)

@@ -26,6 +26,8 @@ struct RankOneTerm {
 /// C holds the damping of the springs and the ambient viscosity.
 class StepMatrix {
  public:
+  StepMatrix() { terms_.pattern.column_start = {}; }  // without force terms not one byte is theirs
+
   /// Of the springs and, given what they are like and the pattern of the system, of its force terms.
   ///
   /// cost    O(vertices + springs); no memory is taken after the first call for a body

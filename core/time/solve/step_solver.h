@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/forces/force_term.h"
 #include "core/time/method/integrator.h"
 #include "core/time/solve/cholesky.h"
 #include "core/time/solve/conjugate_gradients.h"

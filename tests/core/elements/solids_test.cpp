@@ -9,7 +9,7 @@
 #include "core/elements/tetrahedra.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/random.h"
-#include "tests/support/element_body_for_tests.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/meshes/generators/mesh_generators.h"
-#include "tests/support/element_body_for_tests.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 
 namespace dartboard {
 namespace {

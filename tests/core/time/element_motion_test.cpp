@@ -11,7 +11,7 @@
 #include "core/time/system/energy.h"
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/stable_step.h"
-#include "tests/support/element_body_for_tests.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 
 namespace dartboard {
 namespace {

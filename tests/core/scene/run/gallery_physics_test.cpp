@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -12,7 +13,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/file/selection.h"
 #include "core/scene/run/simulation.h"
-#include "tests/support/corner_body.h"
+#include "tests/support/bodies/corner_body.h"
 
 namespace dartboard {
 namespace {
@@ -352,7 +353,9 @@ TEST(GalleryPhysics, ThePartCutOffTheLiverOfElementsFlies) {
   Simulation simulation(scene);
   while (simulation.steps_done() < simulation.step_count()) ASSERT_FALSE(simulation.advance());
   const Frame frame = simulation.body().frame({});
-  const std::uint32_t vertex = simulation.body().tracked()[right];
+  const std::uint32_t point = point_of(scene.probes.at(right), make_problem(scene).mesh);
+  const auto& points = simulation.body().vertices().point;
+  const auto vertex = static_cast<std::uint32_t>(std::ranges::find(points, point) - points.begin());
   std::uint32_t component = 0;
   for (std::size_t c = 0; c < frame.mesh.cell_count(); ++c)
     for (const std::uint32_t k : frame.mesh.cell(c))

@@ -16,10 +16,19 @@
 namespace dartboard {
 
 struct ElementBody {
+  // on the heap: the term goes on looking at them when the body is moved
+  struct Columns {
+    std::vector<TetrahedronNodes> nodes;
+    std::vector<RestShape> shape;
+    std::vector<double> mass;
+  };
+  std::unique_ptr<Columns> columns = std::make_unique<Columns>();
+  std::vector<TetrahedronNodes>& nodes = columns->nodes;
+  std::vector<RestShape>& shape = columns->shape;
+  std::vector<double>& cell_mass = columns->mass;
+
   Material material;
-  std::vector<TetrahedronNodes> nodes;
-  std::vector<RestShape> shape;
-  std::vector<double> cell_mass, mass, inverse_mass, viscosity;
+  std::vector<double> mass, inverse_mass, viscosity;
   std::vector<std::uint8_t> fixed;
   std::vector<Eigen::Vector3d> rest, x, v;
   Eigen::Vector3d gravity{0, 0, 0};
