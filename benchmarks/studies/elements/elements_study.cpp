@@ -245,6 +245,12 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
                    results.across),
        costs_table(results)}};
   report.sentence = in_words(results);
+  for (const ModelCost& c : results.costs)
+    log.sample({{"cost_of", in_words(c.model, c.cells)},
+                {"across", results.across},
+                {"pieces", c.pieces},
+                {"ns", c.ns},
+                {"frequency", c.frequency}});
   for (const ModelErrors& e : results.errors)
     log.sample({{"model", in_words(e.model, e.cells)},
                 {"across", e.across},
