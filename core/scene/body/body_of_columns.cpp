@@ -138,7 +138,7 @@ SpringSystem BodyOfColumns::system() const {
           .viscosity = vertices_.viscosity,
           .fixed = vertices_.fixed,
           .gravity = gravity_,
-          .terms = elements_ ? ForceTerms{&terms_, 1} : ForceTerms{}};
+          .terms = ForceTerms(&terms_, elements_ ? 1 : 0)};
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {

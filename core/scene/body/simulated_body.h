@@ -38,6 +38,9 @@ class ReadyEvent {
 
 class SimulatedBody {
  public:
+  SimulatedBody() = default;
+  SimulatedBody(const SimulatedBody&) = delete;  // force terms look at the columns where they are
+  SimulatedBody& operator=(const SimulatedBody&) = delete;
   virtual ~SimulatedBody() = default;
 
   /// "tetrahedral 3-g-map", "3-g-map", "2-g-map"

@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "core/elements/tetrahedra.h"
 #include "core/meshes/generators/mesh_generators.h"
@@ -172,6 +174,25 @@ TEST(Solids, PullAlongTheSlopeOfTheirEnergyAndStiffenAsTheyDo) {
     std::vector<std::uint32_t> all(body.term->size());
     for (std::uint32_t c = 0; c < all.size(); ++c) all[c] = c;
     EXPECT_NEAR(body.term->power(all, body.x, w), power, 1e-12 * size);
+  }
+}
+
+// Of u = e (x z, 0, 0), which prisms and hexahedra have, the linear energy is mu e^2 (z^2 + x^2 / 2) + lambda / 2 e^2
+// z^2: points that are exact for squares only have its integral. Of the prism over (0, 0), (1, 0), (0, 1) and |z| <
+// 1/2, the squares of x and z integrate to 1/12 and 1/24; of the unit cube around the origin both to 1/12.
+TEST(Solids, HaveTheEnergyOfABendExactly) {
+  const Lame lame = lame_of(2e4, 0.3);
+  Mesh prism, cube = hexahedron_box(1, 1, 1, 1.0);
+  prism.points = {{0, 0, -0.5}, {1, 0, -0.5}, {0, 1, -0.5}, {0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}};
+  const std::array<std::uint32_t, 6> corners{0, 1, 2, 3, 4, 5};
+  prism.add_cell(CellKind::prism, corners);
+  for (Vector3d& p : cube.points) p -= Vector3d(0.5, 0.5, 0.5);
+  for (const auto& [mesh, xx, zz] : {std::tuple{prism, 1.0 / 12, 1.0 / 24}, {cube, 1.0 / 12, 1.0 / 12}}) {
+    SolidBody body(mesh, Model::stvk);
+    const double e = 1e-5;
+    for (Vector3d& x : body.x) x[0] += e * x[0] * x[2];
+    const double linear = e * e * (lame.mu * (zz + xx / 2) + lame.lambda / 2 * zz);
+    EXPECT_NEAR(body.term->energy(body.x) / linear, 1.0, 10 * e);  // third orders
   }
 }
 

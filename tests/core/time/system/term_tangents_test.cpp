@@ -134,7 +134,12 @@ TEST(TermsOfASystem, ActBesideItsSprings) {
   accelerations(both, {}, body.x, body.v, a);
   accelerations(alone, {}, body.x, body.v, b);
   accelerations(body.system(), {}, body.x, body.v, c);
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i] - c[i]).norm(), 1e-13 * (1.0 + c[i].norm()));
+  const std::vector<Vector3d> force = forces_of(body);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LE((a[i] - b[i] - c[i]).norm(), 1e-13 * (1.0 + c[i].norm()));
+    EXPECT_LE((body.mass[i] * c[i] - force[i]).norm(), 1e-13 * (1.0 + force[i].norm()));
+  }
+  EXPECT_EQ(elastic_energy(body.system(), body.x), body.term->energy(body.x));
   EXPECT_NEAR(elastic_energy(both, body.x), elastic_energy(alone, body.x) + elastic_energy(body.system(), body.x),
               1e-12);
   EXPECT_EQ(elastic_energy(none, body.x), 0.0);
