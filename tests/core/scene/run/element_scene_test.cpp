@@ -35,6 +35,8 @@ constexpr const char* models[] = {"neo-hookean", "corotational", "stvk"};
 
 TEST(ElementScene, IsNeoHookeanUnlessItSaysOtherwise) {
   EXPECT_EQ(parse(of_elements()).material.model, Model::neo_hookean);
+  EXPECT_EQ(parse(of_elements()).material.stiffness, 0.0);  // not what springs have by default
+  EXPECT_EQ(parse(of_elements()).material.damping, 0.0);
   EXPECT_EQ(parse(of_elements("corotational")).material.model, Model::corotational);
   EXPECT_EQ(parse(of_elements("stvk")).material.model, Model::stvk);
   EXPECT_EQ(parse(moving_box()).material.model, Model::springs);
