@@ -47,7 +47,8 @@ double NeoHookean::energy(const Matrix3d& f) const {
   const Matrix3d c = twice_strain(f), cof = cofactors(c);
   const double i = c.trace(), det = f.row(0).dot(cofactors(f).row(0));
   const double square = c.trace() + cof.trace() + c.row(0).dot(cof.row(0));  // J^2 - 1
-  const double j = det > 0.0 ? square / (1.0 + std::sqrt(1.0 + square)) : det - 1.0;
+  // a root of next to nothing would lose what the determinant has
+  const double j = det > 0.5 ? square / (1.0 + std::sqrt(1.0 + square)) : det - 1.0;
   return 0.5 * mu_ * (i - std::log1p(i / 4.0)) - 0.75 * mu_ * j + 0.5 * lambda_ * j * j;
 }
 
