@@ -7,9 +7,16 @@
 //            adapt.h, refine.h, split_off.h    ... and how embeddings follow
 //   tear     seam.h, tearing.h, stress.h       along a plane, or where the stress is too high
 //   follow   views.h                           arrays that keep up with changes
+//   touch    skin.h, obstacle_contact.h        samples of the boundary, and the force term of what they run into ...
+//            skin_solids_view.h                ... and what they may be inside of,
+//            body_contact.h                    for the force term between and within bodies ...
+//            contact_impulses.h                ... with restitution and friction around each step
 //   move     integrators.h, runge_kutta_4.h    every integrator, by name; the paper's, over its walks
 //   scene    simulation.h, scene_run.h         what the program does with a scene file
 
+#include "core/contact/body_contact.h"
+#include "core/contact/contact_impulses.h"
+#include "core/contact/obstacle_contact.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/fracture/seam.h"
 #include "core/mechanics/fracture/stress.h"
@@ -30,5 +37,7 @@
 #include "core/scene/run/simulation.h"
 #include "core/time/integrators.h"
 #include "core/topology/check.h"
+#include "core/views/skin.h"
+#include "core/views/skin_solids_view.h"
 #include "core/views/views.h"
 #include "core/walks/runge_kutta_4.h"

@@ -12,25 +12,6 @@
 namespace dartboard::reference {
 namespace {
 
-// Max over the checkpoints; NaN stays.
-double distance(const NetworkMotion& motion, const CodeRun& a, const CodeRun& b, double edge) {
-  double largest = 0.0;
-  for (std::size_t c = 0; c < motion.checkpoints.size(); ++c)
-    largest = max_or_nan(largest,
-                         position_distance(motion.network_of(motion.interval_at(c)), a.states[c], b.states[c], edge));
-  return largest;
-}
-
-PointState to_points(const std::vector<long double>& y) {
-  PointState state;
-  const std::size_t n = y.size() / 6;
-  for (std::size_t i = 0; i < 2 * n; ++i)
-    (i < n ? state.x : state.v)
-        .emplace_back(static_cast<double>(y[3 * i]), static_cast<double>(y[3 * i + 1]),
-                      static_cast<double>(y[3 * i + 2]));
-  return state;
-}
-
 constexpr double disturbance = 1e-12;  // [mean edge lengths], mass-weighted
 
 NetworkMotion disturbed(NetworkMotion motion, double edge) {
@@ -68,6 +49,24 @@ std::vector<double> gains(const NetworkMotion& motion, const CodeRun& run, doubl
 }
 
 }  // namespace
+
+PointState to_points(const std::vector<long double>& y) {
+  PointState state;
+  const std::size_t n = y.size() / 6;
+  for (std::size_t i = 0; i < 2 * n; ++i)
+    (i < n ? state.x : state.v)
+        .emplace_back(static_cast<double>(y[3 * i]), static_cast<double>(y[3 * i + 1]),
+                      static_cast<double>(y[3 * i + 2]));
+  return state;
+}
+
+double distance(const NetworkMotion& motion, const CodeRun& a, const CodeRun& b, double edge) {
+  double largest = 0.0;
+  for (std::size_t c = 0; c < motion.checkpoints.size(); ++c)
+    largest = max_or_nan(largest,
+                         position_distance(motion.network_of(motion.interval_at(c)), a.states[c], b.states[c], edge));
+  return largest;
+}
 
 double position_distance(const SpringNetwork& network, const std::vector<long double>& a,
                          const std::vector<long double>& b, double edge) {

@@ -55,6 +55,13 @@ struct CertifiedMotion {
 /// throws  as check(motion)
 CertifiedMotion certify(const NetworkMotion& motion, const CertifyOptions& options = {});
 
+/// A state of a run in doubles.
+PointState to_points(const std::vector<long double>& y);
+
+/// How far two runs that have states are apart: the largest distance over the checkpoints [mean edge lengths]; NaN
+/// stays.
+double distance(const NetworkMotion& motion, const CodeRun& a, const CodeRun& b, double edge);
+
 /// E_x (error_norms.h) of two states of a network, in units of `edge`. NaN where a number is not finite.
 double position_distance(const SpringNetwork& network, const std::vector<long double>& a,
                          const std::vector<long double>& b, double edge);

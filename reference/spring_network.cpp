@@ -11,9 +11,9 @@
 namespace dartboard::reference {
 namespace {
 
-// The largest eigenvalue of M^-1 sum of w u u^T, w being the weights of the springs along their lines.
-template <class Weight>
-double largest_eigenvalue(const SpringNetwork& network, std::span<const Eigen::Vector3d> x, Weight&& weight) {
+// The largest eigenvalue of M^-1 K, `add(p, result)` being result += K p.
+template <class Add>
+double largest_eigenvalue(const SpringNetwork& network, const Add& add) {
   const std::size_t n = network.point_count();
   std::vector<Eigen::Vector3d> now(n), next(n);
   SplitMix64 random(1);
@@ -27,14 +27,7 @@ double largest_eigenvalue(const SpringNetwork& network, std::span<const Eigen::V
     }
     if (norm == 0.0) return 0.0;
     std::fill(next.begin(), next.end(), Eigen::Vector3d::Zero());
-    for (const Spring& s : network.springs) {
-      const Eigen::Vector3d line = x[s.b] - x[s.a];
-      const double square = line.squaredNorm();
-      if (square == 0.0) continue;
-      const Eigen::Vector3d pull = weight(s) * (now[s.b] - now[s.a]).dot(line) / square * line;
-      next[s.a] -= pull;
-      next[s.b] += pull;
-    }
+    add(now, next);
     double product = 0.0;  // Rayleigh's quotient: at worst too low
     for (std::size_t i = 0; i < n; ++i) {
       product += now[i].dot(next[i]);
@@ -44,6 +37,37 @@ double largest_eigenvalue(const SpringNetwork& network, std::span<const Eigen::V
     std::swap(now, next);
   }
   return eigenvalue;
+}
+
+// K = sum of w u u^T, w being the weights of the springs along their lines.
+template <class Weight>
+void add_springs(const SpringNetwork& network, std::span<const Eigen::Vector3d> x, Weight&& weight,
+                 const std::vector<Eigen::Vector3d>& p, std::vector<Eigen::Vector3d>& result) {
+  for (const Spring& s : network.springs) {
+    const Eigen::Vector3d line = x[s.b] - x[s.a];
+    const double square = line.squaredNorm();
+    if (square == 0.0) continue;
+    const Eigen::Vector3d pull = weight(s) * (p[s.b] - p[s.a]).dot(line) / square * line;
+    result[s.a] -= pull;
+    result[s.b] += pull;
+  }
+}
+
+// K of an element at rest, which all laws have in common: linear elasticity; times a weight.
+template <class Weight>
+void add_elements(const SpringNetwork& network, Weight&& weight, const std::vector<Eigen::Vector3d>& p,
+                  std::vector<Eigen::Vector3d>& result) {
+  for (const ElasticPoint& point : network.elements) {
+    Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+    for (std::size_t a = 0; a < point.corner.size(); ++a)
+      strain += p[point.corner[a]] * point.gradient[a].cast<double>().transpose();
+    strain = ((strain + strain.transpose()) / 2).eval();
+    const Eigen::Matrix3d stress = 2 * static_cast<double>(point.law.mu) * strain +
+                                   static_cast<double>(point.law.lambda) * strain.trace() * Eigen::Matrix3d::Identity();
+    for (std::size_t a = 0; a < point.corner.size(); ++a)
+      result[point.corner[a]] +=
+          weight(point) * static_cast<double>(point.volume) * (stress * point.gradient[a].cast<double>());
+  }
 }
 
 }  // namespace
@@ -79,6 +103,15 @@ void check(const SpringNetwork& network) {
     if (!std::isfinite(s.stiffness) || !std::isfinite(s.damping) || !std::isfinite(s.rest_length))
       throw InputError(fmt::format("spring {} has a number that is not finite", e));
   }
+  for (std::size_t e = 0; e < network.elements.size(); ++e) {
+    const ElasticPoint& point = network.elements[e];
+    for (const std::uint32_t i : point.corner)
+      if (i >= n) throw InputError(fmt::format("element {} has point {} of {}", e, i, n));
+    bool finite = std::isfinite(point.law.mu) && std::isfinite(point.law.lambda) && std::isfinite(point.volume) &&
+                  std::isfinite(point.damping_time);
+    for (const auto& gradient : point.gradient) finite = finite && gradient.allFinite();
+    if (!finite) throw InputError(fmt::format("element {} has a number that is not finite", e));
+  }
   if (!std::isfinite(network.viscosity) || !network.gravity.allFinite())
     throw InputError("viscosity and gravity must be finite");
 }
@@ -91,8 +124,18 @@ double mean_rest_length(const SpringNetwork& network) {
 }
 
 double fastest_rate(const SpringNetwork& network, std::span<const Eigen::Vector3d> x) {
-  const double omega = std::sqrt(largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.stiffness); }));
-  const double decay = largest_eigenvalue(network, x, [](const Spring& s) { return std::abs(s.damping); });
+  const double omega = std::sqrt(largest_eigenvalue(network, [&](const auto& p, auto& result) {
+    add_springs(
+        network, x, [](const Spring& s) { return std::abs(s.stiffness); }, p, result);
+    add_elements(
+        network, [](const ElasticPoint&) { return 1.0; }, p, result);
+  }));
+  const double decay = largest_eigenvalue(network, [&](const auto& p, auto& result) {
+    add_springs(
+        network, x, [](const Spring& s) { return std::abs(s.damping); }, p, result);
+    add_elements(
+        network, [](const ElasticPoint& e) { return static_cast<double>(e.damping_time); }, p, result);
+  });
   return max_or_nan(omega, decay + network.viscosity);
 }
 

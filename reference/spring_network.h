@@ -9,15 +9,17 @@
 #include <vector>
 
 #include "core/plain/problem.h"
+#include "reference/elements/elastic_point.h"
 #include "reference/rebuild.h"
 
 namespace dartboard::reference {
 
-/// Point masses joined by springs, in the mechanics of core/plain/problem.h.
+/// Point masses joined by springs, in the mechanics of core/plain/problem.h, and by elements of elastic solids.
 struct SpringNetwork {
-  std::vector<double> mass;          // [kg]
-  std::vector<std::uint8_t> fixed;   // by point; 1: keeps its velocity whatever acts on it
-  std::vector<Spring> springs;       // any order; several may join the same two points
+  std::vector<double> mass;         // [kg]
+  std::vector<std::uint8_t> fixed;  // by point; 1: keeps its velocity whatever acts on it
+  std::vector<Spring> springs;      // any order; several may join the same two points
+  std::vector<ElasticPoint> elements{};
   double viscosity = 0.0;            // [1/s]
   Eigen::Vector3d gravity{0, 0, 0};  // [m/s^2]
 
@@ -30,14 +32,15 @@ struct SpringNetwork {
 SpringNetwork spring_network(const Problem& problem);
 
 /// throws  InputError, naming the first thing that is wrong: columns of different sizes, a mass that is not positive, a
-///         spring that names no point or one point twice, a number that is not finite
+///         spring or an element that names no point, a spring that names one twice, a number that is not finite
 void check(const SpringNetwork& network);
 
 /// Mean rest length of the springs [m]; 1 when that is zero or there are none.
 double mean_rest_length(const SpringNetwork& network);
 
 /// The fastest rate [1/s] at which a state near x changes: the largest omega of the undamped network, its springs taken
-/// as at their rest length, or the largest rate of decay, whichever is larger. By 200 steps of power iteration.
+/// as at their rest length and its elements as at rest, or the largest rate of decay, whichever is larger. By 200 steps
+/// of power iteration.
 double fastest_rate(const SpringNetwork& network, std::span<const Eigen::Vector3d> x);
 
 /// The right-hand side of y' = f(y), y = (x of all points, v of all points), three numbers each.
@@ -78,6 +81,12 @@ class NetworkRates {
         dv[s.a + k] += pull * e[k];
         dv[s.b + k] -= pull * e[k];
       }
+    }
+    for (const ElasticPoint& point : network_->elements) {
+      const Matrix3<Real> f = deformation(point, x);
+      Matrix3<Real> pull = elastic_stress(point, f);
+      if (point.damping_time != 0) pull += damping_stress(point, f, deformation(point, v));
+      add_pull(point, pull, dv);
     }
     for (std::size_t i = 0; i < network_->point_count(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {

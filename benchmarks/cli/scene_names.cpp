@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Those that are a slip of the keys away or hold the word; all where there are none.
-std::vector<std::string> near_names(std::vector<std::string> names, const std::string& word) {
+std::vector<std::string> near_names(const std::vector<std::string>& names, const std::string& word) {
   std::vector<std::string> near;
   for (const std::string& name : names)
     if (nearest_of(std::span(&name, 1), word) || (word.size() > 2 && name.find(word) != std::string::npos))
@@ -41,7 +41,7 @@ std::vector<std::string> scene_names(const fs::path& folder) {
 
 fs::path scene_file(const std::string& given, std::span<const std::string> others) {
   std::error_code error;
-  const fs::path path(given);
+  fs::path path(given);
   if (fs::exists(path, error)) return path;
   std::vector<std::string> names = scene_names();
   const bool bare = !given.empty() && !path.has_parent_path();
@@ -56,10 +56,12 @@ fs::path scene_file(const std::string& given, std::span<const std::string> other
 
 SceneFile read_named_scene(const std::string& given) {
   SceneFile scene = read_scene(scene_file(given));
-  if (scene.body.loaded)
-    for (const std::string& notice : scene.body.loaded->notices)
+  for (const BodySource& body : scene.bodies()) {
+    if (!body.loaded) continue;
+    for (const std::string& notice : body.loaded->notices)
       if (!notice.starts_with("skipped "))  // of a lower dimension, and no part of a body: `mesh info` tells them
-        tell(stderr, "notice: /body/mesh: {}\n", notice);
+        tell(stderr, "notice: {}/mesh: {}\n", body.path, notice);
+  }
   return scene;
 }
 

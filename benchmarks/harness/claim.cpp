@@ -21,6 +21,20 @@ std::string_view name(Verdict verdict) {
   return "unknown verdict";
 }
 
+Claim claim_on_share(std::string id, std::string text, std::size_t good, std::size_t all, double asked) {
+  Claim claim{.id = std::move(id), .text = std::move(text), .paper_value = fmt::format(">= {:g} %", 100.0 * asked)};
+  if (all == 0) {
+    claim.reason = "no pair to tell it from";
+    return claim;
+  }
+  const Figure part{static_cast<double>(good) / static_cast<double>(all), share_interval(good, all)};
+  claim.measured = fmt::format("{} of {}, {:.1f} %", good, all, 100.0 * part.median);
+  claim.bound_or_interval = fmt::format("[{:.1f}, {:.1f}] % at {:g} %", 100.0 * part.interval.low,
+                                        100.0 * part.interval.high, 100.0 * part.interval.coverage);
+  judge(claim, at_least(part, asked));
+  return claim;
+}
+
 void to_json(nlohmann::json& json, const Claim& claim) {
   json = {{"id", claim.id},
           {"claim", claim.text},

@@ -46,6 +46,9 @@ Met at_least(const Figure& figure, double bound);
 /// The verdict on a target of ours: what is open falls not short, but is not tested, and the reason says so.
 void judge(Claim& claim, Met met);
 
+/// A target of ours on the share of what was drawn that is good; the interval is that of the share of all there are.
+Claim claim_on_share(std::string id, std::string text, std::size_t good, std::size_t all, double asked);
+
 /// The reason is left out where it is empty, the expected answer where it is that a claim holds.
 void to_json(nlohmann::json& json, const Claim& claim);
 

@@ -97,13 +97,17 @@ function(dartboard_sees path)
   set_property(GLOBAL APPEND_STRING PROPERTY dartboard_folders "${path}: ${folders}\n")
 endfunction()
 
-# dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [LIGHT] [NOT_PRECOMPILED])
+# dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [LIGHT] [TOGETHER [APART SOURCES...]] [NOT_PRECOMPILED])
+#
+# TOGETHER: where DARTBOARD_TOGETHER is on, its sources are compiled eight at a time, which saves most of what reading
+# headers takes; those APART are not, as they have names of their own that others have, too. Not for kernels: what is
+# inlined, and so what an instruction count says, would hang on their neighbours.
 #
 # A library of the sources in a folder, not of those below it. SEES says which folders its files may include beside
 # core/plain, which all may; tests/program/includes_test.cpp holds them to it, and each has to stand above it, so that
 # there is no circle.
 function(dartboard_folder path)
-  cmake_parse_arguments(ARG "NOT_PRECOMPILED;LIGHT" "" "SEES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_PRECOMPILED;LIGHT;TOGETHER" "" "SEES;LINK;APART" ${ARGN})
   dartboard_sees(${path} ${ARG_SEES})
   string(REPLACE "/" "_" target dartboard_${path})
   set_property(GLOBAL APPEND PROPERTY dartboard_targets ${target})
@@ -123,6 +127,11 @@ function(dartboard_folder path)
   target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:dartboard_options,INTERFACE_COMPILE_OPTIONS>)
   if(ARG_LIGHT)
     target_compile_options(${target} PRIVATE ${dartboard_light})
+  endif()
+  if(ARG_TOGETHER AND DARTBOARD_TOGETHER)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    list(TRANSFORM ARG_APART PREPEND ${PROJECT_SOURCE_DIR}/${path}/)
+    set_source_files_properties(${ARG_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
   if(NOT path MATCHES "^benchmarks/|/cgal$")
     target_compile_options(${target} PRIVATE ${dartboard_undefined})

@@ -2,6 +2,7 @@
 // Elastic laws: the energy of a deformation, its stress, and how both change. Written once for every kind of element.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "core/elements/polar_factor.h"
@@ -19,6 +20,9 @@ inline Lame lame_of(double young, double poisson) {
   return {young / (2.0 * (1.0 + poisson)), young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))};
 }
 
+/// The largest eigenvalue [Pa] of linear elasticity: of a change of volume, or of shape if Poisson's ratio is negative.
+inline double stiffest_strain(double mu, double lambda) { return 2.0 * mu + 3.0 * std::max(lambda, 0.0); }
+
 /// The derivative of a stress by a deformation gradient, both as columns of nine, column after column.
 using Hessian = Eigen::Matrix<double, 9, 9>;
 
@@ -30,7 +34,7 @@ Hessian projected(const Hessian& hessian);
 //   change(F, D)      energy(F + D) - energy(F) from differences that do not cancel, and the sizes of its summands
 //   stress(F)         first Piola-Kirchhoff [Pa], the derivative of the energy
 //   hessian(F, how)   the derivative of the stress
-//   modulus()         [Pa] a bound of the Hessian's eigenvalues at rest
+//   modulus()         [Pa] a bound of the Hessian's eigenvalues at rest, whatever Poisson's ratio
 
 /// Stable neo-Hookean: smooth for every F, inverted or flat ones too, without a rotation to find.
 ///
@@ -41,7 +45,6 @@ Hessian projected(const Hessian& hessian);
 /// source  Smith, de Goes, Kim, ACM Transactions on Graphics 37(2), 2018
 class NeoHookean {
  public:
-  static constexpr const char* name = "neo-hookean";
   explicit NeoHookean(const Lame& lame)
       : mu_(4.0 / 3.0 * lame.mu), lambda_(lame.lambda + 5.0 / 6.0 * lame.mu), slack_(0.75 * mu_ / lambda_) {}
 
@@ -68,7 +71,6 @@ class NeoHookean {
 ///         eigenvalues: the three twists have 2 mu + 2 (lambda (tr S - 3) - 2 mu) / (s_i + s_j)
 class Corotational {
  public:
-  static constexpr const char* name = "corotational";
   explicit Corotational(const Lame& lame) : mu_(lame.mu), lambda_(lame.lambda) {}
 
   double energy(const Eigen::Matrix3d& f) const;
@@ -78,7 +80,7 @@ class Corotational {
     return (2.0 * mu_) * (f - r) + (lambda_ * (r.cwiseProduct(f).sum() - 3.0)) * r;
   }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
-  double modulus() const { return 2.0 * mu_ + 3.0 * lambda_; }
+  double modulus() const { return stiffest_strain(mu_, lambda_); }
 
  private:
   double mu_, lambda_;
@@ -89,14 +91,13 @@ class Corotational {
 ///     energy = mu E:E + lambda / 2 (tr E)^2
 class StVenantKirchhoff {
  public:
-  static constexpr const char* name = "stvk";
   explicit StVenantKirchhoff(const Lame& lame) : mu_(lame.mu), lambda_(lame.lambda) {}
 
   double energy(const Eigen::Matrix3d& f) const;
   EnergyChange change(const Eigen::Matrix3d& f, const Eigen::Matrix3d& d) const;
   Eigen::Matrix3d stress(const Eigen::Matrix3d& f) const { return f * second_stress(f); }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
-  double modulus() const { return 2.0 * mu_ + 3.0 * lambda_; }
+  double modulus() const { return stiffest_strain(mu_, lambda_); }
 
  private:
   Eigen::Matrix3d second_stress(const Eigen::Matrix3d& f) const {  // second Piola-Kirchhoff

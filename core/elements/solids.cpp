@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elements/force_size.h"
+#include "core/elements/strain_damping.h"
 #include "core/elements/with_law.h"
+#include "core/plain/compensated_sum.h"
 
 namespace dartboard {
 namespace {
@@ -114,10 +117,30 @@ Matrix3d virial_share(const Law& law, const SolidShape& shape, std::size_t count
   return (0.5 / static_cast<double>(count)) * (sum + sum.transpose());
 }
 
-template <class Law>
+/// The Gauss points of each cell, for its damping.
+class SolidPoints {
+ public:
+  explicit SolidPoints(const SolidColumns& columns) : columns_(columns) {}
+  std::size_t size() const { return columns_.nodes.size(); }
+  ForceTerm::Nodes nodes(std::size_t piece) const {
+    return {columns_.nodes[piece].at.data(), columns_.nodes[piece].count};
+  }
+  std::size_t points(std::size_t piece) const { return rule_of(columns_.shape[piece].kind).weights.size(); }
+  double place(std::size_t piece, std::size_t q, const DampedMaterial&, Gradients& g) const {
+    const SolidShape& shape = columns_.shape[piece];
+    gradients_at(shape, rule_of(shape.kind), q, columns_.nodes[piece].count, g);
+    return shape.volume[q];
+  }
+
+ private:
+  SolidColumns columns_;
+};
+
+template <class Laws>
 class Solids final : public ForceTerm {
  public:
-  Solids(const Law& law, const SolidColumns& columns) : law_(law), columns_(columns) {}
+  Solids(const Laws& laws, const CellMaterials& materials, const SolidColumns& columns)
+      : laws_(laws), columns_(columns), damping_(materials, SolidPoints(columns)) {}
 
   std::string_view pieces_name() const override { return "solid cells"; }
   std::size_t size() const override { return columns_.nodes.size(); }
@@ -129,7 +152,7 @@ class Solids final : public ForceTerm {
     for (std::size_t c = 0; c < size(); ++c) {
       const Lines lines(at, columns_.nodes[c]);
       add_stresses(c, force,
-                   [&](const Gradients& g, std::size_t count) { return law_.stress(gradient(count, g, lines)); });
+                   [&](const Gradients& g, std::size_t count) { return laws_[c].stress(gradient(count, g, lines)); });
     }
   }
 
@@ -137,40 +160,32 @@ class Solids final : public ForceTerm {
     for (std::size_t c = 0; c < size(); ++c) {
       const Lines from({at.x}, columns_.nodes[c]), move({at.w}, columns_.nodes[c]);
       add_stresses(c, force, [&](const Gradients& g, std::size_t count) {
-        return discrete_stress(law_, gradient(count, g, from), (2.0 * at.t) * gradient(count, g, move));
+        return discrete_stress(laws_[c], gradient(count, g, from), (2.0 * at.t) * gradient(count, g, move));
       });
     }
   }
 
-  // As of tetrahedra: F is wrong by a few units of what it is the sum of.
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override {
     for (std::size_t c = 0; c < columns_.nodes.size(); ++c) {
       const SolidNodes& n = columns_.nodes[c];
       for_each_point(c, [&](const Gradients& g, double volume) {
         double summed = 0.0;
-        for (std::size_t a = 1; a < n.count; ++a) {
-          double length = (at.x[n.at[a]] - at.x[n.at[0]]).norm();
-          if (!at.w.empty()) length += std::abs(at.t) * (at.w[n.at[a]] - at.w[n.at[0]]).norm();
-          summed += length * g[a].norm();
-        }
-        const double stress = law_.modulus() * (1.0 + summed) * (1.0 + summed * summed);
+        for (std::size_t a = 1; a < n.count; ++a) summed += line_size(at, n.at[0], n.at[a]) * g[a].norm();
+        const double stress = stress_size(laws_[c].modulus(), summed);
         for (std::size_t a = 0; a < n.count; ++a) size[n.at[a]] += volume * stress * g[a].norm();
       });
     }
   }
 
   double energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const override {
-    double sum = 0.0, lost = 0.0;  // compensated
+    CompensatedSum sum;
     for (std::size_t c = first; c < size(); c += stride) {
       const Lines lines({x}, columns_.nodes[c]);
       for_each_point(c, [&](const Gradients& g, double volume) {
-        const double term = volume * law_.energy(gradient(columns_.nodes[c].count, g, lines));
-        const double next = sum + term;
-        lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
-        sum = next;
+        sum.add(volume * laws_[c].energy(gradient(columns_.nodes[c].count, g, lines)));
       });
     }
-    return sum + lost;
+    return sum.value();
   }
 
   EnergyChange energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const override {
@@ -179,7 +194,7 @@ class Solids final : public ForceTerm {
       const Lines from(at, columns_.nodes[c]), move({step}, columns_.nodes[c]);
       for_each_point(c, [&](const Gradients& g, double volume) {
         const std::size_t count = columns_.nodes[c].count;
-        const EnergyChange change = law_.change(gradient(count, g, from), scale * gradient(count, g, move));
+        const EnergyChange change = laws_[c].change(gradient(count, g, from), scale * gradient(count, g, move));
         sum.value += volume * change.value;
         sum.sizes += volume * change.sizes;
       });
@@ -194,7 +209,7 @@ class Solids final : public ForceTerm {
       const Lines lines({x}, columns_.nodes[c]), moving({w}, columns_.nodes[c]);
       for_each_point(c, [&](const Gradients& g, double volume) {
         const std::size_t count = columns_.nodes[c].count;
-        sum -= volume * law_.stress(gradient(count, g, lines)).cwiseProduct(gradient(count, g, moving)).sum();
+        sum -= volume * laws_[c].stress(gradient(count, g, lines)).cwiseProduct(gradient(count, g, moving)).sum();
       });
     }
     return sum;
@@ -207,7 +222,7 @@ class Solids final : public ForceTerm {
       const Lines lines(at, columns_.nodes[c]);
       std::ranges::fill(blocks, Matrix3d::Zero());
       for_each_point(c, [&](const Gradients& g, double volume) {
-        const Hessian h = law_.hessian(gradient(count, g, lines), compression);
+        const Hessian h = laws_[c].hessian(gradient(count, g, lines), compression);
         for (std::size_t b = 0; b < count; ++b) {
           const Eigen::Matrix<double, 9, 3> along =
               volume * (g[b][0] * h.middleCols<3>(0) + g[b][1] * h.middleCols<3>(3) + g[b][2] * h.middleCols<3>(6));
@@ -229,15 +244,17 @@ class Solids final : public ForceTerm {
       for_each_point(c, [&](const Gradients& g, double volume) {
         for (std::size_t a = 0, k = 0; a < count; ++a)
           for (std::size_t b = 0; b <= a; ++b, ++k)
-            blocks[k] += (volume * law_.modulus() * g[a].dot(g[b])) * Matrix3d::Identity();
+            blocks[k] += (volume * laws_[c].modulus() * g[a].dot(g[b])) * Matrix3d::Identity();
       });
       visit(nodes(c), {blocks.data(), count * (count + 1) / 2});
     }
   }
 
   Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
-    return virial_share(law_, columns_.shape[c], columns_.nodes[c].count, Lines({x}, columns_.nodes[c]));
+    return virial_share(laws_[c], columns_.shape[c], columns_.nodes[c].count, Lines({x}, columns_.nodes[c]));
   }
+
+  const TermDamping* damping() const override { return damping_.any() ? &damping_ : nullptr; }
 
  private:
   /// From the first corner to the others.
@@ -278,8 +295,9 @@ class Solids final : public ForceTerm {
     force[n.at[0]] += sum[0];
   }
 
-  Law law_;
+  Laws laws_;
   SolidColumns columns_;
+  StrainDamping<SolidPoints> damping_;
 };
 
 }  // namespace
@@ -302,13 +320,14 @@ SolidShape solid_shape_of(CellKind kind, std::span<const Vector3d> x) {
   return shape;
 }
 
-std::unique_ptr<ForceTerm> make_solids(const Material& material, const SolidColumns& columns) {
-  return with_law_of(material, [&]<class Law>(const Law& law) -> std::unique_ptr<ForceTerm> {
-    return std::make_unique<Solids<Law>>(law, columns);
+std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const SolidColumns& columns) {
+  return with_laws_of(materials, [&]<class Laws>(const Laws& laws) -> std::unique_ptr<ForceTerm> {
+    return std::make_unique<Solids<Laws>>(laws, materials, columns);
   });
 }
 
 Matrix3d solid_virial(const Material& material, const SolidShape& shape, std::span<const Vector3d> x) {
+  if (material.model == Model::springs) return Matrix3d::Zero();
   return with_law_of(material, [&](const auto& law) {
     return virial_share(law, shape, x.size(), [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; });
   });

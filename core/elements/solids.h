@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/forces/force_term.h"
+#include "core/plain/cell_materials.h"
 #include "core/plain/material.h"
 #include "core/plain/mesh.h"
 
@@ -54,12 +55,12 @@ struct SolidColumns {
   const std::vector<SolidShape>& shape;
 };
 
-/// The forces of isoparametric cells of one material: trilinear hexahedra, prisms linear in the triangle and along the
+/// The forces of isoparametric cells: trilinear hexahedra, prisms linear in the triangle and along the
 /// axis, pyramids as hexahedra with one side drawn together, linear tetrahedra. They fit together: neighbours have the
 /// same displacements on the face that they share. Full integration: a uniform strain is exact in cells of any shape.
 ///
 /// source  Zienkiewicz, Taylor: The Finite Element Method, on isoparametric elements
-std::unique_ptr<ForceTerm> make_solids(const Material& material, const SolidColumns& columns);
+std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const SolidColumns& columns);
 
 /// The term's virial of one cell with its corners at x, to the bit.
 Eigen::Matrix3d solid_virial(const Material& material, const SolidShape& shape, std::span<const Eigen::Vector3d> x);

@@ -1,10 +1,9 @@
 #include "core/elements/tetrahedra.h"
 
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
-
+#include "core/elements/force_size.h"
+#include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
+#include "core/plain/compensated_sum.h"
 
 namespace dartboard {
 namespace {
@@ -19,11 +18,11 @@ Matrix3d virial_share(const Law& law, double volume, const Matrix3d& f) {
   return 0.5 * (whole + whole.transpose());
 }
 
-template <class Law>
+template <class Laws>
 class Tetrahedra final : public ForceTerm {
  public:
-  Tetrahedra(const Law& law, double density, const TetrahedronColumns& columns)
-      : law_(law), per_mass_(1.0 / density), columns_(columns) {}
+  Tetrahedra(const Laws& laws, const CellMaterials& materials, const TetrahedronColumns& columns)
+      : laws_(laws), columns_(columns), damping_(make_tetrahedra_damping(materials, columns)) {}
 
   std::string_view pieces_name() const override { return "tetrahedra"; }
   std::size_t size() const override { return columns_.nodes.size(); }
@@ -42,36 +41,26 @@ class Tetrahedra final : public ForceTerm {
       const TetrahedronNodes& n = columns_.nodes[c];
       const Matrix3d from = gradient(at.x, n, columns_.shape[c]);
       const Matrix3d move = (2.0 * at.t) * gradient(at.w, n, columns_.shape[c]);
-      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(law_, from, move), force);
+      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(laws_[c], from, move), force);
     }
   }
 
-  // F is wrong by a few units of what it is the sum of, and stress by the Hessian times that; a law's Hessian grows
-  // with the square of F.
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override {
     for (std::size_t c = 0; c < columns_.nodes.size(); ++c) {
       const TetrahedronNodes& n = columns_.nodes[c];
       const auto gradients = shape_gradients(columns_.shape[c]);
       double summed = 0.0;
-      for (std::size_t a = 1; a < 4; ++a) {
-        double length = (at.x[n[a]] - at.x[n[0]]).norm();
-        if (!at.w.empty()) length += std::abs(at.t) * (at.w[n[a]] - at.w[n[0]]).norm();
-        summed += length * gradients[a].norm();
-      }
-      const double stress = law_.modulus() * (1.0 + summed) * (1.0 + summed * summed);
+      for (std::size_t a = 1; a < 4; ++a) summed += line_size(at, n[0], n[a]) * gradients[a].norm();
+      const double stress = stress_size(laws_[c].modulus(), summed);
       for (std::size_t a = 0; a < 4; ++a) size[n[a]] += volume(c) * stress * gradients[a].norm();
     }
   }
 
   double energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const override {
-    double sum = 0.0, lost = 0.0;  // compensated
-    for (std::size_t c = first; c < size(); c += stride) {
-      const double term = volume(c) * law_.energy(gradient(x, columns_.nodes[c], columns_.shape[c]));
-      const double next = sum + term;
-      lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
-      sum = next;
-    }
-    return sum + lost;
+    CompensatedSum sum;
+    for (std::size_t c = first; c < size(); c += stride)
+      sum.add(volume(c) * laws_[c].energy(gradient(x, columns_.nodes[c], columns_.shape[c])));
+    return sum.value();
   }
 
   EnergyChange energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const override {
@@ -79,7 +68,7 @@ class Tetrahedra final : public ForceTerm {
     for (std::size_t c = 0; c < size(); ++c) {
       const TetrahedronNodes& n = columns_.nodes[c];
       const EnergyChange change =
-          law_.change(gradient(at, n, columns_.shape[c]), scale * gradient(step, n, columns_.shape[c]));
+          laws_[c].change(gradient(at, n, columns_.shape[c]), scale * gradient(step, n, columns_.shape[c]));
       sum.value += volume(c) * change.value;
       sum.sizes += volume(c) * change.sizes;
     }
@@ -91,7 +80,7 @@ class Tetrahedra final : public ForceTerm {
     double sum = 0.0;
     for (const std::uint32_t c : pieces) {
       const TetrahedronNodes& n = columns_.nodes[c];
-      const Matrix3d stress = law_.stress(gradient(x, n, columns_.shape[c]));
+      const Matrix3d stress = laws_[c].stress(gradient(x, n, columns_.shape[c]));
       sum -= volume(c) * stress.cwiseProduct(gradient(w, n, columns_.shape[c])).sum();
     }
     return sum;
@@ -101,7 +90,7 @@ class Tetrahedra final : public ForceTerm {
     std::array<Matrix3d, 10> blocks;
     for (std::size_t c = 0; c < size(); ++c) {
       const TetrahedronNodes& n = columns_.nodes[c];
-      const Hessian h = law_.hessian(gradient(at, n, columns_.shape[c]), compression);
+      const Hessian h = laws_[c].hessian(gradient(at, n, columns_.shape[c]), compression);
       const auto gradients = shape_gradients(columns_.shape[c]);
       const double v = volume(c);
       // along the gradient of each corner, three columns of the Hessian
@@ -123,17 +112,19 @@ class Tetrahedra final : public ForceTerm {
       const auto gradients = shape_gradients(columns_.shape[c]);
       for (std::size_t a = 0, k = 0; a < 4; ++a)
         for (std::size_t b = 0; b <= a; ++b)
-          blocks[k++] = (volume(c) * law_.modulus() * gradients[a].dot(gradients[b])) * Matrix3d::Identity();
+          blocks[k++] = (volume(c) * laws_[c].modulus() * gradients[a].dot(gradients[b])) * Matrix3d::Identity();
       visit(columns_.nodes[c], blocks);
     }
   }
 
   Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
-    return virial_share(law_, volume(c), gradient(x, columns_.nodes[c], columns_.shape[c]));
+    return virial_share(laws_[c], volume(c), gradient(x, columns_.nodes[c], columns_.shape[c]));
   }
 
+  const TermDamping* damping() const override { return damping_.get(); }
+
  private:
-  double volume(std::size_t c) const { return per_mass_ * columns_.mass[c]; }
+  double volume(std::size_t c) const { return laws_.per_mass(c) * columns_.mass[c]; }
 
   static Matrix3d gradient(std::span<const Vector3d> x, const TetrahedronNodes& n, const Matrix3d& shape) {
     const Vector3d origin = x[n[0]];
@@ -165,14 +156,14 @@ class Tetrahedra final : public ForceTerm {
     const Matrix3d* const shape = columns_.shape.data();
     const double* const mass = columns_.mass.data();
     for (std::size_t c = 0, count = columns_.nodes.size(); c < count; ++c) {
-      const Matrix3d stress = law_.stress(gradient_of(nodes[c], shape[c]));
-      add_force(nodes[c], shape[c], (-per_mass_ * mass[c]) * stress, force);
+      const Matrix3d stress = laws_[c].stress(gradient_of(nodes[c], shape[c]));
+      add_force(nodes[c], shape[c], (-laws_.per_mass(c) * mass[c]) * stress, force);
     }
   }
 
-  Law law_;
-  double per_mass_;
+  Laws laws_;
   TetrahedronColumns columns_;
+  std::unique_ptr<TermDamping> damping_;
 };
 
 }  // namespace
@@ -184,9 +175,9 @@ RestShape rest_shape_of(const Vector3d& x0, const Vector3d& x1, const Vector3d& 
   return cofactors(edges).transpose() / edges.row(0).dot(cofactors(edges).row(0));
 }
 
-std::unique_ptr<ForceTerm> make_tetrahedra(const Material& material, const TetrahedronColumns& columns) {
-  return with_law_of(material, [&]<class Law>(const Law& law) -> std::unique_ptr<ForceTerm> {
-    return std::make_unique<Tetrahedra<Law>>(law, material.density, columns);
+std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const TetrahedronColumns& columns) {
+  return with_laws_of(materials, [&]<class Laws>(const Laws& laws) -> std::unique_ptr<ForceTerm> {
+    return std::make_unique<Tetrahedra<Laws>>(laws, materials, columns);
   });
 }
 
@@ -194,6 +185,7 @@ Matrix3d tetrahedron_virial(const Material& material, double mass, const RestSha
                             const std::array<Vector3d, 4>& x) {
   Matrix3d edges;
   edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
+  if (material.model == Model::springs) return Matrix3d::Zero();
   return with_law_of(material, [&](const auto& law) {
     return virial_share(law, 1.0 / material.density * mass, Matrix3d(edges * shape));
   });

@@ -10,6 +10,7 @@
 
 #include "core/elements/elastic_laws.h"
 #include "core/forces/force_term.h"
+#include "core/plain/cell_materials.h"
 #include "core/plain/material.h"
 
 namespace dartboard {
@@ -33,12 +34,12 @@ struct TetrahedronColumns {
   const std::vector<double>& mass;  // [kg]; over the density, it is the volume at rest
 };
 
-/// The forces of tetrahedra of one material. For each, F = (x1 - x0, x2 - x0, x3 - x0) D^-1 and the energy is the
+/// The forces of tetrahedra. For each, F = (x1 - x0, x2 - x0, x3 - x0) D^-1 and the energy is the
 /// volume at rest times that of the material's law at F. No matrix is stored.
 ///
 /// pre      the model is one of elements; the columns live as long as the term
 /// source   Zienkiewicz, Taylor: constant strain tetrahedra; the laws: elastic_laws.h
-std::unique_ptr<ForceTerm> make_tetrahedra(const Material& material, const TetrahedronColumns& columns);
+std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const TetrahedronColumns& columns);
 
 /// The term's virial of one tetrahedron with its corners at x, to the bit.
 Eigen::Matrix3d tetrahedron_virial(const Material& material, double mass, const RestShape& shape,

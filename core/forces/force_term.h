@@ -31,6 +31,8 @@ struct EnergyChange {
   double value = 0.0, sizes = 0.0;
 };
 
+class TermDamping;
+
 /// Forces that derive from an energy: a sum over pieces of a few vertices each.
 ///
 /// Pieces are visited in the order of their numbers, always, so that sums have the same bits whoever asks. A term is
@@ -74,6 +76,9 @@ class ForceTerm {
 
   /// What a piece adds to the virial of each of its vertices [J]: symmetric, tension positive.
   virtual Eigen::Matrix3d virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const = 0;
+
+  /// What damps its pieces (term_damping.h), beside all of the above; null where nothing does.
+  virtual const TermDamping* damping() const { return nullptr; }
 };
 
 /// The terms of a system beside its springs; most systems have none.

@@ -31,15 +31,29 @@ void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint3
   nodes.at = {};
   std::ranges::copy(cell.nodes, nodes.at.begin());
 }
+/// Of a triangle: round it from its lowest dart.
+template <class Map>
+void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t c, TriangleNodes& nodes) {
+  Dart at = body.cell_dart[c];
+  for (std::uint32_t& node : nodes) {
+    node = body.vertex(body.map, at);
+    at = body.map.template alpha<0, 1>(at);
+  }
+}
 
-/// How many elements of this kind a body has: one per cell, or none.
+/// How many elements of this kind a body has: one per cell, or none. Springs within cells go by the corners of solids,
+/// and so do surfaces of triangles and quadrilaterals.
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const TetrahedronNodes&) {
   return body.cell_shape.size();
 }
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const SolidNodes&) {
-  return body.cell_solid.size();
+  return std::max({body.cell_solid.size(), body.cell_membrane.size(), body.cell_springs.size()});
+}
+template <class Map>
+std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const TriangleNodes&) {
+  return body.cell_triangle.size();
 }
 
 }  // namespace dartboard

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/elements/membrane_law.h"
 #include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
@@ -19,26 +20,53 @@ void require(bool ok, const char* what, double value, const char* expected) {
   if (!ok) throw InputError(fmt::format("{} is {}, expected {}", what, value, expected));
 }
 
-void require_sane(const Problem& problem) {
-  const Material& m = problem.material;
+void require_sane(const Material& m) {
   require(std::isfinite(m.density) && m.density > 0.0, "density", m.density, "a positive number of kg/m^3");
   require(std::isfinite(m.stiffness) && m.stiffness >= 0.0, "stiffness", m.stiffness, "at least 0 N/m");
   require(std::isfinite(m.young) && m.young >= 0.0, "young", m.young, "at least 0 Pa");
   if (m.model == Model::springs) {
     require(m.young == 0.0 || m.stiffness > 0.0, "stiffness", m.stiffness,
             "the mean of what 'young' makes of the edges");
+    require(m.damping_time == 0.0, "damping time", m.damping_time, "0 s beside springs");
   } else {
     require(m.young > 0.0, "young", m.young, "a positive number of Pa");
     require(m.poisson > -1.0 && m.poisson < 0.5, "poisson", m.poisson, "more than -1 and less than 0.5");
     require(m.stiffness == 0.0, "stiffness", m.stiffness, "0 N/m beside elements");
     require(m.damping == 0.0, "damping", m.damping, "0 N s/m beside elements");
-    for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
-      if (const CellKind kind = problem.mesh.kinds[c]; dimension(kind) == 2)
-        throw InputError(fmt::format("cell {} is a {}, which the model '{}' has no element for; expected solid cells",
-                                     c, name(kind), name(m.model)));
   }
   require(std::isfinite(m.damping) && m.damping >= 0.0, "damping", m.damping, "at least 0 N s/m");
+  require(std::isfinite(m.damping_time) && m.damping_time >= 0.0, "damping time", m.damping_time, "at least 0 s");
   require(std::isfinite(m.viscosity) && m.viscosity >= 0.0, "viscosity", m.viscosity, "at least 0 1/s");
+}
+
+void require_a_material_for_every_cell(const Problem& problem) {
+  if (problem.materials.size() > most_materials)
+    throw InputError(fmt::format("{} materials, expected at most {}", problem.materials.size(), most_materials));
+  const std::size_t cells = problem.materials.empty() ? 0 : problem.mesh.cell_count();
+  if (problem.cell_material.size() != cells)
+    throw InputError(fmt::format("{} numbers of materials for {} cells of a body of {}, expected {}",
+                                 problem.cell_material.size(), problem.mesh.cell_count(),
+                                 problem.materials.empty() ? "one" : "several", cells));
+  for (std::size_t c = 0; c < cells; ++c)
+    if (problem.cell_material[c] >= problem.materials.size())
+      throw InputError(fmt::format("the material of cell {} is {}, expected less than {}", c, problem.cell_material[c],
+                                   problem.materials.size()));
+}
+
+void require_sane(const Problem& problem) {
+  require_a_material_for_every_cell(problem);
+  const CellMaterials materials = problem.cell_materials();
+  for (const Material& m : materials.all()) require_sane(m);
+  for (std::size_t c = 0; materials.has_elements() && c < problem.mesh.cell_count(); ++c) {
+    const Material& m = materials[c];
+    const CellKind kind = problem.mesh.kinds[c];
+    if (dimension(kind) != 2 || m.model == Model::springs) continue;
+    if (!MembraneLaw::has(m.model))
+      throw InputError(fmt::format(
+          "cell {} is a {}, which the model '{}' has no element for; expected 'stvk' or 'corotational', or solid cells",
+          c, name(kind), name(m.model)));
+    require(m.damping_time == 0.0, "damping time", m.damping_time, "0 s in surfaces");
+  }
   for (int k = 0; k < 3; ++k)
     require(std::isfinite(problem.surroundings.gravity[k]), "gravity", problem.surroundings.gravity[k], "finite");
   const std::size_t points = problem.mesh.points.size();
@@ -51,6 +79,8 @@ void require_sane(const Problem& problem) {
   for (const auto& v : problem.initial_velocity)
     if (!v.allFinite()) throw InputError("an initial velocity is not finite");
 }
+
+bool has_springs_of_young(const Material& material) { return material.model == Model::springs && material.young > 0.0; }
 
 void require_one_vertex_per_point(const VertexColumns& vertices, std::size_t points) {
   std::vector<int> met(points, 0);
@@ -79,17 +109,39 @@ void add_solids(MassSpringBody<Map, Held::by_every_dart>& body, const Mesh& mesh
   }
 }
 
+/// The shapes of the cells of a surface, in the order in which their corners will be found.
+void add_membranes(MassSpringBody<Map2, Held::by_every_dart>& body, const Mesh& mesh) {
+  const bool all_triangles = std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::triangle; });
+  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    SolidNodes nodes;
+    find_nodes(body, c, nodes);
+    std::vector<Eigen::Vector3d> x;
+    for (std::size_t k = 0; k < nodes.count; ++k) x.push_back(body.vertices.position[nodes.at[k]]);
+    const MembraneShape shape = membrane_shape_of(x);
+    for (std::size_t q = 0; q < membrane_points(nodes.count); ++q)
+      if (const auto& [a, b, d] = shape[q]; !(std::isfinite(a + b + d) && d > 0.0))
+        throw InputError(
+            fmt::format("cell {}, a {}, is flat or turned over at one of its corners", c, name(mesh.kinds[c])));
+    if (all_triangles)
+      body.cell_triangle.push_back(shape[0]);
+    else
+      body.cell_membrane.push_back(shape);
+  }
+}
+
 }  // namespace
 
 template <class Map, Held held>
 MassSpringBody<Map, held> build_body(const Problem& problem) {
   require_sane(problem);
   const Mesh& mesh = problem.mesh;
-  const Material& material = problem.material;
+  const CellMaterials materials = problem.cell_materials();
   auto built = build_map<Map>(mesh);
 
   MassSpringBody<Map, held> body;
-  body.material = material;
+  body.material = problem.material;
+  body.materials = problem.materials;
+  body.cell_material = problem.cell_material;
   body.surroundings = problem.surroundings;
   body.map = std::move(built.map);
   const Map& map = body.map;
@@ -99,17 +151,19 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     body.cell.attach(map, {Dart{built.first_dart[c]}}, static_cast<std::uint32_t>(c));
     const double measure = signed_measure(mesh, c);
-    body.cell_mass.push_back(material.density * std::abs(measure));
+    body.cell_mass.push_back(materials[c].density * std::abs(measure));
     body.cell_inside_out.push_back(measure < 0.0);
     require(std::isfinite(body.cell_mass[c]) && body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(),
             body.cell_mass[c], "more than 0 kg and finite");
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
     body.cell_dart.push_back({built.first_dart[c]});
   }
-  if (material.young > 0.0 && material.model == Model::springs) {
-    body.edge_share.resize(map.template slot_count<1>());
+  if (std::ranges::any_of(materials.all(), has_springs_of_young)) {
+    body.edge_share.resize(map.template slot_count<1>(), 1.0);
     map.for_each_dart([&](Dart d) {
       const std::uint32_t c = body.cell(map, d);
+      const Material& material = materials[c];
+      if (!has_springs_of_young(material)) return;
       const double square = (mesh.points[point_of(map.template alpha<0>(d))] - mesh.points[point_of(d)]).squaredNorm();
       body.edge_share[Map::template slot<1>(d)] =
           material.young * std::abs(signed_measure(mesh, c)) / square / material.stiffness;
@@ -132,8 +186,10 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   const bool all_tetrahedra =
       std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; });
   if constexpr (Map::dimension == 3 && held == Held::by_every_dart)
-    if (material.model != Model::springs && !all_tetrahedra) add_solids(body, mesh);
-  if (material.model != Model::springs && all_tetrahedra) {
+    if (materials.has_elements() && !all_tetrahedra) add_solids(body, mesh);
+  if constexpr (Map::dimension == 2 && held == Held::by_every_dart)
+    if (materials.has_elements()) add_membranes(body, mesh);
+  if (materials.has_elements() && all_tetrahedra) {
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
       const auto corners = corners_from(map, body.cell_dart[c]);
       const auto place = [&](std::size_t k) { return mesh.points[point_of(corners[k])]; };
@@ -143,6 +199,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     }
   }
   body.vertices.rest = {};
+  body.vertices.pull = {};
   require_one_vertex_per_point(body.vertices, mesh.points.size());
   std::vector<std::uint8_t> fixed(mesh.points.size(), 0);
   for (const std::uint32_t p : problem.fixed) fixed[p] = 1;
@@ -204,6 +261,17 @@ double MassSpringBody<Map, held>::mass_of(std::span<const Dart> darts) const {
 }
 
 template <class Map, Held held>
+double MassSpringBody<Map, held>::volume_of(Vertex v) const {
+  const CellMaterials of = cell_materials();
+  const auto share = [&](Dart d) {
+    const std::uint32_t k = cell(map, d);
+    return std::pair(cell_dart[k], node_share[k] / of[k].density);
+  };
+  const auto darts = darts_of_incident<dimension>(map, v);
+  return sum_over_cells(share, {darts.data(), darts.size()});
+}
+
+template <class Map, Held held>
 Spring MassSpringBody<Map, held>::spring_of(Edge e, double rest_length) const {
   const auto darts = darts_of_incident<dimension>(map, e);
   return spring_of({darts.data(), darts.size()}, rest_length);
@@ -214,8 +282,19 @@ Spring MassSpringBody<Map, held>::spring_of(std::span<const Dart> darts, double 
   const auto share = [this](Dart d) {
     return std::pair(cell_dart[cell(map, d)], edge_share.empty() ? 1.0 : edge_share[Map::template slot<1>(d)]);
   };
-  const double cells = sum_over_cells(share, darts);
-  return {rest_length, cells * material.stiffness, cells * material.damping};
+  if (materials.empty()) {
+    const double cells = sum_over_cells(share, darts);
+    return {rest_length, cells * material.stiffness, cells * material.damping};
+  }
+  const auto sum_of = [&](double Material::*of_material) {
+    return sum_over_cells(
+        [&](Dart d) {
+          auto [lowest, shared] = share(d);
+          return std::pair(lowest, shared * (materials[cell_material[cell(map, d)]].*of_material));
+        },
+        darts);
+  };
+  return {rest_length, sum_of(&Material::stiffness), sum_of(&Material::damping)};
 }
 
 namespace {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/cell_springs.h"
+#include "core/elements/membranes.h"
 #include "core/elements/solids.h"
 #include "core/elements/tetrahedra.h"
 #include "core/forces/springs.h"
@@ -32,7 +34,9 @@ struct VertexColumns {
   std::vector<std::uint32_t>
       point;  // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
   std::vector<Eigen::Vector3d> rest;  // [m] where it was at rest; left out until keep_rest
-  std::vector<Dart> dart;             // the lowest dart of the vertex
+  std::vector<Eigen::Vector3d>
+      pull;                // [m/s^2] forces from outside over its mass, so that parts share them; or left out
+  std::vector<Dart> dart;  // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
 
@@ -51,7 +55,8 @@ struct VertexColumns {
                       EmbeddedColumn{"force", &V::force, Adapts::duplicated},
                       EmbeddedColumn{"fixed", &V::fixed, Adapts::duplicated},
                       EmbeddedColumn{"point", &V::point, Adapts::duplicated},
-                      EmbeddedColumn{"place at rest", &V::rest, Adapts::duplicated}};
+                      EmbeddedColumn{"place at rest", &V::rest, Adapts::duplicated},
+                      EmbeddedColumn{"pull", &V::pull, Adapts::duplicated}};
   }
 
   template <class Archive>
@@ -86,11 +91,17 @@ struct MassSpringBody {
   // rest
   std::vector<std::uint8_t> cell_inside_out;
   // What elements need of the rest shape of each cell, whose corners are those of `find_nodes`: where all are
-  // tetrahedra, or of cells of any kind; both empty with springs.
+  // tetrahedra, or of cells of any kind; of a surface where all are triangles, or of any; empty with springs.
   std::vector<RestShape> cell_shape;
   std::vector<SolidShape> cell_solid;
-  // Stiffness that a cell contributes to its edges over that of the material, by slot<1>; empty, and 1 for all, until
-  // the body is refined, where the material has no Young's modulus.
+  std::vector<PlaneInverse> cell_triangle;
+  std::vector<MembraneShape> cell_membrane;
+  // Of each cell the springs on its diagonals; empty where no cell has any.
+  std::vector<CellSprings> cell_springs;
+  // Of each cell the number of its material in `materials`; both empty in a body of one.
+  std::vector<MaterialNumber> cell_material;
+  // Stiffness that a cell contributes to its edges over that of its material, by slot<1>; empty, and 1 for all, until
+  // the body is refined, where no springs have a Young's modulus.
   std::vector<double> edge_share;
 
   /// The columns of cells, but for their darts. Cells come and go whole: none is dissociated.
@@ -100,17 +111,27 @@ struct MassSpringBody {
                       EmbeddedColumn{"node share", &B::node_share, Adapts::recomputed},
                       EmbeddedColumn{"inside out", &B::cell_inside_out, Adapts::duplicated},
                       EmbeddedColumn{"rest shape", &B::cell_shape, Adapts::duplicated},
-                      EmbeddedColumn{"shape of a solid", &B::cell_solid, Adapts::duplicated}};
+                      EmbeddedColumn{"shape of a solid", &B::cell_solid, Adapts::duplicated},
+                      EmbeddedColumn{"shape of a triangle", &B::cell_triangle, Adapts::duplicated},
+                      EmbeddedColumn{"shape of a membrane", &B::cell_membrane, Adapts::duplicated},
+                      EmbeddedColumn{"springs within", &B::cell_springs, Adapts::duplicated},
+                      EmbeddedColumn{"material", &B::cell_material, Adapts::duplicated}};
   }
 
   Material material;
+  std::vector<Material> materials;
   Surroundings surroundings;
+
+  /// The materials of its cells, by their numbers.
+  CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 
   /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by the cells' darts,
   /// so that neither the order of the walk nor the numbers of the cells leave a trace in the bits.
   double mass_of(Vertex v) const;
   /// The same for a vertex of which at least one dart in each of its cells is given.
   double mass_of(std::span<const Dart> darts) const;
+  /// Volume at rest of a vertex [m^3] (area): that share of each incident cell.
+  double volume_of(Vertex v) const;
   /// The mass of vertex embedding k, and what is proportional to it.
   void set_mass(std::uint32_t k, double mass) {
     vertices.mass[k] = mass;
@@ -130,7 +151,7 @@ struct MassSpringBody {
   void set_state(const PointState& state);
   /// Of positions and velocities, in the order of the embeddings' numbers.
   std::uint64_t state_hash() const;
-  /// What a checkpoint holds of it: all but the material and the surroundings, which do not change.
+  /// What a checkpoint holds of it: all but the materials and the surroundings, which do not change.
   template <class Archive>
   void state(Archive& archive) {
     archive(map, vertex, edge, face, cell, vertices, springs, edge_dart, face_dart, cell_dart, edge_share);
@@ -145,7 +166,8 @@ struct MassSpringBody {
 /// throws  InputError if the mesh does not fit the map (build_map), a point belongs to no cell, a fixed point does not
 ///         exist, a number is not finite or a density is not positive, or one mesh point is several vertices of the map
 ///         (cells that touch in a point or an edge only are not connected in a quasi-manifold); for a model of elements
-///         if a cell is a polygon, too flat for its shape to be a number, or turned inside out at a Gauss point
+///         if a surface does not have it, or a cell is too flat for its shape to be a number, or turned inside out at a
+///         Gauss point; for cells without a material, or more than `most_materials`
 template <class Map, Held held>
 MassSpringBody<Map, held> build_body(const Problem& problem);
 

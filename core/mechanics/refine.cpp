@@ -89,26 +89,34 @@ class Refinement {
     v.position.back() = position / count();
     v.velocity.back() = velocity / count();
     if (!v.force.empty()) v.force.back().setZero();
+    if (!v.pull.empty()) v.pull.back().setZero();
     if (!v.rest.empty()) v.rest.back() = rest / count();
     if (!v.fixed.empty()) v.fixed.back() = fixed;
     v.point.back() = no_point;
     v.dart.push_back(s_.vertex());
   }
 
-  /// The gradients of the barycentric coordinates of a tetrahedron, by local node, from the rest shape whose first
-  /// corner is at the dart in place p.
-  static std::array<std::size_t, 4> local_corners(std::size_t p) {
+  using Corners = std::array<std::size_t, 4>;
+
+  /// The corners of a tetrahedron as its rest shape has them, by local node, from the place of its lowest dart: what
+  /// `find_nodes` reads off its darts, of tetrahedra alone or among cells of other kinds.
+  Corners local_corners(std::size_t lowest, bool inside_out) const {
     const auto& alpha = tet_darts.alpha;
-    return {tet_darts.node[p], tet_darts.node[alpha[0][p]], tet_darts.node[alpha[0][alpha[1][p]]],
-            tet_darts.node[alpha[0][alpha[1][alpha[2][p]]]]};
+    if (body_.cell_solid.empty())
+      return {tet_darts.node[lowest], tet_darts.node[alpha[0][lowest]], tet_darts.node[alpha[0][alpha[1][lowest]]],
+              tet_darts.node[alpha[0][alpha[1][alpha[2][lowest]]]]};
+    // around a face, clockwise seen from outside, and up to the tip
+    const std::size_t first = inside_out ? lowest : alpha[0][lowest];
+    const std::size_t second = alpha[1][alpha[0][first]], third = alpha[1][alpha[0][second]];
+    return {tet_darts.node[first], tet_darts.node[second], tet_darts.node[third],
+            tet_darts.node[alpha[0][alpha[1][alpha[2][first]]]]};
   }
 
   /// Of a point, the coordinate mu of a new corner is the number of the cell's vertices m times lambda of the node r it
   /// replaces, and that of another node of the cell is lambda less lambda_r: of the gradients too, whatever the shape.
-  RestShape shape_of_child(const Subdivision::Child& child, std::size_t lowest, const RestShape& parent,
-                           std::size_t parent_lowest) const {
+  RestShape shape_of_child(const Subdivision::Child& child, const Corners& of_child, const RestShape& parent,
+                           const Corners& of_parent) const {
     std::array<Eigen::Vector3d, 4> gradient;
-    const auto of_parent = local_corners(parent_lowest), of_child = local_corners(lowest);
     for (std::size_t k = 1; k < 4; ++k) gradient[of_parent[k]] = parent.row(static_cast<Eigen::Index>(k) - 1);
     gradient[of_parent[0]] = -(gradient[of_parent[1]] + gradient[of_parent[2]] + gradient[of_parent[3]]);
     const Eigen::Vector3d replaced = gradient[child.replaced];
@@ -138,23 +146,31 @@ class Refinement {
         was_inside_out_ = body_.cell_inside_out[parent_cell] != 0;
         const auto at = std::find(parent.darts.begin(), parent.darts.end(), body_.cell_dart[parent_cell]);
         turned_ = (at - parent.darts.begin()) % 2 != 0;
-        parent_lowest_ = static_cast<std::size_t>(at - parent.darts.begin());
+        parent_corners_ = local_corners(static_cast<std::size_t>(at - parent.darts.begin()), was_inside_out_);
         if (!body_.cell_shape.empty()) parent_shape_ = body_.cell_shape[parent_cell];
+        if (!body_.cell_solid.empty()) parent_solid_ = body_.cell_solid[parent_cell];
       } else {
         number = static_cast<std::uint32_t>(body_.cell_mass.size());
         add_element(body_, Body<Map>::embedded_in_cells(), number);
         body_.cell_dart.push_back(no_dart);
       }
       body_.cell_mass[number] = whole_mass_ / count();
+      if (!body_.cell_material.empty()) body_.cell_material[number] = body_.cell_material[parent_cell];
       body_.node_share[number] = body_.cell_mass[number] / 4.0;
       const auto lowest = std::min_element(child.darts.begin(), child.darts.end());
       body_.cell_dart[number] = *lowest;
-      if (!body_.cell_shape.empty())
-        body_.cell_shape[number] = shape_of_child(child, static_cast<std::size_t>(lowest - child.darts.begin()),
-                                                  parent_shape_, parent_lowest_);
       // even steps away from the parent's dart, a child's lowest dart runs as that one did
       const bool odd = (lowest - child.darts.begin()) % 2 != 0;
-      body_.cell_inside_out[number] = was_inside_out_ != (odd != turned_);
+      const bool inside_out = was_inside_out_ != (odd != turned_);
+      body_.cell_inside_out[number] = inside_out;
+      const Corners corners = local_corners(static_cast<std::size_t>(lowest - child.darts.begin()), inside_out);
+      if (!body_.cell_shape.empty())
+        body_.cell_shape[number] = shape_of_child(child, corners, parent_shape_, parent_corners_);
+      if (!body_.cell_solid.empty()) {  // one Gauss point, whose inverse Jacobian is that shape
+        SolidShape& solid = body_.cell_solid[number] = parent_solid_;
+        solid.inverse[0] = shape_of_child(child, corners, parent_solid_.inverse[0], parent_corners_);
+        solid.volume[0] = parent_solid_.volume[0] / count();
+      }
       body_.cell.attach_places(map_, child.darts, number);
       changed_.cells.push_back(number);
     }
@@ -308,8 +324,9 @@ class Refinement {
   // of the parent whose children are added
   double whole_mass_ = 0.0;
   bool was_inside_out_ = false, turned_ = false;
-  std::size_t parent_lowest_ = 0;  // place of its lowest dart
+  Corners parent_corners_{};
   RestShape parent_shape_ = RestShape::Zero();
+  SolidShape parent_solid_;
   ChangedEmbeddings changed_;
 };
 
@@ -319,8 +336,6 @@ template <class Map>
 ChangedEmbeddings adapt(Body<Map>& body, const Subdivision& subdivision, double bracing) {
   if (!(std::isfinite(bracing) && bracing >= 0.0))
     throw InputError(fmt::format("bracing is {}, expected a number of at least 0", bracing));
-  if (!body.cell_solid.empty())
-    throw InputError("a body of elements of several kinds is refined; expected tetrahedra alone");
   return Refinement<Map>(body, subdivision, bracing).run();
 }
 

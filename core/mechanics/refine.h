@@ -6,7 +6,8 @@
 
 namespace dartboard {
 
-/// Adapt the embeddings of a body to a subdivision of its map.
+/// Adapt the embeddings of a body to a subdivision of its map. Cells of other kinds may stand beside the tetrahedra
+/// that are subdivided.
 ///
 /// Position and velocity of the new vertex are the means of the cell's vertices, as its place at rest is where that is
 /// held, and it is fixed if they all are. Each tetrahedron shares its mass equally among its children, so total mass,
@@ -23,7 +24,7 @@ namespace dartboard {
 /// and an affine deformation keeps all forces and the energy.
 ///
 /// pre     every dart holds the embedding numbers, `subdivision` was just made on the body's map, bracing >= 0
-/// throws  InputError if bracing is negative or not finite, or the body has elements and other cells than tetrahedra
+/// throws  InputError if bracing is negative or not finite
 /// cost    O(darts around the vertices of the touched tetrahedra); the first time O(edges of cells), for a column of
 ///         shares of stiffness that unrefined bodies do without
 /// source  the paper's future work

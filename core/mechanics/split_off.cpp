@@ -20,6 +20,7 @@ class Copy {
     std::sort(darts_.begin(), darts_.end());
     copy_map();
     part_.material = from.material;
+    part_.materials = from.materials;
     part_.surroundings = from.surroundings;
   }
 

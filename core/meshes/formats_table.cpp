@@ -8,28 +8,36 @@ namespace {
 template <std::size_t N>
 using Names = std::array<std::string_view, N>;
 
-constexpr Names<1> medit{".mesh"}, gmsh{".msh"}, vtk{".vtk"}, vtu{".vtu"}, stl{".stl"}, obj{".obj"}, ply{".ply"},
-    off{".off"};
-constexpr Names<2> tetgen{".node", ".ele"};
+constexpr Names<1> gmsh{".msh"}, vtk{".vtk"}, vtu{".vtu"}, vtp{".vtp"}, pvtu{".pvtu"}, stl{".stl"}, obj{".obj"},
+    ply{".ply"}, off{".off"};
+constexpr Names<2> medit{".mesh", ".meshb"}, tetgen{".node", ".ele"};
 
 constexpr MeshFormatInfo table[] = {
-    {MeshFormat::medit, "Medit", medit, "versions 1 to 4, ASCII; references; P2 cells by their corners",
+    {MeshFormat::medit, "Medit", medit,
+     "versions 1 to 4, ASCII and, of either byte order, binary; references; P2 cells by their corners",
      "version 2, ASCII, 17 digits"},
     {MeshFormat::tetgen, "TetGen", tetgen, "ASCII; regions; 6- and 10-node cells by their corners", ""},
     {MeshFormat::gmsh, "Gmsh", gmsh,
      "versions 1, 2.x, 4.0 and 4.1, ASCII and binary; physical groups; cells of higher order by their corners", ""},
     {MeshFormat::vtk_legacy, "legacy VTK", vtk,
-     "versions 1.0 to 5.1, ASCII and BINARY unstructured grids; whole numbers of cells; cells of higher order by their "
-     "corners",
+     "versions 1.0 to 5.1, ASCII and BINARY; unstructured grids, cells of higher order by their corners; polygon data, "
+     "triangles, quadrilaterals and strips; whole numbers of cells",
      ""},
     {MeshFormat::vtu, "VTK XML", vtu,
      "ASCII, base64 or raw, inline or appended, of either byte order; uncompressed or by zlib, LZ4 or LZMA; whole "
      "numbers of cells; cells of higher order by their corners",
      "the frames of scenes: base64 inline, uncompressed"},
+    {MeshFormat::vtp, "VTK XML polygons", vtp,
+     "all encodings of .vtu; triangles, quadrilaterals and strips; whole numbers of cells", ""},
+    {MeshFormat::pvtu, "parallel VTK XML", pvtu,
+     "pieces in .vtu files; points of two pieces that are equal number for number are one, nearly equal ones are "
+     "refused; ghost cells are left out",
+     ""},
     {MeshFormat::stl, "STL", stl, "ASCII and binary; equal corners are one point; solids", ""},
     {MeshFormat::obj, "OBJ", obj, "triangles and quadrilaterals; groups and materials", ""},
     {MeshFormat::ply, "PLY", ply, "ASCII and binary of either byte order; triangles and quadrilaterals", ""},
-    {MeshFormat::off, "OFF", off, "ASCII; triangles and quadrilaterals; also COFF, NOFF, CNOFF and STOFF", ""},
+    {MeshFormat::off, "OFF", off, "ASCII and BINARY; triangles and quadrilaterals; also COFF, NOFF, CNOFF and STOFF",
+     ""},
 };
 
 }  // namespace

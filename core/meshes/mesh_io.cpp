@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -12,7 +11,9 @@
 #include "core/meshes/formats/mesh_formats.h"
 #include "core/meshes/gmsh/gmsh.h"
 #include "core/meshes/surfaces/surface_formats.h"
+#include "core/meshes/text/file_text.h"
 #include "core/meshes/text/text_scanner.h"
+#include "core/meshes/vtk/vtk_formats.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;
@@ -43,33 +44,6 @@ std::optional<MeshFormat> format_of(const fs::path& path) {
 
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
 
-// a path that cannot be examined is not there
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
-
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
-std::string read_file(const fs::path& path, std::string_view wanted) {
-  const std::string file = path.string();
-  std::error_code error;
-  if (!is_there(path)) fail_at(file, 0, "there is no such file", wanted);
-  if (is_folder(path)) fail_at(file, 0, "this is a directory", wanted);
-  if (!fs::is_regular_file(path, error)) fail_at(file, 0, "this is not a regular file", wanted);
-  std::ifstream in(path, std::ios::binary);
-  const auto size = fs::file_size(path, error);
-  if (!in || error) fail_at(file, 0, "the file cannot be opened", "a file that may be read");
-  std::string text(size, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(in.gcount()) != size) fail_at(file, 0, "reading stopped early", "a readable file");
-  if (text.empty()) fail_at(file, 1, "the file is empty", wanted);
-  return text;
-}
-
 LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   const bool ends_with_line = text.empty() || text.back() == '\n';
@@ -79,8 +53,8 @@ LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view tex
 }
 
 LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path) {
-  const std::string node_text = read_file(node_path, "the TetGen points that belong to the .ele file");
-  const std::string ele_text = read_file(ele_path, "the TetGen cells that belong to the .node file");
+  const std::string node_text = file_text(node_path, "the TetGen points that belong to the .ele file");
+  const std::string ele_text = file_text(ele_path, "the TetGen cells that belong to the .node file");
   TextScanner node(node_text, node_path.string(), '#');
   TextScanner ele(ele_text, ele_path.string(), '#');
   MeshBuilder builder(node.file(), ele.file());
@@ -103,7 +77,7 @@ LoadedMesh read_mesh(const fs::path& path) {
     return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"))
                                                        : read_tetgen_files(with(stem, ".node"), path);
   }
-  const std::string text = read_file(path, fmt::format("a mesh file: {}", known_extensions()));
+  const std::string text = file_text(path, fmt::format("a mesh file: {}", known_extensions()));
   return parse_mesh(text, *format, path.string());
 }
 
@@ -116,6 +90,8 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
     case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
     case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
     case MeshFormat::vtu: exact = read_vtu(text, builder); break;
+    case MeshFormat::vtp: exact = read_vtp(text, builder); break;
+    case MeshFormat::pvtu: exact = read_pvtu(text, builder); break;
     case MeshFormat::stl: exact = read_stl(text, builder); break;
     case MeshFormat::obj: exact = read_obj(text, builder); break;
     case MeshFormat::ply: exact = read_ply(text, builder); break;

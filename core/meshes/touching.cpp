@@ -149,7 +149,8 @@ TouchingCells split_touching_points(Mesh& mesh) {
 
 std::string to_string(const TouchingCells& t, std::span<const std::uint32_t> place_of_point) {
   if (!t.any()) return "";
-  const auto of_file = [&](std::uint32_t place) {
+  const auto of_file = [&](std::uint32_t place) -> std::ptrdiff_t {
+    if (place_of_point.empty()) return place;
     return std::find(place_of_point.begin(), place_of_point.end(), place) - place_of_point.begin();
   };
   const std::string points =

@@ -31,7 +31,8 @@ struct TouchingCells {
 TouchingCells split_touching_points(Mesh& mesh);
 
 /// "cells touch at 3 points and 1 edge without sharing a face (points 4, 7, 9; edge 4-7); ...", by the numbers of the
-/// file, whose points are at `place_of_point`; empty if none touch.
+/// file, whose points are at `place_of_point`, or where they are in the file when it is empty (LoadedMesh); empty if
+/// none touch.
 std::string to_string(const TouchingCells& touching, std::span<const std::uint32_t> place_of_point);
 
 }  // namespace dartboard

@@ -20,7 +20,9 @@ template <class T, std::size_t n>
 inline constexpr bool is_flat<std::array<T, n>> = is_flat<T> && sizeof(std::array<T, n>) == n * sizeof(T);
 template <class T, int rows, int columns, int options>
 inline constexpr bool is_flat<Eigen::Matrix<T, rows, columns, options, rows, columns>> =
-    rows > 0 && columns > 0 && sizeof(Eigen::Matrix<T, rows, columns, options>) == rows* columns * sizeof(T);
+    rows > 0 && columns > 0 &&
+    sizeof(Eigen::Matrix<T, rows, columns, options>) ==
+        sizeof(T) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
 
 /// Writes values one after the other, or reads them back in the same order.
 ///

@@ -10,7 +10,7 @@ std::string beyond_a_map(const CountsByKind& cells) {
   for (std::size_t k = 0; k < cells.size(); ++k) {
     const auto kind = static_cast<CellKind>(k);
     all += cells[k];
-    darts += cells[k] * darts_of(kind);
+    darts += cells[k] * static_cast<double>(darts_of(kind));
     if (cells[k] > 0.0 && dimension(kind) == 3) dimension_of_all = 3;
   }
   const double tetrahedra = cells[static_cast<std::size_t>(CellKind::tetrahedron)];

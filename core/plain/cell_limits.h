@@ -17,8 +17,8 @@ constexpr std::uint64_t most_darts(int dimension) {
 }
 
 /// A dart for each end of each edge of each face.
-constexpr int darts_of(CellKind kind) {
-  constexpr std::array counts{6, 8, 24, 32, 36, 48};
+constexpr std::uint64_t darts_of(CellKind kind) {
+  constexpr std::array<std::uint64_t, 6> counts{6, 8, 24, 32, 36, 48};
   return counts[static_cast<std::size_t>(kind)];
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 
 namespace dartboard {
@@ -21,7 +22,8 @@ constexpr std::string_view name(Model model) { return model_names[static_cast<st
 /// the edges of all cells (core/plain/young.h), and damping is in proportion.
 ///
 /// With another model than springs the cells are elements of an elastic solid of this Young's modulus and Poisson's
-/// ratio (core/elements/elastic_laws.h): there are no springs, and nothing is damped but by viscosity.
+/// ratio (core/elements/elastic_laws.h): there are no springs, and beside viscosity `damping_time` is what damps
+/// (core/elements/strain_damping.h).
 struct Material {
   double density = 1000.0;  // kg/m^3 (kg/m^2 for a surface)
   double stiffness = 50.0;  // N/m, per incident cell
@@ -30,7 +32,12 @@ struct Material {
   double young = 0.0;       // Pa (N/m for a surface, N for a chain); 0: edges have `stiffness`
   double poisson = 0.25;    // of elements
   Model model = Model::springs;
+  double damping_time = 0.0;  // s, of elements: their stress is that of this times the rate of strain more
 };
+
+/// The damping time [s] that gives elements this damping ratio at this frequency [Hz]. What oscillates with omega [1/s]
+/// has omega times half of it: a ratio in proportion to the frequency.
+inline double damping_time_of(double ratio, double frequency) { return ratio / (std::numbers::pi * frequency); }
 
 /// What acts on the whole body.
 struct Surroundings {

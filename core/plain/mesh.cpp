@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 
 #include "core/plain/error.h"
 
@@ -57,6 +58,19 @@ int Mesh::dimension() const {
     found = d;
   }
   return found;
+}
+
+void append(Mesh& mesh, const Mesh& other) {
+  constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+  if (mesh.points.size() + other.points.size() >= most || mesh.nodes.size() + other.nodes.size() >= most)
+    throw InputError(fmt::format("{} points, or {} corners of cells, expected less than {}",
+                                 mesh.points.size() + other.points.size(), mesh.nodes.size() + other.nodes.size(),
+                                 most));
+  const auto points = static_cast<std::uint32_t>(mesh.points.size()), nodes = mesh.first.back();
+  mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+  mesh.kinds.insert(mesh.kinds.end(), other.kinds.begin(), other.kinds.end());
+  for (std::size_t c = 0; c < other.cell_count(); ++c) mesh.first.push_back(nodes + other.first[c + 1]);
+  for (const std::uint32_t p : other.nodes) mesh.nodes.push_back(points + p);
 }
 
 double signed_measure(const Mesh& mesh, std::size_t c) {

@@ -39,6 +39,10 @@ struct Mesh {
   int dimension() const;
 };
 
+/// Add the points and cells of another mesh after those that are there.
+/// throws  InputError where they are more than there are numbers for
+void append(Mesh& mesh, const Mesh& other);
+
 /// Signed measure of a cell: the volume [m^3] of a 3D cell, positive when right-handed; the area [m^2] of a polygon.
 /// Exact for tetrahedra; other volumes are split into tetrahedra from the centroid of the cell and of its faces.
 double signed_measure(const Mesh& mesh, std::size_t c);

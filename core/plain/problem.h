@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/plain/cell_materials.h"
 #include "core/plain/material.h"
 #include "core/plain/mesh.h"
 
@@ -22,14 +23,19 @@ namespace dartboard {
 ///     f_i = sum over the edges ij of ( k_ij (|x_j - x_i| - L_ij) + c_ij (v_j - v_i).u_ij ) u_ij
 ///     a_i = (f_i - viscosity * m_i * v_i) / m_i + gravity,  and a_i = 0, v_i = 0 for the points in `fixed`
 ///
-/// The edges are the edges of the cells' faces (`faces_of`).
+/// The edges are the edges of the cells' faces (`faces_of`). In a body of several materials every cell contributes by
+/// its own, but for the viscosity, which is that of `material` for all.
 struct Problem {
   Mesh mesh;
   Material material;
+  std::vector<Material> materials{};            // of a body of several; empty: all cells are of `material`
+  std::vector<MaterialNumber> cell_material{};  // the number of each cell's in `materials`
   Surroundings surroundings;
   std::vector<std::uint32_t> fixed;               // point numbers, ascending
   std::vector<Eigen::Vector3d> initial_velocity;  // [m/s] per point; empty for rest
   double h = 1e-3;                                // time step [s]
+
+  CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 };
 
 /// Positions [m] and velocities [m/s] in the order of the mesh's points.

@@ -2,7 +2,9 @@
 // Springs that stand for an elastic solid: what a Young's modulus makes of the edges of simplices.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/plain/mesh.h"
 
@@ -10,6 +12,8 @@ namespace dartboard {
 
 /// The number of the first cell whose edges alone do not hold its shape: one that is no tetrahedron and no triangle.
 std::optional<std::size_t> first_loose_cell(const Mesh& mesh);
+/// The same among these.
+std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const std::uint32_t> cells);
 
 /// The stiffness [N/m] of the springs of a Young's modulus, a mean over the edges of all cells: that of the edge of
 /// rest length l of a cell of volume V (area, length) is young V / l^2. Of a mesh without cells, a chain, over its
@@ -22,5 +26,7 @@ std::optional<std::size_t> first_loose_cell(const Mesh& mesh);
 /// cost    a pass over the mesh
 /// source  Van Gelder, Journal of Graphics Tools 3(2), 1998: k = E V / l^2; the averages by integration over directions
 double mean_stiffness(const Mesh& mesh, double young);
+/// The same over the edges of these cells; of a mesh without cells, over its links.
+double mean_stiffness(const Mesh& mesh, double young, std::span<const std::uint32_t> cells);
 
 }  // namespace dartboard

@@ -2,6 +2,7 @@
 // The corners of every element, by cell number: all that elements need to know of the topology.
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "core/mechanics/adapt.h"
@@ -9,8 +10,8 @@
 
 namespace dartboard {
 
-/// One row of corners per cell, in one stream: TetrahedronNodes, sixteen bytes, or SolidNodes. Of a body that has no
-/// such elements, nothing.
+/// One row of corners per cell, in one stream: TetrahedronNodes, sixteen bytes, TriangleNodes, twelve, or SolidNodes.
+/// Of a body that has no such elements, and no springs within its cells, nothing.
 template <class Nodes>
 class ElementNodesView {
  public:
@@ -21,7 +22,7 @@ class ElementNodesView {
   template <class Body>
   void rebuild(const Body& body) {
     nodes.resize(element_count(body, Nodes{}));
-    if constexpr (Body::dimension == 3)
+    if constexpr (has_nodes<Body>)
       for (std::uint32_t c = 0; c < nodes.size(); ++c) find_nodes(body, c, nodes[c]);
   }
 
@@ -31,7 +32,7 @@ class ElementNodesView {
   template <class Body>
   void apply(const Body& body, const ChangedEmbeddings& changed) {
     nodes.resize(element_count(body, Nodes{}));
-    if constexpr (Body::dimension == 3)
+    if constexpr (has_nodes<Body>)
       if (!nodes.empty()) follow(body, changed);
   }
 
@@ -41,6 +42,10 @@ class ElementNodesView {
   }
 
  private:
+  template <class Body>
+  static constexpr bool has_nodes = std::is_same_v<Nodes, SolidNodes> ||
+                                    (Body::dimension == 3) == std::is_same_v<Nodes, TetrahedronNodes>;
+
   template <class Body>
   void follow(const Body& body, const ChangedEmbeddings& changed) {
     for (const std::uint32_t c : changed.cells) find_nodes(body, c, nodes[c]);
@@ -55,5 +60,6 @@ class ElementNodesView {
 
 using TetrahedronNodesView = ElementNodesView<TetrahedronNodes>;
 using SolidNodesView = ElementNodesView<SolidNodes>;
+using TriangleNodesView = ElementNodesView<TriangleNodes>;
 
 }  // namespace dartboard

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/schemes/linearly_implicit.h"
+#include "reference/schemes/rounding.h"
 #include "reference/schemes/stage_equation.h"
 
 namespace dartboard::reference {
@@ -16,7 +17,6 @@ using Vectors = std::vector<Vector>;
 
 constexpr std::string_view names[]{"backward-euler", "implicit-midpoint", "energy-momentum", "sdirk2",
                                    "bdf2",           "baraff-witkin"};
-constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
 constexpr Extended newton_tolerance = 1e-10L;  // what these methods promise to solve to, relative to what acts
 
 // a + t b, by point

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/schemes/rounding.h"
 #include "reference/schemes/step_matrix.h"
 
 namespace dartboard::reference {
@@ -11,9 +12,6 @@ namespace {
 
 using Vector = Vector3<Extended>;
 using Vectors = std::vector<Vector>;
-
-constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
-constexpr Extended solver_tolerance = 1e-12L;  // relative, that core's linear solvers promise
 
 }  // namespace
 
@@ -41,6 +39,15 @@ Extended linearly_implicit_excess(const SpringNetwork& network, const Vectors& x
              std::abs(Extended(s.damping)) * (held[s.b] - held[s.a]).norm());
     for (const auto i : {s.a, s.b}) sizes.segment<3>(3 * static_cast<Eigen::Index>(i)).array() += force;
   }
+  const std::vector<Extended> places = numbers_of(x);
+  for (const ElasticPoint& point : network.elements)
+    for_each_size(point, places.data(), 0, [&](std::uint32_t i, Extended size) {
+      sizes.segment<3>(3 * static_cast<Eigen::Index>(i)).array() += h * size;
+    });
+  for (const ElasticPoint& point : network.elements)
+    for_each_damping_size(point, places.data(), 0, 2 * largest_of(held), [&](std::uint32_t i, Extended size) {
+      sizes.segment<3>(3 * static_cast<Eigen::Index>(i)).array() += h * size;
+    });
   const auto excess = [&](const DenseMatrix& a) {
     const DenseColumn residual = b - a * solution;
     const DenseColumn allowed =
@@ -49,7 +56,7 @@ Extended linearly_implicit_excess(const SpringNetwork& network, const Vectors& x
             .matrix();
     Extended worst = 0;
     for (Eigen::Index c = 0; c < b.size(); ++c)
-      if (!network.fixed[static_cast<std::size_t>(c / 3)])
+      if (!network.fixed[static_cast<std::size_t>(c / 3)] && std::isfinite(allowed[c]))
         worst = max_or_nan(worst, std::abs(residual[c]) / allowed[c]);
     return worst;
   };

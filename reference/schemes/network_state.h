@@ -42,6 +42,14 @@ inline std::vector<Vector3<Extended>> part_of(const std::vector<Extended>& y, st
   return result;
 }
 
+/// Three numbers of each point, one after another.
+inline std::vector<Extended> numbers_of(const std::vector<Vector3<Extended>>& column) {
+  std::vector<Extended> numbers;
+  numbers.reserve(3 * column.size());
+  for (const Vector3<Extended>& p : column) numbers.insert(numbers.end(), p.begin(), p.end());
+  return numbers;
+}
+
 /// The largest number, by size; NaN where one is.
 inline Extended largest_of(const Vector3<Extended>& p) {
   return max_or_nan(max_or_nan(std::abs(p[0]), std::abs(p[1])), std::abs(p[2]));

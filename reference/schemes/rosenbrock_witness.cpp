@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/plain/random.h"
+#include "reference/schemes/rounding.h"
 #include "reference/schemes/step_comparison.h"
 #include "reference/schemes/step_matrix.h"
 
@@ -12,8 +13,6 @@ namespace {
 
 using Vector = Vector3<Extended>;
 using Vectors = std::vector<Vector>;
-
-constexpr Extended solver_tolerance = 1e-12L;
 
 // Verwer, Spee, Blom, Hundsdorfer 1999: (1 - tau J) k1 = F(u), (1 - tau J) k2 = F(u + h k1) - 2 k1, u += h (3 k1 +
 // k2)/2.
@@ -52,6 +51,13 @@ class Rosenbrock {
       const Vector pull = tau_ * (stiffness_of(s, x_[s.b] - x_[s.a], tangent_) * (three(r, s.b) - three(r, s.a)));
       right[s.a] += pull;
       right[s.b] -= pull;
+    }
+    const std::vector<Extended> places = numbers_of(x_);
+    for (const ElasticPoint& point : network_.elements) {
+      const StressSlope slope = slope_of(point, places.data(), tangent_);
+      for (std::size_t p = 0; p < point.corner.size(); ++p)
+        for (std::size_t q = 0; q < point.corner.size(); ++q)
+          right[point.corner[p]] -= tau_ * (stiffness_block(point, slope, p, q) * three(r, point.corner[q]));
     }
     DenseColumn b = column_of(network_, right);
     const Extended size = off * b.norm() / std::sqrt(Extended(b.size()));

@@ -4,14 +4,46 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/elements/elastic_law.h"
+#include "reference/elements/elastic_point.h"
+#include "reference/schemes/rounding.h"
+
 namespace dartboard::reference {
 namespace {
 
 using Vector = Vector3<Extended>;
-constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
 constexpr Extended smallest = std::numeric_limits<double>::denorm_min();
 
 }  // namespace
+
+void StageEquation::add_elements(const std::vector<Vector>& w, StageForces& result) const {
+  if (network.elements.empty()) return;
+  std::vector<Vector> far(w);
+  for (std::size_t i = 0; i < w.size(); ++i) far[i] = xh[i] + (discrete_gradient ? 2 : 1) * tau * w[i];
+  const std::vector<Extended> from = numbers_of(xh), to = numbers_of(far), speeds = numbers_of(w);
+  std::vector<Vector> damped_at(w);
+  for (std::size_t i = 0; i < w.size(); ++i) damped_at[i] = xh[i] + tau * w[i];
+  const std::vector<Extended> half = numbers_of(damped_at);
+  std::vector<Extended> pull(from.size(), 0);
+  for (const ElasticPoint& point : network.elements) {
+    const Matrix3<Extended> f0 = deformation(point, from.data()), f1 = deformation(point, to.data());
+    // differences of velocities, not of places: a short move has few digits in these
+    const Matrix3<Extended> move = 2 * tau * deformation(point, speeds.data());
+    add_pull(point, discrete_gradient ? discrete_stress(point.law, f0, move) : stress(point.law, f1), pull.data());
+    for_each_size(point, to.data(), 2 * std::abs(tau) * top_speed,
+                  [&](std::uint32_t i, Extended size) { result.sizes[i] += size; });
+    if (point.damping_time != 0)
+      add_pull(point, damping_stress(point, deformation(point, half.data()), deformation(point, speeds.data())),
+               pull.data());
+    for_each_damping_size(point, half.data(), 2 * std::abs(tau) * top_speed, 2 * top_speed,
+                          [&](std::uint32_t i, Extended size) { result.sizes[i] += size; });
+    if (discrete_gradient)
+      for (std::size_t a = 0; a < point.corner.size(); ++a)
+        result.sizes[point.corner[a]] +=
+            point.volume * point.gradient[a].norm() * discrete_stress_size(point.law, f0, move);
+  }
+  for (std::size_t i = 0; i < w.size(); ++i) result.acceleration[i] += three(pull, i);
+}
 
 StageForces StageEquation::forces(const std::vector<Vector>& w) const {
   const std::size_t n = network.point_count();
@@ -32,6 +64,7 @@ StageForces StageEquation::forces(const std::vector<Vector>& w) const {
     result.acceleration[s.a] += pull;
     result.acceleration[s.b] -= pull;
   }
+  add_elements(w, result);
   for (std::size_t i = 0; i < n; ++i) {
     const Extended mass = network.mass[i];
     result.sizes[i] =
@@ -62,6 +95,20 @@ std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w, const
     for (const auto i : {s.a, s.b})
       result[i] += t * (std::abs(Extended(s.stiffness)) * reach_loss + std::abs(Extended(s.damping)) * speed_loss) /
                    network.mass[i];
+  for (const ElasticPoint& point : network.elements) {
+    if (reach_loss == 0) break;
+    Extended strain = 0;  // of what the places are wrong by; the stiffness is in the size
+    for (const auto& gradient : point.gradient) strain += reach_loss * gradient.norm();
+    for_each_size(point, numbers_of(xh).data(), 2 * t * top_speed,
+                  [&](std::uint32_t i, Extended size) { result[i] += t * strain * size / network.mass[i]; });
+    // what is wrong twice over is in both stretches of a pull
+    for_each_damping_size(
+        point, numbers_of(xh).data(), 2 * t * top_speed + reach_loss, 2 * top_speed,
+        [&](std::uint32_t i, Extended size) { result[i] += 2 * t * strain * size / network.mass[i]; });
+  }
+  for (const ElasticPoint& point : network.elements)
+    for_each_damping_size(point, numbers_of(xh).data(), 2 * t * top_speed, speed_loss,
+                          [&](std::uint32_t i, Extended size) { result[i] += t * size / network.mass[i]; });
   for (std::size_t i = 0; i < n; ++i) {
     const Extended speeds = largest_of(w[i]) + largest_of(vh[i]);
     if (network.fixed[i])
@@ -83,38 +130,59 @@ Extended StageEquation::excess(const std::vector<Vector>& w) const {
 }
 
 std::vector<Vector> StageEquation::start() const {
-  std::vector<Vector> w = guess.empty() ? vh : guess;
-  if (rest_is_lower(w))
-    for (std::size_t i = 0; i < w.size(); ++i)
-      if (!network.fixed[i]) w[i].setZero();
-  return w;
+  std::vector<Vector> flight = guess.empty() ? vh : guess, rest = flight;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    if (!network.fixed[i]) rest[i].setZero();
+  return potential_change(flight, rest).value < 0 ? rest : flight;
 }
 
-// phi(w) = |w - vh|_M^2 / 2 + U(xh + tau w) + tau/2 (sum of c (d.w)^2 + viscosity |w|_M^2), d the directions at the
-// guess; at rest less at the guess.
-bool StageEquation::rest_is_lower(const std::vector<Vector>& flight) const {
-  Extended change = 0;
+// phi(w) = |w - vh|_M^2 / 2 + U(xh + tau w) + tau/2 (sum of c (d.w)^2 + viscosity |w|_M^2), d the directions at `from`,
+// and of elements their damping with F from there.
+StageEquation::Change StageEquation::potential_change(const std::vector<Vector>& from,
+                                                      const std::vector<Vector>& to) const {
+  Change change;
+  const auto add = [&change](Extended summand) {
+    change.value += summand;
+    change.sizes += std::abs(summand);
+  };
   for (std::size_t i = 0; i < network.point_count(); ++i) {
     if (network.fixed[i]) continue;
-    const Extended mass = network.mass[i];
-    change += mass / 2 * (vh[i].squaredNorm() - (flight[i] - vh[i]).squaredNorm());
-    change -= tau * network.viscosity * mass / 2 * flight[i].squaredNorm();
-    change += tau * mass * network.gravity.cast<Extended>().dot(flight[i]);
+    const Vector move = to[i] - from[i], sum = to[i] + from[i];
+    const Vector fall = tau * network.gravity.cast<Extended>();
+    const Vector slope = sum / 2 - vh[i] - fall + tau * network.viscosity / 2 * sum;
+    add(network.mass[i] * slope.dot(move));
   }
-  const auto rest = [&](std::size_t i) { return network.fixed[i] ? flight[i] : Vector(Vector::Zero()); };
   for (const Spring& s : network.springs) {
-    const Vector d = xh[s.b] - xh[s.a], flown = flight[s.b] - flight[s.a], stays = rest(s.b) - rest(s.a);
-    const Extended l0 = (d + tau * flown).norm(), l1 = (d + tau * stays).norm();
-    if (l0 + l1 > 0)
-      change += s.stiffness * ((l0 + l1) / 2 - s.rest_length) *
-                (tau * (2 * d + tau * (flown + stays)).dot(stays - flown) / (l0 + l1));
+    const Vector d = xh[s.b] - xh[s.a], w0 = from[s.b] - from[s.a], w1 = to[s.b] - to[s.a];
+    const Extended l0 = (d + tau * w0).norm(), l1 = (d + tau * w1).norm();
+    if (l0 + l1 > 0) {
+      const Extended longer = tau * (2 * d + tau * (w0 + w1)).dot(w1 - w0) / (l0 + l1);
+      add(s.stiffness * ((l0 + l1) / 2 - s.rest_length) * longer);
+    }
     if (l0 > 0) {
-      const Vector along = (d + tau * flown) / l0;
-      const Extended before = flown.dot(along), after = stays.dot(along);
-      change += tau * s.damping / 2 * (after * after - before * before);
+      const Vector along = (d + tau * w0) / l0;
+      const Extended before = w0.dot(along), after = w1.dot(along);
+      add(tau * s.damping / 2 * (after * after - before * before));
     }
   }
-  return change < 0;
+  if (network.elements.empty()) return change;
+  const auto places = [&](const std::vector<Vector>& w) {
+    std::vector<Vector> at(xh);
+    for (std::size_t i = 0; i < xh.size(); ++i) at[i] += tau * w[i];
+    return numbers_of(at);
+  };
+  const std::vector<Extended> before = places(from), after = places(to);
+  for (const ElasticPoint& point : network.elements) {
+    add(point.volume * energy_density(point.law, deformation(point, after.data())));
+    add(-point.volume * energy_density(point.law, deformation(point, before.data())));
+    if (point.damping_time == 0) continue;
+    const Matrix3<Extended> f = deformation(point, before.data());
+    for (const auto& [w, sign] : {std::pair(&to, 1), std::pair(&from, -1)}) {
+      const Matrix3<Extended> rate = deformation(point, numbers_of(*w).data());
+      add(sign * tau * point.volume / 2 * damping_stress(point, f, rate).cwiseProduct(rate).sum());
+    }
+  }
+  return change;
 }
 
 }  // namespace dartboard::reference

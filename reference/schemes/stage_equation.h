@@ -34,8 +34,14 @@ struct StageEquation {
   /// potential.
   std::vector<Vector3<Extended>> start() const;
 
+  /// [J] The incremental potential at one w less that at another, and the sizes of what it is summed from.
+  struct Change {
+    Extended value = 0, sizes = 0;
+  };
+  Change potential_change(const std::vector<Vector3<Extended>>& from, const std::vector<Vector3<Extended>>& to) const;
+
  private:
-  bool rest_is_lower(const std::vector<Vector3<Extended>>& flight) const;
+  void add_elements(const std::vector<Vector3<Extended>>& w, StageForces& result) const;
 };
 
 }  // namespace dartboard::reference

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "core/plain/random.h"
+#include "reference/schemes/rounding.h"
 
 namespace dartboard::reference {
 namespace {
-
-constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
 
 // By axis, of positions and then of velocities.
 using Sizes = std::array<Extended, 6>;
@@ -43,6 +42,17 @@ std::vector<Extended> disturbed(const SpringNetwork& network, const std::vector<
                    (std::abs(Extended(s.stiffness)) * (length + std::abs(Extended(s.rest_length))) +
                     std::abs(Extended(s.damping)) * apart);
   }
+  for (const ElasticPoint& point : network.elements)
+    for_each_size(point, y.data(), 0, [&](std::uint32_t i, Extended size) {
+      if (!network.fixed[i]) kick[i] += std::abs(h) / network.mass[i] * size;
+    });
+  const std::vector<Extended> speeds(y.begin() + static_cast<std::ptrdiff_t>(3 * n), y.end());
+  Extended fastest = 0;
+  for (const Extended speed : speeds) fastest = max_or_nan(fastest, std::abs(speed));
+  for (const ElasticPoint& point : network.elements)
+    for_each_damping_size(point, y.data(), 0, 2 * fastest, [&](std::uint32_t i, Extended size) {
+      if (!network.fixed[i]) kick[i] += std::abs(h) / network.mass[i] * size;
+    });
   const Sizes sizes = largest(y.size(), [&](std::size_t c) { return y[c]; });
   std::vector<Extended> result = y;
   for (std::size_t c = 0; c < y.size(); ++c) {

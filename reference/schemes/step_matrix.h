@@ -19,6 +19,9 @@ enum class Tangent : std::uint8_t { exact, projected };
 /// spring without length, which has no direction, k in all.
 Eigen::Matrix<Extended, 3, 3> stiffness_of(const Spring& spring, const Vector3<Extended>& line, Tangent tangent);
 
+/// How the stress of a point of an element changes with F, with the places at x.
+StressSlope slope_of(const ElasticPoint& point, const Extended* x, Tangent tangent);
+
 /// Rows and columns of held points are those of the identity.
 DenseMatrix step_matrix(const SpringNetwork& network, const std::vector<Vector3<Extended>>& x, Extended tau,
                         Tangent tangent);

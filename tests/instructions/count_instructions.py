@@ -37,7 +37,7 @@ def count(options, section):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--valgrind", default="valgrind")
-    parser.add_argument("--driver", required=True, help="the program topology_instructions")
+    parser.add_argument("--driver", required=True, help="the program kernel_instructions")
     parser.add_argument("--counts", required=True, type=pathlib.Path, help="counts.json")
     parser.add_argument("--compiler", required=True, help="what built the driver: 'GCC 12.2.0'")
     parser.add_argument("--update", action="store_true", help="write the counts instead of comparing with them")

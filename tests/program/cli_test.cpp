@@ -143,7 +143,7 @@ TEST(MeshFormats, AreThoseThatTheReaderNames) {
       EXPECT_NE(run("mesh --formats").out.find(extension), std::string::npos) << extension;
     }
   EXPECT_EQ(static_cast<std::ptrdiff_t>(extensions),
-            std::count(known.begin(), known.end(), '(') + 1);  // TetGen has two
+            std::count(known.begin(), known.end(), '(') + 2);  // Medit and TetGen have two
 }
 
 TEST(List, NamesTheWalksOfThePaper) {

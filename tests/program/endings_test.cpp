@@ -147,6 +147,46 @@ TEST_F(Endings, OfAPictureAndAVerdictTheVerdictCounts) {
             1);
 }
 
+TEST_F(Endings, WithoutCalculixItSaysWhichPackageHasIt) {
+  fs::create_directories(folder_ / "no programs");
+  EXPECT_EQ(ended(start({"validate", "elements", "--quick", "--with", "calculix"}, (folder_ / "no programs").string())),
+            3);
+  EXPECT_NE(text("errors.txt").find("--with calculix: no `ccx`"), std::string::npos) << text("errors.txt");
+  EXPECT_NE(text("errors.txt").find("Debian package calculix-ccx"), std::string::npos) << text("errors.txt");
+  EXPECT_EQ(text("printed.txt"), "");
+}
+
+// A program of that name that says of every node that it moves by a metre.
+TEST_F(Endings, ACalculixThatDisagreesIsADisagreementAndLeavesNoFiles) {
+  fs::create_directories(folder_ / "bin");
+  fs::create_directories(folder_ / "scratch");
+  std::ofstream(folder_ / "bin" / "ccx") << R"(#!/bin/sh
+if [ "$1" = -v ]; then echo "This is Version 0.1"; exit 201; fi
+n=0
+{ echo " displacements (vx,vy,vz) for set ALL and time  0.1000000E+01"
+  while read -r line; do
+    case $line in
+      "*ELEMENT"*) break ;;
+      "*"*) ;;
+      *) n=$((n + 1)); echo "$n 0.000000E+00 0.000000E+00 1.000000E+00" ;;
+    esac
+  done < beam.inp; } > beam.dat
+)";
+  fs::permissions(folder_ / "bin" / "ccx", fs::perms::owner_all);
+  setenv("TMPDIR", (folder_ / "scratch").c_str(), 1);
+  const pid_t child =
+      start({"validate", "elements", "--quick", "--with", "calculix", "--out", "out"}, (folder_ / "bin").string());
+  unsetenv("TMPDIR");
+  EXPECT_EQ(ended(child), 1) << text("errors.txt");
+  for (const auto& claim : nlohmann::json::parse(text("out/claims.json"))) {
+    const std::string id = claim.at("id");
+    EXPECT_EQ(claim.at("verdict"), id.starts_with("elements-calculix") ? "falls short" : "holds") << id;
+  }
+  EXPECT_NE(text("out/calculix.md").find("tetrahedra (C3D4)"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(text("out/manifest.json")).at("calculix"), "0.1");
+  EXPECT_TRUE(fs::is_empty(folder_ / "scratch"));
+}
+
 TEST_F(Endings, WithoutAFolderResultsAreLeftWhereOneStands) {
   EXPECT_EQ(ended(start({"validate", "solvers", "--quick", "--only", "accuracy"})), 0) << text("errors.txt");
   const fs::path results = folder_ / "dartboard-results";

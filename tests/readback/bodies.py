@@ -106,6 +106,10 @@ def solid():
     return Body(points, right_handed)
 
 
+def contact():
+    return solid()
+
+
 def mixed():
     """Two hexahedra beside each other, a pyramid on the first, a wedge on the second and a tetrahedron on the wedge."""
     points = [[0.2 * i, 0.25 * j, 0.3 * k] for k in range(2) for j in range(2) for i in range(3)]

@@ -198,7 +198,7 @@ class Network:
         unit = along / length[:, None]
         faster = ((v[self.ends[:, 1]] - v[self.ends[:, 0]]) * unit).sum(axis=1)
         pull = (self.stiffness * (length - self.rest_length) + self.damping * faster)[:, None] * unit
-        force = np.zeros_like(x)
+        force = surroundings["contact"](x)[0] if "contact" in surroundings else np.zeros_like(x)
         np.add.at(force, self.ends[:, 0], pull)
         np.add.at(force, self.ends[:, 1], -pull)
         a = force / self.mass[:, None] - surroundings["viscosity"] * v + surroundings["gravity"]
@@ -225,6 +225,8 @@ class Network:
         at_vertex = np.zeros(len(x))
         for end in (0, 1):
             np.add.at(at_vertex, self.ends[:, end], self.stiffness * large + self.damping * fast)
+        if "contact" in surroundings:
+            at_vertex += surroundings["contact"](x)[1] * large
         off = (2.0 ** -42 * at_vertex / self.mass).max() + 2.0 ** -46 * (np.abs(k1[1]).max() + fast)
         v_off = 2 * h * off + 8 * EPS * fast
         return x_then, v_then, h * v_off + 8 * EPS * large, v_off

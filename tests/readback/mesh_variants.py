@@ -117,6 +117,11 @@ class MeshVariants(unittest.TestCase):
     def test_medit(self):
         points, blocks = solid()
         self.check(self.written(".mesh", points, blocks), points, blocks)
+        for integer, version in (("i4", 3), ("i8", 4)):
+            with self.subTest(version=version):
+                said = self.written(".meshb", points, [(kind, np.array(cells, integer)) for kind, cells in blocks])
+                self.check(said, points, blocks)
+                self.assertEqual(said["format"], "Medit %d binary" % version)
 
     # ---- surfaces
 

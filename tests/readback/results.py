@@ -34,7 +34,7 @@ class Frame:
         self.springs, self.strain = ([column[c] for c in lines] for column in (listed, strain))
         self.labels_of_springs = {label[c] for c in lines}
         self.tension = joined("tension") if "tension" in mesh.cell_data else None
-        for name in ("held", "displacement", *STRESSES):
+        for name in ("held", "displacement", "contact_force", "contact_depth", *STRESSES):
             setattr(self, name, mesh.point_data.get(name))
         self.point_names, self.cell_names = set(mesh.point_data), set(mesh.cell_data)
         (self.time,) = (float(t) for t in mesh.field_data["TimeValue"].ravel())

@@ -135,6 +135,7 @@ WRONG = {
     "the list has all frames at time 0": lambda run: setattr(run, "listed", [(0.0, f) for _, f in run.listed]),
     "the list runs backwards": lambda run: run.listed.reverse(),
     "kinetic and gravitational energy are exchanged": rows(lambda r: exchange(r, ENERGIES[0], ENERGIES[2])),
+    "forces do no work": rows(lambda r: [r.update({k: "0"}) for k in r if k.startswith("applied")]),
     "elastic energy is left out": rows(set_to(ENERGIES[1], lambda _: "0")),
     "energies are those of the row before": rows_lag,
     "momentum is angular": rows(lambda r: [exchange(r, "momentum %s [kg m/s]" % a,
@@ -168,6 +169,25 @@ WRONG = {
     "the summary is not what was printed": lambda run: set_to("steps", lambda n: n + 1)(run.summary),
 }
 
+# of a scene with contact alone
+WRONG_CONTACTS = {
+    "forces of contact have the wrong sign": column("contact_force", lambda f: -f.contact_force),
+    "forces of contact are those of the next vertex": column("contact_force", lambda f: np.roll(f.contact_force, 1, axis=0)),
+    "forces of contact are of single precision": column(
+        "contact_force", lambda f: f.contact_force.astype("f4").astype("f8")),
+    "vertices are as deep as the deepest": column("contact_depth", lambda f: 0 * f.contact_depth + f.contact_depth.max()),
+    "depths are a hundred-millionth off": column("contact_depth", lambda f: f.contact_depth * (1 + 1e-8)),
+    "the energy of contacts is elastic": rows(lambda r: exchange(r, "contact [J]", ENERGIES[1])),
+    "contacts have no energy": rows(set_to("contact [J]", lambda _: "0")),
+    "obstacles that move do no work": rows(set_to("supplied at contacts [J]", lambda _: "0")),
+    "their work has the wrong sign": rows(set_to("supplied at contacts [J]", lambda t: str(-float(t)))),
+    "friction takes something": rows(set_to("lost by friction [J]", lambda _: "1e-9")),
+    "restitution takes something": rows(set_to("lost by restitution [J]", lambda _: "1e-9")),
+    "there is a contact more": rows(set_to("contacts", lambda t: str(int(t) + 1))),
+    "the deepest contact is a hundred-millionth off": rows(
+        set_to("deepest contact [m]", lambda t: repr(float(t) * (1 + 1e-8)))),
+}
+
 
 def seen(story, tamper):
     """The test that fails with these results, or None. Those that read the files themselves see what was written."""
@@ -192,14 +212,15 @@ def main(program, kind, *words):
         if first:
             sys.exit("%s fails with results that nobody tampered with" % first)
         missed = []
-        for name, tamper in WRONG.items():
+        wrong = WRONG_CONTACTS if kind == "contact" else WRONG
+        for name, tamper in wrong.items():
             if words and not any(word in name for word in words):
                 continue
             test = seen(story, tamper)
             print("%-50s %s" % (name, test or "NOT SEEN"))
             if not test:
                 missed.append(name)
-        print("%d of %d wrong results seen" % (len(WRONG) - len(missed), len(WRONG)))
+        print("%d of %d wrong results seen" % (len(wrong) - len(missed), len(wrong)))
         return 1 if missed else 0
     finally:
         shutil.rmtree(folder)

@@ -17,6 +17,9 @@ OPERATIONS = RUN + "operations/samples.jsonl"
 ABLATION = RUN + "ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
+FORETOLD = "results/2026-11-23-epyc-foretold/samples.jsonl"
+OPERATED = ["results/2026-11-23-epyc-element-operations/samples.jsonl", "results/2026-11-23-epyc-element-operations-real/samples.jsonl"]
+MODELS = "results/2026-11-23-epyc-models/"
 EXTREMES = RUN + "reproduce/extremes/"
 JUDGES = "results/2026-11-23-epyc-judges/judges.json"
 ELEMENTS = "results/2026-11-23-epyc-elements/samples.jsonl"
@@ -170,6 +173,22 @@ def in_time():
 
 def regrets():
     return [a["actual_cost"] / a["best_cost"] for a in met() if a["swept"] and a["best_cost"]]
+
+
+def operated():
+    return [o for path in OPERATED for o in lines(path)]
+
+
+def claim_of_models(name):
+    return next(c for c in document(MODELS + "claims.json") if c["id"] == name)
+
+
+def foretold():
+    return [a for a in lines(FORETOLD) if a["pick"] and a["foretold"]]
+
+
+def times_the_best(a):
+    return a["actual_cost"] / a["best_cost"]
 
 
 def pilots():
@@ -337,6 +356,37 @@ FIGURES = [
      lambda: (words(len(frequencies())), "%.1f" % max(float(r["upper"].split()[0]) for r in frequencies()))),
     (RESULTS, "In {} unstable runs the energy", [EXTREMES + "measurements.json"],
      lambda: (str(len(document(EXTREMES + "measurements.json")["detection"])),)),
+    (RESULTS, "hexahedra are the cheapest for frequencies nearer than {} %", [MODELS + "cheapest.md"],
+     lambda: (next(r["errors"].split(" %")[0] for r in rows_of(MODELS + "cheapest.md")
+                   if r["question"] == "frequencies" and r["Poisson's ratio"] == "0.25" and r["the cheapest"] == "springs"),)),
+    (RESULTS, "Springs have the tip within 10 % in {} {} of the time of hexahedra", [MODELS + "claims.json"],
+     lambda: (claim_of_models("models-springs-coarse")["measured"], claim_of_models("models-springs-coarse")["bound_or_interval"].split(" at")[0])),
+    (RESULTS, "to the sides: {} at a ratio of 0.45.", [MODELS + "claims.json"], lambda: (claim_of_models("models-springs-confined")["measured"],)),
+    (RESULTS, "sure of tip and frequencies to {}, of the motion to {}.", [MODELS + "claims.json", MODELS + "references.md"],
+     lambda: (claim_of_models("models-reference")["measured"], max((r["motion by"] for r in rows_of(MODELS + "references.md")), key=lambda m: float(m.split()[0])))),
+    (RESULTS, "cell arrays cost {} [{}, {}] times the graph: the paper's 1.10 is on the border", ["results/2026-11-23-epyc-paper/samples.jsonl"],
+     lambda: all_of(ratio(lines("results/2026-11-23-epyc-paper/samples.jsonl"), "arrays", "graph"), lambda x: "%.2f" % x)),
+    (RESULTS, "Through {} random operations on {} bodies, two of them meshes of SOFA, by {} laws, no separation changed an energy by a bit, "
+              "a removal took that of its cell to {} of the whole, and bodies built anew differed by at most {} of what was summed", OPERATED,
+     lambda: ("{:,}".format(sum(o["dissociated"] + o["removed"] for o in operated())), words(len({o["body"] for o in operated()})),
+              words(len({o["model"] for o in operated()})), "%.1e" % max(o["removal"] for o in operated()) if not any(o["dissociation"] for o in operated()) else "",
+              "%.1e" % max(o[what] for o in operated() for what in ("energy", "force", "mass")))),
+    (RESULTS, "Of {} pairs of a motion and an error, {} were runs that cost {} to {} times their pilots, which had seen {} to {} % of the motion.",
+     [FORETOLD], lambda: (str(len(lines(FORETOLD))), str(len(foretold())),
+                          *("%.0f" % f(a["actual_s"] / a["pilot_s"] for a in foretold()) for f in (min, max)),
+                          *("%.2f" % (100 * f(a["seen_part"] for a in foretold())) for f in (min, max)))),
+    (RESULTS, "All {} errors were met, and all {} times as printed were within 15 % ({} without a miss show {} %;", [FORETOLD],
+     lambda: (str(len([a for a in foretold() if a["told"] and a["actual_error"] <= a["error"]])),
+              str(len([a for a in foretold() if abs(a["printed_s"] / a["actual_s"] - 1) <= 0.15])), str(len(foretold())),
+              "%.0f" % (100 * share_at_least(len(foretold()), len(foretold()))))),
+    (RESULTS, "The rest: {} cost less, {} would have taken longer than 15 s", [FORETOLD],
+     lambda: (str(len([a for a in lines(FORETOLD) if a["pick"] and not a["foretold"]])),
+              str(len([a for a in lines(FORETOLD) if not a["pick"] and "too long to follow" in a["confidence"]])))),
+    (RESULTS, "its median is {} [{}, {}] times that of the cheapest setting", [FORETOLD],
+     lambda: ("%.0f" % median([times_the_best(a) for a in foretold()]),
+              *(digits(e, 2) if e < 10 else "%.0f" % e for e in interval([times_the_best(a) for a in foretold()])[:2]))),
+    (RESULTS, "is without damping, the cost was {} to {} times", [FORETOLD],
+     lambda: ["%.2f" % f(times_the_best(a) for a in foretold() if a["scene"].endswith(" 9")) for f in (min, max)]),
     (RESULTS, "for at most {} steps before it was told (target 64)", [EXTREMES + "detection.md"],
      lambda: (str(max(int(r["most steps above"]) for r in rows_of(EXTREMES + "detection.md"))),)),
     (RESULTS, "at 1.01 times its limit is found at step {} of the run, at 1.003 at step {}, at 1.001 at step {}.",
@@ -388,6 +438,14 @@ NO_MEASUREMENT = [
     (RESULTS, "(target 95: cannot tell;", ("benchmarks/studies/tradeoff/audit_report.cpp", "part_asked = 0.95")),
     (RESULTS, "runs longer than 5 s", ("benchmarks/studies/tradeoff/audit_report.cpp", "long_run_s = 5.0")),
     (RESULTS, "`dartboard recommend --audit --seed 20261123`", NAME),
+    (RESULTS, "at a Poisson's ratio of 1/4, and springs", NAME),
+    (RESULTS, "and within 5 % still earlier", ("benchmarks/studies/models/models_report.cpp", "fine = 0.05")),
+    (RESULTS, "`dartboard validate elements --operations 100000`", NAME),
+    (RESULTS, "`dartboard recommend --audit --long --seed 616779`", NAME),
+    (RESULTS, "as printed were within 15 % (", ("benchmarks/studies/foretold/foretold_report.cpp", "seconds_margin = 0.15")),
+    (RESULTS, "target 95: cannot tell). The rest", ("benchmarks/studies/foretold/foretold_report.cpp", "part_asked = 0.95")),
+    (RESULTS, "taken longer than 15 s and", ("benchmarks/studies/foretold/foretold_study.cpp", "longest_run_s = 15.0")),
+    (RESULTS, "of a sweep (target 1.2).", ("benchmarks/studies/foretold/foretold_report.cpp", "most_regret = 1.2")),
     (RESULTS, "before it was told (target 64)", ("benchmarks/studies/extremes/extremes_report.cpp", '"all; <= 64"')),
     (RESULTS, "Verlet at 1.01 times its limit", NAME),
     (RESULTS, "at 1.003 at step", NAME),

@@ -55,6 +55,7 @@ struct SystemCounts {
   std::size_t links = 0;    // springs between two free vertices
   std::size_t anchors = 0;  // springs between a free and a fixed vertex
   bool damping = false, viscosity = false;
+  bool damped_terms = false;
 };
 
 inline SystemCounts counts_of(const SpringSystem& system) {
@@ -62,7 +63,8 @@ inline SystemCounts counts_of(const SpringSystem& system) {
   SystemCounts counts{.vertices = system.vertex_count(),
                       .springs = system.springs.size(),
                       .damping = terms.damping,
-                      .viscosity = terms.viscosity};
+                      .viscosity = terms.viscosity,
+                      .damped_terms = has_damped_terms(system)};
   for (const auto& [a, b] : system.ends) {
     if (a == b || (system.fixed[a] && system.fixed[b])) continue;
     ++(system.fixed[a] || system.fixed[b] ? counts.anchors : counts.links);
@@ -78,9 +80,10 @@ inline std::size_t predicted_integrator_bytes(std::string_view integrator, const
     std::size_t bytes = c.vertices * (vector * columns.vectors + sizeof(double) * columns.numbers);
     if (damped) bytes += c.vertices * vector * columns.vectors_damped;
     if (columns.directions && c.damping) bytes += c.springs * vector;
-    if (columns.flow && damped) bytes += c.vertices * sizeof(double);       // inverse masses, 0 where fixed
-    if (columns.flow && c.damping) bytes += c.springs * sizeof(double);     // what each spring relaxes
-    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);  // what is left of each velocity
+    if (columns.directions && c.damped_terms) bytes += c.vertices * vector;  // where they stand still
+    if (columns.flow && damped) bytes += c.vertices * sizeof(double);        // inverse masses, 0 where fixed
+    if (columns.flow && c.damping) bytes += c.springs * sizeof(double);      // what each spring relaxes
+    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);   // what is left of each velocity
     return bytes;
   }
   throw InputError(fmt::format("the memory of an integrator '{}' is not known", integrator));

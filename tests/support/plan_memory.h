@@ -42,7 +42,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
   const Storage storage = plan.needs.body.storage;
   const bool tetrahedra = storage == Storage::tetrahedra;
   const std::size_t dimension = storage == Storage::surface ? 2 : 3;
-  SystemArrays arrays(problem);
+  SystemArrays arrays(problem, plan.needs.body);
   switch (item.part) {
     case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
     // three are in use at once while a body is built: those of a coverage, of a cell met by it, of the cells around
@@ -62,6 +62,14 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::viscosity: return n.vertices * real;
     case Part::fixed: return n.vertices;
     case Part::rest: return n.vertices * vector;
+    case Part::pull: {  // by vertex, and of each force its points with one pull for all, or one each
+      std::size_t sum = n.vertices * vector;
+      for (const SceneForce& force : scene.forces) {
+        const std::size_t points = select_points(force.vertices, problem.mesh.points, force.path).size();
+        sum += points * number + (force.force ? 1 : points) * vector;
+      }
+      return sum;
+    }
     case Part::driven: {
       DrivenVertices vertices(scene, problem.mesh.points, scene.step);
       vertices.apply(0, n.point, arrays.v);
@@ -70,9 +78,23 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       return vertices.bytes() + detector.driven_bytes();
     }
     case Part::springs: return n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds));
-    // of tetrahedra a matrix and four corners; of cells of any kind what eight corners and Gauss points take
+    // of tetrahedra a matrix and four corners; of cells of any kind what eight corners and Gauss points take; of a
+    // surface of triangles three numbers and three corners, of any the numbers at four points
     case Part::elements:
+      if (storage == Storage::surface)
+        return n.cells * (std::ranges::find(problem.mesh.kinds, CellKind::quadrilateral) == problem.mesh.kinds.end()
+                              ? 3 * real + 3 * number
+                              : 12 * real + sizeof(SolidNodes));
       return n.cells * (tetrahedra ? 9 * real + 4 * number : sizeof(SolidShape) + sizeof(SolidNodes));
+    case Part::cell_springs:  // kind, which and how, modulus, 16 lengths; eight corners and their count
+      return n.cells * (2 * real + 16 * real) + (problem.cell_materials().has_elements() ? 0 : n.cells * 9 * number);
+    case Part::bending: return n.edges * (scene.bending.rigidity > 0.0 ? 4 * number + 3 * real : 6 * number + 2 * real);
+    case Part::contact: {  // laws, obstacles, how far each has come and its damping ratio; samples; velocities to undo
+      const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
+      return scene.obstacles.size() * (sizeof(ContactLaw) + sizeof(Obstacle) + vector + real) +
+             samples * sizeof(SkinSample) + (plan.needs.solver ? n.vertices * vector : 0) +
+             (plan.needs.body.topology_changes ? (samples + n.vertices + faces) * number : 0);
+    }
     case Part::damping: return n.edges * sizeof(Spring::damping);
     case Part::integrator: return predicted_integrator_bytes(scene.integrator, counts_of(arrays.system()));
     case Part::solver: return predicted_solver_bytes(scene.integrator, arrays.system());
@@ -84,6 +106,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
              (n.boundary_facets + 1 + n.boundary_corners) * number;
     case Part::probes: return scene.probes.size() * number;
     case Part::gravity:
+    case Part::cell_damping:
     case Part::speed_check:
     case Part::step_check:
     case Part::frames:

@@ -28,6 +28,14 @@ AdaptedBody<Map> body_of(Mesh mesh) {
   return build_body<Map, Held::by_every_dart>(problem);
 }
 
+/// It, holding its places at rest.
+template <class Map>
+AdaptedBody<Map> at_rest(const Mesh& mesh) {
+  auto body = body_of<Map>(mesh);
+  body.vertices.keep_rest();
+  return body;
+}
+
 /// The first three nodes of every other cell in another order: those cells are left-handed, the solid is the same.
 inline Mesh with_left_handed_cells(Mesh mesh) {
   for (std::size_t c = 0; c < mesh.cell_count(); c += 2)

@@ -53,6 +53,10 @@ void RefinementChecks<Map>::vertex(std::uint32_t k, SubdividedCells::Corner firs
   ledger_.equal(valid, v.viscosity[k], at_.start().material.viscosity * v.mass[k], "viscosity, vertex", k);
   // both are means of means, each off by no more than the witness says
   const SubdividedCells::Point& point = at_.cells.points()[at_.cells.cells()[first.cell].points[first.node]];
+  const bool is_new = v.point[k] == no_point;
+  ledger_.require(Check::put_in_the_middle,
+                  v.pull[k] == (is_new ? Eigen::Vector3d(0, 0, 0) : at_.start().mesh.points[v.point[k]]),
+                  "pull at vertex", k);
   ledger_.within(Check::put_in_the_middle, (v.rest[k] - point.rest).template lpNorm<Eigen::Infinity>(),
                  2.0 * point.error, point.rest.norm(), v.rest[k].norm(), point.rest.norm());
 }

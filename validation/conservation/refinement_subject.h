@@ -29,6 +29,7 @@ struct RefinedSubject {
       put(d, {c, node});
     });
     body.vertices.keep_rest();
+    body.vertices.pull = body.vertices.rest;  // of each vertex another
     views.rebuild(body);
   }
 

@@ -6,15 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "core/plain/material.h"
-#include "core/scene/body/simulated_body.h"
+#include "validation/elements/clamped_bar.h"
 
 namespace dartboard {
 
 /// 1 x 0.2 x 0.2 m, held at x = 0, 1e5 Pa, 1000 kg/m^3.
 namespace cantilever {
 inline constexpr double length = 1.0, side = 0.2, young = 1e5, density = 1000.0;
-}
+inline constexpr ClampedBar bar{{5, 1, 1}, side, young, density};
+}  // namespace cantilever
 
 /// What is asked of it: linear answers near rest.
 struct CantileverAnswers {
@@ -29,8 +29,8 @@ CantileverAnswers quadratic_cantilever(int across, double poisson);
 /// or of the cubes as hexahedra.
 CantileverAnswers cantilever_of(Model model, int across, double poisson, CellKind cells = CellKind::tetrahedron);
 
-/// What scikit-fem 12.0.2 has with 27-node hexahedra, 6 across; the edges of the clamp are singular, so that such
-/// numbers are some 0.1 % off (0.4 % at 0.45).
+/// What scikit-fem 12.0.2 has with 27-node hexahedra, 6 across (reference/elements/values); the edges of the clamp are
+/// singular, so that such numbers are some 0.1 % off (0.4 % at 0.45).
 struct PublishedCantilever {
   double poisson, work, first, torsion, second, axial;
 };
@@ -43,8 +43,7 @@ inline constexpr std::array<PublishedCantilever, 3> published_cantilevers{
 std::unique_ptr<SimulatedBody> cantilever_body(Model model, int across, double poisson,
                                                CellKind cells = CellKind::tetrahedron);
 
-/// The modulus [Pa] of a slab that cannot give way to the sides: E (1 - nu) / ((1 + nu) (1 - 2 nu)); and that of a
-/// model's forces in a box of cubes, which a strain that is the same everywhere does not move from its places.
+/// confined_modulus of its material, and of a model's forces in tetrahedra.
 double confined_modulus(double poisson);
 double confined_modulus_of(Model model, double poisson);
 

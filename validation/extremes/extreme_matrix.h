@@ -68,5 +68,6 @@ void add_vertices(ExtremeMatrix& matrix);
 void add_denormals(ExtremeMatrix& matrix);
 void add_bad_numbers(ExtremeMatrix& matrix, bool injected);
 void add_events(ExtremeMatrix& matrix);
+void add_elements(ExtremeMatrix& matrix);
 
 }  // namespace dartboard

@@ -12,9 +12,11 @@
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/preflight.h"
 #include "core/time/watch/stable_step.h"
+#include "reference/elements/elastic_point.h"
 #include "reference/ode_intervals.h"
 #include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/motion_truth.h"
+#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 namespace {
@@ -69,6 +71,11 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
                    .size = largest_coordinate(start.x)};
   for (const Spring& s : start.springs)
     seen.energy_rounding += s.stiffness * std::pow(64 * epsilon * (scale.size + s.rest_length), 2);
+  if (start.solid)
+    for (const reference::ElasticPoint& point : start.solid->points())
+      for (const auto& gradient : point.gradient)
+        seen.energy_rounding += static_cast<double>(point.volume * modulus(point.law)) *
+                                std::pow(64 * epsilon * (1 + scale.size * static_cast<double>(gradient.norm())), 2);
   if (!motion || !setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
   for (std::size_t i = 0; i < start.x.size(); ++i)
     scale.amplitude = std::max(scale.amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
@@ -76,6 +83,9 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
     scale.amplitude = std::max(
         scale.amplitude,
         std::abs((start.x[start.ends[s][1]] - start.x[start.ends[s][0]]).norm() - start.springs[s].rest_length));
+  if (start.solid)
+    for (std::size_t i = 0; i < start.x.size(); ++i)
+      scale.amplitude = std::max(scale.amplitude, (start.x[i] - start.solid->rest().points[i]).norm());
   seen.distance_from_truth = motion->positions;
   seen.bound_from_truth = truth_bound(scale);
   return seen;
@@ -136,7 +146,7 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   StepResult result = detector.start(body.system(), body.motion(), setup.h);
   cell.refused = !result.ok();
   const double deadline = reference::thread_cpu_seconds() + budget;
-  StepEvidence evidence(which.integrator, setup.steps);
+  StepEvidence evidence(which.integrator, setup.steps, setup.body.solid.get());
   for (; cell.step < setup.steps && result.ok(); ++cell.step) {
     if (setup.halfway && cell.step == setup.steps / 2) {
       setup.halfway(body);
@@ -227,6 +237,11 @@ long double energy_of(const SpringColumns& body) {
     const long double stretch = std::sqrt(square) - body.springs[s].rest_length;
     sum += 0.5L * static_cast<long double>(body.springs[s].stiffness) * stretch * stretch;
   }
+  if (!body.solid) return sum;
+  std::vector<long double> places;
+  for (const Vector3d& p : body.x) places.insert(places.end(), p.begin(), p.end());
+  for (const reference::ElasticPoint& point : body.solid->points())
+    sum += point.volume * energy_density(point.law, deformation(point, places.data()));
   return sum;
 }
 

@@ -28,6 +28,7 @@ constexpr std::array axes{
     ExtremeAxis{"injected", "NaN and infinity that turn up in mid-run"},
     ExtremeAxis{"events", "dissociations and removals in every step"},
     ExtremeAxis{"long", "many steps"},
+    ExtremeAxis{"elements", "elastic solids: models, Poisson's ratio, spread of stiffness, flat and inverted cells"},
 };
 
 }  // namespace
@@ -77,6 +78,7 @@ std::vector<ExtremeCase> extreme_cases(std::string_view axis, bool quick) {
   if (axis == "input") add_bad_numbers(matrix, false);
   if (axis == "injected") add_bad_numbers(matrix, true);
   if (axis == "events") add_events(matrix);
+  if (axis == "elements") add_elements(matrix);
   return matrix.take();
 }
 

@@ -5,6 +5,7 @@
 #include "core/plain/nan_maximum.h"
 #include "reference/ode_codes.h"
 #include "validation/extremes/step_evidence.h"
+#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 namespace {
@@ -18,20 +19,22 @@ struct Truth {
   double duration = -1.0, rate = 0.0;
   std::vector<Spring> springs;
   std::vector<double> mass;
+  std::shared_ptr<const ElasticSolid> solid;
   std::optional<std::vector<long double>> end;
 
   bool is_of(const SpringColumns& start, double time) const {
     const auto same = [](const Spring& a, const Spring& b) {
       return a.rest_length == b.rest_length && a.stiffness == b.stiffness && a.damping == b.damping;
     };
-    return time == duration && x == start.x && v == start.v && mass == start.mass &&
+    const bool same_solid = !solid || !start.solid ? solid == start.solid : solid->is_like(*start.solid);
+    return same_solid && time == duration && x == start.x && v == start.v && mass == start.mass &&
            std::ranges::equal(springs, start.springs, same);
   }
 };
 
 Truth find_truth(const SpringColumns& start, double duration) {
-  Truth truth{start.x, start.v, duration, 0.0, start.springs, start.mass, std::nullopt};
-  const auto network = network_of(start.system());
+  Truth truth{start.x, start.v, duration, 0.0, start.springs, start.mass, start.solid, std::nullopt};
+  const auto network = network_of(start.system(), start.solid.get());
   if (!network || !(duration > 0.0)) return truth;
   truth.rate = reference::fastest_rate(*network, start.x);
   if (!(duration * truth.rate / step_times_rate <= most_steps)) return truth;

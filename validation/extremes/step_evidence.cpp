@@ -8,10 +8,12 @@
 
 namespace dartboard {
 
-std::optional<reference::SpringNetwork> network_of(const SpringSystem& system) {
+std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, const ElasticSolid* solid) {
+  if (!system.pull.empty() || (!system.terms.empty() && solid == nullptr)) return {};
   const std::size_t n = system.vertex_count();
   reference::SpringNetwork network;
   network.gravity = system.gravity;
+  if (solid != nullptr) network.elements = solid->points();
   bool known = false;
   for (std::size_t i = 0; i < n; ++i) {
     const bool fixed = system.fixed[i] != 0;
@@ -35,8 +37,10 @@ std::optional<reference::SpringNetwork> network_of(const SpringSystem& system) {
   return network;
 }
 
-StepEvidence::StepEvidence(std::string_view integrator, std::uint64_t steps, std::uint64_t most)
+StepEvidence::StepEvidence(std::string_view integrator, std::uint64_t steps, const ElasticSolid* solid,
+                           std::uint64_t most)
     : scheme_(integrator),
+      solid_(solid),
       stride_(std::max<std::uint64_t>(reference::is_costly_to_judge(integrator) ? 5 : 1, steps / most)) {}
 
 void StepEvidence::restarted() {
@@ -48,7 +52,8 @@ void StepEvidence::before(const SpringSystem& system, Motion motion, double h) {
   const double start = reference::thread_cpu_seconds();
   if (changed_) {
     judge_.reset();
-    if (const auto network = network_of(system)) judge_ = std::make_unique<reference::StepJudge>(scheme_, *network);
+    if (const auto network = network_of(system, solid_))
+      judge_ = std::make_unique<reference::StepJudge>(scheme_, *network);
     changed_ = false;
   }
   asks_ = judge_ != nullptr && (count_ < 8 || count_ % stride_ == 0);

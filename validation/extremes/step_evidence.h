@@ -9,18 +9,21 @@
 
 #include "core/time/system/spring_system.h"
 #include "reference/schemes/step_judge.h"
+#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 
-/// The system as a network of the witnesses'; nothing where they know no such bodies: viscosities that are not in
-/// proportion to masses, free vertices without mass, numbers that are not finite.
-std::optional<reference::SpringNetwork> network_of(const SpringSystem& system);
+/// The system, its other terms being those of `solid`, as a network of the witnesses'; nothing where they know no such
+/// bodies: viscosities that are not in proportion to masses, forces from outside, terms that they are not told of, free
+/// vertices without mass, numbers that are not finite.
+std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, const ElasticSolid* solid = nullptr);
 
 /// Judges the steps of a run: the first ones, and a sample of all others.
 class StepEvidence {
  public:
-  /// of a run of so many steps, of which about `most` are judged
-  StepEvidence(std::string_view integrator, std::uint64_t steps, std::uint64_t most = 200);
+  /// of a run of so many steps, of which about `most` are judged; of springs, and of a solid that outlives this
+  StepEvidence(std::string_view integrator, std::uint64_t steps, const ElasticSolid* solid = nullptr,
+               std::uint64_t most = 200);
 
   /// To be called before and after every step; `restarted` where the integrator was, or the system has changed.
   void before(const SpringSystem& system, Motion motion, double h);
@@ -38,6 +41,7 @@ class StepEvidence {
 
  private:
   std::string scheme_;
+  const ElasticSolid* solid_;
   std::uint64_t stride_, count_ = 0, judged_ = 0, seeing_ = 0, worst_step_ = 0;
   bool asks_ = false;  // whether the step under way is judged
   bool changed_ = true;

@@ -21,6 +21,7 @@ struct RecommendOptions {
   double stability = 0.95;                          // of the limit of stability
   double pilot_part = 0.1;                          // of the cheapest predicted run that all pilots together may take,
   double pilot_floor_s = 0.5;                       // beyond this
+  double last_look_s = 0.05;                        // that each of the best two gets in any case
   double most_pilot_s = 4.0;                        // of one pilot, as long as nothing is predicted
   double budget_s = 0.0;                            // that all pilots together may take; 0: the three above say it
   double kept_back = 0.4;                           // of a budget, for longer pilots and timings of the best

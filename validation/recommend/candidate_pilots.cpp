@@ -258,11 +258,14 @@ Longer pilot_far(Candidate& c, Pilots& pilots) {
 }
 
 Longer pilot_longer(Candidate& c, Pilots& pilots) {
-  // three pilots with k, k/2 and k/4 times the step take 7/k of the run
-  const double budget = 0.8 * pilots.left_s();
+  // three pilots with k, k/2 and k/4 times the step take 7/k of the run; of a run that is short they always see the
+  // whole, for what comes late is in no prefix
+  const RecommendOptions& options = pilots.options();
+  const double always_s = options.budget_s > 0.0 ? 0.0 : options.last_look_s;
+  const double budget = std::max(0.8 * pilots.left_s(), always_s);
   if (!(budget > 0.0)) return Longer::skipped;
   const double times_h = std::clamp(7.0 * c.predicted_s / budget, 4.0, 64.0);
-  const double h = std::min(times_h * c.h, pilots.options().stability * c.limit_h);
+  const double h = std::min(times_h * c.h, options.stability * c.limit_h);
   double part = 1.0;
   if (const double expected_s = 3.0 * c.predicted_s * c.h / h; expected_s > budget) part = budget / expected_s;
   // half of the run foretells it no better than the prefix; of a prefix that saw little, coarser ones see more

@@ -41,8 +41,8 @@ double Pilots::left_s() const {
 
 PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, const RunSetting& setting,
                      std::size_t checkpoints) {
-  const double limit_s =
-      std::clamp(left_s(), std::min(0.01, 20.0 * timing_s()), std::max(options_.most_pilot_s, options_.budget_s));
+  const double least_s_allowed = options_.budget_s > 0.0 ? std::min(0.01, 20.0 * timing_s()) : options_.last_look_s;
+  const double limit_s = std::clamp(left_s(), least_s_allowed, std::max(options_.most_pilot_s, options_.budget_s));
   // a neighbour only ever makes things slower: the least times are compared
   PilotRun pilot;
   double least_s = std::numeric_limits<double>::infinity(), total_s = 0.0;

@@ -7,6 +7,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
+#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 namespace {
@@ -36,6 +37,28 @@ SpringColumns extreme_body(std::string_view name) {
   if (name == "box") return columns_of_mesh(kuhn_box(2, 2, 2, 1.0, 0.2, 5), 1.0, stiffness);
   if (name == "sheet") return columns_of_mesh(triangle_sheet(4, 4, 1.0), 1.0, stiffness);
   throw InputError(fmt::format("there is no extreme body '{}'", name));
+}
+
+SpringColumns elastic_body(std::string_view name, const Material& material, const Material& other) {
+  if (std::ranges::find(elastic_bodies, name) == std::end(elastic_bodies))
+    throw InputError(fmt::format("there is no elastic body '{}'", name));
+  Mesh mesh = name == "tetrahedra" ? kuhn_box(2, 1, 1, 1.0) : hexahedron_box(2, 1, 1, 1.0);
+  SplitMix64 random(7);
+  for (Eigen::Vector3d& p : mesh.points) p += 0.1 * random.next_in_ball();
+  SpringColumns body;
+  for (const Eigen::Vector3d& p : mesh.points) body.add_vertex(0.0, p);
+  std::vector<MaterialNumber> of_cell;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    of_cell.push_back(2 * c >= mesh.cell_count());
+    const auto nodes = mesh.cell(c);
+    const double density = (of_cell.back() == 0 ? material : other).density;
+    for (const std::uint32_t node : nodes)
+      body.mass[node] += density * signed_measure(mesh, c) / static_cast<double>(nodes.size());
+  }
+  for (std::size_t i = 0; i < body.mass.size(); ++i) body.set_mass(i, body.mass[i]);
+  body.solid = std::make_shared<ElasticSolid>(std::move(mesh), std::vector{material, other}, std::move(of_cell));
+  body.terms = {&body.solid->term()};
+  return body;
 }
 
 void set_moving(SpringColumns& body, double size, double omega) {

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "core/plain/material.h"
 #include "validation/scenes/spring_columns.h"
 
 namespace dartboard {
@@ -14,6 +15,16 @@ namespace dartboard {
 /// throws  InputError for another name
 SpringColumns extreme_body(std::string_view name);
 inline constexpr std::string_view extreme_bodies[]{"oscillator", "chain", "box", "sheet"};
+
+/// Elements of a jittered box of 2 x 1 x 1 cubes of edge 1 m: twelve tetrahedra, or two hexahedra; each cell's mass in
+/// equal parts at its corners. The second half of the cells is of `other`. At rest, without springs.
+///
+/// throws  InputError for another name
+SpringColumns elastic_body(std::string_view name, const Material& material, const Material& other);
+inline SpringColumns elastic_body(std::string_view name, const Material& material) {
+  return elastic_body(name, material, material);
+}
+inline constexpr std::string_view elastic_bodies[]{"tetrahedra", "hexahedra"};
 
 /// Displace and set going the free vertices, by up to `size` edge lengths and `size` times omega of them per second;
 /// along the x axis only for bodies on it.

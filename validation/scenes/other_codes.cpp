@@ -6,28 +6,12 @@
 #include <future>
 #include <limits>
 
-#include "core/plain/nan_maximum.h"
-
 namespace dartboard {
 namespace {
 
-PointState rounded(const std::vector<long double>& y) {
-  PointState state;
-  const std::size_t n = y.size() / 6;
-  for (std::size_t i = 0; i < 2 * n; ++i)
-    (i < n ? state.x : state.v)
-        .emplace_back(static_cast<double>(y[3 * i]), static_cast<double>(y[3 * i + 1]),
-                      static_cast<double>(y[3 * i + 2]));
-  return state;
-}
-
 double distance(const TradeoffScene& scene, const reference::CodeRun& a, const reference::CodeRun& b) {
   if (!a.failure.empty() || !b.failure.empty()) return std::numeric_limits<double>::infinity();
-  double largest = 0.0;
-  for (std::size_t c = 0; c < scene.motion.checkpoints.size(); ++c)
-    largest = max_or_nan(largest, reference::position_distance(scene.motion.network_of(scene.motion.interval_at(c)),
-                                                               a.states[c], b.states[c], scene.edge));
-  return largest;
+  return reference::distance(scene.motion, a, b, scene.edge);
 }
 
 }  // namespace
@@ -52,7 +36,7 @@ SceneReference reference_by_other_codes(const TradeoffScene& scene, double accep
     // half the step leaves a 256th; what that does not mend is chaotic
     if (found.agreement <= accepted || !(found.agreement < 256.0 * accepted)) break;
   }
-  for (const auto& y : odeint.states) found.states.push_back(rounded(y));
+  for (const auto& y : odeint.states) found.states.push_back(reference::to_points(y));
   found.floor = 10.0 * found.agreement;
   found.what = fmt::format("{} ({:.1f} s); {} ({:.1f} s): {:.1e} edges away", odeint.code, odeint.cpu_s, other.code,
                            other.cpu_s, found.agreement);

@@ -143,7 +143,7 @@ std::vector<TimedCut> cuts_of(std::vector<SceneEvent> events, const Problem& pro
   auto last = std::ranges::find_if(events.rbegin(), events.rend(), depends_on_positions).base();
   for (auto event = events.begin(); event != events.end(); ++event) {
     if (event < last) scout.go_to(*event);
-    const std::vector<Dart> faces = scout.faces_of(*event);
+    std::vector<Dart> faces = scout.faces_of(*event);
     if (!scout.pass(faces)) {
       omissions.push_back(fmt::format("{} is left out: it finds no face to separate.", event->path));
       continue;
@@ -184,8 +184,14 @@ TradeoffScene scene_of_file(const SceneFile& file) {
     fail("/material/stiffness", "is 0 N/m beside a damping", "springs, or nothing between the vertices");
   // the networks of the references come from cells, and hold still what is fixed
   if (file.is_chain()) fail("/body/generate/chain", "is a chain", "a body of cells, to compare with references");
+  if (file.tissues().size() > 1)
+    fail(file.tissues()[1].path, "is one material of several", "a body of one, to compare with references");
   if (file.has_elements()) fail("/material/poisson", "asks for elements", "springs, to compare with references");
+  if (!file.key_beside_edges().empty())
+    fail(file.key_beside_edges(), "asks for springs that are no edges", "none, to compare with references");
   if (!file.driven.empty()) fail("/driven", "moves vertices", "none driven, to compare with references");
+  if (!file.forces.empty()) fail("/forces", "pulls at vertices", "none applied, to compare with references");
+  if (file.has_contact()) fail("/contact", "says what touches", "none, to compare with references");
   const Problem problem = make_problem(file);
   if (problem.mesh.points.empty()) fail("/body", "has no points", "a body that moves");
 

@@ -1,16 +1,19 @@
 #pragma once
-// Spring systems built by hand, in columns of their own.
+// Systems of springs and elements built by hand, in columns of their own.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "core/plain/mesh.h"
 #include "core/time/system/spring_system.h"
 
 namespace dartboard {
+
+class ElasticSolid;
 
 /// Owns what a SpringSystem and a Motion show.
 struct SpringColumns {
@@ -20,8 +23,10 @@ struct SpringColumns {
   std::vector<std::uint8_t> fixed;
   Eigen::Vector3d gravity{0, 0, 0};
   std::vector<Eigen::Vector3d> x, v;
+  std::shared_ptr<const ElasticSolid> solid{};  // elements beside the springs
+  std::vector<const ForceTerm*> terms{};        // of the solid
 
-  SpringSystem system() const { return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity}; }
+  SpringSystem system() const { return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity, {}, terms}; }
   Motion motion() { return {x, v}; }
 
   std::uint32_t add_vertex(double m, const Eigen::Vector3d& position, const Eigen::Vector3d& velocity = {0, 0, 0},

@@ -26,7 +26,8 @@ TimedCut plane_cut(double time, const Eigen::Vector3d& point, const Eigen::Vecto
 /// The fan of the lowest dart at a mesh point (`fan`).
 TimedCut fan_tear(double time, std::uint32_t point);
 
-/// What a study in time simulates.
+/// What a study in time simulates. What a `SceneFile` cannot say is why there are both: its faces come from a function
+/// of the body at rest, and it starts from any positions.
 struct SpringScene {
   std::string name;
   Problem problem;                                  // at rest in its mesh; tetrahedra; `h` is not used

@@ -14,7 +14,8 @@
 
 namespace dartboard {
 
-/// A scene, ready to be run many times: a body on its map, or point masses and springs alone.
+/// A scene, ready to be run many times: a body on its map, or point masses and springs alone. A `SceneFile` becomes
+/// one, too (scene_of_file.h); of a table's, no file could say the closed form.
 struct TradeoffScene {
   std::string name, what;
   std::optional<PreparedScene> body;                          // none: what moves is motion.network, without events

@@ -24,7 +24,7 @@
 namespace dartboard {
 namespace {
 
-struct Options {
+struct ExplainOptions {
   std::string scene;
   bool measure = false, json = false;
 };
@@ -33,7 +33,7 @@ struct Options {
 /// clocks are raised or neighbours work, so an estimate and a run are compared at one speed.
 class Pace {
  public:
-  explicit Pace(const Problem& problem) : arrays_(problem), a_(arrays_.x.size()) {}
+  Pace(const Problem& problem, const BodyNeeds& needs) : arrays_(problem, needs), a_(arrays_.x.size()) {}
 
   /// [ns] of one, now.
   double ns() {
@@ -69,12 +69,12 @@ double measured_ns(const SceneFile& scene, Pace& pace, double estimated_at) {
   return median(runs);
 }
 
-void explain(const Options& options, Outcome& outcome) {
+void explain(const ExplainOptions& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
   const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const Problem problem = make_problem(scene);
   ScenePlan plan = plan_scene(scene, problem);
-  Pace pace(problem);
+  Pace pace(problem, plan.needs.body);
   const double before = pace.ns();
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
   const double estimated_at = (before + pace.ns()) / 2;
@@ -96,7 +96,7 @@ void explain(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_explain(CLI::App& app, Outcome& outcome) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainOptions>();
   auto* verb = app.add_subcommand(
       "explain",
       "The plan of a scene before it runs: what will be there and why, its bytes and time, what is left out.");

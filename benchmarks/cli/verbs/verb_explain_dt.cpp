@@ -16,12 +16,12 @@
 namespace dartboard {
 namespace {
 
-struct Options {
+struct ExplainDtOptions {
   std::string scene;
   bool json = false;
 };
 
-void explain_dt(const Options& options, Outcome& outcome) {
+void explain_dt(const ExplainDtOptions& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
   const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
   const StepExplanation explanation = explain_step(scene);
@@ -39,7 +39,7 @@ void explain_dt(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_explain_dt(CLI::App& app, Outcome& outcome) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainDtOptions>();
   auto* verb = app.add_subcommand(
       "explain-dt", "Which springs and vertices limit the time step of a scene, and what changing them would buy.");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")

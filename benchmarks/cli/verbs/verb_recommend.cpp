@@ -4,6 +4,7 @@
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/foretold/foretold_study.h"
+#include "benchmarks/studies/models/model_advice_study.h"
 #include "benchmarks/studies/tradeoff/audit_study.h"
 #include "benchmarks/studies/tradeoff/recommend_study.h"
 #include "core/plain/error.h"
@@ -11,12 +12,22 @@
 namespace dartboard {
 namespace {
 
-struct Options : StudyOptions {
+struct RecommendOptions : StudyOptions {
   RecommendPlan plan;
+  std::string against;
   bool audit = false, long_motions = false;
 };
 
-void recommend_verb(const Options& options, Outcome& outcome) {
+void recommend_model(const RecommendOptions& options, Outcome& outcome) {
+  const std::string& given = options.plan.scene;
+  const ModelsPlan plan =
+      models_plan(given == "cantilever" ? given : scene_file(given, std::vector<std::string>{"cantilever"}).string());
+  run_study(
+      options, {.label = "recommend", .keeps_folder = false},
+      [&](StudyLog& log) { return model_advice_study(plan, options.plan.errors, log); }, outcome);
+}
+
+void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
   RecommendPlan plan = options.plan;
   if (options.audit) {
     if (!plan.scene.empty() || !plan.errors.empty())
@@ -31,6 +42,7 @@ void recommend_verb(const Options& options, Outcome& outcome) {
     return;
   }
   if (plan.scene.empty() || plan.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
+  if (!options.against.empty()) return recommend_model(options, outcome);
   plan.scene = study_scene_or_file(plan.scene);
   run_study(
       options, {.label = "recommend", .keeps_folder = false}, [&](StudyLog& log) { return recommend_study(plan, log); },
@@ -41,16 +53,23 @@ void recommend_verb(const Options& options, Outcome& outcome) {
 
 void add_recommend(CLI::App& app, Outcome& outcome) {
   auto* verb = app.add_subcommand(
-      "recommend", "The cheapest integrator and step for an error, predicted from short runs of the scene.");
-  auto options = study_options<Options>(*verb, {.quick = "audit a few small scenes only",
-                                                .seed = "the audit",
-                                                .out = "folder of the audit, new or empty "
-                                                       "[dartboard-results/recommend-TIME]"});
+      "recommend",
+      "The cheapest integrator and step for an error, predicted from short runs of the scene; or, of a bar held at one "
+      "end, the cheapest model and mesh, too.");
+  auto options = study_options<RecommendOptions>(*verb, {.quick = "audit a few small scenes only",
+                                                         .seed = "the audit",
+                                                         .out = "folder of the audit, new or empty "
+                                                                "[dartboard-results/recommend-TIME]"});
   verb->add_option("SCENE", options->plan.scene,
                    "a scene file (.json), the name of one of the gallery, or one of " + study_scene_names());
   verb->add_option("--error", options->plan.errors,
                    "largest error of positions, in mean edge lengths; several may be given")
       ->check(positive_number());
+  auto* against =
+      verb->add_option("--against", options->against,
+                       "truth: beside converged quadratic elements, of a scene whose box is held at one end, "
+                       "or of 'cantilever'; errors are then shares of how far it is bent, over one period")
+          ->check(CLI::IsMember({"truth"}));
   verb->add_option("--budget", options->plan.budget_s,
                    "seconds that the pilots of a recommendation may take [0.5 and a tenth of the run]")
       ->check(positive_number());
@@ -64,6 +83,8 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
                  "audit long motions, of which the pilots take a twentieth of the run's time and see some thousandths");
   for (const char* of_the_audit : {"--seed", "--quick", "--out", "--long"})
     verb->get_option(of_the_audit)->needs(audit);
+  for (const char* of_one_model : {"--budget", "--realtime", "--verify", "--audit"})
+    against->excludes(verb->get_option(of_one_model));
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }
 

@@ -35,7 +35,7 @@
 namespace dartboard {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string scene, out, continued;
   bool json = false, quick = false, picture = false, film = false;
   std::optional<std::uint64_t> steps, seed;
@@ -102,7 +102,7 @@ struct Start {
   std::optional<Checkpoint> checkpoint;
 };
 
-Start start_of(const Options& options) {
+Start start_of(const SimulateOptions& options) {
   Start start;
   if (options.continued.empty()) {
     start.scene = read_named_scene(options.scene);
@@ -120,7 +120,7 @@ Start start_of(const Options& options) {
 }
 
 /// Put a simulation where the checkpoint has it.
-void continue_from(Checkpoint& checkpoint, Simulation& simulation, const Options& options) {
+void continue_from(Checkpoint& checkpoint, Simulation& simulation, const SimulateOptions& options) {
   const std::string done = counted(checkpoint.steps_done(), "step");
   if (checkpoint.steps_done() >= simulation.step_count())
     throw InputError(
@@ -147,16 +147,17 @@ nlohmann::json continued_manifest(const std::filesystem::path& folder, const Out
 }
 
 /// What the run was made of, beside its results.
-nlohmann::json manifest_of(const SceneFile& scene, const Options& options, const Outcome& outcome) {
+nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& options, const Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
   facts.input_files = {scene_file(options.scene)};
-  if (const auto* mesh = std::get_if<std::filesystem::path>(&scene.body.mesh)) facts.input_files.push_back(*mesh);
+  for (const BodySource& body : scene.bodies())
+    if (const auto* mesh = std::get_if<std::filesystem::path>(&body.mesh)) facts.input_files.push_back(*mesh);
   return begin_manifest(facts);
 }
 
-void simulate(const Options& options, Outcome& outcome) {
+void simulate(const SimulateOptions& options, Outcome& outcome) {
   Start start = start_of(options);
   const SceneFile& scene = start.scene;
   const std::optional<SettledAccuracy>& settled = start.settled;
@@ -178,7 +179,7 @@ void simulate(const Options& options, Outcome& outcome) {
     manifest = continued_manifest(options.continued, outcome);
     output.emplace(std::move(*start.claim), options.continued, start.checkpoint->output(), scene.probes);
   } else if (!options.out.empty()) {
-    output.emplace(options.out, scene.probes, simulation.dimension());
+    output.emplace(options.out, scene.probes, simulation.dimension(), !scene.forces.empty(), scene.has_contact());
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
   }
@@ -264,7 +265,7 @@ void simulate(const Options& options, Outcome& outcome) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Outcome& outcome) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
   auto* scene = verb->add_option("SCENE", options->scene,
                                  "a scene file (dartboard scene --keys), or the name of one of the gallery");

@@ -9,7 +9,7 @@
 namespace dartboard {
 namespace {
 
-struct Options : StudyOptions {
+struct ValidateOptions : StudyOptions {
   std::string mesh, replay, script_out;
   bool all = false, self = false;
   std::optional<std::size_t> operations;
@@ -19,7 +19,7 @@ void add_validate_topology(CLI::App& validate, Outcome& outcome) {
   auto* verb = validate.add_subcommand("topology",
                                        "Our map against CGAL's generalized and combinatorial maps, at rest and "
                                        "through random operations.");
-  auto options = study_options<Options>(
+  auto options = study_options<ValidateOptions>(
       *verb, {.quick = "fewer operations", .seed = "the random operations", .keeps_folder = false});
   auto* what = verb->add_option_group("WHAT");
   what->add_option("MESH", options->mesh, "a mesh file, or the name of a mesh of the project");
@@ -52,6 +52,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   verb->require_subcommand(1);
   add_validate_topology(*verb, outcome);
   add_validate_conservation(*verb, outcome);
+  add_validate_contact(*verb, outcome);
   add_validate_order(*verb, outcome);
   add_validate_solvers(*verb, outcome);
   add_validate_judges(*verb, outcome);

@@ -25,6 +25,7 @@ void add_list(CLI::App& app, Outcome& outcome);
 
 // The parts of `validate`, and of `bench`, which also give `app` the hidden verbs that their child processes run.
 void add_validate_conservation(CLI::App& validate, Outcome& outcome);
+void add_validate_contact(CLI::App& validate, Outcome& outcome);
 void add_validate_order(CLI::App& validate, Outcome& outcome);
 void add_validate_judges(CLI::App& validate, Outcome& outcome);
 void add_validate_elements(CLI::App& validate, Outcome& outcome);

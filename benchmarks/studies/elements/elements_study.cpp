@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "benchmarks/harness/paired.h"
 #include "benchmarks/harness/statistics.h"
+#include "benchmarks/studies/elements/calculix_study.h"
+#include "benchmarks/studies/elements/newton_study.h"
 #include "core/plain/nan_maximum.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/watch/stable_step.h"
@@ -209,7 +212,9 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
   results.trusted = plan.quick ? 0.03 : 0.01;
   const int truth_across = plan.quick ? 2 : 4;
   const std::vector<int> meshes = plan.quick ? std::vector{1, 2} : std::vector{1, 2, 4, 8};
-  log.begin("validate elements", published_cantilevers.size() + 2 * 3 * meshes.size() + 1);
+  std::vector<CalculixQuestion> questions;
+  if (plan.calculix) questions = calculix_questions(truth_across);
+  log.begin("validate elements", published_cantilevers.size() + 2 * 3 * meshes.size() + 2 + questions.size());
   for (const PublishedCantilever& published : published_cantilevers) {
     results.references.emplace_back(published, quadratic_cantilever(truth_across, published.poisson));
     log.advance(fmt::format("quadratic tetrahedra, {}", published.poisson));
@@ -224,8 +229,17 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
   results.costs = measure_costs(plan, results.across, log);
   log.advance("cost");
 
+  const std::vector<NewtonRun> newton = newton_runs(truth_across);
+  log.advance("Newton's method");
+  std::vector<CalculixAnswer> answers;
+  for (const CalculixQuestion& question : questions) {
+    answers.push_back(answer_to(question, plan.calculix(question.deck)));
+    log.advance("CalculiX: " + question.what);
+  }
+
   Report report;
   report.claims = claims_of(results);
+  report.claims.push_back(claim_on(newton));
   Table confined({{"Poisson's ratio", Align::right},
                   {"truth [E]", Align::right},
                   {"springs", Align::right},
@@ -243,7 +257,16 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
       {"costs",
        fmt::format("What they cost, {} across: one evaluation of forces, and a second at Verlet's longest step",
                    results.across),
-       costs_table(results)}};
+       costs_table(results)},
+      {"newton",
+       fmt::format("Newton's method to a residual of {:.0e}: corotational tetrahedra, a load that is put on at once",
+                   NewtonRun::residual),
+       newton_table(newton)}};
+  if (plan.calculix) {
+    std::ranges::copy(claims_of(answers), std::back_inserter(report.claims));
+    report.tables.push_back({"calculix", "The same meshes, clamps and loads in CalculiX", calculix_table(answers)});
+    report.facts["calculix"] = plan.calculix_version;
+  }
   report.sentence = in_words(results);
   for (const ModelCost& c : results.costs)
     log.sample({{"cost_of", in_words(c.model, c.cells)},
@@ -260,6 +283,13 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
                 {"bending", e.bending},
                 {"torsion", e.torsion},
                 {"axial", e.axial}});
+  for (const NewtonRun& run : newton)
+    log.sample({{"newton", run.matrix},
+                {"traction", run.traction},
+                {"iterations", run.iterations ? nlohmann::json(*run.iterations) : nlohmann::json()},
+                {"bent_by", run.bent}});
+  for (const CalculixAnswer& a : answers)
+    log.sample({{"calculix", a.what}, {"nodes", a.nodes}, {"bent_by", a.largest}, {"apart", a.apart}});
   return report;
 }
 

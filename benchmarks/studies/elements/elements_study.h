@@ -1,6 +1,8 @@
 #pragma once
 // `dartboard validate elements`: what does each model of a body cost, in truth and in time?
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "benchmarks/report/report.h"
@@ -11,6 +13,9 @@ namespace dartboard {
 
 struct ElementsPlan {
   bool quick = false;  // coarser meshes, fewer rounds
+  // What makes displacements of a deck, as run_calculix does; empty: CalculiX is not asked.
+  std::function<std::string(const std::string& deck)> calculix{};
+  std::string calculix_version{};
 };
 
 /// The answers of one mesh, over those of the reference, less 1.

@@ -14,7 +14,7 @@ constexpr double largest_error = 3e-5, smallest_error = 3e-7;  // [edges]
 
 ForetoldCases::ForetoldCases(std::uint64_t seed, bool quick) : seed_(seed), quick_(quick), random_(seed + 177) {}
 
-std::uint64_t ForetoldCases::size() const { return quick_ ? 2 : 10; }
+std::uint64_t ForetoldCases::size() const { return quick_ ? 2 : 13; }
 
 double ForetoldCases::budget_s() const { return 0.03; }
 

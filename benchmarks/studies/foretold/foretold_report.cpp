@@ -21,7 +21,7 @@ constexpr std::size_t pairs_asked = 40;
 bool has_pick(const ForetoldPair& p) { return !p.pick.empty(); }
 
 /// A pair without a pick foretells nothing, and was to.
-bool counts(const ForetoldPair& p) { return p.foretold() || !has_pick(p); }
+bool counts(const ForetoldPair& p) { return p.followed && (p.foretold() || !has_pick(p)); }
 
 Claim claim_on_part(std::string id, std::string text, const std::vector<ForetoldPair>& pairs,
                     const std::function<bool(const ForetoldPair&)>& of,
@@ -32,17 +32,7 @@ Claim claim_on_part(std::string id, std::string text, const std::vector<Foretold
       ++all;
       good += holds(p) ? 1 : 0;
     }
-  Claim claim{.id = std::move(id), .text = std::move(text), .paper_value = ">= 95 %"};
-  if (all == 0) {
-    claim.reason = "no pair to tell it from";
-    return claim;
-  }
-  const PartInterval within = part_interval(good, all);
-  const double part = static_cast<double>(good) / static_cast<double>(all);
-  claim.measured = fmt::format("{} of {}, {:.1f} %", good, all, 100.0 * part);
-  claim.bound_or_interval = fmt::format("[{:.1f}, {:.1f}] % at 95 %", 100.0 * within.low, 100.0 * within.high);
-  claim.verdict = part >= part_asked ? Verdict::holds : Verdict::falls_short;
-  return claim;
+  return claim_on_share(std::move(id), std::move(text), good, all, part_asked);
 }
 
 }  // namespace
@@ -50,15 +40,6 @@ Claim claim_on_part(std::string id, std::string text, const std::vector<Foretold
 bool ForetoldPair::foretold() const {
   return audit.actual_s >= times_pilots * audit.pilot_s &&
          audit.pilot_s <= std::max(pilots_s, pilots_part * audit.actual_s);
-}
-
-PartInterval part_interval(std::size_t good, std::size_t count) {
-  if (count == 0) return {};
-  constexpr double z = 1.959964;  // of a normal distribution, 95 % within
-  const double n = static_cast<double>(count), p = static_cast<double>(good) / n;
-  const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
-  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
 std::vector<Claim> foretold_claims(const std::vector<ForetoldPair>& pairs) {
@@ -69,6 +50,8 @@ std::vector<Claim> foretold_claims(const std::vector<ForetoldPair>& pairs) {
                .text = "runs that cost 20 times their pilots, which take at most 2 s or a tenth of them",
                .paper_value = fmt::format(">= {}", pairs_asked),
                .measured = fmt::format("{} of {} pairs", foretold, pairs.size())};
+  if (const auto left = std::ranges::count(pairs, false, &ForetoldPair::followed); left > 0)
+    enough.measured += fmt::format("; {} too long to follow", left);
   if (pairs.size() < pairs_asked)
     enough.reason = "fewer pairs were drawn";
   else
@@ -93,9 +76,10 @@ std::vector<Claim> foretold_claims(const std::vector<ForetoldPair>& pairs) {
   if (regrets.empty()) {
     regret.reason = "no pair to tell it from";
   } else {
-    regret.measured = fmt::format("{:.3f}, {} pairs", median(regrets), regrets.size());
-    regret.bound_or_interval = to_string(median_interval(regrets));
-    regret.verdict = median(regrets) <= most_regret ? Verdict::holds : Verdict::falls_short;
+    const Figure figure{median(regrets), median_interval(regrets)};
+    regret.measured = fmt::format("{:.3f}, {} pairs", figure.median, regrets.size());
+    regret.bound_or_interval = to_string(figure.interval);
+    judge(regret, at_most(figure, most_regret));
   }
   claims.push_back(std::move(regret));
   return claims;
@@ -118,8 +102,8 @@ Table foretold_table(const std::vector<ForetoldPair>& pairs) {
   for (const ForetoldPair& p : pairs) {
     const Audit& a = p.audit;
     if (!has_pick(p)) {
-      table.add_row({p.scene, fmt::format("{:.1e}", a.error), "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-",
-                     p.confidence.empty() ? "-" : p.confidence});
+      table.add_row({p.scene, fmt::format("{:.1e}", a.error), "none", "-", p.followed ? "NO" : "not followed", "-", "-",
+                     "-", "-", "-", "-", "-", p.confidence.empty() ? "-" : p.confidence});
       continue;
     }
     table.add_row({p.scene, fmt::format("{:.1e}", a.error), p.pick,

@@ -52,6 +52,7 @@ std::vector<ForetoldPair> follow(const ForetoldCase& drawn, double budget_s, Stu
     p.audit.pilot_s = r.pilot_s;
     const Candidate* pick = r.pick();
     if (pick != nullptr && pick->predicted_s > longest_run_s) {
+      p.followed = false;
       p.confidence = fmt::format("{} for {:.0f} s: too long to follow", pick->contender, pick->predicted_s);
     } else if (pick != nullptr) {
       p.pick = pick->contender;

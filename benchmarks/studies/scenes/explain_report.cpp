@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/harness/table.h"
@@ -22,6 +23,40 @@ std::string time_text(double ns, double below = 0.0) {
                      : fmt::format("{:.0f}", ns);
 }
 
+std::string step_text(double seconds) {
+  return std::isfinite(seconds) ? fmt::format("{:.4g} s", seconds) : "any length";
+}
+
+/// What contact will be like.
+std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
+  Table table({{plan.touches.empty() ? "obstacle" : "key"},
+               {"carries"},
+               {"mass behind kg/m^2", Align::right},
+               {"depth at rest m", Align::right},
+               {"impact m/s", Align::right},
+               {"depth at impact m", Align::right},
+               {"over that of its law", Align::right}});
+  const auto add = [&table](const std::string& path, const ContactLaw& law, const ContactForecast& f) {
+    table.add_row({path, fmt::format("{:.4g} Pa at {:.4g} m", law.pressure, law.depth),
+                   fmt::format("{:.4g}", f.mass_behind), fmt::format("{:.4g}", f.depth_at_rest),
+                   fmt::format("{:.4g}", f.speed), fmt::format("{:.4g}", f.depth_at_impact),
+                   fmt::format("{:.3g}", f.share)});
+  };
+  for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
+    add(scene.obstacles[k].path, scene.obstacles[k].law, plan.obstacles[k]);
+  for (const TouchForecast& touch : plan.touches) add(touch.path, touch.law, touch.contact);
+  std::string text = to_text(table);
+  if (!std::isfinite(plan.body_step))
+    text += fmt::format("Every step is stable with {}. ", scene.integrator);
+  else
+    text += fmt::format("The longest stable step at these depths is {}, which {} limits; of the body alone {}. ",
+                        step_text(plan.stable_step),
+                        plan.contact_rate > plan.body_rate ? "the stiffness of the contact" : "the body",
+                        step_text(plan.body_step));
+  return text +
+         "Depths are those of a column as high as the body: an edge or a corner that comes first comes deeper.\n\n";
+}
+
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<double>& measured_ns) {
@@ -37,6 +72,7 @@ std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::op
   Table without({{"left out", Align::left}, {"because", Align::left}});
   for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
   text += to_text(table) + "\n" + to_text(without) + "\n";
+  if (plan.contact) text += contact_text(scene, *plan.contact);
   text +=
       "Bytes are those of the elements of all containers that live as long as the run, asked of the body as it was "
       "built; of a factor, its numbers.\nTimes are estimates from unit costs measured just now on arrays of this size, averaged over the run, "
@@ -69,6 +105,33 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                             {"bytes", item.bytes},
                             {"ns_per_step", item.ns}});
     if (item.ns_below > 0.0) json["plan"].back()["ns_per_step_below"] = item.ns_below;
+  }
+  if (plan.contact) {
+    const auto or_null = [](double x) {
+      return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json();
+    };
+    nlohmann::ordered_json contact{{"stable_step", or_null(plan.contact->stable_step)},
+                                   {"stable_step_of_body", or_null(plan.contact->body_step)},
+                                   {"contact_rate", plan.contact->contact_rate},
+                                   {"body_rate", plan.contact->body_rate}};
+    for (std::size_t k = 0; k < plan.contact->obstacles.size(); ++k) {
+      const ContactForecast& f = plan.contact->obstacles[k];
+      contact["obstacles"].push_back({{"path", scene.obstacles[k].path},
+                                      {"mass_behind", f.mass_behind},
+                                      {"depth_at_rest", f.depth_at_rest},
+                                      {"speed", f.speed},
+                                      {"depth_at_impact", f.depth_at_impact},
+                                      {"allowed_depth", scene.obstacles[k].law.depth}});
+    }
+    for (const TouchForecast& touch : plan.contact->touches)
+      contact["bodies"].push_back({{"path", touch.path},
+                                   {"of", {touch.first, touch.second}},
+                                   {"mass_behind", touch.contact.mass_behind},
+                                   {"depth_at_rest", touch.contact.depth_at_rest},
+                                   {"speed", touch.contact.speed},
+                                   {"depth_at_impact", touch.contact.depth_at_impact},
+                                   {"allowed_depth", touch.law.depth}});
+    json["contact"] = std::move(contact);
   }
   for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
   for (const MemoryItem& item : plan.unplanned)

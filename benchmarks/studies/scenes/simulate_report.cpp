@@ -42,6 +42,15 @@ Table summary_of(const SimulationReport& r) {
   row("kinetic energy [J]", first.kinetic, last.kinetic);
   row("elastic energy [J]", first.elastic, last.elastic);
   row("gravitational energy [J]", first.gravitational, last.gravitational);
+  if (first.applied && last.applied) row("potential of applied forces [J]", *first.applied, *last.applied);
+  if (first.contact && last.contact) {
+    row("contact energy [J]", first.contact->energy, last.contact->energy);
+    row("lost by restitution [J]", first.contact->damped, last.contact->damped);
+    row("lost by friction [J]", first.contact->rubbed, last.contact->rubbed);
+    row("supplied at contacts [J]", first.contact->supplied, last.contact->supplied);
+    counts("contacts", first.contact->contacts, last.contact->contacts);
+    row("deepest contact [m]", first.contact->deepest, last.contact->deepest);
+  }
   const int dimension = r.simulation.dimension();
   row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
   row(fmt::format("{} [{}]", stress_name(dimension), stress_unit(dimension)), first.largest_stress,

@@ -10,19 +10,29 @@ namespace dartboard {
 nlohmann::ordered_json to_json(const Diagnostics& d, int dimension) {
   std::string stress(stress_name(dimension));
   std::ranges::replace(stress, ' ', '_');
-  return {{"time", d.time},
-          {"kinetic", number(d.kinetic)},
-          {"elastic", number(d.elastic)},
-          {"gravitational", number(d.gravitational)},
-          {"mass", d.mass},
-          {"vertices", d.counts.vertices},
-          {"edges", d.counts.edges},
-          {"faces", d.counts.faces},
-          {"cells", d.counts.cells},
-          {"components", d.counts.components},
-          {"boundary", number(d.boundary)},
-          {stress, number(d.largest_stress)},
-          {"operations", d.operations}};
+  nlohmann::ordered_json json{{"time", d.time},
+                              {"kinetic", number(d.kinetic)},
+                              {"elastic", number(d.elastic)},
+                              {"gravitational", number(d.gravitational)},
+                              {"mass", d.mass},
+                              {"vertices", d.counts.vertices},
+                              {"edges", d.counts.edges},
+                              {"faces", d.counts.faces},
+                              {"cells", d.counts.cells},
+                              {"components", d.counts.components},
+                              {"boundary", number(d.boundary)},
+                              {stress, number(d.largest_stress)},
+                              {"operations", d.operations}};
+  if (d.applied) json["applied_forces"] = number(*d.applied);
+  if (d.contact) {
+    json["contact"] = number(d.contact->energy);
+    json["lost_by_restitution"] = number(d.contact->damped);
+    json["lost_by_friction"] = number(d.contact->rubbed);
+    json["supplied_at_contacts"] = number(d.contact->supplied);
+    json["contacts"] = d.contact->contacts;
+    json["deepest_contact"] = number(d.contact->deepest);
+  }
+  return json;
 }
 
 nlohmann::ordered_json to_json(const EventJumps& jumps) {

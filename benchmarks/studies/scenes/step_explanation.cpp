@@ -10,6 +10,7 @@
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
+#include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/stable_step.h"
@@ -110,6 +111,11 @@ std::string step_text(double step) { return std::isfinite(step) ? fmt::format("{
 }  // namespace
 
 StepExplanation explain_step(SceneFile scene) {
+  if (scene.has_contact())
+    throw InputError(
+        fmt::format("{}: /contact: stiffens a body where it touches, which no spring is to blame for; "
+                    "expected none, or 'dartboard explain', which tells the longest stable step",
+                    scene.file));
   scene.unstable_step = UnstableStep::warn;  // a step that the scene refuses is what is to be explained
   const Simulation simulation(scene);
   const auto integrator = make_integrator(scene.integrator);

@@ -34,7 +34,7 @@ struct StepExplanation {
   SpringColumns body;  // at the start
 };
 
-/// throws  as the constructor of Simulation; a step that the scene refuses is explained like any other
+/// throws  InputError for a scene with contact; as the constructor of Simulation; a step that the scene refuses is explained like any other
 StepExplanation explain_step(SceneFile scene);
 
 /// For the terminal.

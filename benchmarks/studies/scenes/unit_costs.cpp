@@ -74,7 +74,14 @@ std::function<void()> stepper(const SceneFile& scene, const SpringSystem& system
   };
 }
 
-void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays) {
+/// The same with elements that are not damped.
+Problem without_element_damping(Problem problem) {
+  problem.material.damping_time = 0.0;
+  for (Material& material : problem.materials) material.damping_time = 0.0;
+  return problem;
+}
+
+void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays, ForceTerms undamped_terms) {
   const SpringSystem whole = arrays.system();
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   if (scheme.implicit) {
@@ -87,6 +94,9 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
     system.springs = undamped;
     system.viscosity = {};
     system.fixed = {};
+    const bool contact = scene.has_contact();
+    const auto but_contact = [&arrays](ForceTerms terms) { return arrays.body().terms_but_contact(terms); };
+    system.terms = but_contact(undamped_terms);
     // term after term, from none to all
     std::vector<std::function<void()>> calls{[&, system] { accelerations(system, {}, arrays.x, arrays.v, a); },
                                              stepper(scene, system, arrays)};
@@ -101,7 +111,11 @@ void measure_step(UnitCosts& costs, const SceneFile& scene, SystemArrays& arrays
     system.viscosity = whole.viscosity;
     add(!whole.viscosity.empty(), &UnitCosts::viscosity);
     system.springs = whole.springs;
-    add(terms_of(whole).damping, &UnitCosts::damping);
+    add(terms_of(system).damping, &UnitCosts::damping);
+    system.terms = but_contact(whole.terms);
+    add(has_damped_terms(whole), &UnitCosts::element_damping);
+    system.terms = whole.terms;
+    add(contact, &UnitCosts::contact);
     costs = step_costs(scheme.stages, costs_of(std::move(calls)), terms);
   }
 
@@ -140,6 +154,12 @@ struct Standard {
     counts = tally_of(problem.mesh);
     BodyNeeds own = body_needs(problem, needs.topology_changes);
     own.rest = needs.rest;
+    own.obstacles = needs.obstacles;
+    // one body, which touches itself by the first of the laws
+    if (!needs.touches.empty()) {
+      own.touches = {{0, 0, needs.touches.front().law}};
+      own.first_cell = {0};
+    }
     body = make_simulated_body(problem, own);
     // how many vertices must be looked at closely for the largest stress depends on the state
     const int up = needs.storage == Storage::surface ? 1 : 2;
@@ -187,7 +207,7 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
     operations = event.apply();
     return static_cast<double>(thread_cpu_ns() - start);
   };
-  const auto each = [&](Action action, int times, double besides) {
+  const auto each = [&](const Action& action, int times, double besides) {
     double least = std::numeric_limits<double>::infinity();
     for (int run = 0; run < 2; ++run) {
       Standard s = fresh();
@@ -272,8 +292,14 @@ UnitCosts step_costs(double evaluations, std::vector<double> ns, std::span<doubl
 UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
   UnitCosts costs;
   if (plan.counts.edges == 0) return costs;
-  SystemArrays arrays(problem);
-  measure_step(costs, scene, arrays);
+  SystemArrays arrays(problem, plan.needs.body);
+  if (plan.needs.cell_damping) {
+    const Problem plain = without_element_damping(problem);
+    SystemArrays undamped(plain, plan.needs.body);
+    measure_step(costs, scene, arrays, undamped.system().terms);
+  } else {
+    measure_step(costs, scene, arrays, arrays.system().terms);
+  }
   measure_output(costs, scene, problem, plan);
   if (!scene.events.empty()) measure_events(costs, scene, problem, plan);
   return costs;
@@ -299,7 +325,8 @@ double event_ns(const SceneEvent& event, const EventForecast& f, const UnitCosts
 double times_of(const std::optional<std::uint64_t>& every, std::uint64_t steps) {
   if (steps == 0) return 1.0;
   if (!every) return 2.0;
-  return 1.0 + static_cast<double>(steps / *every + (steps % *every != 0));
+  const std::uint64_t due = steps / *every + (steps % *every != 0);
+  return 1.0 + static_cast<double>(due);
 }
 
 }  // namespace
@@ -319,8 +346,11 @@ void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& c) {
       case Part::springs: item.ns = has_elements ? 0.0 : m.springs * c.evaluations * c.force; break;
       case Part::elements: item.ns = m.cells * c.evaluations * c.force; break;
       case Part::damping: charge(item, m.springs, c.damping); break;
+      case Part::cell_damping: charge(item, m.cells, c.element_damping); break;
+      case Part::pull:  // a column more beside the masses, as for viscosity
       case Part::viscosity: charge(item, m.vertices, c.viscosity); break;
       case Part::fixed: charge(item, m.vertices, c.fixed); break;
+      case Part::contact: charge(item, m.vertices, c.contact); break;
       case Part::integrator: charge(item, m.vertices, c.stages); break;
       case Part::solver: item.ns = m.springs * c.solver; break;
       case Part::driven:  // a term of one spring more for each

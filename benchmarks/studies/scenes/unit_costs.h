@@ -15,8 +15,8 @@ struct UnitCosts {
   // a step
   double force = 0.0;  // one evaluation without damping, viscosity and fixed vertices
   double evaluations = 0.0;
-  double damping = 0.0, viscosity = 0.0, fixed = 0.0;  // what each adds to a step
-  double stages = 0.0;                                 // a step without these, but for its force evaluations
+  double damping = 0.0, element_damping = 0.0, viscosity = 0.0, fixed = 0.0, contact = 0.0;  // what each adds to a step
+  double stages = 0.0;  // a step without these, but for its force evaluations
   double noise = 0.0;   // the most by which a step with a term took less than one without: less cannot be measured
   double solver = 0.0;  // a step of an implicit method, all in all, in place of the above
   double detector = 0.0, speed_check = 0.0;

@@ -28,18 +28,7 @@ Claim claim_on_part(std::string id, std::string text, const std::vector<AuditedP
       ++all;
       good += holds(p) ? 1 : 0;
     }
-  Claim claim{.id = std::move(id), .text = std::move(text), .paper_value = ">= 95 %"};
-  if (all == 0) {
-    claim.reason = "no pair to tell it from";
-    return claim;
-  }
-  // pairs are drawn: what is asserted is the share among all that could be
-  const Figure part{static_cast<double>(good) / static_cast<double>(all), share_interval(good, all)};
-  claim.measured = fmt::format("{} of {}, {:.1f} %", good, all, 100.0 * part.median);
-  claim.bound_or_interval = fmt::format("[{:.1f}, {:.1f}] % at {:g} %", 100.0 * part.interval.low,
-                                        100.0 * part.interval.high, 100.0 * part.interval.coverage);
-  judge(claim, at_least(part, part_asked));
-  return claim;
+  return claim_on_share(std::move(id), std::move(text), good, all, part_asked);
 }
 
 bool within_margin(double ratio) { return std::abs(ratio - 1.0) <= cost_margin; }

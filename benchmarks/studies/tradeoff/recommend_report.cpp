@@ -9,6 +9,7 @@
 
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/tell.h"
+#include "core/plain/nan_maximum.h"
 
 namespace dartboard {
 namespace {
@@ -147,7 +148,7 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
     text += fmt::format(
         "Errors were seen to grow e-fold in {:.3g} s: the motion is chaotic, and soon no error can be foretold; from "
         "this one to that of an edge it takes {:.3g} s.\n",
-        1.0 / pick->growth_rate, std::max(0.0, -std::log(pick->predicted_error)) / pick->growth_rate);
+        1.0 / pick->growth_rate, max_or_nan(0.0, -std::log(pick->predicted_error)) / pick->growth_rate);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
   if (const Candidate* second = r.runner_up())
     text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,

@@ -7,6 +7,8 @@
 #include <boost/container/small_vector.hpp>
 #include <limits>
 
+#include "core/elements/cell_springs.h"
+#include "core/elements/membranes.h"
 #include "core/elements/solids.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/element_nodes.h"
@@ -25,33 +27,64 @@ void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
     for (int i = j; i < 3; ++i) sum(i, j) += term(i, j);
 }
 
-/// In the order of their numbers, as the pass over all elements has them.
+using CellNumbers = boost::container::small_vector<std::uint32_t, 64>;
+
+/// The cells around vertex k in the order of their numbers, as the passes over all cells have them.
 template <class Map>
-void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
-  boost::container::small_vector<std::uint32_t, 64> cells;
-  for (const auto c : incident_cells<3>(body.map, Vertex{body.vertices.dart[k]}))
+CellNumbers cells_around(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
+  CellNumbers cells;
+  for (const auto c : incident_cells<Map::dimension>(body.map, Vertex{body.vertices.dart[k]}))
     cells.push_back(body.cell(body.map, c.dart));
   std::sort(cells.begin(), cells.end());
-  for (const std::uint32_t c : cells) {
+  return cells;
+}
+
+template <class Map>
+void add_cell_springs(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
+  for (const std::uint32_t c : cells_around(body, k)) {
+    if (diagonals_of(body.cell_springs[c].kind, body.cell_springs[c].which).empty()) continue;
+    SolidNodes nodes;
+    find_nodes(body, c, nodes);
+    boost::container::small_vector<Eigen::Vector3d, 8> x;
+    for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(body.vertices.position[nodes.at[a]]);
+    add_lower(sum, cell_springs_virial(body.cell_springs[c], {x.data(), x.size()}));
+  }
+}
+
+void add_membranes(const MassSpringBody<Map2, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
+  for (const std::uint32_t c : cells_around(body, k)) {
+    SolidNodes nodes;
+    find_nodes(body, c, nodes);
+    boost::container::small_vector<Eigen::Vector3d, 4> x;
+    for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(body.vertices.position[nodes.at[a]]);
+    const PlaneInverse* const shape =
+        body.cell_membrane.empty() ? &body.cell_triangle[c] : body.cell_membrane[c].data();
+    add_lower(sum,
+              membrane_virial(body.cell_materials()[c], {shape, membrane_points(nodes.count)}, {x.data(), x.size()}));
+  }
+}
+
+template <class Map>
+void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
+  for (const std::uint32_t c : cells_around(body, k)) {
     const auto& position = body.vertices.position;
     if (body.cell_solid.empty()) {
       TetrahedronNodes nodes;
       find_nodes(body, c, nodes);
       add_lower(sum,
-                tetrahedron_virial(body.material, body.cell_mass[c], body.cell_shape[c],
+                tetrahedron_virial(body.cell_materials()[c], body.cell_mass[c], body.cell_shape[c],
                                    {position[nodes[0]], position[nodes[1]], position[nodes[2]], position[nodes[3]]}));
     } else {
       SolidNodes nodes;
       find_nodes(body, c, nodes);
       boost::container::small_vector<Eigen::Vector3d, 8> x;
       for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(position[nodes.at[a]]);
-      add_lower(sum, solid_virial(body.material, body.cell_solid[c], {x.data(), x.size()}));
+      add_lower(sum, solid_virial(body.cell_materials()[c], body.cell_solid[c], {x.data(), x.size()}));
     }
   }
 }
 
-void finish(Eigen::Matrix3d& sum, double mass, double density) {
-  const double volume = mass / density;
+void finish(Eigen::Matrix3d& sum, double volume) {
   for (int j = 0; j < 3; ++j)
     for (int i = j; i < 3; ++i) sum(j, i) = sum(i, j) = sum(i, j) / volume;
 }
@@ -73,14 +106,17 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
     add_lower(sum, spring_virial(body.springs[edge], v.position[other_end] - v.position[k]));
   if constexpr (Map::dimension == 3)
     if (!body.cell_shape.empty() || !body.cell_solid.empty()) add_elements(body, k, sum);
-  finish(sum, v.mass[k], body.material.density);
+  if constexpr (Map::dimension == 2)
+    if (!body.cell_triangle.empty() || !body.cell_membrane.empty()) add_membranes(body, k, sum);
+  if (!body.cell_springs.empty()) add_cell_springs(body, k, sum);
+  finish(sum, body.materials.empty() ? v.mass[k] / body.material.density : body.volume_of(Vertex{v.dart[k]}));
   return sum;
 }
 
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
-                     std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
-                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms) {
-  stress.assign(mass.size(), Eigen::Matrix3d::Zero());
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs, const RestVolumes& volumes,
+                     std::span<const Eigen::Vector3d> position, std::vector<Eigen::Matrix3d>& stress,
+                     ForceTerms terms) {
+  stress.assign(volumes.mass.size(), Eigen::Matrix3d::Zero());
   for (std::size_t e = 0; e < springs.size(); ++e) {
     const auto [a, b] = ends[e];
     const Eigen::Matrix3d virial = spring_virial(springs[e], position[b] - position[a]);
@@ -92,7 +128,7 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
       const Eigen::Matrix3d virial = term->virial(position, piece);
       for (const std::uint32_t i : term->nodes(piece)) add_lower(stress[i], virial);
     }
-  for (std::size_t k = 0; k < mass.size(); ++k) finish(stress[k], mass[k], density);
+  for (std::size_t k = 0; k < stress.size(); ++k) finish(stress[k], volumes[k]);
 }
 
 StressError::StressError(std::uint32_t which)

@@ -32,24 +32,45 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
 
 /// The stress at vertex k [Pa] (of a surface [N/m]), symmetric, tension positive:
 ///
-///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T),  V = mass / density
+///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T)
 ///
-/// or with elements, over those around it, a fourth of their volume times J times Cauchy's stress.
+/// or with elements, over those around it, a fourth of their volume times J times Cauchy's stress; of a surface a third
+/// or a fourth of their area. Springs within the cells around it add what they have over the number of the cell's
+/// vertices.
 ///
-/// V is the rest volume (area) that eq. (1) gives the vertex. So the sum of V sigma over all vertices is the virial of
-/// all springs, and a uniform stress is the same at every vertex of a regular lattice. Springs are found by walking
-/// the edges around the vertex, and summed by edge number, so that the order of the walk leaves no trace in the bits.
+/// V is the rest volume (area) of the vertex, its share of each cell as eq. (1) has it. So the sum of V sigma over all
+/// vertices is the virial of all springs, and a uniform stress is the same at every vertex of a regular lattice.
+/// Springs are found by walking the edges around the vertex, and summed by edge number, so that the order of the walk
+/// leaves no trace in the bits.
 template <class Map>
 Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k);
+
+/// The volume at rest of every vertex [m^3] (of a surface its area): in a body of one density its mass over that.
+struct RestVolumes {
+  std::span<const double> mass;  // [kg] by vertex number
+  double density;
+  std::span<const double> of_vertex{};  // where densities differ
+
+  double operator[](std::size_t k) const { return of_vertex.empty() ? mass[k] / density : of_vertex[k]; }
+};
+/// Of the vertices of a body; `room` holds them where densities differ.
+/// cost    O(1), or O(vertices) of a body of several materials
+template <class Map>
+RestVolumes rest_volumes(const MassSpringBody<Map, Held::by_every_dart>& body, std::vector<double>& room) {
+  if (body.materials.empty()) return {body.vertices.mass, body.material.density};
+  room.clear();
+  for (const Dart d : body.vertices.dart) room.push_back(body.volume_of(Vertex{d}));
+  return {body.vertices.mass, 0.0, room};
+}
 
 /// The same for all vertices at once, into `stress` by vertex number, to the bit: one pass over the springs and one
 /// over the vertices, for use in every time step.
 ///
-/// pre     ends, springs by edge number, mass, position by vertex number, as the body has them; the terms of its system
+/// pre     ends, springs by edge number, volumes, position by vertex number, as the body has them; the terms of its system
 /// cost    O(springs + vertices); no allocation once `stress` has had its size
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
-                     std::span<const double> mass, double density, std::span<const Eigen::Vector3d> position,
-                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {});
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs, const RestVolumes& volumes,
+                     std::span<const Eigen::Vector3d> position, std::vector<Eigen::Matrix3d>& stress,
+                     ForceTerms terms = {});
 
 /// The stress of this vertex is not finite.
 struct StressError : SolverError {

@@ -154,7 +154,8 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
     throw InputError(fmt::format("a tear threshold of {}, expected a positive number of Pa", rule.threshold));
   if (!(rule.least_alignment <= 1.0))
     throw InputError(fmt::format("a least alignment of {}, expected at most 1", rule.least_alignment));
-  vertex_stresses(ends, body.springs, body.vertices.mass, body.material.density, body.vertices.position, stress, terms);
+  std::vector<double> room;
+  vertex_stresses(ends, body.springs, rest_volumes(body, room), body.vertices.position, stress, terms);
 
   TornVertices torn;
   std::vector<Stressed> stressed;

@@ -3,34 +3,11 @@
 #include <array>
 #include <span>
 
+#include "core/meshes/formats/medit_sections.h"
 #include "core/meshes/formats/mesh_formats.h"
 
 namespace dartboard {
 namespace {
-
-struct Section {
-  std::string_view keyword;
-  CellKind kind;
-  int nodes;                      // corners first
-  std::string_view element = {};  // of higher order
-};
-
-constexpr Section cell_sections[] = {
-    {"Triangles", CellKind::triangle, 3},
-    {"Quadrilaterals", CellKind::quadrilateral, 4},
-    {"Tetrahedra", CellKind::tetrahedron, 4},
-    {"Pyramids", CellKind::pyramid, 5},
-    {"Prisms", CellKind::prism, 6},
-    {"Pentahedra", CellKind::prism, 6},
-    {"Hexahedra", CellKind::hexahedron, 8},
-    {"Hexaedra", CellKind::hexahedron, 8},
-    {"TrianglesP2", CellKind::triangle, 6, "6-node triangle"},
-    {"QuadrilateralsQ2", CellKind::quadrilateral, 9, "9-node quadrilateral"},
-    {"TetrahedraP2", CellKind::tetrahedron, 10, "10-node tetrahedron"},
-    {"PyramidsP2", CellKind::pyramid, 14, "14-node pyramid"},
-    {"PrismsP2", CellKind::prism, 18, "18-node prism"},
-    {"HexahedraQ2", CellKind::hexahedron, 27, "27-node hexahedron"},
-};
 
 // nothing in them changes the mesh
 constexpr std::string_view ignored_sections[] = {
@@ -61,15 +38,19 @@ constexpr std::string_view ignored_sections[] = {
     "BoundingBox",
     "Geometry",
     "Identifier",
+    "Iterations",
+    "Time",
+    "SolAtVertices",
+    "SolAtEdges",
+    "SolAtTriangles",
+    "SolAtQuadrilaterals",
+    "SolAtTetrahedra",
+    "SolAtPyramids",
+    "SolAtPrisms",
+    "SolAtHexahedra",
     "VertexOnGeometricVertex",
     "VertexOnGeometricEdge",
 };
-
-const Section* find_section(std::string_view keyword) {
-  for (const auto& section : cell_sections)
-    if (section.keyword == keyword) return &section;
-  return nullptr;
-}
 
 bool is_ignored(std::string_view keyword) {
   for (std::string_view ignored : ignored_sections)
@@ -89,10 +70,9 @@ void read_vertices(TextScanner& scan, int dimension, MeshBuilder& builder) {
   }
 }
 
-void read_cells(TextScanner& scan, const Section& section, MeshBuilder& builder) {
-  const std::string kind_name(section.element.empty() ? name(section.kind) : section.element);
-  const std::string node = fmt::format("a vertex of {}", kind_name);
-  const std::string reference = fmt::format("the reference of {}", kind_name);
+void read_cells(TextScanner& scan, const MeditSection& section, MeshBuilder& builder) {
+  const std::string node = fmt::format("a vertex of {}", section.called());
+  const std::string reference = fmt::format("the reference of {}", section.called());
   const std::size_t column = builder.tags().column("reference", true);
   const std::uint64_t count = scan.count("the number of cells");
   std::array<std::uint64_t, 27> points{};
@@ -114,9 +94,16 @@ void skip_section(TextScanner& scan) {
   while (!scan.at_end() && !starts_a_word(scan.peek())) scan.token("the rest of a section");
 }
 
+/// The binary variant begins with the number 1, in either order of its four bytes.
+bool is_binary(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\x01\0\0\0"sv) || text.starts_with("\0\0\0\x01"sv);
+}
+
 }  // namespace
 
 std::string read_medit(std::string_view text, MeshBuilder& builder) {
+  if (is_binary(text)) return read_medit_binary(text, builder);
   TextScanner scan(text, builder.cell_file(), '#');
   scan.keyword("MeshVersionFormatted");
   const std::uint64_t version = scan.count("the version of the format");
@@ -134,7 +121,7 @@ std::string read_medit(std::string_view text, MeshBuilder& builder) {
       if (has_vertices) scan.fail("found Vertices again", "one section of vertices");
       read_vertices(scan, static_cast<int>(dimension), builder);
       has_vertices = true;
-    } else if (const Section* const cells = find_section(keyword)) {
+    } else if (const MeditSection* const cells = medit_section(keyword)) {
       read_cells(scan, *cells, builder);
     } else if (keyword == "Edges") {
       const std::uint64_t count = scan.count("the number of edges");

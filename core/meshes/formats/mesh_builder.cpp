@@ -48,6 +48,38 @@ void MeshBuilder::add_cell(CellKind kind, std::span<const std::uint64_t> corners
   all_cell_lines_.push_back(narrow_line(line));
 }
 
+double MeshBuilder::shortest_edge() const {
+  double shortest = std::numeric_limits<double>::infinity();
+  std::size_t first = 0;
+  for (const CellKind kind : kinds_) {
+    const auto point = [&](int k) -> const Eigen::Vector3d& {
+      return points_[cell_points_[first + static_cast<std::size_t>(k)]];
+    };
+    for (const auto& face : faces_of(kind))
+      for (std::size_t k = 0; k < face.size(); ++k)
+        shortest = std::min(shortest, (point(face[(k + 1) % face.size()]) - point(face[k])).norm());
+    first += static_cast<std::size_t>(node_count(kind));
+  }
+  return shortest;
+}
+
+void MeshBuilder::join_points(std::span<const std::uint32_t> same) {
+  std::vector<std::uint64_t> number(points_.size());
+  std::size_t kept = 0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    number[p] = same[p] == p ? kept : number[same[p]];
+    if (same[p] != p) continue;
+    points_[kept] = points_[p];
+    point_numbers_[kept] = kept;
+    ++kept;
+  }
+  points_.resize(kept);
+  point_numbers_.resize(kept);
+  point_lines_.assign(kept, 0);
+  for (std::uint64_t& p : cell_points_) p = number[p];
+  std::ranges::fill(all_cell_lines_, 0);
+}
+
 /// The points in ascending order of their numbers; empty when they are numbered one after the other already.
 std::vector<std::uint32_t> MeshBuilder::number_points() {
   const auto jump = std::adjacent_find(point_numbers_.begin(), point_numbers_.end(),

@@ -26,12 +26,25 @@ class MeshBuilder {
   const std::string& point_file() const { return point_file_; }
   const std::string& cell_file() const { return cell_file_; }
 
+  /// What is added from here on comes from another file, which errors of it name.
+  void read_from(const std::string& file) { point_file_ = cell_file_ = file; }
+
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
   /// Add a cell by its corners; `element` is what it is called when it has more nodes than those. A line of 0 is none.
   void add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line, std::string_view element = {});
   std::size_t cell_count() const { return kinds_.size(); }
+  std::span<const Eigen::Vector3d> points() const { return points_; }
+  /// The least distance of two points that an edge of a cell joins; infinite without cells.
+  ///
+  /// pre  points are numbered from 0, and every cell has only such
+  double shortest_edge() const;
+  /// Make points one: point p becomes point same[p], which stays what it is and is not after p. Cells that come from
+  /// several files have no lines any more.
+  ///
+  /// pre  as for shortest_edge
+  void join_points(std::span<const std::uint32_t> same);
   /// Count elements of dimension 0 or 1, which no body is made of.
   void skip(int dimension, std::uint64_t count = 1) { skipped_.at(static_cast<std::size_t>(dimension)) += count; }
   void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }

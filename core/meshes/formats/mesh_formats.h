@@ -1,6 +1,6 @@
 #pragma once
-// One reader per format of volumes; Gmsh has a folder of its own. Each hands what it finds to a builder and returns the
-// exact name of the format.
+// One reader per format of volumes; Gmsh and VTK have folders of their own. Each hands what it finds to a builder and
+// returns the exact name of the format.
 
 #include <string>
 #include <string_view>
@@ -10,9 +10,9 @@
 
 namespace dartboard {
 
+/// Text or bytes, told by how it begins.
 std::string read_medit(std::string_view text, MeshBuilder& builder);
-std::string read_vtk_legacy(std::string_view text, MeshBuilder& builder);
-std::string read_vtu(std::string_view text, MeshBuilder& builder);
+std::string read_medit_binary(std::string_view text, MeshBuilder& builder);
 /// The builder's point file is `node`'s and its cell file is `ele`'s; both may be one scanner over one text.
 std::string read_tetgen(TextScanner& node, TextScanner& ele, MeshBuilder& builder);
 

@@ -7,14 +7,19 @@
 #include <cmath>
 #include <utility>
 
+#include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/frame_columns.h"
+#include "core/scene/body/make_contact.h"
 #include "core/scene/body/release.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
+#include "core/views/inner_edges_view.h"
+#include "core/views/skin.h"
+#include "core/views/skin_solids_view.h"
 
 namespace dartboard {
 
@@ -31,7 +36,7 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
   const auto& points = problem.mesh.points;
   const Material& material = problem.material;
   gravity_ = problem.surroundings.gravity;
-  density_ = material.density;
+  material_ = material;
   counts_ = {.vertices = points.size(), .edges = points.size() - 1, .components = 1};
   vertices_.position = points;
   vertices_.mass.assign(points.size(), 0.0);
@@ -61,10 +66,12 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
     if (needs.viscosity) vertices_.viscosity.push_back(material.viscosity * vertices_.mass[p]);
     vertices_.point.push_back(p);
   }
+  if (needs.pull) vertices_.pull.assign(points.size(), Eigen::Vector3d(0, 0, 0));
 }
 
 template <class Map>
 void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs) {
+  add_cell_springs(body, mesh, needs.diagonals);
   SpringEndsView ends;
   ends.rebuild(body);
   ComponentLabels components;
@@ -87,47 +94,112 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   cells_.first = mesh.first;
   for (const std::uint32_t p : mesh.nodes) cells_.nodes.push_back(vertex_of[p]);
 
+  if constexpr (Map::dimension == 2)
+    if (needs.bending.any()) {
+      body.vertices.keep_rest();
+      const auto rows_of = [&body](auto view) {
+        view.rebuild(body);
+        view.rows.shrink_to_fit();
+        return std::move(view.rows);
+      };
+      if (needs.bending.rigidity > 0.0) {
+        bends_ = rows_of(BendingView(needs.bending.rigidity));
+        bending_ = make_bending(bends_);
+      } else {
+        neighbours_ = rows_of(SecondNeighboursView());
+        bending_ = make_second_neighbours(neighbours_, needs.bending.second_neighbours);
+      }
+      body.vertices.rest = {};
+    }
+
+  if (needs.contact()) {
+    body.vertices.keep_rest();
+    Skin skin;
+    skin.rebuild(body);
+    samples_ = skin.samples();
+    if (!needs.obstacles.empty()) contact_ = make_contact(needs.obstacles, samples_);
+    if (!needs.touches.empty()) {
+      SkinSolidsView solids;
+      solids.rebuild(body, [&needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, cell); });
+      skin_solids_ = solids.solids();
+      body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches);
+    }
+    body.vertices.rest = {};
+  }
+
+  std::vector<double> room;
+  rest_volumes(body, room);
+  volume_ = std::move(room);
   vertices_ = std::move(body.vertices);
   vertices_.dart.clear();
   vertices_.force.clear();
   if (!needs.viscosity) vertices_.viscosity.clear();
   if (!needs.fixed) vertices_.fixed.clear();
   if (needs.rest) vertices_.keep_rest();
+  if (needs.pull) vertices_.pull.assign(vertices_.size(), Eigen::Vector3d(0, 0, 0));
   const auto nodes_of = [&body](auto view) {
     view.rebuild(body);
     return std::move(view.nodes);
   };
   nodes_ = nodes_of(TetrahedronNodesView());
   solid_nodes_ = nodes_of(SolidNodesView());
+  triangle_nodes_ = nodes_of(TriangleNodesView());
   shape_ = std::move(body.cell_shape);
   solid_shape_ = std::move(body.cell_solid);
-  if (shape_.empty() && solid_shape_.empty()) {
+  triangle_shape_ = std::move(body.cell_triangle);
+  membrane_shape_ = std::move(body.cell_membrane);
+  if (body.cell_materials().has_springs()) {
     springs_ = std::move(body.springs);
     ends_ = std::move(ends.ends);
   }
   cell_mass_ = std::move(body.cell_mass);
   gravity_ = body.surroundings.gravity;
-  density_ = body.material.density;
-  if (!shape_.empty()) elements_ = make_tetrahedra(body.material, {nodes_, shape_, cell_mass_});
-  if (!solid_shape_.empty()) elements_ = make_solids(body.material, {solid_nodes_, solid_shape_});
-  terms_ = elements_.get();
+  material_ = body.material;
+  materials_ = std::move(body.materials);
+  cell_material_ = std::move(body.cell_material);
+  const CellMaterials materials(material_, materials_, cell_material_);
+  if (!shape_.empty()) elements_ = make_tetrahedra(materials, {nodes_, shape_, cell_mass_});
+  if (!solid_shape_.empty()) elements_ = make_solids(materials, {solid_nodes_, solid_shape_});
+  if (!triangle_shape_.empty())
+    elements_ = make_membranes(materials, TriangleColumns{triangle_nodes_, triangle_shape_});
+  if (!membrane_shape_.empty()) elements_ = make_membranes(materials, MembraneColumns{solid_nodes_, membrane_shape_});
+  springs_within_ = std::move(body.cell_springs);
+  if (!springs_within_.empty()) cell_springs_ = make_cell_springs({solid_nodes_, springs_within_});
+  for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get()})
+    if (term != nullptr) terms_.push_back(term);
+  if (contact_) terms_.push_back(contact_.get());
+  if (body_contact_) terms_.push_back(body_contact_.get());
   // columns that grew by doubling give back what they do not use
   for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-  fit(vertices_.dart, springs_, ends_, nodes_, shape_, solid_nodes_, solid_shape_);
+  fit(vertices_.dart, springs_, ends_, nodes_, shape_, solid_nodes_, solid_shape_, springs_within_);
+  fit(triangle_nodes_, triangle_shape_, membrane_shape_);
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
+  fit(cell_material_, volume_);
 }
 
 MemoryReport BodyOfColumns::memory() const {
-  return {{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
-          {Part::viscosity, bytes_of(vertices_.viscosity)},
-          {Part::fixed, bytes_of(vertices_.fixed)},
-          {Part::rest, bytes_of(vertices_.rest)},
-          {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
-          {Part::damping, springs_.damping_bytes()},
-          {Part::elements, bytes_of(nodes_, shape_, solid_nodes_, solid_shape_)},
-          {Part::output_cells,
-           bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_)}};
+  const bool of_elements = !solid_shape_.empty() || !membrane_shape_.empty();
+  MemoryReport report{{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
+                      {Part::viscosity, bytes_of(vertices_.viscosity)},
+                      {Part::fixed, bytes_of(vertices_.fixed)},
+                      {Part::rest, bytes_of(vertices_.rest)},
+                      {Part::pull, bytes_of(vertices_.pull)},
+                      {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
+                      {Part::damping, springs_.damping_bytes()},
+                      {Part::elements, bytes_of(nodes_, shape_, solid_shape_) +
+                                           bytes_of(triangle_nodes_, triangle_shape_, membrane_shape_) +
+                                           (of_elements ? bytes_of(solid_nodes_) : 0)},
+                      {Part::output_cells, bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_,
+                                                    facet_first_, facet_node_) +
+                                               bytes_of(cell_material_, volume_)}};
+  if (cell_springs_)
+    report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
+  if (bending_) report.push_back({Part::bending, bytes_of(bends_, neighbours_)});
+  if (contact_ || body_contact_)
+    report.push_back({Part::contact, bytes_of(samples_) + (contact_ ? contact_->bytes() : 0) +
+                                         (body_contact_ ? skin_solids_.bytes() + body_contact_->bytes() : 0)});
+  return report;
 }
 
 SpringSystem BodyOfColumns::system() const {
@@ -138,7 +210,8 @@ SpringSystem BodyOfColumns::system() const {
           .viscosity = vertices_.viscosity,
           .fixed = vertices_.fixed,
           .gravity = gravity_,
-          .terms = ForceTerms(&terms_, elements_ ? 1 : 0)};
+          .pull = vertices_.pull,
+          .terms = terms_};
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
@@ -185,7 +258,8 @@ double BodyOfColumns::largest_tension() const {
 double BodyOfColumns::largest_stress() const {
   if (counts_.cells == 0) return largest_tension();
   std::vector<Eigen::Matrix3d> stress;
-  vertex_stresses(ends_, springs_, vertices_.mass, density_, vertices_.position, stress, system().terms);
+  vertex_stresses(ends_, springs_, {vertices_.mass, material_.density, volume_}, vertices_.position, stress,
+                  system().terms);
   return largest_principal_stress(stress);
 }
 
@@ -195,7 +269,9 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
   frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
-  fill_columns(frame, fields, vertices_, system(), density_);
+  frame.material = cell_material_;
+  fill_columns(frame, fields, vertices_, system(), {vertices_.mass, material_.density, volume_});
+  if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
   return frame;
 }
 

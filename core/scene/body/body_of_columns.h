@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/bending.h"
+#include "core/elements/cell_springs.h"
+#include "core/elements/membranes.h"
 #include "core/plain/mesh.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/views/element_nodes_view.h"
@@ -28,6 +31,11 @@ class BodyOfColumns final : public SimulatedBody {
   const VertexColumns& vertices() const override { return vertices_; }
   SpringSystem system() const override;
   Motion motion() override { return {vertices_.position, vertices_.velocity}; }
+  std::span<Eigen::Vector3d> pull() override { return vertices_.pull; }
+  ObstacleContact* contact() override { return contact_.get(); }
+  BodyContact* body_contact() override { return body_contact_.get(); }
+  using SimulatedBody::body_contact;
+  using SimulatedBody::contact;
   /// throws  InputError for an event that would change the topology
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override;
 
@@ -42,6 +50,7 @@ class BodyOfColumns final : public SimulatedBody {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(vertices_);
+    if (contact_) archive(*contact_);
   }
   MemoryReport memory() const override;
 
@@ -54,14 +63,28 @@ class BodyOfColumns final : public SimulatedBody {
   VertexColumns vertices_;  // without darts and forces; viscosity, fixed and places at rest only where needed
   Springs springs_;
   std::vector<SpringEnds> ends_;
-  std::vector<TetrahedronNodes> nodes_;  // of a body of elements, which has no springs
+  std::vector<TetrahedronNodes> nodes_;  // of a body of elements, which has springs only where some cells are
   std::vector<RestShape> shape_;
   std::vector<SolidNodes> solid_nodes_;  // or where not all cells are tetrahedra
   std::vector<SolidShape> solid_shape_;
-  std::unique_ptr<ForceTerm> elements_;  // null with springs
-  const ForceTerm* terms_ = nullptr;     // the list of one of a system
+  std::vector<TriangleNodes> triangle_nodes_;  // of a surface of elements, all triangles
+  std::vector<PlaneInverse> triangle_shape_;
+  std::vector<MembraneShape> membrane_shape_;  // or of any cells, with solid_nodes_
+  std::unique_ptr<ForceTerm> elements_;        // null where all are springs
+  std::vector<CellSprings> springs_within_;
+  std::vector<BendingEdge> bends_;  // of a surface, one of the two where it resists bending
+  std::vector<SecondNeighbours> neighbours_;
+  std::unique_ptr<ForceTerm> cell_springs_, bending_;
+  std::vector<SkinSample> samples_;  // where it feels contact, if there is any
+  std::unique_ptr<ObstacleContact> contact_;
+  SkinSolids skin_solids_;  // what its parts can be inside of, if any touch
+  std::unique_ptr<BodyContact> body_contact_;
+  std::vector<const ForceTerm*> terms_;  // those there are
   Eigen::Vector3d gravity_{0, 0, 0};
-  double density_ = 0.0;
+  Material material_;
+  std::vector<Material> materials_;            // of a body of several
+  std::vector<MaterialNumber> cell_material_;  // of each cell its number
+  std::vector<double> volume_;                 // [m^3] of each vertex, where densities differ
 
   // for frames and diagnostics: the cells and the boundary by vertex numbers
   CellCounts counts_;

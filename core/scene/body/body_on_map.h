@@ -6,20 +6,28 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/bending.h"
+#include "core/elements/cell_springs.h"
+#include "core/elements/membranes.h"
 #include "core/elements/solids.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/adapt.h"
+#include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/cell_nodes.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/plain/bytes.h"
 #include "core/scene/body/frame_columns.h"
+#include "core/scene/body/make_contact.h"
 #include "core/scene/body/scene_events.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
 #include "core/views/component_labels.h"
 #include "core/views/element_nodes_view.h"
+#include "core/views/inner_edges_view.h"
+#include "core/views/skin.h"
+#include "core/views/skin_solids_view.h"
 #include "core/views/spring_ends.h"
 
 namespace dartboard {
@@ -30,7 +38,9 @@ class BodyOnMap final : public SimulatedBody {
   using Body = MassSpringBody<Map, Held::by_every_dart>;
   static constexpr int n = Map::dimension;
 
-  BodyOnMap(const Problem& problem, const BodyNeeds& needs) : body_(build_body<Map, Held::by_every_dart>(problem)) {
+  BodyOnMap(const Problem& problem, const BodyNeeds& needs)
+      : body_(build_body<Map, Held::by_every_dart>(problem)), bends_(needs.bending.rigidity) {
+    add_cell_springs(body_, problem.mesh, needs.diagonals);
     ends_.rebuild(body_);
     components_.rebuild(body_);
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
@@ -38,12 +48,42 @@ class BodyOnMap final : public SimulatedBody {
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
     if (needs.rest) body_.vertices.keep_rest();
+    if (needs.pull) body_.vertices.pull.assign(body_.vertices.size(), Eigen::Vector3d(0, 0, 0));
     nodes_.rebuild(body_);
     solids_.rebuild(body_);
+    triangles_.rebuild(body_);
     if (!body_.cell_shape.empty())
-      elements_ = make_tetrahedra(problem.material, {nodes_.nodes, body_.cell_shape, body_.cell_mass});
-    if (!body_.cell_solid.empty()) elements_ = make_solids(problem.material, {solids_.nodes, body_.cell_solid});
-    terms_ = elements_.get();
+      elements_ = make_tetrahedra(body_.cell_materials(), {nodes_.nodes, body_.cell_shape, body_.cell_mass});
+    if (!body_.cell_solid.empty()) elements_ = make_solids(body_.cell_materials(), {solids_.nodes, body_.cell_solid});
+    if (!body_.cell_triangle.empty())
+      elements_ = make_membranes(body_.cell_materials(), TriangleColumns{triangles_.nodes, body_.cell_triangle});
+    if (!body_.cell_membrane.empty())
+      elements_ = make_membranes(body_.cell_materials(), MembraneColumns{solids_.nodes, body_.cell_membrane});
+    add_term(elements_);
+    if (!body_.cell_springs.empty()) cell_springs_ = make_cell_springs({solids_.nodes, body_.cell_springs});
+    add_term(cell_springs_);
+    if constexpr (n == 2) {
+      if (needs.bending.rigidity > 0.0) bending_ = make_bending(bends_.rows);
+      if (needs.bending.second_neighbours > 0.0)
+        bending_ = make_second_neighbours(neighbours_.rows, needs.bending.second_neighbours);
+      bends_across_edges_ = needs.bending.rigidity > 0.0;
+      rebuild_bending();
+    }
+    add_term(bending_);
+    if (needs.contact()) {
+      if (body_.vertices.rest.empty()) body_.vertices.keep_rest();
+      skin_.rebuild(body_);
+    }
+    if (!needs.obstacles.empty()) {
+      contact_ = make_contact(needs.obstacles, skin_.samples());
+      terms_.push_back(contact_.get());
+    }
+    if (!needs.touches.empty()) {
+      first_cell_ = needs.first_cell;
+      skin_solids_.rebuild(body_, body_of_cell_number());
+      body_contact_ = std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches);
+      terms_.push_back(body_contact_.get());
+    }
     fit_columns();
   }
 
@@ -66,6 +106,9 @@ class BodyOnMap final : public SimulatedBody {
     ends_.apply(body_, changed);
     nodes_.apply(body_, changed);
     solids_.apply(body_, changed);
+    triangles_.apply(body_, changed);
+    if constexpr (n == 2) follow_bending(changed);
+    follow_skin(changed);
     components_.apply(body_, change, changed);
   }
   /// The same for a subdivision of tetrahedra.
@@ -80,6 +123,7 @@ class BodyOnMap final : public SimulatedBody {
     ends_.apply(body_, changed);
     nodes_.apply(body_, changed);
     solids_.apply(body_, changed);
+    follow_skin(changed);
     components_.apply(body_, {}, changed);
   }
   void count_removed(double mass) { removed_mass_ += mass; }
@@ -98,15 +142,21 @@ class BodyOnMap final : public SimulatedBody {
                         .inverse_mass = v.inverse_mass,
                         .viscosity = v.viscosity,
                         .fixed = v.fixed,
-                        .gravity = body_.surroundings.gravity};
-    if (elements_) {
+                        .gravity = body_.surroundings.gravity,
+                        .pull = v.pull};
+    system.terms = terms_;
+    if (!body_.cell_materials().has_springs()) {
       system.ends = {};
       system.springs = {};
-      system.terms = {&terms_, 1};
     }
     return system;
   }
   Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
+  std::span<Eigen::Vector3d> pull() override { return body_.vertices.pull; }
+  ObstacleContact* contact() override { return contact_.get(); }
+  BodyContact* body_contact() override { return body_contact_.get(); }
+  using SimulatedBody::body_contact;
+  using SimulatedBody::contact;
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override { return make_event_ready(*this, event); }
 
   double mass() const override {
@@ -147,7 +197,8 @@ class BodyOnMap final : public SimulatedBody {
   double largest_stress() const override {
     const VertexColumns& v = body_.vertices;
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(ends_.ends, body_.springs, v.mass, body_.material.density, v.position, stress, system().terms);
+    std::vector<double> room;
+    vertex_stresses(ends_.ends, body_.springs, rest_volumes(body_, room), v.position, stress, system().terms);
     return largest_principal_stress(stress);
   }
 
@@ -158,7 +209,10 @@ class BodyOnMap final : public SimulatedBody {
       frame.mesh_cell.push_back(mesh_cell_[c]);
       frame.component.push_back(components_.label(c));
     }
-    fill_columns(frame, fields, body_.vertices, system(), body_.material.density);
+    frame.material = body_.cell_material;
+    std::vector<double> room;
+    fill_columns(frame, fields, body_.vertices, system(), rest_volumes(body_, room));
+    if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
     return frame;
   }
 
@@ -166,7 +220,11 @@ class BodyOnMap final : public SimulatedBody {
   std::string violation() const override { return check(body_.map); }
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
-    archive(body_, ends_, nodes_, solids_, components_, mesh_cell_, removed_mass_);
+    archive(body_, ends_, nodes_, solids_, triangles_, components_, mesh_cell_, removed_mass_);
+    if (bending_) archive(bends_, neighbours_);
+    if (contact_ || body_contact_) archive(skin_);
+    if (contact_) archive(*contact_);
+    if (body_contact_) archive(skin_solids_);
   }
 
   MemoryReport memory() const override {
@@ -176,21 +234,35 @@ class BodyOnMap final : public SimulatedBody {
     const std::size_t slots = Map::tetrahedral ? map.capacity() / 24 : map.capacity();
     const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
     const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
-    return {{Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
-            {Part::marks, mark_bytes()},
-            {Part::embeddings, body_.embedding_bytes()},
-            {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
-            {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
-                              bytes_of(body_.edge_share)},
-            {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
-                                   (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
-            {Part::vertices, bytes_of_vertices(v)},
-            {Part::viscosity, bytes_of(v.viscosity)},
-            {Part::fixed, bytes_of(v.fixed)},
-            {Part::rest, bytes_of(v.rest)},
-            {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
-            {Part::damping, body_.springs.damping_bytes()},
-            {Part::elements, bytes_of(body_.cell_shape, nodes_.nodes, body_.cell_solid, solids_.nodes)}};
+    const bool of_elements = !body_.cell_solid.empty() || !body_.cell_membrane.empty();
+    MemoryReport report{{Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
+                        {Part::marks, mark_bytes()},
+                        {Part::embeddings, body_.embedding_bytes()},
+                        {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
+                        {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
+                                          bytes_of(body_.edge_share, body_.cell_material)},
+                        {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
+                                               (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
+                        {Part::vertices, bytes_of_vertices(v)},
+                        {Part::viscosity, bytes_of(v.viscosity)},
+                        {Part::fixed, bytes_of(v.fixed)},
+                        {Part::rest, bytes_of(v.rest)},
+                        {Part::pull, bytes_of(v.pull)},
+                        {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
+                        {Part::damping, body_.springs.damping_bytes()},
+                        {Part::elements, bytes_of(body_.cell_shape, nodes_.nodes, body_.cell_solid) +
+                                             bytes_of(body_.cell_triangle, triangles_.nodes, body_.cell_membrane) +
+                                             (of_elements ? bytes_of(solids_.nodes) : 0)}};
+    if (cell_springs_)
+      report.push_back(
+          {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
+    if (bending_) report.push_back({Part::bending, bytes_of(bends_.rows, neighbours_.rows)});
+    if (contact_ || body_contact_)
+      report.push_back(
+          {Part::contact,
+           skin_.bytes() + (contact_ ? contact_->bytes() : 0) +
+               (body_contact_ ? skin_solids_.bytes() + body_contact_->bytes() + bytes_of(first_cell_) : 0)});
+    return report;
   }
 
  private:
@@ -201,7 +273,29 @@ class BodyOnMap final : public SimulatedBody {
     for_each_column(body_.vertices, VertexColumns::embedded(), fit_column);
     for_each_column(body_, Body::embedded_in_cells(), fit_column);
     fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
-        solids_.nodes);
+        solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
+  }
+
+  void add_term(const std::unique_ptr<ForceTerm>& term) {
+    if (term) terms_.push_back(term.get());
+  }
+  void rebuild_bending() {
+    if (!bending_) return;
+    // a body that shows no displacement has places at rest for this alone
+    if (body_.vertices.rest.empty()) body_.vertices.keep_rest();
+    bends_across_edges_ ? bends_.rebuild(body_) : neighbours_.rebuild(body_);
+  }
+  void follow_skin(const ChangedEmbeddings& changed) {
+    if (contact_ || body_contact_) skin_.apply(body_, changed);
+    if (body_contact_) skin_solids_.apply(body_, changed, body_of_cell_number());
+  }
+  void follow_bending(const ChangedEmbeddings& changed) {
+    if (!bending_) return;
+    bends_across_edges_ ? bends_.apply(body_, changed) : neighbours_.apply(body_, changed);
+  }
+
+  SkinSolidsView::GroupOfCell body_of_cell_number() const {
+    return [this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); };
   }
 
   /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is
@@ -219,10 +313,21 @@ class BodyOnMap final : public SimulatedBody {
 
   Body body_;
   SpringEndsView ends_;
-  TetrahedronNodesView nodes_;           // of a body of elements, all tetrahedra
-  SolidNodesView solids_;                // or of cells of any kind
-  std::unique_ptr<ForceTerm> elements_;  // null with springs
-  const ForceTerm* terms_ = nullptr;     // the list of one of a system
+  TetrahedronNodesView nodes_;               // of a body of elements, all tetrahedra
+  SolidNodesView solids_;                    // or of cells of any kind
+  TriangleNodesView triangles_;              // of a surface of elements, all triangles
+  std::unique_ptr<ForceTerm> elements_;      // null where all are springs
+  std::unique_ptr<ForceTerm> cell_springs_;  // null without diagonals
+  BendingView bends_;                        // of a surface, one of the two where it resists bending
+  SecondNeighboursView neighbours_;
+  bool bends_across_edges_ = false;  // the first of them
+  std::unique_ptr<ForceTerm> bending_;
+  Skin skin_;  // where it feels contact, if there is any
+  std::unique_ptr<ObstacleContact> contact_;
+  SkinSolidsView skin_solids_;           // what its parts can be inside of, if any touch
+  std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
+  std::unique_ptr<BodyContact> body_contact_;
+  std::vector<const ForceTerm*> terms_;  // those there are
   ComponentLabels components_;
   std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
   double removed_mass_ = 0.0;             // [kg]

@@ -12,16 +12,23 @@ std::string_view stress_unit(int dimension) { return dimension == 3 ? "Pa" : dim
 
 std::string_view stress_name(int dimension) { return dimension > 0 ? "largest principal stress" : "largest tension"; }
 
-std::string diagnostics_header(int dimension) {
+std::string diagnostics_header(int dimension, bool with_applied, bool with_contact) {
   return fmt::format(
       "time [s],kinetic [J],elastic [J],gravitational [J],momentum x [kg m/s],momentum y [kg m/s],momentum z [kg m/s],"
       "angular momentum x [kg m^2/s],angular momentum y [kg m^2/s],angular momentum z [kg m^2/s],mass [kg],"
-      "vertices,edges,faces,cells,components,boundary [{}],{} [{}],operations\n",
-      boundary_unit(dimension), stress_name(dimension), stress_unit(dimension));
+      "vertices,edges,faces,cells,components,boundary [{}],{} [{}],operations{}{}\n",
+      boundary_unit(dimension), stress_name(dimension), stress_unit(dimension),
+      with_applied ? ",applied forces [J]" : "",
+      with_contact ? ",contact [J],lost by restitution [J],lost by friction [J],supplied at contacts [J],contacts,"
+                     "deepest contact [m]"
+                   : "");
 }
 
 bool is_finite(const Diagnostics& d) {
-  const double numbers[] = {d.time, d.kinetic, d.elastic, d.gravitational, d.mass, d.boundary, d.largest_stress};
+  const ContactDiagnostics contact = d.contact.value_or(ContactDiagnostics{});
+  const double numbers[] = {d.time,         d.kinetic,      d.elastic,        d.gravitational,
+                            d.mass,         d.boundary,     d.largest_stress, d.applied.value_or(0.0),
+                            contact.energy, contact.damped, contact.rubbed,   contact.supplied};
   return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }) && d.momentum.allFinite() &&
          d.angular_momentum.allFinite();
 }
@@ -39,7 +46,16 @@ std::string diagnostics_row(const Diagnostics& d) {
   fmt::format_to(std::back_inserter(row), "{},{},{},{},{},", n.vertices, n.edges, n.faces, n.cells, n.components);
   add(d.boundary);
   add(d.largest_stress);
-  return row + fmt::format("{}\n", d.operations);
+  row += fmt::format("{}", d.operations);
+  const auto add_after = [&row](double value) { row += std::isfinite(value) ? fmt::format(",{:.17g}", value) : ","; };
+  if (d.applied) add_after(*d.applied);
+  if (d.contact) {
+    for (const double value : {d.contact->energy, d.contact->damped, d.contact->rubbed, d.contact->supplied})
+      add_after(value);
+    row += fmt::format(",{}", d.contact->contacts);
+    add_after(d.contact->deepest);
+  }
+  return row + "\n";
 }
 
 }  // namespace dartboard

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,20 @@ struct CellCounts {
   }
 };
 
+/// What a row tells of contact with obstacles.
+struct ContactDiagnostics {
+  double energy = 0;    // [J] of the contacts, no part of the elastic energy
+  double damped = 0;    // [J] lost by restitution so far
+  double rubbed = 0;    // [J] by friction
+  double supplied = 0;  // [J] the work of obstacles that move, and of what is driven against damping and friction
+  std::size_t contacts = 0;
+  double deepest = 0;  // [m]
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(energy, damped, rubbed, supplied, contacts, deepest);
+  }
+};
+
 struct Diagnostics {
   double time = 0;                                     // [s]
   double kinetic = 0, elastic = 0, gravitational = 0;  // [J]
@@ -25,15 +40,19 @@ struct Diagnostics {
   Eigen::Vector3d angular_momentum{0, 0, 0};           // [kg m^2/s], about the origin
   double mass = 0;                                     // [kg]
   CellCounts counts;
-  double boundary = 0;         // [m^2] area of the boundary surface; of a surface [m] length of its border
-  double largest_stress = 0;   // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
-  std::size_t operations = 0;  // so far: faces dissociated, cells removed, vertices put in by refinement
+  double boundary = 0;              // [m^2] area of the boundary surface; of a surface [m] length of its border
+  double largest_stress = 0;        // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
+  std::size_t operations = 0;       // so far: faces dissociated, cells removed, vertices put in by refinement
+  std::optional<double> applied{};  // [J] potential of the forces applied, - sum of f . x; where a scene has some
+  std::optional<ContactDiagnostics> contact{};  // where a scene has obstacles
 
-  double energy() const { return kinetic + elastic + gravitational; }
+  double energy() const {
+    return kinetic + elastic + gravitational + applied.value_or(0.0) + (contact ? contact->energy : 0.0);
+  }
   template <class Archive>
   void state(Archive& archive) {
     archive(time, kinetic, elastic, gravitational, momentum, angular_momentum, mass, counts, boundary, largest_stress,
-            operations);
+            operations, applied, contact);
   }
 };
 
@@ -48,9 +67,10 @@ std::string_view stress_name(int dimension);
 std::string_view boundary_unit(int dimension);
 std::string_view stress_unit(int dimension);
 
-/// The names of the columns, with units, and one row; real numbers with 17 digits, so that they can be read back
-/// exactly, and an empty field for what is not finite. Both end with a line break.
-std::string diagnostics_header(int dimension = 3);
+/// The names of the columns, with units, and one row, with forces applied and contact or without; real numbers with 17
+/// digits, so that they can be read back exactly, and an empty field for what is not finite. Both end with a line
+/// break.
+std::string diagnostics_header(int dimension = 3, bool with_applied = false, bool with_contact = false);
 std::string diagnostics_row(const Diagnostics& diagnostics);
 
 }  // namespace dartboard

@@ -20,6 +20,7 @@ struct Frame {
   std::vector<double> mass;               // [kg] by point
   std::vector<std::uint32_t> mesh_cell;   // by cell: its number in the mesh that the body came from
   std::vector<std::uint32_t> component;   // by cell
+  std::vector<std::uint8_t> material;     // by cell: its number; of a body of several
   // of a chain, which has no cells: the ends of each link, which files count as a cell of component 0
   std::vector<std::array<std::uint32_t, 2>> links;
 
@@ -29,6 +30,8 @@ struct Frame {
   std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
   std::vector<double> tension;                        // [N] of a chain, by link; negative where it is pressed together
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
+  std::vector<Eigen::Vector3d> contact_force;         // [N] by point: of contacts, without friction and damping
+  std::vector<double> contact_depth;                  // [m] by point: how deep it is inside something; 0 outside
   std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
   std::vector<double> strain;                         // (l - L) / L by spring; of a chain, by link
 };

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/mechanics/fracture/stress.h"
-
 namespace dartboard {
 namespace {
 
@@ -13,7 +11,7 @@ double or_infinity(double x) { return std::isfinite(x) ? x : std::numeric_limits
 }  // namespace
 
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
-                  double density) {
+                  const RestVolumes& volumes) {
   const auto& ends = system.ends;
   const SpringSpan& springs = system.springs;
   const auto& x = vertices.position;
@@ -26,7 +24,7 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
     for (std::size_t k = 0; k < x.size(); ++k) frame.displacement.push_back(x[k] - vertices.rest[k]);
   if (fields.stress && !is_chain) {
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(ends, springs, vertices.mass, density, x, stress, system.terms);
+    vertex_stresses(ends, springs, volumes, x, stress, system.terms);
     for (const Eigen::Matrix3d& sigma : stress) {
       const StressMeasures measures = measures_of(sigma);
       frame.largest_principal_stress.push_back(measures.largest_principal);
@@ -43,6 +41,19 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
     if (has_tensions) frame.tension.push_back(or_infinity(spring.stiffness * stretch));
     if (fields.springs) frame.strain.push_back(or_infinity(stretch / spring.rest_length));
   }
+}
+
+void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies) {
+  const auto& x = frame.mesh.points;
+  frame.contact_force.assign(x.size(), Eigen::Vector3d(0, 0, 0));
+  frame.contact_depth.assign(x.size(), 0.0);
+  if (obstacles != nullptr) {
+    obstacles->add_forces({.x = x}, frame.contact_force);
+    obstacles->vertex_depths(x, frame.contact_depth);
+  }
+  if (bodies == nullptr) return;
+  bodies->add_forces({.x = x}, frame.contact_force);
+  bodies->raise_vertex_depths(x, frame.contact_depth);
 }
 
 }  // namespace dartboard

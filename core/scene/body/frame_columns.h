@@ -3,7 +3,10 @@
 
 #include <span>
 
+#include "core/contact/body_contact.h"
+#include "core/contact/obstacle_contact.h"
 #include "core/forces/springs.h"
+#include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/scene/body/frame.h"
 #include "core/time/system/spring_system.h"
@@ -18,6 +21,10 @@ namespace dartboard {
 /// pre   the cells and links of the frame are there; vertices have their places at rest where displacement is asked for
 /// cost  O(vertices + springs)
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
-                  double density);
+                  const RestVolumes& volumes);
+
+/// The same for what obstacles, and bodies, do to the vertices of a body that has contact: of each kind, or null.
+/// pre  its places are there
+void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies);
 
 }  // namespace dartboard

@@ -17,10 +17,15 @@ std::string_view name(Part part) {
     case Part::viscosity: return "viscosity";
     case Part::fixed: return "fixed vertices";
     case Part::rest: return "places at rest";
+    case Part::pull: return "forces";
     case Part::driven: return "driven vertices";
     case Part::springs: return "springs";
     case Part::elements: return "elements";
+    case Part::cell_damping: return "damping of elements";
     case Part::damping: return "damping";
+    case Part::cell_springs: return "springs within cells";
+    case Part::bending: return "bending";
+    case Part::contact: return "contact";
     case Part::gravity: return "gravity";
     case Part::integrator: return "integrator";
     case Part::solver: return "matrices and factor";
@@ -40,7 +45,7 @@ std::size_t bytes_of_vertices(const VertexColumns& vertices) {
   std::size_t bytes = 0;
   for_each_column(vertices, VertexColumns::embedded(),
                   [&bytes](const auto& column, const auto&) { bytes += bytes_of(column); });
-  return bytes - bytes_of(vertices.viscosity, vertices.fixed, vertices.rest);
+  return bytes - bytes_of(vertices.viscosity, vertices.fixed, vertices.rest, vertices.pull);
 }
 
 }  // namespace dartboard

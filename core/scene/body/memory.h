@@ -24,10 +24,15 @@ enum class Part {
   viscosity,     // by vertex
   fixed,         // by vertex
   rest,          // place at rest by vertex
+  pull,          // forces from outside by vertex, and the points they are meant for
   driven,        // paths of driven vertices, and what their work is summed over
   springs,       // rest length, stiffness, and the two ends
   damping,       // by spring; beside them in one row
-  elements,      // rest shape and corners of each tetrahedron, in place of springs
+  elements,      // rest shape and corners of each cell, in place of springs
+  cell_damping,  // of elements, by the rate of their strain: time only
+  cell_springs,  // rest lengths of the diagonals of each cell, and its corners
+  bending,       // what bends across each edge of a surface
+  contact,       // places of the boundary that feel obstacles, and the obstacles
   gravity,       // a force term: time only
   integrator,    // columns kept between steps
   solver,        // matrices, factor and vectors of implicit methods

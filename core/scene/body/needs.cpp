@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -37,10 +38,21 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
                                [](const SceneEvent& event) { return std::holds_alternative<Kind>(event.action); });
   };
   BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
-  body.rest = scene.output.fields.displacement;
+  body.diagonals = scene.diagonals;
+  body.bending = scene.bending;
+  // bending and the samples of a boundary follow a change of the map by what was at rest
+  body.rest =
+      scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
+  body.pull = !scene.forces.empty();
+  body.obstacles = scene.obstacles;
+  for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
+  if (!body.touches.empty()) body.first_cell = first_cells(scene);
   return {.body = body,
-          .damping = problem.material.damping != 0.0,
+          .damping =
+              std::ranges::any_of(problem.cell_materials().all(), [](const Material& m) { return m.damping != 0.0; }),
           .gravity = !problem.surroundings.gravity.isZero(0.0),
+          .cell_damping = std::ranges::any_of(problem.cell_materials().all(),
+                                              [](const Material& m) { return m.damping_time != 0.0; }),
           .solver = make_integrator(scene.integrator)->scheme().implicit,
           .refinement = some(static_cast<const Refine*>(nullptr)),
           .stress_watch = some(static_cast<const TearWhereStressed*>(nullptr))};

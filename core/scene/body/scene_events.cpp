@@ -143,6 +143,8 @@ class CellChooser {
  public:
   CellChooser(const BodyOnMap<Map>& on, const CellSelection& selection, const std::string& path)
       : on_(on), selection_(selection) {
+    if (std::holds_alternative<TagSelection>(selection))
+      fail(path + "/tag", "has not been looked up", "cells of a scene whose mesh was loaded (load_mesh)");
     if (const auto* random = std::get_if<RandomSelection>(&selection)) random_.emplace(random->seed);
     if (const auto* by_id = std::get_if<IdSelection>(&selection)) {
       for (std::size_t k = 0; k < by_id->ids.size(); ++k)
@@ -237,23 +239,38 @@ class ReadyRemoval : public ReadyEvent {
   CellChooser<Map> chooser_;
 };
 
-// ---- refine; of tetrahedra only
+// ---- refine; of the tetrahedra of a solid
+
+template <class Map>
+bool is_tetrahedron(const Map& map, Dart d) {
+  if constexpr (Map::tetrahedral) return true;
+  std::size_t darts = 0;
+  for_each_dart_of(map, Volume{d}, [&darts](Dart) { ++darts; });
+  return darts == 24;  // other cells of a solid have 32 and more
+}
+
+template <class Map>
+bool has_tetrahedra(const BodyOnMap<Map>& on) {
+  const auto& body = on.body();
+  return std::ranges::any_of(body.cell_dart, [&](Dart d) { return is_tetrahedron(body.map, d); });
+}
 
 template <class Map>
 class ReadyRefinement : public ReadyEvent {
  public:
   ReadyRefinement(BodyOnMap<Map>& on, const Refine& refine, const std::string& path)
-      : on_(on), refine_(refine), chooser_(on, refine.cells, path + "/cells") {}
+      : on_(on), refine_(refine), path_(path), chooser_(on, refine.cells, path + "/cells") {}
 
   std::size_t apply() override {
     auto& body = on_.body();
     std::vector<DartId> chosen;
-    for (const std::uint32_t k : chooser_.choose()) chosen.push_back(body.map.id(body.cell_dart[k]));
+    for (const std::uint32_t k : chooser_.choose())
+      if (is_tetrahedron(body.map, body.cell_dart[k])) chosen.push_back(body.map.id(body.cell_dart[k]));
     std::size_t count = 0;
     for (const DartId id : chosen) {
       if (!body.map.is_live(id.dart) || body.map.id(id.dart) != id) continue;  // subdivided with a neighbour
       const Subdivision subdivision =
-          refine_.at_centre ? subdivide(body.map, Volume{id.dart}) : subdivide(body.map, longest_edge(id.dart));
+          refine_.at_centre ? subdivide(body.map, Volume{id.dart}) : subdivide(body.map, own_edge(id.dart));
       on_.follow(subdivision, refine_.bracing);
       ++count;
     }
@@ -275,8 +292,23 @@ class ReadyRefinement : public ReadyEvent {
     return best;
   }
 
+  /// The longest edge, which tetrahedra alone have.
+  /// throws  InputError where another cell has it, too
+  Edge own_edge(Dart cell) const {
+    const auto& body = on_.body();
+    const Edge longest = longest_edge(cell);
+    for (const Volume v : incident_cells<3>(body.map, longest))
+      if (!is_tetrahedron(body.map, v.dart))
+        fail(path_ + "/at",
+             fmt::format("is \"longest edge\", and that of cell {} belongs to a cell that is no tetrahedron, too",
+                         on_.mesh_cell()[body.cell(body.map, cell)]),
+             "\"centre\", or cells whose longest edge tetrahedra alone have");
+    return longest;
+  }
+
   BodyOnMap<Map>& on_;
   Refine refine_;
+  std::string path_;
   CellChooser<Map> chooser_;
 };
 
@@ -371,10 +403,9 @@ std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& on, const SceneEven
   if (const auto* remove = std::get_if<Remove>(&event.action))
     return std::make_unique<ReadyRemoval<Map>>(on, remove->cells, event.path + "/remove");
   if (const auto* refine = std::get_if<Refine>(&event.action)) {
-    if constexpr (Map::tetrahedral)
-      return std::make_unique<ReadyRefinement<Map>>(on, *refine, event.path + "/refine");
-    else
-      fail(event.path + "/refine", "subdivides tetrahedra, and the body has other cells", "a body of tetrahedra alone");
+    if constexpr (Map::dimension == 3)
+      if (has_tetrahedra(on)) return std::make_unique<ReadyRefinement<Map>>(on, *refine, event.path + "/refine");
+    fail(event.path + "/refine", "subdivides tetrahedra, and the body has other cells", "a solid that has tetrahedra");
   }
   if constexpr (Map::dimension == 3) {
     if (const auto* tear = std::get_if<Tear>(&event.action))

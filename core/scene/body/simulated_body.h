@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/body_contact.h"
+#include "core/contact/obstacle_contact.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/archive.h"
 #include "core/plain/problem.h"
@@ -50,6 +52,18 @@ class SimulatedBody {
   virtual SpringSystem system() const = 0;
   /// Positions and velocities; valid until the next event.
   virtual Motion motion() = 0;
+  /// What pulls at each vertex [m/s^2]; empty where the body was made without. Valid until the next event.
+  virtual std::span<Eigen::Vector3d> pull() = 0;
+  /// Its contact with obstacles, and that of its parts with each other, the last of the terms of its system in this
+  /// order; null where the body was made without.
+  virtual ObstacleContact* contact() = 0;
+  const ObstacleContact* contact() const { return const_cast<SimulatedBody*>(this)->contact(); }
+  virtual BodyContact* body_contact() = 0;
+  const BodyContact* body_contact() const { return const_cast<SimulatedBody*>(this)->body_contact(); }
+  /// The terms without these.
+  ForceTerms terms_but_contact(ForceTerms terms) const {
+    return terms.first(terms.size() - (contact() != nullptr ? 1 : 0) - (body_contact() != nullptr ? 1 : 0));
+  }
 
   /// Follow a vertex from now on, wherever its number goes: `tracked` has one more. None of it changes the body.
   void track(std::uint32_t vertex) { tracked_.push_back(vertex); }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace dartboard {
 namespace {
@@ -16,40 +17,55 @@ struct Magnitude {
 };
 
 Magnitude size_of(const BodySource& body, const Mesh& mesh) {
-  if (const auto* box = std::get_if<BoxMesh>(&body.mesh)) return {"/body/generate/box/spacing", box->spacing};
-  if (const auto* sheet = std::get_if<SheetMesh>(&body.mesh)) return {"/body/generate/sheet/spacing", sheet->spacing};
-  if (const auto* ball = std::get_if<BallMesh>(&body.mesh)) return {"/body/generate/ball/radius", ball->radius};
-  if (const auto* chain = std::get_if<ChainMesh>(&body.mesh)) return {"/body/generate/chain/spacing", chain->spacing};
+  if (const auto* box = std::get_if<BoxMesh>(&body.mesh)) return {body.path + "/generate/box/spacing", box->spacing};
+  if (const auto* sheet = std::get_if<SheetMesh>(&body.mesh))
+    return {body.path + "/generate/sheet/spacing", sheet->spacing};
+  if (const auto* ball = std::get_if<BallMesh>(&body.mesh)) return {body.path + "/generate/ball/radius", ball->radius};
+  if (const auto* chain = std::get_if<ChainMesh>(&body.mesh))
+    return {body.path + "/generate/chain/spacing", chain->spacing};
   double largest = 0.0;  // of the file: before it was scaled and moved
   for (const Eigen::Vector3d& x : mesh.points)
     largest = std::max(largest, ((x - body.translate) / body.scale).lpNorm<Eigen::Infinity>());
-  return {"/body/mesh", largest};
+  return {body.path + "/mesh", largest};
 }
 
 }  // namespace
 
 std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
-  const Material& material = scene.material;
-  Magnitude worst{"/body", 1.0};
-  for (const Magnitude& m : {Magnitude{"/material/density", material.density},
-                             material.young > 0.0 ? Magnitude{"/material/young", material.young}
-                                                  : Magnitude{"/material/stiffness", material.stiffness},
-                             {"/material/damping", material.damping},
-                             {"/material/viscosity", material.viscosity},
+  std::vector<Magnitude> all{{"/material/viscosity", scene.material.viscosity},
                              {"/gravity", scene.gravity.lpNorm<Eigen::Infinity>()},
-                             {"/step", scene.step},
-                             {"/body/scale", scene.body.scale},
-                             {"/body/translate", scene.body.translate.lpNorm<Eigen::Infinity>()},
-                             size_of(scene.body, mesh)})
+                             {"/step", scene.step}};
+  for (const auto& [material, path, names_model] : scene.tissues())
+    all.insert(all.end(), {{path + "/density", material.density},
+                           material.young > 0.0 ? Magnitude{path + "/young", material.young}
+                                                : Magnitude{path + "/stiffness", material.stiffness},
+                           {path + "/damping", material.damping}});
+  for (const BodySource& body : scene.bodies())
+    all.insert(all.end(), {{body.path + "/scale", body.scale},
+                           {body.path + "/translate", body.translate.lpNorm<Eigen::Infinity>()},
+                           size_of(body, mesh)});
+  for (const SceneForce& force : scene.forces)
+    all.push_back(force.force ? Magnitude{force.path + "/force", force.force->lpNorm<Eigen::Infinity>()}
+                              : Magnitude{force.path + "/pressure", std::abs(*force.pressure)});
+  for (const SceneObstacle& one : scene.obstacles)
+    all.insert(all.end(), {{one.path + "/pressure", one.law.pressure}, {one.path + "/depth", one.law.depth}});
+  for (const SceneTouch& touch : scene.touches) {
+    const std::string path = touch.path == "/contact/bodies" ? "/contact" : touch.path;
+    all.insert(all.end(), {{path + "/pressure", touch.law.pressure}, {path + "/depth", touch.law.depth}});
+  }
+  Magnitude worst{scene.body.path, 1.0};
+  for (const Magnitude& m : all)
     if (m.decades() > worst.decades()) worst = m;
   return fmt::format("{}: is {}{:.6g}, and energies or forces at the start are not finite; expected a {} value",
-                     worst.path, worst.path == "/body/mesh" ? "of size " : "", worst.value,
+                     worst.path, worst.path.ends_with("/mesh") ? "of size " : "", worst.value,
                      worst.value > 1.0 ? "smaller" : "larger");
 }
 
 std::string size_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
-  const Magnitude size = size_of(scene.body, mesh);
-  return size.decades() < 100 ? "" : fmt::format("{}: is {:.6g}", size.path, size.value);
+  for (const BodySource& body : scene.bodies())
+    if (const Magnitude size = size_of(body, mesh); size.decades() >= 100)
+      return fmt::format("{}: is {:.6g}", size.path, size.value);
+  return "";
 }
 
 }  // namespace dartboard

@@ -9,6 +9,7 @@ struct FrameFields {
   bool stress = false;        // measures of the stress of vertices; of a chain, tensions of links
   bool displacement = false;  // of vertices, from where they were at rest
   bool springs = false;       // every spring as a line, with its strain
+  bool contact = false;       // of vertices: the force of contacts, and how deep they are inside
 };
 
 }  // namespace dartboard

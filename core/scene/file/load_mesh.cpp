@@ -10,6 +10,7 @@
 
 #include "core/meshes/touching.h"
 #include "core/plain/error.h"
+#include "core/scene/file/cell_tags.h"
 
 namespace dartboard {
 namespace {
@@ -26,6 +27,7 @@ void visit_ids(VertexSelection& selection, const std::string& path, const Visit&
 void visit_points(SceneFile& scene, const Visit& visit) {
   for (std::size_t k = 0; k < scene.fixed.size(); ++k) visit_ids(scene.fixed[k], fmt::format("/fixed/{}", k), visit);
   for (SceneDrive& drive : scene.driven) visit_ids(drive.vertices, drive.path, visit);
+  for (SceneForce& force : scene.forces) visit_ids(force.vertices, force.path, visit);
   for (Probe& probe : scene.probes)
     if (auto* point = std::get_if<std::uint32_t>(&probe.vertex)) visit(*point, probe.path + "/vertex");
   for (SceneEvent& event : scene.events) {
@@ -113,6 +115,7 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   };
   for (VertexSelection& selection : scene.fixed) all_of(selection);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
+  for (SceneForce& force : scene.forces) all_of(force.vertices);
   for (SceneEvent& event : scene.events) {
     if (auto* release = std::get_if<Release>(&event.action)) all_of(release->vertices);
     if (auto* dissociate = std::get_if<Dissociate>(&event.action))
@@ -143,13 +146,42 @@ std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
 
 LoadedMesh read_body_mesh(const BodySource& body) { return read_and_split(body).first; }
 
+namespace {
+
+/// Which body a number counts in is not said; what is told by place is clear.
+void require_no_point_numbers(SceneFile& scene) {
+  visit_points(scene, [&scene](std::uint32_t& point, const std::string& path) {
+    throw InputError(
+        fmt::format("{}: {}: is {} beside /bodies; expected a place, of several bodies nothing is known by "
+                    "its number",
+                    scene.file, path, point));
+  });
+}
+
+void load_bodies(SceneFile& scene, BodyList& bodies) {
+  require_no_point_numbers(scene);
+  for (BodySource& body : bodies.all) {
+    if (!std::holds_alternative<std::filesystem::path>(body.mesh)) continue;
+    try {
+      body.loaded = std::make_shared<LoadedMesh>(read_body_mesh(body));
+    } catch (const IoError&) {
+      return;
+    }
+  }
+  resolve_tags(scene);
+}
+
+}  // namespace
+
 void load_mesh(SceneFile& scene) {
-  if (!std::holds_alternative<std::filesystem::path>(scene.body.mesh)) return;
+  if (auto* bodies = std::get_if<BodyList>(&scene.body.mesh)) return load_bodies(scene, *bodies);
+  if (!std::holds_alternative<std::filesystem::path>(scene.body.mesh)) return resolve_tags(scene);
   try {
     auto [loaded, touching] = read_and_split(scene.body);
     if (!loaded.place_of_point.empty()) renumber(scene, loaded.place_of_point);
     if (const Places places(loaded, touching); places.any()) name_all_vertices(scene, places);
     scene.body.loaded = std::make_shared<LoadedMesh>(std::move(loaded));
+    resolve_tags(scene);
   } catch (const IoError&) {
     return;
   }

@@ -11,12 +11,14 @@ namespace dartboard {
 /// throws  IoError as read_mesh, and, where the body says so, for cells that touch without sharing a face
 LoadedMesh read_body_mesh(const BodySource& body);
 
-/// Read the mesh file of a scene, if it has one, and replace the point numbers of the scene, which are those of the
-/// file, by the places of the points in the body.
+/// Read the mesh files of a scene, if it has some, and replace the point numbers of the scene, which are those of the
+/// file, by the places of the points in the body, and tags of cells by the cells' numbers.
 ///
-/// A point that cells only touch at is several vertices: what is fixed or driven there is all of them, a probe or a
-/// tear the first, and of a face those that it has. A mesh that cannot be read is left to who makes the body.
-/// throws  InputError "FILE: /fixed/0/ids/1: ..." for a number that is no point of the file, or one of no cell
+/// A point that cells only touch at is several vertices: what is fixed, driven or pulled at there is all of them, a
+/// probe or a tear the first, and of a face those that it has. A mesh that cannot be read is left to who makes the
+/// body.
+/// throws  InputError "FILE: /fixed/0/ids/1: ..." for a number that is no point of the file, or one of no cell, and for
+///         any in a scene of several bodies; as resolve_tags
 void load_mesh(SceneFile& scene);
 
 }  // namespace dartboard

@@ -100,6 +100,11 @@ class Checker {
            "exactly one of " + quoted(rule.keys));
     if (rule.kind == SceneRule::at_most_one && given.size() > 1)
       fail(path, "has " + quoted(given), "at most one of them");
+    if (rule.kind == SceneRule::needs_object && given.size() > 1 && given[0] == rule.keys[0])
+      for (std::size_t k = 1; k < given.size(); ++k)
+        if (const std::string key(given[k]); !value.at(key).is_object())
+          fail(path + "/" + key, fmt::format("is {} beside '{}'", shown(value.at(key)), given[0]),
+               fmt::format("an object ({})", help_of(find(rule.shape, key)->of).name));
     if (rule.kind == SceneRule::excludes && given.size() > 1 && given[0] == rule.keys[0])
       fail(path, "has " + quoted(given), fmt::format("'{}' without the others", rule.keys[0]));
   }
@@ -130,6 +135,8 @@ class Checker {
       case ValueType::objects:
         return each(key, value, path, 0, many,
                     [&](const Json& part, const std::string& at) { return object(part, key.of, at); });
+      case ValueType::real_or_object:
+        return value.is_object() ? object(value, key.of, path) : number(key, value, path, false);
       case ValueType::point_or_object: break;
     }
     return value.is_object() ? object(value, key.of, path) : list(key, value, path, 3, 3, false);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -14,6 +15,7 @@
 
 #include "core/plain/cell_limits.h"
 #include "core/plain/error.h"
+#include "core/plain/material.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_check.h"
 #include "core/scene/file/step_times.h"
@@ -45,22 +47,40 @@ class Reader {
     if (!scene.accuracy && scene.duration / scene.step > most_steps)
       fail("/duration", fmt::format("is {} s, {:.3g} steps", scene.duration, scene.duration / scene.step),
            fmt::format("at most {:.0e} steps", most_steps));
-    scene.body = body(json.at("body"));
-    const Json& material = json.at("material");
-    scene.material = {.density = material.at("density"),
-                      .stiffness = material.at("stiffness"),
-                      .damping = material.at("damping"),
-                      .viscosity = material.at("viscosity"),
-                      .young = material.value("young", 0.0),
-                      .poisson = material.value("poisson", Material{}.poisson),
-                      .model = model(material)};
-    if (scene.material.model != Model::springs) scene.material.stiffness = scene.material.damping = 0.0;
+    if (json.contains("body")) {
+      scene.body = body(json.at("body"), "/body");
+    } else {
+      BodyList list;
+      for (std::size_t k = 0; k < json.at("bodies").size(); ++k)
+        list.all.push_back(one_body(json.at("bodies")[k], fmt::format("/bodies/{}", k)));
+      if (list.all.empty()) fail("/bodies", "is empty", "at least one body");
+      scene.body = {.mesh = std::move(list), .scale = 1.0, .translate = {0, 0, 0}, .path = "/bodies"};
+    }
+    scene.material = material(json.at("material"), "/material");
+    for (std::size_t k = 0; k < json.at("regions").size(); ++k) {
+      const std::string path = fmt::format("/regions/{}", k);
+      const Json& region = json.at("regions")[k];
+      scene.regions.push_back(
+          {cells(region.at("cells"), path + "/cells"), material(region.at("material"), path + "/material"), path});
+      if (std::holds_alternative<RandomSelection>(scene.regions.back().cells))
+        fail(path + "/cells/random", "is drawn anew with every seed", "cells by place, by number or by tag");
+    }
+    for (const SceneFile::Tissue& tissue : scene.tissues())
+      if (!json.at(Json::json_pointer(tissue.path)).contains("model")) scene.without_model.push_back(tissue.path);
+    scene.diagonals = static_cast<Diagonals>(
+        std::ranges::find(diagonals_names, json.at("diagonals").get<std::string>()) - diagonals_names.begin());
+    if (json.contains("bending"))
+      scene.bending = {.rigidity = json.at("bending").value("rigidity", 0.0),
+                       .second_neighbours = json.at("bending").value("second_neighbours", 0.0)};
     scene.gravity = point(json.at("gravity"));
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
       scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
     for (std::size_t k = 0; k < json.at("driven").size(); ++k)
       scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
+    for (std::size_t k = 0; k < json.at("forces").size(); ++k)
+      scene.forces.push_back(force(json.at("forces")[k], fmt::format("/forces/{}", k), scene));
+    if (json.contains("contact")) contact(json.at("contact"), scene);
     scene.integrator = json.value("integrator", scene.accuracy ? "" : standard_integrator);
     scene.solver = json.value("solver", "");
     const Json& unstable = json.at("unstable_step");
@@ -88,7 +108,10 @@ class Reader {
     scene.output.fields = {.held = has_field("held"),
                            .stress = has_field("stress"),
                            .displacement = has_field("displacement"),
-                           .springs = has_field("springs")};
+                           .springs = has_field("springs"),
+                           .contact = has_field("contact")};
+    if (scene.output.fields.contact && !scene.has_contact())
+      fail("/output/fields", "has \"contact\" beside no /contact", "obstacles or bodies that touch, or no such field");
     for (std::size_t k = 0; k < output.at("probes").size(); ++k)
       scene.probes.push_back(probe(output.at("probes")[k], fmt::format("/output/probes/{}", k), scene.probes));
     if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
@@ -119,35 +142,70 @@ class Reader {
       fail(path, fmt::format("is {}, {:.0f} in all", shown(cells), count), fmt::format("at most {} in all", most));
   }
 
-  Eigen::Matrix3d rotation(const Json& body) const {
+  Eigen::Matrix3d rotation(const Json& body, const std::string& path) const {
     if (!body.contains("rotate")) return Eigen::Matrix3d::Identity();
     const Json& rotate = body.at("rotate");
     const double degrees = rotate.at("degrees");
-    return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180.0), direction(rotate.at("axis"), "/body/rotate/axis"))
+    return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180.0), direction(rotate.at("axis"), path + "/rotate/axis"))
         .toRotationMatrix();
   }
 
+  Material material(const Json& json, const std::string& path) const {
+    Material material{.density = json.at("density"),
+                      .stiffness = json.at("stiffness"),
+                      .damping = json.at("damping").is_number() ? json.at("damping").get<double>() : 0.0,
+                      .viscosity = json.value("viscosity", 0.0),
+                      .young = json.value("young", 0.0),
+                      .poisson = json.value("poisson", Material{}.poisson),
+                      .model = model(json, path)};
+    if (material.model != Model::springs) material.stiffness = material.damping = 0.0;
+    if (json.at("damping").is_object()) material.damping_time = damping_time(json.at("damping"), path, material.model);
+    return material;
+  }
+
+  double damping_time(const Json& damping, const std::string& path, Model model) const {
+    if (model == Model::springs)
+      fail(path + "/damping", "is " + shown(damping) + " beside no 'poisson'",
+           "a number of N s/m of each spring, or elements");
+    constexpr double longest = 1e9;  // [s]: what takes longer than any run to yield is a mistake in a unit
+    const double time = damping_time_of(damping.at("ratio"), damping.at("frequency"));
+    if (!(time <= longest))
+      fail(path + "/damping", fmt::format("has a ratio / (pi frequency) of {:.3g} s", time),
+           fmt::format("at most {:.0e} s", longest));
+    return time;
+  }
+
+  BodySource one_body(const Json& json, const std::string& path) const {
+    BodySource source = body(json, path);
+    if (std::holds_alternative<ChainMesh>(source.mesh))
+      fail(path + "/generate/chain", "is a chain", "cells, or a chain alone in its scene");
+    if (json.contains("material")) source.material = material(json.at("material"), path + "/material");
+    if (json.contains("initial_velocity")) source.velocity = velocity(json.at("initial_velocity"));
+    return source;
+  }
+
   /// Elements have a Young's modulus and a Poisson's ratio, springs of a ratio of their own have none.
-  Model model(const Json& material) const {
+  Model model(const Json& material, const std::string& path) const {
     const bool has_ratio = material.contains("poisson");
     Model model = has_ratio ? Model::neo_hookean : Model::springs;
     if (material.contains("model"))
       model = static_cast<Model>(std::ranges::find(model_names, material.at("model").get<std::string>()) -
                                  model_names.begin());
     if (model == Model::springs && has_ratio)
-      fail("/material/poisson", "stands beside the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface",
+      fail(path + "/poisson", "stands beside the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface",
            "another model, or no 'poisson'");
     if (model != Model::springs && !has_ratio)
-      fail("/material/model", "is " + shown(material.at("model")) + " beside no 'poisson'",
+      fail(path + "/model", "is " + shown(material.at("model")) + " beside no 'poisson'",
            "'young' and 'poisson' beside it");
     if (model != Model::springs && !material.contains("young"))
-      fail("/material/poisson", "stands beside no 'young'", "Young's modulus beside it");
+      fail(path + "/poisson", "stands beside no 'young'", "Young's modulus beside it");
     return model;
   }
 
-  BodySource body(const Json& json) const {
+  BodySource body(const Json& json, const std::string& path) const {
     BodySource source{
-        {}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split", rotation(json)};
+        {}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split", rotation(json, path)};
+    source.path = path;
     if (json.contains("mesh")) {
       source.mesh = folder_ / json.at("mesh").get<std::string>();
       return source;
@@ -160,15 +218,15 @@ class Reader {
       const std::uint64_t most = box.at("kind") == "tetrahedra"  ? most_tetrahedra / 6
                                  : box.at("kind") == "hexahedra" ? most_darts(3) / darts_of(CellKind::hexahedron)
                                                                  : most_darts(3) / (7 * darts_of(CellKind::pyramid));
-      require_room(box.at("cells"), "/body/generate/box/cells", most);
+      require_room(box.at("cells"), path + "/generate/box/cells", most);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
-        fail("/body/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
+        fail(path + "/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
       const std::uint64_t darts =
           sheet.at("kind") == "triangles" ? 2 * darts_of(CellKind::triangle) : darts_of(CellKind::quadrilateral);
-      require_room(sheet.at("cells"), "/body/generate/sheet/cells", most_darts(2) / darts);
+      require_room(sheet.at("cells"), path + "/generate/sheet/cells", most_darts(2) / darts);
     } else if (generate.contains("ball")) {
       source.mesh = BallMesh{generate.at("ball").at("layers"), generate.at("ball").at("radius")};
     } else {
@@ -222,6 +280,11 @@ class Reader {
 
   CellSelection cells(const Json& json, const std::string& path) const {
     if (const auto selection = region<CellSelection>(json, path)) return *selection;
+    if (json.contains("tag")) {
+      const Json& tag = json.at("tag");
+      if (tag.contains("named")) return TagSelection{tag.at("of"), tag.at("named").get<std::string>()};
+      return TagSelection{tag.at("of"), tag.at("value").get<std::int32_t>()};
+    }
     return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
   }
 
@@ -229,15 +292,122 @@ class Reader {
     SceneDrive drive{
         region<VertexSelection>(json, path).value(), velocity(json.at("velocity")), json.at("from"), {}, {}, path};
     if (json.contains("reverse_every")) drive.reverse_every = json.at("reverse_every").get<double>();
-    if (drive.from >= scene.duration)
-      fail(path + "/from", fmt::format("is {} s", drive.from),
+    drive.until = until_of(json, path, drive.from, scene);
+    return drive;
+  }
+
+  SceneForce force(const Json& json, const std::string& path, const SceneFile& scene) const {
+    SceneForce force{region<VertexSelection>(json, path).value(), {}, {}, json.at("from"), {}, path};
+    if (json.contains("force"))
+      force.force = point(json.at("force"));
+    else
+      force.pressure = json.at("pressure").get<double>();
+    force.until = until_of(json, path, force.from, scene);
+    return force;
+  }
+
+  void contact(const Json& json, SceneFile& scene) const {
+    const ContactLaw law{.pressure = json.at("pressure"),
+                         .depth = json.at("depth"),
+                         .exponent = json.at("exponent"),
+                         .restitution = json.at("restitution"),
+                         .friction = json.at("friction"),
+                         .mass_behind = json.at("mass_behind")};
+    for (const Json& one : json.at("obstacles"))
+      scene.obstacles.push_back(
+          obstacle(one, law, fmt::format("/contact/obstacles/{}", scene.obstacles.size()), scene));
+    touches(json, law, scene);
+    if (!scene.has_contact())
+      fail("/contact", "has no obstacle and no bodies that touch", "'obstacles', 'bodies' or 'pairs', or no 'contact'");
+  }
+
+  /// What 'bodies' says of all pairs, then what 'pairs' says of some.
+  void touches(const Json& json, const ContactLaw& law, SceneFile& scene) const {
+    constexpr std::size_t most_bodies = 1000;  // their pairs are a table
+    const std::size_t bodies = scene.bodies().size();
+    const std::string which = json.at("bodies");
+    if (which == "others" && bodies == 1)
+      fail("/contact/bodies", "is \"others\" beside one body", "\"themselves\", \"all\", or several bodies");
+    if ((which != "none" || !json.at("pairs").empty()) && bodies > most_bodies)
+      fail("/contact", fmt::format("has bodies that touch among {}", bodies), fmt::format("at most {}", most_bodies));
+    std::map<std::pair<std::uint32_t, std::uint32_t>, SceneTouch> all;
+    for (std::uint32_t a = 0; a < bodies && which != "none"; ++a)
+      for (std::uint32_t b = a; b < bodies; ++b)
+        if (a == b ? which != "others" : which != "themselves") all[{a, b}] = {a, b, law, "/contact/bodies"};
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> named;
+    for (std::size_t k = 0; k < json.at("pairs").size(); ++k) {
+      const Json& pair = json.at("pairs")[k];
+      const std::string path = fmt::format("/contact/pairs/{}", k);
+      const std::array<std::uint32_t, 2> of = pair.at("of");
+      for (const std::uint32_t body : of)
+        if (body >= bodies)
+          fail(path + "/of", "is " + shown(pair.at("of")), fmt::format("numbers below {}, of the bodies", bodies));
+      const auto [first, second] = std::minmax(of[0], of[1]);
+      const auto [place, is_new] = named.insert({{first, second}, path});
+      if (!is_new)
+        fail(path + "/of", fmt::format("is {}, like {}/of", shown(pair.at("of")), place->second), "each pair once");
+      SceneTouch touch{first, second, law, path};
+      touch.law.pressure = pair.value("pressure", law.pressure);
+      touch.law.depth = pair.value("depth", law.depth);
+      touch.law.restitution = pair.value("restitution", law.restitution);
+      touch.law.friction = pair.value("friction", law.friction);
+      if (pair.at("touch") == "yes")
+        all[{first, second}] = std::move(touch);
+      else
+        all.erase({first, second});
+    }
+    for (auto& [pair, touch] : all) scene.touches.push_back(std::move(touch));
+  }
+
+  SceneObstacle obstacle(const Json& json, const ContactLaw& law, const std::string& path,
+                         const SceneFile& scene) const {
+    SceneObstacle made{{}, law, path};
+    made.law.pressure = json.value("pressure", law.pressure);
+    made.law.depth = json.value("depth", law.depth);
+    made.law.restitution = json.value("restitution", law.restitution);
+    made.law.friction = json.value("friction", law.friction);
+    if (json.contains("plane")) {
+      const PlaneSelection side = plane(json.at("plane"), path + "/plane");
+      made.obstacle.shape = HalfSpace{side.point, side.normal};
+    } else {
+      const CutRegion inside = region<CutRegion>(json, path).value();
+      if (const auto* ball = std::get_if<SphereSelection>(&inside)) {
+        if (ball->radius == 0.0) fail(path + "/sphere/radius", "is 0 m", "a ball that has an inside");
+        made.obstacle.shape = Ball{ball->centre, ball->radius};
+      } else {
+        const auto& box = std::get<BoxSelection>(inside);
+        for (int k = 0; k < 3; ++k)
+          if (box.min[k] == box.max[k])
+            fail(path + "/box", fmt::format("has a min[{}] and a max[{}] of {}", k, k, box.min[k]),
+                 "a box that has an inside");
+        made.obstacle.shape = Block{box.min, box.max};
+      }
+    }
+    made.obstacle.velocity = point(json.at("velocity"));
+    if (!(made.obstacle.velocity.stableNorm() <= speed_of_light))
+      fail(path + "/velocity", fmt::format("is {:.6g} m/s", made.obstacle.velocity.stableNorm()),
+           "no speed above that of light");
+    made.obstacle.from = json.at("from");
+    made.obstacle.until = json.value("until", made.obstacle.until);
+    if (!(made.obstacle.from < made.obstacle.until))
+      fail(path + "/until", fmt::format("is {} s", made.obstacle.until),
+           fmt::format("a time after that of 'from', {} s", made.obstacle.from));
+    if (made.obstacle.from >= scene.duration && json.at("from").get<double>() > 0.0)
+      fail(path + "/from", fmt::format("is {} s", made.obstacle.from),
+           fmt::format("a time before the duration of {} s", scene.duration));
+    return made;
+  }
+
+  /// When what begins at `from` ends; nothing, where that is not before the scene does.
+  std::optional<double> until_of(const Json& json, const std::string& path, double from, const SceneFile& scene) const {
+    if (from >= scene.duration)
+      fail(path + "/from", fmt::format("is {} s", from),
            fmt::format("a time before the duration of {} s", scene.duration));
     const double until = json.value("until", scene.duration);
-    if (json.contains("until") && until <= scene.duration) drive.until = until;
-    if (until <= drive.from ||
-        (drive.until && !scene.accuracy && step_of_time(until, scene.step) == step_of_time(drive.from, scene.step)))
-      fail(path + "/until", fmt::format("leaves the time from {} to {} s", drive.from, until), "at least one step");
-    return drive;
+    const bool ends = json.contains("until") && until <= scene.duration;
+    if (until <= from || (ends && !scene.accuracy && step_of_time(until, scene.step) == step_of_time(from, scene.step)))
+      fail(path + "/until", fmt::format("leaves the time from {} to {} s", from, until), "at least one step");
+    return ends ? std::optional(until) : std::nullopt;
   }
 
   Probe probe(const Json& json, const std::string& path, const std::vector<Probe>& others) const {
@@ -340,20 +510,52 @@ class Reader {
         fail("/solver", error.what(), "one of those as 'integrator', or no 'solver'");
       }
     }
-    if (scene.material.model != Model::springs) {
-      const char* without = scene.is_chain()                                     ? "/body/generate/chain"
-                            : std::holds_alternative<SheetMesh>(scene.body.mesh) ? "/body/generate/sheet"
-                                                                                 : nullptr;
-      if (without != nullptr) fail("/material/poisson", fmt::format("stands beside {}", without), "solid cells");
+    if (scene.is_chain() && !scene.regions.empty())
+      fail("/regions", "stand beside /body/generate/chain, which has no cells", "none");
+    for (const SceneFile::Tissue& tissue : scene.tissues()) {
+      if (tissue.material.model == Model::springs) continue;
+      if (scene.is_chain()) fail(tissue.path + "/poisson", "stands beside /body/generate/chain", "cells");
       if (scene.accuracy)
-        fail("/accuracy", "stands beside /material/poisson: the codes it compares with know springs alone",
+        fail("/accuracy",
+             fmt::format("stands beside {}/poisson: the codes it compares with know springs alone", tissue.path),
              "'step' in its place");
     }
+    if (const std::string key(scene.key_beside_edges()); !key.empty()) {
+      if (scene.is_chain()) fail(key, "stands beside /body/generate/chain, which has no cells", "cells");
+      if (scene.accuracy)
+        fail("/accuracy", fmt::format("stands beside {}: the codes it compares with know springs of edges alone", key),
+             "'step' in its place");
+    }
+    if (scene.has_contact()) {
+      if (scene.is_chain()) fail("/contact", "stands beside /body/generate/chain, which has no surface", "cells");
+      if (scene.accuracy)
+        fail("/accuracy", "stands beside /contact: the codes it compares with know no obstacles",
+             "'step' in its place");
+    }
+    if (!scene.touches.empty() && scene.integrator == "energy-momentum")
+      fail(scene.touches.front().path,
+           "stands beside the integrator \"energy-momentum\", whose forces are not there where depths have kinks",
+           "another integrator, or obstacles alone");
+    if (scene.accuracy && scene.tissues().size() > 1)
+      fail("/accuracy",
+           fmt::format("stands beside {}: the codes it compares with know one material", scene.tissues()[1].path),
+           "'step' in its place");
     if (scene.exact_events && !scene.driven.empty())
       fail("/event_times", "is \"exact\" beside /driven, which turns at steps alone", "\"steps\"");
+    for (const SceneForce& force : scene.forces)
+      if (scene.exact_events && !force.lasts())
+        fail("/event_times", fmt::format("is \"exact\" beside {}, which begins or ends at steps alone", force.path),
+             "\"steps\"");
+    if (scene.is_chain())
+      for (const SceneForce& force : scene.forces)
+        if (force.pressure)
+          fail(force.path + "/pressure", "stands beside /body/generate/chain, which has no faces", "'force'");
     if (scene.accuracy) {
       // a step is found by comparison with references, which know neither
-      const char* unknown = scene.is_chain() ? "/body/generate/chain" : scene.driven.empty() ? nullptr : "/driven";
+      const char* unknown = scene.is_chain()        ? "/body/generate/chain"
+                            : !scene.driven.empty() ? "/driven"
+                            : !scene.forces.empty() ? "/forces"
+                                                    : nullptr;
       if (unknown != nullptr) fail("/accuracy", fmt::format("stands beside {}", unknown), "'step' in its place");
       if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
         fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
@@ -376,6 +578,9 @@ class Reader {
            "no refinement where fixed vertices are let go");
     if (refinement != nullptr && !scene.driven.empty())
       fail(refinement->path + "/refine", "stands beside /driven", "no refinement where vertices are driven");
+    if (refinement != nullptr && !scene.forces.empty())
+      fail(refinement->path + "/refine", "stands beside /forces: it takes mass from the vertices that share them",
+           "no refinement where forces are applied");
   }
 
   ExpectedPlace place(const Json& json, const std::string& path, const std::vector<Probe>& probes) const {
@@ -405,14 +610,29 @@ class Reader {
     take("kinetic_at_most", e.kinetic_at_most);
     take("energy_drift_at_most", e.energy_drift_at_most);
     if (e.energy_drift_at_most) {
-      const char* taker = scene.material.damping > 0.0     ? "/material/damping"
+      std::string taker = scene.material.damping > 0.0     ? "/material/damping"
                           : scene.material.viscosity > 0.0 ? "/material/viscosity"
                           : !scene.driven.empty()          ? "/driven"
                           : !scene.events.empty()          ? "/events"
-                                                           : nullptr;
-      if (taker != nullptr)
+                                                           : "";
+      for (const SceneFile::Tissue& tissue : scene.tissues())
+        if (taker.empty() && tissue.material.damping_time > 0.0) taker = tissue.path + "/damping";
+      if (!std::ranges::all_of(scene.forces, &SceneForce::lasts)) taker = "/forces";
+      for (const SceneObstacle& one : scene.obstacles) {
+        if (!taker.empty()) break;
+        if (one.law.restitution < 1.0) taker = one.path + "/restitution";
+        if (one.law.friction > 0.0) taker = one.path + "/friction";
+        if (one.moves()) taker = one.path + "/velocity";
+      }
+      for (const SceneTouch& touch : scene.touches) {
+        if (!taker.empty()) break;
+        const std::string path = touch.path == "/contact/bodies" ? "/contact" : touch.path;
+        if (touch.law.restitution < 1.0) taker = path + "/restitution";
+        if (touch.law.friction > 0.0) taker = path + "/friction";
+      }
+      if (!taker.empty())
         fail("/expect/energy_drift_at_most", fmt::format("stands beside {}, which changes the energy", taker),
-             "damping and viscosity of 0, and no driven vertices or events");
+             "damping and viscosity of 0, no driven vertices or events, and forces from start to end");
     }
     if (json.contains("hash")) {
       const auto digits = json.at("hash").get<std::string>();
@@ -430,6 +650,24 @@ class Reader {
 };
 
 }  // namespace
+
+std::span<const BodySource> SceneFile::bodies() const {
+  if (const auto* list = std::get_if<BodyList>(&body.mesh)) return list->all;
+  return {&body, 1};
+}
+
+std::vector<SceneFile::Tissue> SceneFile::tissues() const {
+  std::vector<Tissue> all{{material, "/material", true}};
+  for (const BodySource& one : bodies())
+    if (one.material) all.push_back({*one.material, one.path + "/material", true});
+  for (const SceneRegion& region : regions) all.push_back({region.material, region.path + "/material", true});
+  for (Tissue& tissue : all) tissue.names_model = std::ranges::find(without_model, tissue.path) == without_model.end();
+  return all;
+}
+
+bool SceneFile::has_elements() const {
+  return std::ranges::any_of(tissues(), [](const Tissue& tissue) { return tissue.material.model != Model::springs; });
+}
 
 bool changes_topology(const Action& action) { return !std::holds_alternative<Release>(action); }
 

@@ -7,11 +7,15 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "core/contact/contact_law.h"
+#include "core/contact/obstacle.h"
+#include "core/plain/diagonals.h"
 #include "core/plain/material.h"
 #include "core/scene/file/frame_fields.h"
 #include "core/scene/file/selection.h"
@@ -44,14 +48,12 @@ struct ChainMesh {
   double spacing;
 };
 
-/// The mesh of a body: a file or a generator, then scaled, then turned, then moved.
-struct BodySource {
-  std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh> mesh;
-  double scale;
-  Eigen::Vector3d translate;
-  bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
-  Eigen::Matrix3d rotate = Eigen::Matrix3d::Identity();
-  std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
+/// What resists the bending of a surface; at most one of them is above 0.
+struct Bending {
+  double rigidity = 0.0;           // [N m] flexural rigidity of the sheet
+  double second_neighbours = 0.0;  // [N/m] stiffness of Provot's springs between second neighbours
+
+  bool any() const { return rigidity > 0.0 || second_neighbours > 0.0; }
 };
 
 /// v(x) = constant + linear (x - centre)
@@ -63,6 +65,33 @@ struct InitialVelocity {
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return constant + linear * (x - centre); }
 };
 
+struct BodySource;
+/// Bodies side by side: their points and cells count on from one to the next.
+struct BodyList {
+  std::vector<BodySource> all;
+};
+
+/// The mesh of a body: a file or a generator, then scaled, then turned, then moved; or several bodies.
+struct BodySource {
+  std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh, BodyList> mesh;
+  double scale;
+  Eigen::Vector3d translate;
+  bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
+  Eigen::Matrix3d rotate = Eigen::Matrix3d::Identity();
+  std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
+  // of one of several; nothing: the scene's
+  std::string path = "/body";
+  std::optional<Material> material{};
+  std::optional<InitialVelocity> velocity{};
+};
+
+/// Cells that are made of something else than the body around them.
+struct SceneRegion {
+  CellSelection cells;
+  Material material;
+  std::string path;  // "/regions/3"
+};
+
 /// Vertices that move at a velocity of their own, turning round every so often, and are held still at other times.
 struct SceneDrive {
   VertexSelection vertices;
@@ -71,6 +100,36 @@ struct SceneDrive {
   std::optional<double> until;          // [s] nothing: to the end
   std::optional<double> reverse_every;  // [s]
   std::string path;                     // "/driven/3"
+};
+
+/// Vertices that are pulled or pushed from outside, in a direction that stays.
+struct SceneForce {
+  VertexSelection vertices;
+  // one of the two
+  std::optional<Eigen::Vector3d> force;  // [N] on all of them together, shared in proportion to their masses
+  std::optional<double> pressure;  // [Pa] on the faces of the boundary between them; of a surface, against normals
+  double from;                     // [s]
+  std::optional<double> until;     // [s] nothing: to the end
+  std::string path;                // "/forces/3"
+
+  /// From the start to the end?
+  bool lasts() const { return from == 0.0 && !until; }
+};
+
+/// Something that the body runs into, and the law of its contact there.
+struct SceneObstacle {
+  Obstacle obstacle;
+  ContactLaw law;
+  std::string path;  // "/contact/obstacles/3"
+
+  bool moves() const { return !obstacle.velocity.isZero(0.0); }
+};
+
+/// Two bodies that touch, or one that touches itself, and the law of that contact.
+struct SceneTouch {
+  std::uint32_t first = 0, second = 0;  // of the bodies, counted from 0; first <= second
+  ContactLaw law;
+  std::string path;  // of the key that says so: "/contact/bodies", "/contact/pairs/3"
 };
 
 // ---- events
@@ -163,10 +222,17 @@ struct SceneFile {
   std::string name, about;
   BodySource body;
   Material material;
+  std::vector<SceneRegion> regions;        // a later one has what it shares with an earlier one
+  std::vector<std::string> without_model;  // keys of the materials that name no model
+  Diagonals diagonals = Diagonals::none;
+  Bending bending;
   Eigen::Vector3d gravity;
   InitialVelocity initial_velocity;
   std::vector<VertexSelection> fixed;
   std::vector<SceneDrive> driven;
+  std::vector<SceneForce> forces;
+  std::vector<SceneObstacle> obstacles;  // without any, and without touches, there is no contact
+  std::vector<SceneTouch> touches;       // each pair once, in ascending order
   // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,
   // and an integrator where it names none
   double step = 0.0;               // [s]; 0 until then
@@ -185,8 +251,22 @@ struct SceneFile {
   std::filesystem::path folder;  // that its paths are relative to
   std::uint64_t added_seed = 0;  // by `reseed`
 
-  bool has_elements() const { return material.model != Model::springs; }
+  bool has_elements() const;  // somewhere
+  bool has_contact() const { return !obstacles.empty() || !touches.empty(); }
+  /// Has it springs or bending that no edge stands for, which references know nothing of? Their key, or nothing.
+  std::string_view key_beside_edges() const {
+    return diagonals != Diagonals::none ? "/diagonals" : bending.any() ? "/bending" : "";
+  }
   bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
+  /// One, or each of several.
+  std::span<const BodySource> bodies() const;
+  /// Of all that its cells may be made of, with the key of each.
+  struct Tissue {
+    Material material;
+    std::string path;  // "/material", "/bodies/1/material", "/regions/0/material"
+    bool names_model;
+  };
+  std::vector<Tissue> tissues() const;
 };
 
 /// A scene from a text; `name` stands for the file in errors, and paths are relative to `folder`.

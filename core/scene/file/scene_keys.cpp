@@ -24,7 +24,7 @@ std::vector<std::string> names_of(std::span<const Entry> entries) {
   return names;
 }
 
-std::vector<SceneKey> make_keys() {
+std::vector<SceneKey> keys_by_hand() {
   using enum Shape;
   using enum ValueType;
   // a row of the table in one or two lines
@@ -33,9 +33,31 @@ std::vector<SceneKey> make_keys() {
       // ---- the scene
       {.shape = scene, .name = "name", .type = text, .required = true, .help = "what the scene is called"},
       {.shape = scene, .name = "about", .type = text, .standard = "\"\"", .help = "a sentence for readers"},
-      {.shape = scene, .name = "body", .type = object, .of = body, .required = true, .help = "the body at rest"},
+      {.shape = scene, .name = "body", .type = object, .of = body, .help = "the body at rest"},
+      {.shape = scene, .name = "bodies", .type = objects, .of = one_body,
+       .help = "several bodies at rest, in place of one; nothing holds them together, and they pass through each other unless "
+               "/contact says otherwise. "
+               "What is selected in them is selected by place or by tag, not by number"},
       {.shape = scene, .name = "material", .type = object, .of = material, .standard = "{}",
        .help = "what the body is made of"},
+      {.shape = scene, .name = "regions", .type = objects, .of = region, .standard = "[]",
+       .help = "cells that are made of something else; of a cell in several, the last counts"},
+      {.shape = scene, .name = "diagonals", .type = choice, .choices = {"none", "faces", "volumes", "all"},
+       .standard = "\"none\"",
+       .help = "springs between corners of one cell that no edge joins: across faces of four corners, through the volume of "
+               "hexahedra, or both. Each cell has its own, of the material's stiffness, undamped. They hold the shape of "
+               "hexahedra, prisms, pyramids and quadrilaterals, which edges alone do not (those through the volume alone "
+               "do not either); with 'young' in the material, cubes then are an elastic solid of Poisson's ratio 1/4, "
+               "squares a sheet of 1/3. Cells made of elements have none"},
+      {.shape = scene, .name = "bending", .type = object, .of = bending, .help = "what resists the bending of a surface"},
+      {.shape = bending, .name = "rigidity", .type = real, .unit = "N m", .range = not_negative,
+       .help = "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of thickness h: energy "
+               "that is quadratic in the bend of each edge, with a constant matrix. Exact on triangles with equal sides; "
+               "squares halved have it along their sides, and thrice that along one diagonal"},
+      {.shape = bending, .name = "second_neighbours", .type = real, .unit = "N/m", .range = not_negative,
+       .help = "stiffness of springs between second neighbours, as Provot has them: between the two corners across an edge "
+               "of triangles, along the lines of a mesh of quadrilaterals. They have no linear bending stiffness: their "
+               "energy goes with the fourth power of the curvature, so take them for the paper, not for numbers"},
       {.shape = scene, .name = "gravity", .type = point, .unit = "m/s^2", .standard = "[0, 0, -9.81]",
        .help = "acceleration of gravity"},
       {.shape = scene, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
@@ -45,10 +67,15 @@ std::vector<SceneKey> make_keys() {
        .help = "vertices held still, by where they are at rest: those in any of the selections"},
       {.shape = scene, .name = "driven", .type = objects, .of = driven, .standard = "[]",
        .help = "vertices that are moved along, whatever acts on them"},
+      {.shape = scene, .name = "forces", .type = objects, .of = force, .standard = "[]",
+       .help = "forces from outside on some of the vertices"},
+      {.shape = scene, .name = "contact", .type = object, .of = contact,
+       .help = "contact of bodies with obstacles, with each other and with themselves; not of a chain, and not with an "
+               "accuracy. Left out, there is none: bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
-               "none is named; not for a chain, nor with driven vertices. The choice rests on timings: it may differ from "
+               "none is named; not for a chain, nor with driven vertices or forces. The choice rests on timings: it may differ from "
                "machine to machine and from run to run, and the hash with it; 'simulate' prints the 'integrator' and "
                "'step' that settle it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
@@ -68,7 +95,8 @@ std::vector<SceneKey> make_keys() {
       {.shape = scene, .name = "event_times", .type = choice, .choices = {"steps", "exact"}, .standard = "\"steps\"",
        .help = "when events happen: at the first multiple of the step that is not before their time, which is cheap and "
                "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "
-               "another from there, so that the integrator keeps its order through them; not with driven vertices"},
+               "another from there, so that the integrator keeps its order through them; not with driven vertices or "
+               "forces that begin or end"},
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},
       {.shape = scene, .name = "expect", .type = object, .of = expect, .standard = "{}",
        .help = "what must be true at the end, so that the scene is its own test"},
@@ -137,17 +165,35 @@ std::vector<SceneKey> make_keys() {
                "damping is then a mean over the edges of all cells, shared out as the stiffness is"},
       {.shape = material, .name = "poisson", .type = real, .range = {.least = -0.99, .most = 0.4999},
        .help = "Poisson's ratio of elements, which resist in place of springs; 'young' stands beside it. Solid cells of all "
-               "kinds have them; hexahedra bend four times as truly as tetrahedra of as many nodes. All are too stiff above "
-               "some 0.45, and nothing but viscosity damps them"},
+               "kinds have them; hexahedra bend four times as truly as tetrahedra of as many nodes. Surfaces are membranes "
+               "in plane stress, 'young' being Young's modulus times the thickness [N/m], which resist their bending only "
+               "by what /bending says. All solids are too stiff above "
+               "some 0.45"},
       {.shape = material, .name = "model", .type = choice,
        .choices = {model_names.begin(), model_names.end()},
        .help = "what resists deformation: springs, or elements of an elastic law: stable neo-Hookean (smooth, also where it "
                "is turned inside out), corotational (linear elasticity that turns with the material) or St. "
-               "Venant-Kirchhoff. Without it, neo-hookean where there is a 'poisson', and springs where there is none"},
-      {.shape = material, .name = "damping", .type = real, .unit = "N s/m", .range = not_negative, .standard = "0.01",
-       .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link"},
+               "Venant-Kirchhoff; surfaces have the latter two. Without it, where there is a 'poisson', stvk in a surface and "
+               "neo-hookean in a solid, and springs where there is none"},
+      {.shape = material, .name = "damping", .type = real_or_object, .of = damping, .unit = "N s/m",
+       .range = not_negative, .standard = "0.01",
+       .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link. Solid elements take an object, a "
+               "damping ratio at a frequency, and have no damping without it"},
+      {.shape = damping, .name = "ratio", .type = real, .range = not_negative, .required = true,
+       .help = "damping ratio zeta of an oscillation of that frequency: its amplitude falls by exp(-2 pi zeta / sqrt(1 - "
+               "zeta^2)) in a period. Of others it is in proportion to their frequency"},
+      {.shape = damping, .name = "frequency", .type = real, .unit = "Hz", .range = positive, .required = true,
+       .help = "where the ratio is that"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
        .help = "ambient drag over mass and velocity"},
+      {.shape = region, .name = "cells", .type = object, .of = cell_selection, .required = true,
+       .help = "which, at rest; not at random"},
+      {.shape = region, .name = "material", .type = object, .of = tissue, .required = true,
+       .help = "what they are made of: nothing of it is taken from the body's"},
+      {.shape = one_body, .name = "material", .type = object, .of = tissue,
+       .help = "what it is made of; left out, what the scene's 'material' says"},
+      {.shape = one_body, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
+       .help = "at the start; left out, what the scene's says"},
       {.shape = velocity, .name = "constant", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
        .help = "velocity at the centre"},
       {.shape = velocity, .name = "linear", .type = matrix, .unit = "1/s",
@@ -180,6 +226,78 @@ std::vector<SceneKey> make_keys() {
        .help = "time they stop at, and are held still from; left out, they move to the end"},
       {.shape = driven, .name = "reverse_every", .type = real, .unit = "s", .range = positive,
        .help = "time after which they turn round, again and again; left out, never"},
+      {.shape = force, .name = "ids", .type = integers, .range = number,
+       .help = "on these points of the mesh, counted from 0 in the order of the file"},
+      {.shape = force, .name = "box", .type = object, .of = box, .help = "on the vertices in a box at rest"},
+      {.shape = force, .name = "plane", .type = object, .of = plane,
+       .help = "on the vertices that at rest are on a plane or on the side that its normal points to"},
+      {.shape = force, .name = "sphere", .type = object, .of = sphere, .help = "on the vertices in a sphere at rest"},
+      {.shape = force, .name = "around", .type = object, .of = around,
+       .help = "on the vertices that at rest are near a path, or near what a blade sweeps"},
+      {.shape = force, .name = "force", .type = point, .unit = "N",
+       .help = "on all of them together, shared in proportion to their masses"},
+      {.shape = force, .name = "pressure", .type = real, .unit = "Pa",
+       .help = "on the faces of the boundary whose corners are all selected, inwards along the normals that they have at "
+               "rest; of a surface [N/m^2] on all such faces, against the normal that their order of corners gives them"},
+      {.shape = force, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
+       .help = "time it begins at"},
+      {.shape = force, .name = "until", .type = real, .unit = "s", .range = positive,
+       .help = "time it ends at; left out, it lasts to the end"},
+      {.shape = contact, .name = "pressure", .type = real, .unit = "Pa", .range = positive, .required = true,
+       .help = "that a contact carries at the depth; it grows with the depth to the power exponent - 1"},
+      {.shape = contact, .name = "depth", .type = real, .unit = "m", .range = positive, .required = true,
+       .help = "how far surfaces may come into obstacles and bodies under that pressure: a run is warned where one is "
+               "deeper"},
+      {.shape = contact, .name = "exponent", .type = integer, .range = {2, 4}, .standard = "3",
+       .help = "of the depth in the energy of a contact: integrators are of no higher order than it"},
+      {.shape = contact, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
+       .standard = "1", .help = "of the normal speed, what is left after a bounce, however fast"},
+      {.shape = contact, .name = "friction", .type = real, .range = not_negative, .standard = "0",
+       .help = "Coulomb's coefficient, of sticking and of sliding"},
+      {.shape = contact, .name = "mass_behind", .type = real, .unit = "kg/m^2", .range = not_negative, .standard = "0",
+       .help = "mass per area behind a surface that a bounce turns round, density times height of a stiff body, for which "
+               "the restitution is meant; 0 means the vertices of the surface alone, as of a body that is soft against its "
+               "contact"},
+      {.shape = contact, .name = "obstacles", .type = objects, .of = obstacle, .standard = "[]",
+       .help = "what bodies run into"},
+      {.shape = contact, .name = "bodies", .type = choice, .choices = {"none", "others", "themselves", "all"},
+       .standard = "\"none\"",
+       .help = "which bodies each of them touches: none, those beside it, itself (where it folds, and what a cut or a tear "
+               "leaves of it), or all of these. Solids alone do, surfaces touch obstacles only; not with the integrator "
+               "'energy-momentum'"},
+      {.shape = contact, .name = "pairs", .type = objects, .of = contact_pair, .standard = "[]",
+       .help = "pairs of bodies for which something else holds than 'bodies' says, or another law"},
+      {.shape = contact_pair, .name = "of", .type = integer_pair, .range = number, .required = true,
+       .help = "two of /bodies, counted from 0; one twice is that body with itself"},
+      {.shape = contact_pair, .name = "touch", .type = choice, .choices = {"yes", "no"}, .standard = "\"yes\"",
+       .help = "whether they do"},
+      {.shape = contact_pair, .name = "pressure", .type = real, .unit = "Pa", .range = positive,
+       .help = "here; left out, that of /contact"},
+      {.shape = contact_pair, .name = "depth", .type = real, .unit = "m", .range = positive,
+       .help = "here; left out, that of /contact"},
+      {.shape = contact_pair, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
+       .help = "here; left out, that of /contact"},
+      {.shape = contact_pair, .name = "friction", .type = real, .range = not_negative,
+       .help = "here; left out, that of /contact"},
+      {.shape = obstacle, .name = "plane", .type = object, .of = plane,
+       .help = "all that is behind a plane: its normal points out of the obstacle"},
+      {.shape = obstacle, .name = "sphere", .type = object, .of = sphere, .help = "a ball, of a radius above 0"},
+      {.shape = obstacle, .name = "box", .type = object, .of = box,
+       .help = "a box with faces across the axes; what is inside is driven out through the nearest face"},
+      {.shape = obstacle, .name = "velocity", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
+       .help = "that it moves at, whatever it runs into; it never turns"},
+      {.shape = obstacle, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
+       .help = "time it starts to move at, from the place that is given"},
+      {.shape = obstacle, .name = "until", .type = real, .unit = "s", .range = positive,
+       .help = "time it stops at; left out, it moves to the end"},
+      {.shape = obstacle, .name = "pressure", .type = real, .unit = "Pa", .range = positive,
+       .help = "here; left out, that of /contact"},
+      {.shape = obstacle, .name = "depth", .type = real, .unit = "m", .range = positive,
+       .help = "here; left out, that of /contact"},
+      {.shape = obstacle, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
+       .help = "here; left out, that of /contact"},
+      {.shape = obstacle, .name = "friction", .type = real, .range = not_negative,
+       .help = "here; left out, that of /contact"},
       {.shape = cell_selection, .name = "ids", .type = integers, .range = number,
        .help = "these cells of the mesh, counted from 0 in the order of the file, as far as they are still there"},
       {.shape = cell_selection, .name = "box", .type = object, .of = box,
@@ -191,6 +309,13 @@ std::vector<SceneKey> make_keys() {
       {.shape = cell_selection, .name = "around", .type = object, .of = around,
        .help = "the cells with their centroid near a path, or near what a blade sweeps: refine them before a cut for a "
                "smoother one"},
+      {.shape = cell_selection, .name = "tag", .type = object, .of = tag,
+       .help = "the cells that the mesh file marks so ('dartboard mesh info' lists its marks)"},
+      {.shape = tag, .name = "of", .type = text, .standard = "\"\"",
+       .help = "what the file calls its marks; may be left out where it has one kind of them"},
+      {.shape = tag, .name = "value", .type = integer, .range = {.least = -2147483648.0, .most = 2147483647.0},
+       .help = "the mark, a number"},
+      {.shape = tag, .name = "named", .type = text, .help = "or the name that the file gives to it"},
       {.shape = cell_selection, .name = "random", .type = object, .of = random, .help = "cells drawn at random"},
       {.shape = box, .name = "min", .type = point, .unit = "m", .required = true, .help = "the lowest corner"},
       {.shape = box, .name = "max", .type = point, .unit = "m", .required = true, .help = "the highest corner"},
@@ -261,10 +386,10 @@ std::vector<SceneKey> make_keys() {
       {.shape = stress, .name = "most_per_step", .type = integer, .range = count_from_1,
        .help = "vertices torn at one step boundary; left out, all that are above the threshold"},
       {.shape = refine, .name = "cells", .type = object, .of = cell_selection, .required = true,
-       .help = "the tetrahedra to subdivide"},
+       .help = "the tetrahedra to subdivide; cells of other kinds stay as they are"},
       {.shape = refine, .name = "at", .type = choice, .choices = {"longest edge", "centre"},
        .standard = "\"longest edge\"",
-       .help = "where each gets a vertex; in an edge, all tetrahedra around it are subdivided"},
+       .help = "where each gets a vertex; in an edge, all tetrahedra around it are subdivided, and no other cell may have it"},
       {.shape = refine, .name = "bracing", .type = real, .range = not_negative, .standard = "0.5",
        .help = "stiffness of the springs from the vertex to those across, over the material's"},
 
@@ -273,13 +398,15 @@ std::vector<SceneKey> make_keys() {
        .help = "time between frames; the first and the last state are always written"},
       {.shape = output, .name = "frames_every_steps", .type = integer, .range = count_from_1,
        .help = "steps between frames"},
-      {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs"},
+      {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs", "contact"},
        .standard = "[\"held\", \"stress\"]",
        .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
                "which vertices are free (0), fixed (1) or driven (2). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
                "one is not finite; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
-               "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain"},
+               "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
+               "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
+               "inside [m]"},
       {.shape = output, .name = "diagnostics_every", .type = real, .unit = "s", .range = positive,
        .help = "time between rows of diagnostics; the first and the last state always get one"},
       {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
@@ -314,8 +441,8 @@ std::vector<SceneKey> make_keys() {
        .help = "kinetic energy: the motion has come to rest"},
       {.shape = expect, .name = "energy_drift_at_most", .type = real, .range = not_negative,
        .help = "largest change of the total energy in any row of the diagnostics, over the largest sum of kinetic and "
-               "elastic energy; only where nothing takes or supplies energy: no damping, viscosity, driven vertices or "
-               "events"},
+               "elastic energy; only where nothing takes or supplies energy: no damping, viscosity, driven vertices, "
+               "events, or forces that begin or end"},
       {.shape = expect, .name = "places", .type = objects, .of = expected_place, .standard = "[]",
        .help = "where probes are"},
       {.shape = expect, .name = "hash", .type = text,
@@ -335,6 +462,25 @@ std::vector<SceneKey> make_keys() {
   // clang-format on
 }
 
+/// Shapes that have the keys of another one, too.
+struct SameKeys {
+  Shape shape, as;
+  std::string_view but;  // this one
+};
+constexpr SameKeys same_keys[] = {{Shape::one_body, Shape::body, ""}, {Shape::tissue, Shape::material, "viscosity"}};
+
+std::vector<SceneKey> make_keys() {
+  std::vector<SceneKey> keys = keys_by_hand();
+  const std::size_t by_hand = keys.size();
+  for (const SameKeys& same : same_keys)
+    for (std::size_t k = 0; k < by_hand; ++k)
+      if (keys[k].shape == same.as && keys[k].name != same.but) {
+        keys.push_back(keys[k]);
+        keys.back().shape = same.shape;
+      }
+  return keys;
+}
+
 std::string real_text(double value) { return fmt::format("{}", value); }
 
 std::string range_text(const Range& range) {
@@ -350,6 +496,7 @@ std::span<const ShapeHelp> scene_shapes() {
   static constexpr ShapeHelp shapes[] = {
       {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
       {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
+      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and what it is made of."},
       {Shape::generate, "generate", "A mesh made on the spot."},
       {Shape::box_mesh, "box_mesh", "A box of cubes."},
       {Shape::sheet_mesh, "sheet_mesh", "A rectangle of squares."},
@@ -359,13 +506,36 @@ std::span<const ShapeHelp> scene_shapes() {
        "A chain has links and no cells, so nothing can happen to it but that fixed points are let go. In place of the "
        "largest principal stress it has the largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
+      {Shape::tissue, "tissue",
+       "What some of the cells are made of: what a 'material' has, but for the viscosity, which is that of what "
+       "surrounds everything."},
+      {Shape::region, "region", "Some of the cells, and their material."},
+      {Shape::bending, "bending", "What resists the bending of a surface: by its rigidity, or by springs."},
+      {Shape::damping, "damping",
+       "The damping of elements by the rate of their strain (Kelvin and Voigt): ratio / (pi frequency) times their "
+       "elasticity. No motion as a whole is damped, however the body turns. The higher a frequency the more it is damped, "
+       "which may shorten the stable step of explicit integrators other than 'verlet'."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
       {Shape::driven, "driven",
        "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are never "
        "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
        "work, so energy and momentum of the body change."},
+      {Shape::force, "force",
+       "A force from outside that keeps its size and direction, and when. Times count as for events. It stays with the "
+       "matter it acts on: parts of a vertex that comes apart share it in proportion to their masses, and what loses "
+       "cells loses their share. What of it acts on fixed or driven vertices is borne by what holds them."},
+      {Shape::contact, "contact",
+       "Contact of the surface of bodies with obstacles, and of solids with solids: of a solid its boundary, cuts included, "
+       "of a surface all of it, from both sides. It is felt at the vertices and in the middles of faces, each by its share of the area at rest, and "
+       "has no thickness: a fresh cut touches nothing. 'dartboard explain' tells how deep a body will rest and come in a "
+       "fall, and the longest stable step there."},
+      {Shape::contact_pair, "contact_pair", "Two bodies, or one and itself, and whether and how they touch."},
+      {Shape::obstacle, "obstacle",
+       "Something that no force moves: half of space, a ball or a box, at rest or moving straight on, and the law of the "
+       "contact with it where that is another one. Times are exact, whatever the step."},
       {Shape::cell_selection, "cell_selection", "Some of the cells: volumes, or the faces of a surface."},
+      {Shape::tag, "tag", "A mark of cells in a mesh file: a region, a material, a physical group."},
       {Shape::box, "box", "A box with faces across the axes, its surface included."},
       {Shape::plane, "plane", "A plane; its positive side is where the normal points to."},
       {Shape::sphere, "sphere", "A ball, its surface included."},
@@ -404,14 +574,25 @@ std::span<const SceneRule> scene_rules() {
   using enum SceneRule::Kind;
   static const std::vector<SceneRule> rules{
       {exactly_one, Shape::scene, {"step", "accuracy"}},
+      {exactly_one, Shape::scene, {"body", "bodies"}},
+      {exactly_one, Shape::one_body, {"mesh", "generate"}},
       {exactly_one, Shape::body, {"mesh", "generate"}},
       {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
       {at_most_one, Shape::material, {"stiffness", "young"}},
-      {excludes, Shape::material, {"poisson", "stiffness", "damping"}},
+      {excludes, Shape::material, {"poisson", "stiffness"}},
+      {needs_object, Shape::material, {"poisson", "damping"}},
+      {at_most_one, Shape::tissue, {"stiffness", "young"}},
+      {excludes, Shape::tissue, {"poisson", "stiffness"}},
+      {needs_object, Shape::tissue, {"poisson", "damping"}},
+      {exactly_one, Shape::bending, {"rigidity", "second_neighbours"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
+      {exactly_one, Shape::force, {"ids", "box", "plane", "sphere", "around"}},
+      {exactly_one, Shape::force, {"force", "pressure"}},
+      {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
-      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random"}},
+      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random", "tag"}},
+      {exactly_one, Shape::tag, {"value", "named"}},
       {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"}},
       {excludes, Shape::event, {"at", "every", "from", "until"}},
       {exactly_one, Shape::dissociate, {"points", "plane", "blade"}},
@@ -451,6 +632,7 @@ std::string expectation(const SceneKey& key) {
     case ValueType::object: return object();
     case ValueType::objects: return fmt::format("a list of objects ({})", help_of(key.of).name);
     case ValueType::point_or_object: return "a list of three numbers" + range + unit + " or " + object();
+    case ValueType::real_or_object: return "a number" + range + unit + " or " + object();
     case ValueType::integer_pair: return "a list of two integers" + range;
     case ValueType::integer_triple: return "a list of three integers" + range;
     case ValueType::integer_lists: break;

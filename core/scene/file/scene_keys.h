@@ -14,16 +14,26 @@ namespace dartboard {
 enum class Shape {
   scene,
   body,
+  one_body,
   generate,
   box_mesh,
   sheet_mesh,
   ball_mesh,
   chain_mesh,
   material,
+  tissue,
+  region,
+  bending,
+  damping,
   velocity,
   vertex_selection,
   driven,
+  force,
+  contact,
+  contact_pair,
+  obstacle,
   cell_selection,
+  tag,
   box,
   plane,
   sphere,
@@ -63,6 +73,7 @@ enum class ValueType {
   object,   // of the shape `of`
   objects,  // a list of them
   point_or_object,
+  real_or_object,
   integer_pair,
   integer_triple,
   integer_lists,
@@ -96,7 +107,8 @@ inline constexpr const char* standard_integrator = "rk4";
 
 /// What the keys of a shape have to do with each other.
 struct SceneRule {
-  enum Kind { exactly_one, at_most_one, excludes } kind;  // excludes: the first none of the others
+  // excludes: the first none of the others; needs_object: beside it the others are objects
+  enum Kind { exactly_one, at_most_one, excludes, needs_object } kind;
   Shape shape;
   std::vector<std::string_view> keys;
 };

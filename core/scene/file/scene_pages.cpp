@@ -56,6 +56,7 @@ Json value_schema(const SceneKey& key) {
     case ValueType::object: return reference_to(key.of);
     case ValueType::objects: return list_schema(reference_to(key.of), 0, {});
     case ValueType::point_or_object: return {{"anyOf", {point(), reference_to(key.of)}}};
+    case ValueType::real_or_object: return {{"anyOf", {number_schema(key, "number"), reference_to(key.of)}}};
     case ValueType::integer_pair: return list_schema(integer(), 2, 2);
     case ValueType::integer_triple: return list_schema(integer(), 3, 3);
     case ValueType::integer_lists: break;
@@ -78,6 +79,10 @@ void add_rule(Json& schema, const SceneRule& rule) {
     any.erase(any.begin());
     schema["dependentSchemas"][std::string(rule.keys[0])] = {{"not", {{"anyOf", any}}}};
   }
+  if (rule.kind == SceneRule::needs_object)
+    for (std::size_t k = 1; k < rule.keys.size(); ++k)
+      schema["dependentSchemas"][std::string(rule.keys[0])]["properties"][std::string(rule.keys[k])] = {
+          {"type", "object"}};
 }
 
 Json shape_schema(const ShapeHelp& shape) {
@@ -104,6 +109,8 @@ std::string rule_text(const SceneRule& rule) {
   if (rule.kind == SceneRule::at_most_one) return "at most one of " + quoted_list(names, ", ");
   const std::string first = names[0];
   names.erase(names.begin());
+  if (rule.kind == SceneRule::needs_object)
+    return fmt::format("beside '{}', {} as an object", first, quoted_list(names, ", "));
   return fmt::format("'{}' stands without {}", first, quoted_list(names, ", "));
 }
 

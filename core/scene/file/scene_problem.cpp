@@ -8,8 +8,9 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/plain/young.h"
 #include "core/scene/file/load_mesh.h"
+#include "core/scene/file/scene_materials.h"
+#include "core/scene/file/springs_beside_edges.h"
 
 namespace dartboard {
 namespace {
@@ -54,72 +55,78 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
   }
 }
 
-/// The mean stiffness that the scene's Young's modulus makes of the edges of its mesh.
-double stiffness_of_young(const SceneFile& scene, const Mesh& mesh) {
-  const auto fail = [&scene](std::string_view found, std::string_view expected) {
-    throw InputError(fmt::format("{}: /material/young: is {} Pa, and {}; expected {}", scene.file, scene.material.young,
-                                 found, expected));
-  };
-  if (const auto c = first_loose_cell(mesh))
-    fail(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", *c, name(mesh.kinds[*c])),
-         "tetrahedra, triangles or a chain, or 'stiffness' in its place");
-  const double mean = mean_stiffness(mesh, scene.material.young);
-  if (!(mean > 0.0 && std::isfinite(mean)))
-    fail(fmt::format("the stiffness of its springs has a mean of {:.6g} N/m", mean),
-         "a number above 0, of edges that have a length and cells that have a volume");
-  return mean;
-}
-
-/// Elements are solid.
-void require_elements(const SceneFile& scene, const Mesh& mesh) {
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
-    if (dimension(mesh.kinds[c]) == 2)
-      throw InputError(
-          fmt::format("{}: /material/poisson: stands beside cell {}, a {}, which has no element; expected "
-                      "solid cells, or springs",
-                      scene.file, c, name(mesh.kinds[c])));
+/// Bodies as one mesh.
+struct Assembled {
+  Mesh mesh;
+  std::vector<std::size_t> first_point, first_cell;  // of each body
+};
+Assembled assembled(const std::string& scene, std::span<const BodySource> bodies) {
+  Assembled all;
+  for (const BodySource& body : bodies) {
+    const Mesh mesh = make_mesh(scene, body);
+    if (all.mesh.cell_count() > 0 && mesh.dimension() != all.mesh.dimension())
+      throw InputError(fmt::format("{}: {}: is a {} beside {}, which is a {}; expected bodies of one kind", scene,
+                                   body.path, mesh.dimension() == 2 ? "surface" : "solid", bodies.front().path,
+                                   mesh.dimension() == 2 ? "solid" : "surface"));
+    all.first_point.push_back(all.mesh.points.size());
+    all.first_cell.push_back(all.mesh.cell_count());
+    append(all.mesh, mesh);
+  }
+  return all;
 }
 
 }  // namespace
 
-Mesh make_mesh(const SceneFile& scene) {
+Mesh make_mesh(const std::string& scene, const BodySource& body) {
   Mesh mesh;
-  const bool from_file = std::holds_alternative<fs::path>(scene.body.mesh);
+  const bool from_file = std::holds_alternative<fs::path>(body.mesh);
+  const std::string key = fmt::format("{}: {}/{}", scene, body.path, from_file ? "mesh" : "generate");
   try {
     mesh = std::visit(
-        [&scene](const auto& source) {
+        [&]<class Source>(const Source& source) {
           if constexpr (requires { generate(source); })
             return generate(source);
+          else if constexpr (std::is_same_v<Source, BodyList>)
+            return assembled(scene, source.all).mesh;
           else
-            return scene.body.loaded ? scene.body.loaded->mesh : read_body_mesh(scene.body).mesh;
+            return body.loaded ? body.loaded->mesh : read_body_mesh(body).mesh;
         },
-        scene.body.mesh);
+        body.mesh);
   } catch (const IoError& problem) {
-    throw IoError(fmt::format("{}: /body/mesh: {}", scene.file, problem.what()));
+    throw IoError(fmt::format("{}: {}", key, problem.what()));
   } catch (const InputError& problem) {
-    throw InputError(fmt::format("{}: /body/{}: {}", scene.file, from_file ? "mesh" : "generate", problem.what()));
+    if (std::holds_alternative<BodyList>(body.mesh)) throw;  // it names one of them
+    throw InputError(fmt::format("{}: {}", key, problem.what()));
   } catch (const std::bad_alloc&) {
-    throw InputError(fmt::format("{}: /body/{}: there is not enough memory for so many cells; expected fewer",
-                                 scene.file, from_file ? "mesh" : "generate"));
+    throw InputError(fmt::format("{}: there is not enough memory for so many cells; expected fewer", key));
   }
   // where nothing turns, not even a sum of zeros is added
-  const bool turned = scene.body.rotate != Eigen::Matrix3d::Identity();
+  const bool turned = body.rotate != Eigen::Matrix3d::Identity();
   for (Eigen::Vector3d& x : mesh.points) {
-    x *= scene.body.scale;
-    if (turned) x = scene.body.rotate * x;
-    x += scene.body.translate;
+    x *= body.scale;
+    if (turned) x = body.rotate * x;
+    x += body.translate;
   }
   return mesh;
 }
 
+Mesh make_mesh(const SceneFile& scene) { return make_mesh(scene.file, scene.body); }
+
 Problem make_problem(const SceneFile& scene) {
   Problem problem;
-  problem.mesh = make_mesh(scene);
-  problem.material = scene.material;
-  if (scene.material.model != Model::springs)
-    require_elements(scene, problem.mesh);
-  else if (scene.material.young > 0.0)
-    problem.material.stiffness = stiffness_of_young(scene, problem.mesh);
+  Assembled body;
+  if (const auto* list = std::get_if<BodyList>(&scene.body.mesh))
+    body = assembled(scene.file, list->all);
+  else
+    body = {make_mesh(scene), {0}, {0}};
+  problem.mesh = std::move(body.mesh);
+  if (!scene.touches.empty() && problem.mesh.dimension() == 2)
+    throw InputError(
+        fmt::format("{}: {}: stands beside surfaces, which are inside of nothing; expected solids, or "
+                    "obstacles alone",
+                    scene.file, scene.touches.front().path));
+  assign_materials(scene, body.first_cell, problem);
+  require_springs_beside_edges(scene, problem);
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
   try {
@@ -133,14 +140,23 @@ Problem make_problem(const SceneFile& scene) {
     }
     std::sort(problem.fixed.begin(), problem.fixed.end());
     problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
-    for (const Eigen::Vector3d& x : problem.mesh.points) {
-      problem.initial_velocity.push_back(scene.initial_velocity.at(x));
-      require_slower_than_light("/initial_velocity", problem.initial_velocity.back());
+    const auto bodies = scene.bodies();
+    for (std::size_t p = 0, b = 0; p < problem.mesh.points.size(); ++p) {
+      while (b + 1 < bodies.size() && body.first_point[b + 1] <= p) ++b;
+      const InitialVelocity& velocity = bodies[b].velocity ? *bodies[b].velocity : scene.initial_velocity;
+      problem.initial_velocity.push_back(velocity.at(problem.mesh.points[p]));
+      require_slower_than_light((bodies[b].velocity ? bodies[b].path : "") + "/initial_velocity",
+                                problem.initial_velocity.back());
     }
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
   return problem;
+}
+
+std::vector<std::size_t> first_cells(const SceneFile& scene) {
+  const auto* list = std::get_if<BodyList>(&scene.body.mesh);
+  return list == nullptr ? std::vector<std::size_t>{0} : assembled(scene.file, list->all).first_cell;
 }
 
 }  // namespace dartboard

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -42,6 +43,11 @@ struct AroundSelection {
   BladeSweep sweep;
   double distance;
 };
+/// Cells that a mesh file marks: those with this value, or the value of this name, of its tags of that name.
+struct TagSelection {
+  std::string tag;  // empty where the file has one kind of tag
+  std::variant<std::int32_t, std::string> value;
+};
 /// `count` of those there are, drawn without replacement.
 struct RandomSelection {
   std::uint32_t count;
@@ -51,8 +57,8 @@ struct RandomSelection {
 /// Where a cut reaches.
 using CutRegion = std::variant<BoxSelection, SphereSelection, AroundSelection, PolygonSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection>;
-using CellSelection =
-    std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection, RandomSelection>;
+using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
+                                   RandomSelection, TagSelection>;
 
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);

@@ -47,7 +47,8 @@ class SceneOutput {
  public:
   /// Creates the folder, and those above it, for a body of cells of a dimension.
   /// throws  IoError if it exists and is not an empty folder, is claimed by another run, or cannot be created
-  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3);
+  explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3,
+                       bool with_applied = false, bool with_contact = false);
 
   /// Go on in the folder of a run, from one of its checkpoints: rows and frames after that are dropped, since they will
   /// be written again.

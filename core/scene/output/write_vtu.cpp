@@ -75,12 +75,14 @@ bool has_columns_of_its_size(const Frame& frame) {
   const auto is = [](std::size_t size, bool asked, std::size_t expected) { return size == (asked ? expected : 0); };
   const bool has_stress = fields.stress && !is_chain;
   return frame.velocity.size() == points && frame.mass.size() == points && frame.mesh_cell.size() == cells &&
-         frame.component.size() == cells && is(frame.held.size(), fields.held, points) &&
-         is(frame.largest_principal_stress.size(), has_stress, points) &&
+         frame.component.size() == cells && (frame.material.empty() || frame.material.size() == cells) &&
+         is(frame.held.size(), fields.held, points) && is(frame.largest_principal_stress.size(), has_stress, points) &&
          is(frame.largest_stress_magnitude.size(), has_stress, points) &&
          is(frame.von_mises_stress.size(), has_stress, points) &&
          is(frame.tension.size(), fields.stress && is_chain, frame.links.size()) &&
          is(frame.displacement.size(), fields.displacement, points) &&
+         is(frame.contact_force.size(), fields.contact, points) &&
+         is(frame.contact_depth.size(), fields.contact, points) &&
          (frame.springs.empty() || (fields.springs && !is_chain)) &&
          is(frame.strain.size(), fields.springs, frame.links.size() + frame.springs.size());
 }
@@ -104,12 +106,14 @@ std::string to_vtu(const Frame& frame) {
   }
   std::vector<std::int64_t> mesh_cell(frame.mesh_cell.begin(), frame.mesh_cell.end());
   std::vector<std::int64_t> component(frame.component.begin(), frame.component.end());
+  std::vector<std::int64_t> material(frame.material.begin(), frame.material.end());
   const auto add_line = [&](const std::array<std::uint32_t, 2>& ends, std::int64_t number, std::int64_t label) {
     connectivity.insert(connectivity.end(), ends.begin(), ends.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     types.push_back(3);
     mesh_cell.push_back(number);
     component.push_back(label);
+    if (!material.empty()) material.push_back(-1);
   };
   for (const auto& link : frame.links) add_line(link, static_cast<std::int64_t>(mesh_cell.size()), 0);
   for (const auto& spring : frame.springs) add_line(spring, -1, -1);
@@ -145,9 +149,14 @@ std::string to_vtu(const Frame& frame) {
     append_array(out, "von_mises_stress", frame.von_mises_stress);
   }
   if (fields.displacement) append_array(out, "displacement", frame.displacement);
+  if (fields.contact) {
+    append_array(out, "contact_force", frame.contact_force);
+    append_array(out, "contact_depth", frame.contact_depth);
+  }
   out += "      </PointData>\n      <CellData Scalars=\"component\">\n";
   append_array(out, "mesh_cell", mesh_cell);
   append_array(out, "component", component);
+  if (!material.empty()) append_array(out, "material", material);
   if (fields.stress && is_chain) append_array(out, "tension", frame.tension);
   if (fields.springs) append_array(out, "strain", strain);
   out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";

@@ -5,16 +5,11 @@
 #include <map>
 
 #include "core/mechanics/fracture/seam.h"
+#include "core/scene/file/scene_materials.h"
 #include "core/scene/run/event_clock.h"
 
 namespace dartboard {
 namespace {
-
-Eigen::Vector3d centroid(const Mesh& mesh, std::size_t c) {
-  Eigen::Vector3d sum(0, 0, 0);
-  for (const std::uint32_t p : mesh.cell(c)) sum += mesh.points[p];
-  return sum / static_cast<double>(mesh.cell(c).size());
-}
 
 /// Cells that a selection takes at rest.
 double selected(const CellSelection& selection, const Mesh& mesh) {
@@ -22,6 +17,8 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
       [&mesh](const auto& s) -> double {
         if constexpr (requires { s.count; }) {
           return s.count;
+        } else if constexpr (requires { s.tag; }) {
+          return 0.0;
         } else if constexpr (requires { s.ids; }) {
           return static_cast<double>(s.ids.size());
         } else {

@@ -4,12 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/plain/counted.h"
+#include "core/plain/material.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/scene_keys.h"
+#include "core/scene/file/scene_materials.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/run/driven_vertices.h"
+#include "core/time/integrators.h"
 #include "core/time/watch/divergence.h"
+#include "core/time/watch/stable_step.h"
 
 namespace dartboard {
 namespace {
@@ -29,6 +34,7 @@ std::string told(std::string_view path, Shape shape, std::string_view key, const
 std::string source_of(const SceneFile& scene) {
   if (const auto* file = std::get_if<std::filesystem::path>(&scene.body.mesh))
     return fmt::format("/body/mesh: {}", file->filename().string());
+  if (const auto* list = std::get_if<BodyList>(&scene.body.mesh)) return fmt::format("/bodies: {}", list->all.size());
   constexpr const char* keys[] = {"box", "sheet", "ball", "chain"};  // after the file, in the order of the variant
   return fmt::format("/body/generate/{}", keys[scene.body.mesh.index() - 1]);
 }
@@ -59,6 +65,7 @@ class Planner {
     columns();
     driven();
     forces();
+    contact();
     integrator();
     watch();
     for (std::size_t k = 0; k < scene_.events.size(); ++k) event(k);
@@ -86,17 +93,18 @@ class Planner {
     add(Part::marks, "marks by dart, for walks", changed);
     add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
     add(Part::cell_darts, "a dart of each vertex, edge, face and cell", changed);
-    const bool springs = problem_.material.model == Model::springs;
-    if (springs && problem_.material.young > 0.0)
-      add(Part::cells, "mass, share of a node, side and mesh number of each cell, stiffness shares of its edges",
-          changed + "; " + elasticity());
-    else
-      add(Part::cells, "mass, share of a node, side and mesh number of each cell", changed);
+    const CellMaterials materials = problem_.cell_materials();
+    const bool springs_of_young = std::ranges::any_of(
+        materials.all(), [](const Material& m) { return m.model == Model::springs && m.young > 0.0; });
+    add(Part::cells,
+        fmt::format("mass, share of a node, side{} and mesh number of each cell{}",
+                    materials.is_one() ? "" : ", material", springs_of_young ? ", stiffness shares of its edges" : ""),
+        changed + (springs_of_young || !materials.is_one() ? "; " + elasticity() : ""));
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
         changed + "; /output: frames and diagnostics tell the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
-    if (!plan_.needs.refinement && (!springs || problem_.material.young == 0.0))
+    if (!plan_.needs.refinement && !springs_of_young)
       leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
   }
 
@@ -119,7 +127,10 @@ class Planner {
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
     if (plan_.needs.body.rest)
-      add(Part::rest, "place at rest by vertex", "/output/fields: frames show 'displacement'");
+      add(Part::rest, "place at rest by vertex",
+          scene_.output.fields.displacement ? "/output/fields: frames show 'displacement'"
+          : scene_.bending.any()            ? "/bending: follows changes of the map by it"
+                                            : "/contact: areas of the surface follow changes of the map by it");
     else
       leave_out("column of places at rest", "/output/fields: without 'displacement'");
   }
@@ -131,7 +142,7 @@ class Planner {
     }
     // what is driven is looked up as it will be, by the points of the mesh
     DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
-    SystemArrays arrays(problem_);
+    SystemArrays arrays(problem_, plan_.needs.body);
     vertices.apply(0, plan_.counts.point, arrays.v);
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
@@ -143,11 +154,16 @@ class Planner {
 
   void forces() {
     const MeshTally& n = plan_.counts;
-    const bool elements = problem_.material.model != Model::springs;
-    if (elements) {
-      add(Part::elements, fmt::format("{} solid cells: rest shape, corners", n.cells),
+    const CellMaterials materials = problem_.cell_materials();
+    const bool elements = materials.has_elements();
+    const bool surface = plan_.needs.body.storage == Storage::surface;
+    if (elements)
+      add(Part::elements, fmt::format("{} {}: rest shape, corners", n.cells, surface ? "membranes" : "solid cells"),
           source_of(scene_) + "; " + elasticity());
-      leave_out("springs and their damping", model_in_words());
+    if (elements && surface && !scene_.bending.any())
+      leave_out("stiffness against bending, which membranes have none of", "/bending: none");
+    if (elements && !materials.has_springs()) {
+      leave_out("springs and their damping", elasticity());
       if (plan_.needs.body.topology_changes)
         add(Part::springs,
             fmt::format("{} edges: rest length and ends, of which refinement makes new ones; no force", n.edges),
@@ -156,17 +172,95 @@ class Planner {
       add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
           source_of(scene_) + "; " + elasticity());
     }
-    const std::string damping = told("/material/damping", Shape::material, "damping", problem_.material.damping);
+    springs_beside_edges();
+    const std::string damping = materials.is_one()
+                                    ? told("/material/damping", Shape::material, "damping", materials[0].damping)
+                                    : materials_in_words();
     if (plan_.needs.damping)
       add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
-    else if (!elements)
+    else if (materials.has_springs())
       leave_out("damping of springs, its term or sweep", damping);
+    if (plan_.needs.cell_damping)
+      add(Part::cell_damping, "by the rate of strain, its term of the force loop or sweep over the elements",
+          damped_elements());
+    else if (elements)
+      leave_out("damping of elements, its term or sweep", damped_elements());
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity = told("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
+    if (plan_.needs.body.pull)
+      add(Part::pull, "of each vertex, what of forces from outside is its share; added beside gravity",
+          fmt::format("/forces: {}", scene_.forces.size()));
+    else
+      leave_out("column and term of forces from outside", "/forces: none");
     if (plan_.needs.gravity)
       add(Part::gravity, "added where forces are divided by masses", gravity);
     else
       leave_out("gravity (its addition of zero stays)", gravity);
+  }
+
+  void springs_beside_edges() {
+    const MeshTally& n = plan_.counts;
+    const CellMaterials materials = problem_.cell_materials();
+    if (scene_.diagonals != Diagonals::none) {
+      std::size_t springs = 0;
+      for (std::size_t c = 0; c < problem_.mesh.cell_count(); ++c)
+        if (materials[c].model == Model::springs)
+          springs += diagonals_of(problem_.mesh.kinds[c], scene_.diagonals).size();
+      add(Part::cell_springs, fmt::format("{} springs within {} cells: rest lengths, corners", springs, n.cells),
+          told("/diagonals", Shape::scene, "diagonals", std::string(name(scene_.diagonals))));
+    }
+    if (scene_.bending.rigidity > 0.0)
+      add(Part::bending, fmt::format("{} edges: four vertices and their coefficients", n.edges),
+          fmt::format("/bending/rigidity: {}", scene_.bending.rigidity));
+    if (scene_.bending.second_neighbours > 0.0)
+      add(Part::bending, fmt::format("{} edges: second neighbours across each, rest lengths", n.edges),
+          fmt::format("/bending/second_neighbours: {}", scene_.bending.second_neighbours));
+  }
+
+  void contact() {
+    if (!scene_.has_contact()) {
+      leave_out("contact, which bodies would feel with obstacles and with each other", "/contact: none");
+      return;
+    }
+    const SystemArrays arrays(problem_, plan_.needs.body);
+    const ObstacleContact* obstacles = arrays.body().contact();
+    const BodyContact* bodies = arrays.body().body_contact();
+    const std::size_t places = (obstacles != nullptr ? obstacles->samples() : bodies->samples()).size();
+    std::string against, why;
+    if (obstacles != nullptr) {
+      against = counted(scene_.obstacles.size(), "obstacle");
+      why = fmt::format("/contact/obstacles: {}", scene_.obstacles.size());
+    }
+    if (bodies != nullptr) {
+      against += fmt::format("{}{} tetrahedra along the surface", against.empty() ? "" : " and ",
+                             bodies->solids().tetrahedra().size());
+      for (const TouchForecast& touch : forecast_touches(scene_, problem_))
+        why += (why.empty() ? "" : "; ") + touch.path;
+    }
+    const bool rubs =
+                   (obstacles != nullptr && obstacles->has_friction()) || (bodies != nullptr && bodies->has_friction()),
+               damps =
+                   (obstacles != nullptr && obstacles->has_damping()) || (bodies != nullptr && bodies->has_damping());
+    add(Part::contact,
+        fmt::format("{} places of the surface, each held against {}{}", places, against,
+                    rubs    ? "; restitution and friction around each step"
+                    : damps ? "; restitution around each step"
+                            : ""),
+        why);
+    if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
+    ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
+    plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
+    // the body without what may touch at the start
+    SpringSystem alone = arrays.system();
+    alone.terms = arrays.body().terms_but_contact(alone.terms);
+    const StableStep limits = StableStepEstimate().refresh(alone, arrays.x);
+    const Scheme& scheme = make_integrator(scene_.integrator)->scheme();
+    const Horizon horizon = horizon_of(scene_.duration);
+    plan.body_rate = limits.upper;
+    plan.contact_rate = contact_rate(alone, obstacles, bodies, plan.share);
+    plan.body_step = limits.safe_step(scheme, horizon);
+    plan.stable_step = with_contact(limits, plan.contact_rate).safe_step(scheme, horizon);
+    plan_.contact = plan;
   }
 
   void integrator() {
@@ -205,7 +299,9 @@ class Planner {
     if (scene_.is_chain())
       add(Part::output_cells, "masses of links", "/output: diagnostics tell mass");
     else if (!plan_.needs.body.topology_changes)
-      add(Part::output_cells, "cells, their masses and the boundary by vertex numbers",
+      add(Part::output_cells,
+          fmt::format("cells, their masses{} and the boundary by vertex numbers",
+                      problem_.materials.empty() ? "" : ", materials"),
           "/output: frames show the cells, diagnostics tell mass and boundary");
     add(Part::frames, "the cells where they are" + fields_in_words(),
         output_reason("frames_every", scene_.output.frame_steps));
@@ -217,6 +313,7 @@ class Planner {
   }
 
   std::string elasticity() const {
+    if (!problem_.materials.empty()) return materials_in_words();
     const Material& material = problem_.material;
     if (material.model != Model::springs)
       return told("/material/young", Shape::material, "young", material.young) + ", " +
@@ -225,6 +322,27 @@ class Planner {
                                 : told("/material/stiffness", Shape::material, "stiffness", material.stiffness);
   }
 
+  /// "/material: springs; /regions/0/material: neo-hookean"
+  std::string materials_in_words() const {
+    std::string words;
+    for (const SceneFile::Tissue& tissue : scene_.tissues())
+      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", tissue.path,
+                           name(model_of(tissue, problem_.mesh.dimension())));
+    return words;
+  }
+  /// "/material/damping: a ratio of 0.025 at 1 Hz", "/material: without 'damping'"
+  std::string damped_elements() const {
+    std::string words;
+    for (const SceneFile::Tissue& tissue : scene_.tissues()) {
+      if (tissue.material.model == Model::springs) continue;
+      words += words.empty() ? "" : "; ";
+      words += tissue.material.damping_time > 0.0
+                   ? fmt::format("{}/damping: a ratio of {:.3g} at 1 Hz", tissue.path,
+                                 tissue.material.damping_time / damping_time_of(1.0, 1.0))
+                   : fmt::format("{}: without 'damping'", tissue.path);
+    }
+    return words;
+  }
   std::string model_in_words() const { return fmt::format("/material/model: {}", name(problem_.material.model)); }
 
   std::string fields_in_words() const {
@@ -234,6 +352,7 @@ class Planner {
     if (fields.stress) words += scene_.is_chain() ? ", tensions" : ", stresses";
     if (fields.displacement) words += ", displacements";
     if (fields.springs) words += ", springs";
+    if (fields.contact) words += ", forces and depths of contact";
     return words;
   }
 

@@ -3,9 +3,11 @@
 // needs.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/memory.h"
 #include "core/scene/body/needs.h"
 #include "core/scene/plan/mesh_tally.h"
@@ -42,6 +44,17 @@ struct MeanSizes {
   double springs = 1.0, vertices = 1.0, cells = 1.0;
 };
 
+/// What contact will be like, as far as that can be known before anything moves.
+struct ContactPlan {
+  std::vector<ContactForecast> obstacles;  // in the order of the scene
+  std::vector<TouchForecast> touches{};    // a row for each key that lets bodies touch
+  double share = 0.0;         // of the depths of their laws, that the following is meant for: the largest expected
+  double body_rate = 0.0;     // [1/s] an upper bound of the highest frequency of the body alone
+  double contact_rate = 0.0;  // [1/s] what contacts as deep as that add, as a root of a sum of squares
+  double body_step = 0.0;     // [s] the longest stable step of the body alone; infinite of an implicit method
+  double stable_step = 0.0;   // [s] with such contacts
+};
+
 struct ScenePlan {
   std::string map;  // "tetrahedral 3-g-map"; "no map"
   Needs needs;
@@ -50,6 +63,7 @@ struct ScenePlan {
   std::vector<EventForecast> events;
   MeanSizes mean;
   std::size_t driven_springs = 0;  // at driven vertices that move at the start
+  std::optional<ContactPlan> contact;
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
   MemoryReport unplanned;  // parts with bytes that no item names: none, if the plan is right

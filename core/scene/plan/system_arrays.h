@@ -14,12 +14,17 @@ namespace dartboard {
 class SystemArrays {
  public:
   /// throws  InputError as make_simulated_body does
-  explicit SystemArrays(const Problem& problem) : body_(make_simulated_body(problem, false)) {
+  explicit SystemArrays(const Problem& problem) : SystemArrays(problem, body_needs(problem, false)) {}
+  /// With what a scene needs beside the problem, but for a topology that changes.
+  SystemArrays(const Problem& problem, BodyNeeds needs) {
+    needs.topology_changes = false;
+    body_ = make_simulated_body(problem, needs);
     const Motion start = body_->motion();
     x.assign(start.x.begin(), start.x.end());
     v.assign(start.v.begin(), start.v.end());
   }
 
+  const SimulatedBody& body() const { return *body_; }
   SpringSystem system() const { return body_->system(); }
   Motion motion() { return {x, v}; }
 

@@ -33,18 +33,30 @@ std::string contents_of(const fs::path& file, std::string_view expected) {
   return bytes;
 }
 
+/// "a.mesh", "a.mesh or b.mesh"
+std::string names_of_meshes(const SceneFile& scene) {
+  std::string names;
+  for (const BodySource& body : scene.bodies())
+    if (const auto* file = std::get_if<fs::path>(&body.mesh)) names += (names.empty() ? "" : " or ") + file->string();
+  return names;
+}
+
 }  // namespace
 
 // As it was read for the run, though the file may have changed since.
 std::uint64_t Checkpoint::hash_of_mesh(const SceneFile& scene) {
-  if (!std::holds_alternative<fs::path>(scene.body.mesh)) return 0;
-  const LoadedMesh read = scene.body.loaded ? LoadedMesh{} : read_body_mesh(scene.body);
-  const Mesh& mesh = scene.body.loaded ? scene.body.loaded->mesh : read.mesh;
   Hash hash;
-  hash.add(mesh.points);
-  hash.add(mesh.kinds);
-  hash.add(mesh.nodes);
-  return hash.value();
+  bool any = false;
+  for (const BodySource& body : scene.bodies()) {
+    if (!std::holds_alternative<fs::path>(body.mesh)) continue;
+    any = true;
+    const LoadedMesh read = body.loaded ? LoadedMesh{} : read_body_mesh(body);
+    const Mesh& mesh = body.loaded ? body.loaded->mesh : read.mesh;
+    hash.add(mesh.points);
+    hash.add(mesh.kinds);
+    hash.add(mesh.nodes);
+  }
+  return any ? hash.value() : 0;
 }
 
 void Checkpoint::write(const fs::path& file, const SceneFile& scene, const Simulation& simulation,
@@ -96,7 +108,7 @@ SceneFile Checkpoint::scene() const {
   scene.integrator = origin_.integrator;
   if (hash_of_mesh(scene) != origin_.mesh_hash)
     throw InputError(fmt::format("{}: is another mesh than when the run in {} began; expected it as it was",
-                                 std::get<fs::path>(scene.body.mesh).string(), file_.parent_path().string()));
+                                 names_of_meshes(scene), file_.parent_path().string()));
   return scene;
 }
 

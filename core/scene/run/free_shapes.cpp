@@ -28,18 +28,15 @@ std::vector<Eigen::Vector3d> sample(CellKind kind) {
 
 }  // namespace
 
-std::size_t free_shapes(CellKind kind) {
+std::size_t free_shapes(CellKind kind, Diagonals diagonals) {
   const auto x = sample(kind);
-  std::set<std::array<int, 2>> edges;
-  for (const std::vector<int>& cycle : faces_of(kind))
-    for (std::size_t k = 0; k < cycle.size(); ++k) {
-      const int a = cycle[k], b = cycle[(k + 1) % cycle.size()];
-      edges.insert({std::min(a, b), std::max(a, b)});
-    }
+  std::vector<CornerSpring> springs;
+  for (const CornerSpring& edge : edges_beside(kind, diagonals)) springs.push_back(edge);
+  for (const CornerSpring& diagonal : diagonals_of(kind, diagonals)) springs.push_back(diagonal);
   const auto columns = static_cast<Eigen::Index>(3 * x.size());
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(edges.size()), columns);
+  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(springs.size()), columns);
   Eigen::Index row = 0;
-  for (const auto& [a, b] : edges) {
+  for (const auto& [a, b, weight] : springs) {
     const Eigen::Vector3d along = x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)];
     directions.block<1, 3>(row, 3 * a) = -along.transpose();
     directions.block<1, 3>(row, 3 * b) = along.transpose();
@@ -48,17 +45,20 @@ std::size_t free_shapes(CellKind kind) {
   return static_cast<std::size_t>(columns - Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(directions).rank() - 6);
 }
 
-std::string free_shapes_of(const std::map<CellKind, std::size_t>& counts) {
+std::string free_shapes_of(const std::map<CellKind, std::size_t>& counts, Diagonals diagonals) {
   std::string cells;
   for (const auto& [kind, count] : counts) {
     if (count == 0 || node_count(kind) < 5) continue;
-    cells += fmt::format("{}{} of kind {} in {} ways", cells.empty() ? "" : ", ", count, name(kind), free_shapes(kind));
+    const std::size_t ways = free_shapes(kind, diagonals);
+    if (ways == 0) continue;
+    cells += fmt::format("{}{} of kind {} in {} ways", cells.empty() ? "" : ", ", count, name(kind), ways);
   }
   if (cells.empty()) return "";
   return fmt::format(
-      "edges of cells alone carry springs, so some cells can change their shape without a force ({}): the body may shear "
-      "and fall like a chain; take tetrahedra where that matters (/body/generate/box/kind, or another mesh)",
-      cells);
+      "{} alone carry springs, so some cells can change their shape without a force ({}): the body may shear "
+      "and fall like a chain; take /diagonals \"faces\" where that matters, or tetrahedra (/body/generate/box/kind, or "
+      "another mesh)",
+      diagonals == Diagonals::none ? "edges of cells" : "edges of cells and diagonals through their volumes", cells);
 }
 
 }  // namespace dartboard

@@ -35,7 +35,12 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
     said.push_back(to_string(*warning, simulation.step(), scene.integrator) + what_to_do_about(*warning, scene));
   if (const auto& coarse = simulation.coordinate_warning()) said.push_back(to_string(*coarse) + " (/body/translate)");
   for (const StepResult& warning : simulation.warnings()) said.push_back(explained(warning));
-  const std::string shapes = scene.has_elements() ? "" : free_shapes_of(simulation.cell_kinds());
+  std::vector<std::string> obstacles, bodies;
+  for (const BodySource& one : scene.bodies()) bodies.push_back(one.path);
+  for (const SceneObstacle& one : scene.obstacles) obstacles.push_back(one.path);
+  for (const ContactWarning& warning : simulation.contact_warnings())
+    said.push_back(to_string(warning, obstacles, bodies));
+  const std::string shapes = free_shapes_of(simulation.cells_of_springs(), scene.diagonals);
   if (!shapes.empty()) said.push_back(shapes);
   // an event that was due at the start may have its time yet
   if (simulation.steps_done() == 0 && simulation.step_count() > 0) return said;

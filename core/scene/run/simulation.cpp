@@ -13,6 +13,7 @@
 #include "core/scene/file/beyond_numbers.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
+#include "core/time/solve/stop_request.h"
 #include "core/time/system/energy.h"
 #include "core/time/watch/preflight.h"
 
@@ -54,7 +55,7 @@ std::string key_without_body(const SceneFile& scene, const Problem& problem) {
     }
   }
   const std::string size = size_beyond_numbers(scene, problem.mesh);
-  return size.empty() ? "/body" : size;
+  return size.empty() ? scene.body.path : size;
 }
 
 }  // namespace
@@ -67,6 +68,7 @@ std::string to_string(const StepWarning& w, double step, std::string_view integr
   std::string text =
       fmt::format("{}: a step of {:.6g} s is too long for {}; {:.6g} s is stable",
                   w.step == 0 ? "at the start" : "after " + counted(w.step, "step"), step, integrator, w.stable);
+  if (w.by_contact) text += " where contacts are as deep as is expected";
   if (w.parts > 1) text += fmt::format(", so each is taken in {} parts", w.parts);
   return text;
 }
@@ -88,7 +90,9 @@ Simulation::Simulation(const SceneFile& scene)
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
-  for (const CellKind kind : problem.mesh.kinds) ++cell_kinds_[kind];
+  const CellMaterials materials = problem.cell_materials();
+  for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
+    if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];
   try {
     body_ = make_simulated_body(problem, needs_of(scene, problem).body);
   } catch (const InputError& error) {
@@ -97,10 +101,20 @@ Simulation::Simulation(const SceneFile& scene)
     throw InputError(fmt::format("{}: /body: there is not enough memory for {}; expected fewer", scene.file,
                                  counted(problem.mesh.cell_count(), "cell")));
   }
+  std::vector<ContactForecast> expected;
+  std::vector<TouchForecast> expected_touches;
   try {
     driven_ = DrivenVertices(scene, problem.mesh.points, step_);
+    forces_ = AppliedForces(scene, problem.mesh, body_->vertices(), step_);
     track_probes(scene.probes, *body_);
     integrator_ = make_integrator(scene.integrator, scene.solver);
+    if (scene.has_contact()) {
+      contact_ =
+          std::make_unique<SceneContact>(body_->contact(), body_->body_contact(), integrator_->scheme().implicit);
+      expected = forecast_contacts(scene, problem);
+      expected_touches = forecast_touches(scene, problem);
+      expected_share_ = std::max(largest_share(expected), largest_share(expected_touches));
+    }
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
     for (const SceneEvent& event : scene.events)
       events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
@@ -109,6 +123,7 @@ Simulation::Simulation(const SceneFile& scene)
                          event.path});
     happen();
     drive();
+    if (contact_) contact_->start(body_->vertices().position, expected, expected_touches, step_);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
@@ -137,7 +152,8 @@ std::optional<Divergence> Simulation::advance() {
   };
   StepResult result = start_;
   try {
-    if (result.ok()) result = exact_events_ ? step_through_events() : integrate(step_);
+    if (result.ok())
+      result = exact_events_ ? step_through_events() : integrate(static_cast<double>(done_) * step_, step_);
   } catch (const StressError& error) {
     ++done_;
     return stress_failure(error);
@@ -146,6 +162,7 @@ std::optional<Divergence> Simulation::advance() {
   const std::uint64_t checks = detector_.checks();
   if (result.ok()) {
     watched_ = done_;
+    if (contact_) detector_.add_work(contact_->new_work());
     result = detector_.after_step(body_->system(), body_->motion());
   }
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
@@ -179,13 +196,17 @@ std::optional<Divergence> Simulation::start_failure() {
 
 // What the close look needs is let go: it is taken at the start and after events only.
 StableStep Simulation::look_closely() const {
-  return StableStepEstimate().refresh(body_->system(), body_->vertices().position);
+  const StableStep limits = StableStepEstimate().refresh(body_->system(), body_->vertices().position);
+  if (!contact_) return limits;
+  return with_contact(limits,
+                      contact_rate(body_->system(), contact_->obstacles(), contact_->bodies(), expected_share_));
 }
 
 StepLimit Simulation::step_limit() const { return look_closely().limit(integrator_->scheme(), horizon_); }
 
 void Simulation::look_at_step() {
   const Scheme& scheme = integrator_->scheme();
+  if (contact_) contact_->system_changed(body_->system(), body_->vertices().position);
   limits_ = quick_stable_step(body_->system());
   too_long_ = false;
   parts_ = 1;
@@ -199,7 +220,14 @@ void Simulation::look_at_step() {
     too_long_ = !(parts_wanted_ <= most_parts);
     if (!too_long_) parts_ = static_cast<std::uint64_t>(parts_wanted_);
   }
-  if (!warning_) warning_ = StepWarning{done_, stable_, parts_};
+  if (!warning_) warning_ = StepWarning{done_, stable_, parts_, is_limited_by_contact()};
+}
+
+// Of the squares that add up to that of the highest frequency, contact has more than half.
+bool Simulation::is_limited_by_contact() const {
+  if (!contact_) return false;
+  const double rate = contact_rate(body_->system(), contact_->obstacles(), contact_->bodies(), expected_share_);
+  return rate * rate > 0.5 * limits_.upper * limits_.upper;
 }
 
 // Steps too long and coordinates too large have warnings of their own, which a run may add to.
@@ -239,15 +267,39 @@ Divergence Simulation::failure(const StepResult& result) {
 }
 
 // To the state kept last; a step that the integrator could not take is one that the detector has not seen.
-std::uint64_t Simulation::go_back() { return taken_back_ = done_ - watched_ + detector_.restore(body_->motion()); }
+std::uint64_t Simulation::go_back() {
+  taken_back_ = done_ - watched_ + detector_.restore(body_->motion());
+  if (contact_) contact_->go_to(time());
+  return taken_back_;
+}
 
 /// In parts none of which is longer than those of a whole step, to rounding.
-StepResult Simulation::integrate(double duration) {
+StepResult Simulation::integrate(double from, double duration) {
   double parts = static_cast<double>(parts_);
   if (duration != step_) parts = std::max(1.0, std::ceil(parts * (duration / step_) * (1.0 - 0x1p-50)));
   StepResult result;
   for (double part = 0.0; part < parts && result.ok(); ++part)
-    result = integrator_->step(body_->system(), body_->motion(), duration / parts);
+    result = contact_ ? step_with_contact(from + duration * (part / parts), duration / parts)
+                      : integrator_->step(body_->system(), body_->motion(), duration / parts);
+  return result;
+}
+
+StepResult Simulation::step_with_contact(double from, double duration) {
+  const SpringSystem system = body_->system();
+  const Motion motion = body_->motion();
+  if (contact_->begin(from, duration, system, motion)) integrator_->restart();
+  StepResult result;
+  try {
+    result = integrator_->step(system, motion, duration);
+  } catch (const Stopped&) {
+    contact_->undo(from, motion);
+    throw;
+  }
+  if (!result.ok()) {
+    contact_->undo(from, motion);
+    return result;
+  }
+  if (contact_->end(from, duration, system, motion)) integrator_->restart();
   return result;
 }
 
@@ -262,8 +314,8 @@ StepResult Simulation::step_through_events() {
     for (const Scheduled& scheduled : events_)
       if (const auto time = scheduled.clock.time_between(); time && *time < end && (!next || *time < *next))
         next = time;
-    if (!next) return integrate(whole ? step_ : end - now);
-    result = integrate(*next - now);
+    if (!next) return integrate(now, whole ? step_ : end - now);
+    result = integrate(now, *next - now);
     if (!result.ok()) return result;
     now = *next;
     const std::size_t operations = operations_;
@@ -303,6 +355,10 @@ void Simulation::apply(Scheduled& scheduled) {
   if (made > 0) integrator_->restart();
 }
 
+std::span<const ContactWarning> Simulation::contact_warnings() const {
+  return contact_ ? std::span<const ContactWarning>(contact_->warnings()) : std::span<const ContactWarning>();
+}
+
 std::vector<std::string> Simulation::idle_events() const {
   std::vector<std::string> paths;
   for (const Scheduled& scheduled : events_)
@@ -311,7 +367,8 @@ std::vector<std::string> Simulation::idle_events() const {
 }
 
 bool Simulation::drive() {
-  const bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
+  bool changed = driven_.apply(done_, body_->vertices().point, body_->motion().v);
+  if (forces_.apply(done_, body_->vertices().point, body_->pull())) changed = true;
   if (changed) integrator_->restart();
   return changed;
 }
@@ -334,13 +391,18 @@ Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, doubl
 }
 
 Diagnostics Simulation::diagnostics() const {
-  const SpringSystem system = body_->system();
+  SpringSystem system = body_->system();
   const VertexColumns& v = body_->vertices();
   Diagnostics d;
+  if (contact_) {
+    d.contact = contact_->diagnostics(v.position);
+    system.terms = body_->terms_but_contact(system.terms);
+  }
   d.time = time();
   d.kinetic = kinetic_energy(system, v.velocity);
   d.elastic = elastic_energy(system, v.position);
   d.gravitational = gravity_energy(system, v.position);
+  if (forces_.size() > 0) d.applied = pull_energy(system, v.position);
   d.momentum = linear_momentum(system, v.velocity);
   d.angular_momentum = angular_momentum(system, v.position, v.velocity);
   d.mass = body_->mass();
@@ -356,6 +418,8 @@ MemoryReport Simulation::memory() const {
   report.push_back({Part::integrator, integrator_->bytes() - integrator_->solver_bytes()});
   report.push_back({Part::solver, integrator_->solver_bytes()});
   report.push_back({Part::detector, detector_.bytes()});
+  report.push_back({Part::pull, forces_.bytes()});
+  if (contact_) report.push_back({Part::contact, contact_->bytes()});
   report.push_back({Part::driven, driven_.bytes() + detector_.driven_bytes()});
   report.push_back({Part::probes, body_->tracked().size_bytes()});
   for (std::size_t k = 0; k < events_.size(); ++k) report.push_back({Part::event, events_[k].event->bytes(), k});

@@ -9,14 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/frame.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
+#include "core/scene/run/applied_forces.h"
 #include "core/scene/run/driven_vertices.h"
 #include "core/scene/run/event_clock.h"
 #include "core/scene/run/event_jumps.h"
 #include "core/scene/run/probes.h"
+#include "core/scene/run/scene_contact.h"
 #include "core/time/method/integrator.h"
 #include "core/time/system/coordinate_precision.h"
 #include "core/time/watch/divergence.h"
@@ -42,9 +45,10 @@ struct StepWarning {
   std::uint64_t step = 0;   // after this many
   double stable = 0.0;      // [s] the longest step that is
   std::uint64_t parts = 1;  // that each step is divided into
+  bool by_contact = false;  // contacts as deep as is expected limit it, more than the body does
   template <class Archive>
   void state(Archive& archive) {
-    archive(step, stable, parts);
+    archive(step, stable, parts, by_contact);
   }
 };
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
@@ -72,7 +76,7 @@ class Simulation {
   /// [s] steps_done() * step; after a divergence, of the state that the body has gone back to
   double time() const { return static_cast<double>(done_ - taken_back_) * step_; }
 
-  /// One step, then the events due at its end, then the velocities of driven vertices.
+  /// One step, then the events due at its end, then the velocities of driven vertices and the forces applied.
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
   /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
@@ -104,8 +108,10 @@ class Simulation {
   /// Of the cells: 3, 2 of a surface, 0 of a chain.
   int dimension() const { return dimension_; }
   /// How many cells of each kind there were at the start.
-  const std::map<CellKind, std::size_t>& cell_kinds() const { return cell_kinds_; }
+  const std::map<CellKind, std::size_t>& cells_of_springs() const { return cells_of_springs_; }
   std::size_t operations() const { return operations_; }
+  /// Of its contact with obstacles; nothing without any.
+  std::span<const ContactWarning> contact_warnings() const;
   /// The paths of the events that have been due and never changed anything.
   std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
@@ -143,7 +149,8 @@ class Simulation {
     bool was_due = false;
     std::size_t operations = 0;
   };
-  StepResult integrate(double duration);
+  StepResult integrate(double from, double duration);
+  StepResult step_with_contact(double from, double duration);
   StepResult step_through_events();
   void state(Archive& archive);
   void happen();
@@ -152,6 +159,7 @@ class Simulation {
   bool drive();
   StableStep look_closely() const;
   void look_at_step();
+  bool is_limited_by_contact() const;
   void look_at_coordinates();
   void look_before_run();
   std::optional<Divergence> refused() const;
@@ -165,6 +173,9 @@ class Simulation {
   Horizon horizon_;
   std::unique_ptr<SimulatedBody> body_;
   DrivenVertices driven_;
+  AppliedForces forces_;
+  std::unique_ptr<SceneContact> contact_;  // null without contact
+  double expected_share_ = 0.0;            // of the depth of their laws, of contacts to come
   std::unique_ptr<Integrator> integrator_;
   std::vector<Scheduled> events_;
   std::size_t operations_ = 0;
@@ -186,7 +197,7 @@ class Simulation {
   DivergenceDetector detector_;
   std::uint64_t watched_ = 0;  // steps that the detector has seen
   int dimension_ = 0;
-  std::map<CellKind, std::size_t> cell_kinds_;
+  std::map<CellKind, std::size_t> cells_of_springs_;
 };
 
 }  // namespace dartboard

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/plain/archive.h"
 #include "core/scene/run/simulation.h"
 
@@ -16,7 +18,11 @@ void Simulation::state(Archive& archive) {
   archive.part("body");
   body_->state(archive);
   archive.part("driven vertices");
-  archive(driven_);
+  archive(driven_, forces_);
+  if (contact_) {
+    archive.part("contact");
+    archive(*contact_);
+  }
   archive.part("integrator");
   integrator_->state(archive);
   archive.part("events");
@@ -33,10 +39,26 @@ void Simulation::state(Archive& archive) {
   const VertexColumns& v = body_->vertices();
   const SpringSystem system = body_->system();
   if (v.position.size() != v.size() || v.velocity.size() != v.size() || v.inverse_mass.size() != v.size() ||
-      v.point.size() != v.size() || system.ends.size() != system.springs.size())
+      v.point.size() != v.size() || (!v.pull.empty() && v.pull.size() != v.size()) ||
+      system.ends.size() != system.springs.size())
     archive.fail("columns of the body are not as long as each other");
   for (const SpringEnds& ends : system.ends)
     if (ends[0] >= v.size() || ends[1] >= v.size()) archive.fail("a spring ends at no vertex");
+  const auto is_beyond = [&v](std::uint32_t k) { return k >= v.size(); };
+  const auto look_at_samples = [&](const std::vector<SkinSample>& samples) {
+    for (const SkinSample& sample : samples)
+      if (sample.count > sample.nodes.size() || std::ranges::any_of(sample.corners(), is_beyond))
+        archive.fail("a sample of the boundary is at no vertex");
+  };
+  if (const ObstacleContact* contact = body_->contact()) look_at_samples(contact->samples());
+  if (const BodyContact* contact = body_->body_contact()) {
+    look_at_samples(contact->samples());
+    for (const SkinTetrahedron& tetrahedron : contact->solids().tetrahedra())
+      if (std::ranges::any_of(tetrahedron.nodes, is_beyond)) archive.fail("a cell at the boundary is at no vertex");
+    for (const SkinTriangle& triangle : contact->solids().triangles())
+      if (std::ranges::any_of(triangle.nodes, is_beyond)) archive.fail("a face of the boundary is at no vertex");
+  }
+  if (contact_) contact_->resume(v.position);
   // a state that is none is found again by looking, which then changes nothing
   start_ = has_start ? StepResult{} : detector_.system_changed(system, body_->motion());
 }

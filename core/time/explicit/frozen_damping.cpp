@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/forces/term_damping.h"
+
 namespace dartboard {
 
 using Eigen::Vector3d;
@@ -29,23 +31,9 @@ void backwards(std::size_t count, F&& f) {
 
 }  // namespace
 
-double one_minus_exp_of_minus(double z) {
-  if (z > 64.0) return 1.0;
-  if (std::isinf(z)) return z;  // halving minus infinity has no end
-  int halvings = 0;
-  for (; std::abs(z) > 0.5; ++halvings) z /= 2;
-  // z - z^2/2 + z^3/6 - ..., whose next term is below 0.5^14 / 15!
-  double sum = 0.0, term = z;
-  for (int k = 2; k < 16; ++k) {
-    sum += term;
-    term *= -z / k;
-  }
-  for (; halvings > 0; --halvings) sum *= 2.0 - sum;  // 1 - e^2 = (1 - e) (1 + e)
-  return sum;
-}
-
 void FrozenDamping::freeze(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> x) {
   if (!terms.damping) return;
+  if (has_damped_terms(system)) at_.assign(x.begin(), x.end());
   along_.resize(system.springs.size());
   for (std::size_t s = 0; s < along_.size(); ++s) {
     const Vector3d d = x[system.ends[s][1]] - x[system.ends[s][0]];
@@ -57,6 +45,11 @@ void FrozenDamping::freeze(const SpringSystem& system, const Terms& terms, std::
 void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> v,
                           std::span<Vector3d> result) const {
   std::ranges::fill(result, Vector3d(0, 0, 0));
+  if (terms.damping && has_damped_terms(system)) {
+    for (const ForceTerm* term : system.terms)
+      if (term->damping() != nullptr) term->damping()->add_forces({at_}, v, result);
+    for (Vector3d& force : result) force = -force;
+  }
   if (terms.damping && !system.springs.damped().empty()) {
     // copies, since the compiler must assume that a store into the result changes what is held by reference
     const SpringEnds* const ends = system.ends.data();
@@ -106,6 +99,13 @@ auto FrozenDamping::relaxation(const SpringSystem& system, std::span<Vector3d> v
   };
 }
 
+void FrozenDamping::relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Vector3d> v) const {
+  const std::size_t count = system.terms.size();
+  for (std::size_t k = 0; k < count; ++k)
+    if (const TermDamping* damping = system.terms[backwards ? count - 1 - k : k]->damping(); damping != nullptr)
+      damping->decay(at_, h, mobility_, backwards, v);
+}
+
 void FrozenDamping::slow_down(std::span<Vector3d> v) const {
   for (std::size_t i = 0; i < remains_.size(); ++i) v[i] *= remains_[i];
 }
@@ -114,6 +114,10 @@ void FrozenDamping::decay_symmetric(const SpringSystem& system, const Terms& ter
   prepare_flow(system, terms, h / 2);
   slow_down(v);
   forwards(impulse_.size(), relaxation(system, v));
+  if (terms.damping) {
+    relax_terms(system, h / 2, false, v);
+    relax_terms(system, h / 2, true, v);
+  }
   backwards(impulse_.size(), relaxation(system, v));
   slow_down(v);
 }
@@ -122,6 +126,7 @@ void FrozenDamping::decay_once(const SpringSystem& system, const Terms& terms, d
   prepare_flow(system, terms, h);
   slow_down(v);
   forwards(impulse_.size(), relaxation(system, v));
+  if (terms.damping) relax_terms(system, h, false, v);
 }
 
 }  // namespace dartboard

@@ -1,28 +1,28 @@
 #pragma once
-// Damping alone, at positions that stand still: v' = -B v, where M B sums c u u^T over the springs and the viscosities.
+// Damping alone, at positions that stand still: v' = -B v, where M B sums c u u^T over the springs, the damping of
+// force terms and the viscosities.
 
 #include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "core/forces/one_minus_exp.h"
 #include "core/plain/bytes.h"
 #include "core/time/system/accelerations.h"
 
 namespace dartboard {
 
-/// 1 - exp(-z) to a few roundings, without libm, so that its bits are the same on every platform.
-double one_minus_exp_of_minus(double z);
-
-/// The dissipative part of a splitting. Every spring acts along its line with opposite impulses on its ends, so all
-/// that is computed here leaves linear and angular momentum alone (viscosity, which is no inner force, does not).
+/// The dissipative part of a splitting. Every spring acts along its line with opposite impulses on its ends, and
+/// elements by strains, so all that is computed here leaves linear and angular momentum alone (viscosity, which is no
+/// inner force, does not).
 ///
 /// pre     the system and its terms are those of the last `freeze`; `forget` when masses, dampings or springs change
 class FrozenDamping {
  public:
   void forget() { flow_step_ = 0.0; }
-  std::size_t bytes() const { return bytes_of(along_, mobility_, impulse_, remains_); }
+  std::size_t bytes() const { return bytes_of(along_, mobility_, impulse_, remains_, at_); }
 
-  /// Take the directions of the springs from x.
+  /// Take the directions of the springs from x, and keep x for force terms that are damped.
   void freeze(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> x);
 
   /// result = B v [m/s^2], zero where fixed.
@@ -30,7 +30,7 @@ class FrozenDamping {
              std::span<Eigen::Vector3d> result) const;
 
   /// Let v decay for h by a symmetric sweep, order 2: the springs one after the other for h/2, each by its exact flow
-  /// as if it were alone, and then in the opposite order for h/2.
+  /// as if it were alone, then the parts of force terms likewise, and then all in the opposite order for h/2.
   ///
   /// Each exact flow takes energy away, so the sweep is stable for all h > 0 and c >= 0.
   void decay_symmetric(const SpringSystem& system, const Terms& terms, double h, std::span<Eigen::Vector3d> v);
@@ -42,8 +42,10 @@ class FrozenDamping {
   void prepare_flow(const SpringSystem& system, const Terms& terms, double h);
   auto relaxation(const SpringSystem& system, std::span<Eigen::Vector3d> v) const;
   void slow_down(std::span<Eigen::Vector3d> v) const;
+  void relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Eigen::Vector3d> v) const;
 
   std::vector<Eigen::Vector3d> along_;  // unit vectors; zero for zero length
+  std::vector<Eigen::Vector3d> at_;     // of the vertices; none where no force term is damped
   double flow_step_ = 0.0;              // what the factors below belong to
   std::vector<double> mobility_;        // inverse masses, zero where fixed
   std::vector<double> impulse_;         // of each spring per relative speed, (1 - exp(-c h / mu)) mu

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/forces/spring_force.h"
+#include "core/forces/term_damping.h"
 #include "core/time/solve/stop_request.h"
 #include "core/time/system/nan_proof.h"
 #include "core/time/system/power_of_two.h"
@@ -71,8 +72,12 @@ void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, 
     for (const ForceTerm* term : s.terms)
       p.force == StageForce::discrete_gradient ? term->add_discrete_forces({p.xh, w, p.tau}, forces_)
                                                : term->add_forces({p.xh, w, p.tau}, forces_);
+    if (terms_.of(s).damping)
+      for (const ForceTerm* term : s.terms)
+        if (term->damping() != nullptr) term->damping()->add_forces({p.xh, w, p.tau}, w, forces_);
     for (std::size_t i = 0; i < w.size(); ++i) residual_[i] -= forces_[i];
   }
+  for (std::size_t i = 0; i < s.pull.size(); ++i) residual_[i] -= s.mass[i] * s.pull[i];
   for (std::size_t i = 0; i < w.size(); ++i) {
     if (s.fixed[i]) {
       residual_[i].setZero();
@@ -108,7 +113,10 @@ void ImplicitStage::set_allowed(const Problem& p, std::span<const Vector3d> w) {
     allowed_[a] += force;
     allowed_[b] += force;
   }
-  for (const ForceTerm* term : s.terms) term->add_force_sizes({p.xh, w, p.tau}, allowed_);
+  for (const ForceTerm* term : s.terms) {
+    term->add_force_sizes({p.xh, w, p.tau}, allowed_);
+    if (term->damping() != nullptr) term->damping()->add_force_sizes({p.xh, w, p.tau}, w, allowed_);
+  }
   for (std::size_t i = 0; i < w.size(); ++i) {
     const double speeds = w[i].cwiseAbs().maxCoeff() + p.vh[i].cwiseAbs().maxCoeff();
     const double rounding = 8.0 * epsilon * (s.mass[i] * speeds + std::abs(p.tau) * allowed_[i]);
@@ -160,6 +168,7 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
     add(unit * s.mass[i] * (w[i] - p.vh[i] + 0.5 * step).dot(step));
     add(unit * p.tau * s.viscosity[i] * (w[i] + 0.5 * step).dot(step));
     add(-p.tau * (unit * s.mass[i]) * s.gravity.dot(step));
+    if (!s.pull.empty()) add(-p.tau * (unit * s.mass[i]) * s.pull[i].dot(step));
   }
   s.springs.visit([&](const auto springs) {
     for (std::size_t e = 0; e < springs.size(); ++e) {
@@ -179,10 +188,14 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
         }
     }
   });
+  const auto add_change = [&sum, &sizes](const EnergyChange& change, double weight) {
+    sum += weight * change.value;
+    sizes += std::abs(weight) * change.sizes;
+  };
   for (const ForceTerm* term : s.terms) {
-    const EnergyChange change = term->energy_change({p.xh, w, p.tau}, direction_, p.tau * alpha);
-    sum += unit * change.value;
-    sizes += unit * change.sizes;
+    add_change(term->energy_change({p.xh, w, p.tau}, direction_, p.tau * alpha), unit);
+    if (term->damping() != nullptr)
+      add_change(term->damping()->rate_change({p.xh, w, p.tau}, w, direction_, alpha), unit * p.tau);
   }
   return {sum, 4.0 * epsilon * sizes};
 }

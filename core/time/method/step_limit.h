@@ -49,9 +49,10 @@ struct StepLimit {
 struct StableStep {
   double lower = 0.0, upper = 0.0;  // [1/s] of omega_max, at the state
   double any_state = 0.0;           // [1/s] upper bound in every state: Gershgorin's, with k in all directions
-  double across = 0.0;              // [1/s] upper bound of omega_max by what springs have across alone
-  Bounds damping_time{};            // [s] c / k of the springs
-  Bounds viscous_rate{};            // [1/s] viscosity / mass of the free vertices; above, dampers without spring
+  double across = 0.0;              // [1/s] upper bound of omega_max by what springs have across, and stressed elements
+                                    // beside what they have without stress, where they are damped
+  Bounds damping_time{};            // [s] c / k of the springs, and that of elements
+  Bounds viscous_rate{};  // [1/s] viscosity / mass of the free vertices; above, dampers without spring and stress
   Bounds damping_rate{0.0, Scheme::unlimited};  // [1/s] of the largest d, all damping together
 
   /// Damping ratios at omega_max, as far as damping is that of Rayleigh: beta omega / 2 + alpha / (2 omega).

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/time/system/accelerations.h"
+
 namespace dartboard {
 namespace {
 
@@ -87,6 +89,18 @@ void StepMatrix::sum_terms(const SpringSystem& system, const NodePattern& patter
     terms_.diagonal[i] *= square;
     diagonal_[i] += terms_.diagonal[i];
   }
+  if (!has_damped_terms(system)) {
+    dampers_.diagonal.clear();
+    dampers_.below.clear();
+    return;
+  }
+  if (!dampers_.pattern.same_entries(pattern) || dampers_.pattern.place != pattern.place) dampers_.pattern = pattern;
+  damping_of_terms(system, tangents, dampers_);
+  for (Matrix3d& block : dampers_.below) block *= tau_;
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+    dampers_.diagonal[i] *= tau_;
+    diagonal_[i] += dampers_.diagonal[i];
+  }
 }
 
 void StepMatrix::add_stiffness_of_terms(std::span<const Vector3d> x, std::span<Vector3d> y) const {
@@ -112,6 +126,7 @@ void StepMatrix::multiply(std::span<const Vector3d> x, std::span<Vector3d> y) co
     y[a] += block.p * x[a] + (block.q * block.d.dot(x[a])) * block.d;
   }
   if (!terms_.diagonal.empty()) terms_.add_product(x, y);
+  if (!dampers_.diagonal.empty()) dampers_.add_product(x, y);
 }
 
 void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const {
@@ -125,6 +140,7 @@ void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const
     entry.diagonal().array() -= block.p;
   }
   for (std::size_t k = 0; k < terms_.below.size(); ++k) matrix.below[k] += terms_.below[k];
+  for (std::size_t k = 0; k < dampers_.below.size(); ++k) matrix.below[k] += dampers_.below[k];
 }
 
 std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::span<const SpringTangent> tangents,

@@ -23,10 +23,10 @@ struct RankOneTerm {
 
 /// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whatever they would couple eliminated.
 ///
-/// C holds the damping of the springs and the ambient viscosity.
+/// C holds the damping of the springs and of the force terms, and the ambient viscosity.
 class StepMatrix {
  public:
-  StepMatrix() { terms_.pattern.column_start = {}; }  // without force terms not one byte is theirs
+  StepMatrix() { terms_.pattern.column_start = dampers_.pattern.column_start = {}; }  // not one byte until needed
 
   /// Of the springs and, given what they are like and the pattern of the system, of its force terms.
   ///
@@ -37,8 +37,10 @@ class StepMatrix {
 
   std::size_t node_count() const { return inertia_.size(); }
   std::size_t bytes() const {
-    return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_) + terms_.bytes();
+    return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_) + terms_.bytes() +
+           dampers_.bytes();
   }
+  /// Without the damping of force terms: a matrix that has them is never followed, but made anew.
   template <class Archive>
   void state(Archive& archive) {
     archive(tau_, inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_, terms_);
@@ -98,6 +100,7 @@ class StepMatrix {
   std::vector<std::uint32_t> links_;    // springs between two free vertices
   std::vector<std::uint32_t> anchors_;  // springs between a free and a fixed vertex
   BlockMatrix terms_;                   // tau^2 K of the force terms; nothing without
+  BlockMatrix dampers_;                 // tau C of those that are damped; nothing without
 };
 
 }  // namespace dartboard

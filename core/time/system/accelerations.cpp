@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/forces/spring_force.h"
+#include "core/forces/term_damping.h"
 #include "core/plain/nan_maximum.h"
 
 namespace dartboard {
@@ -58,7 +59,12 @@ void divide_by_mass(const SpringSystem& system, std::span<const Vector3d> v, std
 Terms terms_of(const SpringSystem& system) {
   const auto any = [](const auto& column) { return std::ranges::any_of(column, [](auto x) { return x != 0; }); };
   const auto is_damped = [](const Spring& s) { return s.damping != 0.0; };
-  return {std::ranges::any_of(system.springs.damped(), is_damped), any(system.viscosity), any(system.fixed)};
+  return {std::ranges::any_of(system.springs.damped(), is_damped) || has_damped_terms(system), any(system.viscosity),
+          any(system.fixed)};
+}
+
+bool has_damped_terms(const SpringSystem& system) {
+  return std::ranges::any_of(system.terms, [](const ForceTerm* term) { return term->damping() != nullptr; });
 }
 
 void accelerations(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> x,
@@ -70,8 +76,12 @@ void accelerations(const SpringSystem& system, const Terms& terms, std::span<con
   else
     terms.damping ? add_spring_forces<true>(system, springs.damped(), x, v, a)
                   : add_spring_forces<false>(system, springs.damped(), x, v, a);
-  for (const ForceTerm* term : system.terms) term->add_forces({x}, a);
+  for (const ForceTerm* term : system.terms) {
+    term->add_forces({x}, a);
+    if (terms.damping && term->damping() != nullptr) term->damping()->add_forces({x}, v, a);
+  }
   terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
+  for (std::size_t i = 0; i < system.pull.size(); ++i) a[i] += system.pull[i];
   if (!terms.fixed) return;
   const std::uint8_t* const fixed = system.fixed.data();
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -10,13 +10,15 @@ namespace dartboard {
 
 /// Which parts of the mechanics act in a system.
 struct Terms {
-  bool damping = false;    // along some spring
+  bool damping = false;    // along some spring, or of some force term
   bool viscosity = false;  // on some vertex
   bool fixed = false;      // some vertex
   friend bool operator==(const Terms&, const Terms&) = default;
 };
 /// cost    O(springs + vertices); ask once, not in every step
 Terms terms_of(const SpringSystem& system);
+/// Is any of its force terms damped?
+bool has_damped_terms(const SpringSystem& system);
 
 /// Accelerations [m/s^2] of all vertices at x, v: springs, force terms, gravity and what `terms` says; zero where
 /// fixed.

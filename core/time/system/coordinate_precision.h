@@ -1,8 +1,9 @@
 #pragma once
-// Are coordinates so large that their rounding shows in the springs?
+// Are coordinates so large that their rounding shows in springs and elements?
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,28 +12,30 @@
 
 namespace dartboard {
 
-/// Where coordinates are rounded most, in units of a spring that ends there.
+/// Where coordinates are rounded most, in units of a spring that ends there, or of the shortest edge of an element.
 struct CoordinatePrecision {
-  std::uint32_t edge, vertex;  // the spring, and that of its ends which is farther from the origin
+  static constexpr std::uint32_t of_element = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t edge, vertex;  // the spring, or `of_element`; that of the ends which is farther from the origin
   int axis;                    // of the largest coordinate of that end
   double coordinate;           // [m]
-  double length;               // [m] of the spring, or its rest length where that is longer
-  double relative;             // eps |x| / length
+  double length;               // [m] of the spring, its rest length where that is longer, or of the element's edge
+  double relative;             // eps |x| / length: the strain that rounding makes
   template <class Archive>
   void state(Archive& archive) {
     archive(edge, vertex, axis, coordinate, length, relative);
   }
 };
 /// "coordinate x = 1e+10 m of vertex 3 is rounded by up to 2.2e-06 of the spring beside it (1 m); move the body to the
-/// origin"
+/// origin"; "... of the shortest edge of an element beside it (1 m); ..."
 std::string to_string(const CoordinatePrecision& found);
 
 /// Beyond this, what rounding leaves of lengths and forces is worth a warning: a run of D edge lengths from the origin
 /// ends some 30 eps D from that at the origin, which a millionth makes 3e-5 edge lengths.
 inline constexpr double coarse_coordinates = 1e-6;
 
-/// The worst place, if eps |x| / length is above `bound` there.
-/// cost    O(springs)
+/// The worst place, if eps |x| / length is above `bound` there. Elements count where a vertex of theirs has no spring;
+/// springs speak for the others.
+/// cost    O(springs), and O(vertices + pieces) of force terms
 std::optional<CoordinatePrecision> find_coarse_coordinate(const SpringSystem& system,
                                                           std::span<const Eigen::Vector3d> x,
                                                           double bound = coarse_coordinates);

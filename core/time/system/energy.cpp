@@ -1,24 +1,13 @@
 #include "core/time/system/energy.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
+
+#include "core/plain/compensated_sum.h"
 
 namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
-
-// Neumaier's summation.
-struct CompensatedSum {
-  double sum = 0.0, lost = 0.0;
-
-  void add(double term) {
-    const double next = sum + term;
-    lost += std::abs(sum) >= std::abs(term) ? (sum - next) + term : (term - next) + sum;
-    sum = next;
-  }
-  double value() const { return sum + lost; }
-};
 
 struct CompensatedVector {
   CompensatedSum x, y, z;
@@ -69,8 +58,14 @@ double gravity_energy(const SpringSystem& system, std::span<const Vector3d> x) {
   return sum.value();
 }
 
+double pull_energy(const SpringSystem& system, std::span<const Vector3d> x) {
+  CompensatedSum sum;
+  for (std::size_t i = 0; i < system.pull.size(); ++i) sum.add(-system.mass[i] * system.pull[i].dot(x[i]));
+  return sum.value();
+}
+
 double total_energy(const SpringSystem& system, std::span<const Vector3d> x, std::span<const Vector3d> v) {
-  return kinetic_energy(system, v) + elastic_energy(system, x) + gravity_energy(system, x);
+  return kinetic_energy(system, v) + elastic_energy(system, x) + gravity_energy(system, x) + pull_energy(system, x);
 }
 
 Vector3d linear_momentum(const SpringSystem& system, std::span<const Vector3d> v) {

@@ -21,6 +21,8 @@ double kinetic_energy(const SpringSystem& system, std::span<const Eigen::Vector3
 double elastic_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// - sum of m g . x [J], zero at the origin.
 double gravity_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
+/// The same of what pulls at vertices, - sum of m p . x [J].
+double pull_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// All of them.
 double total_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
 

@@ -31,20 +31,21 @@ class OptionalColumn {
   std::span<const T> column_;
 };
 
-/// What acts on a set of vertices: springs between them, other force terms, ambient viscosity and gravity (the
-/// formulas: core/plain/problem.h).
+/// What acts on a set of vertices: springs between them, other force terms, ambient viscosity, gravity (the formulas:
+/// core/plain/problem.h), and forces from outside, each as an acceleration of its vertex.
 ///
 /// A view of columns that somebody else owns; valid until they change their size. Columns are by vertex or by spring
 /// number.
 struct SpringSystem {
   std::span<const SpringEnds> ends;
   SpringSpan springs;
-  std::span<const double> mass;          // [kg]
-  std::span<const double> inverse_mass;  // [1/kg]
-  OptionalColumn<double> viscosity;      // [kg/s]
-  OptionalColumn<std::uint8_t> fixed;    // 1: held still
-  Eigen::Vector3d gravity{0, 0, 0};      // [m/s^2]
-  ForceTerms terms{};                    // beside the springs
+  std::span<const double> mass;             // [kg]
+  std::span<const double> inverse_mass;     // [1/kg]
+  OptionalColumn<double> viscosity;         // [kg/s]
+  OptionalColumn<std::uint8_t> fixed;       // 1: held still
+  Eigen::Vector3d gravity{0, 0, 0};         // [m/s^2]
+  std::span<const Eigen::Vector3d> pull{};  // [m/s^2] of each vertex, beside gravity; empty where nothing pulls
+  ForceTerms terms{};                       // beside the springs
 
   std::size_t vertex_count() const { return mass.size(); }
 };

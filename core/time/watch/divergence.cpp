@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/forces/spring_force.h"
+#include "core/forces/term_damping.h"
 #include "core/plain/nan_maximum.h"
 #include "core/time/method/trial_state.h"
 #include "core/time/system/energy.h"
@@ -30,12 +31,12 @@ double energy_of_rounding(const SpringSystem& system, Motion motion, double plac
   return sum;
 }
 
-// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; gravity sets
-// vertices going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no energy,
-// but must be finite: zero times one that is not is not a number.
+// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; gravity and
+// what pulls set vertices going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers
+// have no energy, but must be finite: zero times one that is not is not a number.
 double small_energy(const SpringSystem& system, Motion motion, double h) {
   constexpr double place = 16 * std::numeric_limits<double>::epsilon();
-  double elastic = 0.0, mass = 0.0, driven = 0.0;
+  double elastic = 0.0, mass = 0.0, driven = 0.0, pulled = 0.0;
   for (std::size_t s = 0; s < system.springs.size(); ++s) {
     const auto [i, j] = system.ends[s];
     const double moved = place * (motion.x[i].norm() + motion.x[j].norm() + system.springs[s].rest_length);
@@ -45,8 +46,11 @@ double small_energy(const SpringSystem& system, Motion motion, double h) {
   for (std::size_t i = 0; i < motion.x.size(); ++i) {
     mass += system.mass[i] + 0.0 * system.viscosity[i];
     if (system.fixed[i]) driven = std::max(driven, motion.v[i].squaredNorm());
+    if (!system.pull.empty()) pulled += system.mass[i] * system.pull[i].squaredNorm();
   }
-  return elastic / 2 + mass * (h * h * system.gravity.squaredNorm() + 2.0 * driven);
+  // |g + p|^2 <= 2 |g|^2 + 2 |p|^2
+  const double falling = system.pull.empty() ? system.gravity.squaredNorm() : 2.0 * system.gravity.squaredNorm();
+  return elastic / 2 + mass * (h * h * falling + 2.0 * driven) + 2.0 * h * h * pulled;
 }
 
 }  // namespace
@@ -59,7 +63,8 @@ DivergenceDetector::Sums DivergenceDetector::sums(const SpringSystem& system, Mo
     moment += system.mass[i] * motion.x[i];
   }
   // a product with zero gravity keeps what is not finite
-  const double gravity = -system.gravity.dot(moment);
+  double gravity = -system.gravity.dot(moment);
+  for (std::size_t i = 0; i < system.pull.size(); ++i) gravity -= system.mass[i] * system.pull[i].dot(motion.x[i]);
   return {twice / 2, gravity, std::isfinite(twice) && std::isfinite(gravity)};
 }
 
@@ -98,10 +103,15 @@ double DivergenceDetector::power(const SpringSystem& system, Motion motion) {
   if (!driven_pieces_.empty()) {
     driven_velocity_.assign(motion.v.size(), Vector3d(0, 0, 0));
     for (const std::uint32_t i : driven_) driven_velocity_[i] = motion.v[i];
-    for (std::size_t k = 0; k < driven_pieces_.size(); ++k)
+    for (std::size_t k = 0; k < driven_pieces_.size(); ++k) {
       sum -= system.terms[k]->power(driven_pieces_[k], motion.x, driven_velocity_);
+      if (const TermDamping* damping = system.terms[k]->damping(); damping != nullptr)
+        sum -= damping->power(driven_pieces_[k], motion.x, motion.v, driven_velocity_);
+    }
   }
   for (const std::uint32_t i : driven_) sum -= system.mass[i] * system.gravity.dot(motion.v[i]);
+  if (!system.pull.empty())
+    for (const std::uint32_t i : driven_) sum -= system.mass[i] * system.pull[i].dot(motion.v[i]);
   return sum;
 }
 
@@ -158,6 +168,11 @@ StepResult DivergenceDetector::system_changed(const SpringSystem& system, Motion
   return begin(system, motion, available(sums(system, motion)));
 }
 
+void DivergenceDetector::add_work(double work) {
+  work_ += work;
+  if (work_ > most_work_) most_work_ = work_;
+}
+
 StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion motion) {
   ++since_kept_;
   ++since_all_;
@@ -172,7 +187,7 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
   ++checks_;
   const double elastic = energy_of_some(system, motion);
   // Comparisons that a NaN fails. Most checks end at the first, but for gravity, whose work has to be summed.
-  if (since_kept_ < keep_steps && system.gravity.isZero(0.0) &&
+  if (since_kept_ < keep_steps && system.gravity.isZero(0.0) && system.pull.empty() &&
       heaviest_ / 2 * sum_of_squares(motion.v) + elastic <= suspicion * supply())
     return {};
   const Sums now = sums(system, motion);

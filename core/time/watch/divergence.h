@@ -47,6 +47,9 @@ class DivergenceDetector {
   /// force evaluation
   StepResult system_changed(const SpringSystem& system, Motion motion);
 
+  /// Since the last step, work has been done on the body that is in no force here [J]: by obstacles that move.
+  void add_work(double work);
+
   /// After each step: ok, unstable_step, or nonfinite, with the vertex that has most of the energy, or is not finite.
   StepResult after_step(const SpringSystem& system, Motion motion);
 
@@ -79,7 +82,7 @@ class DivergenceDetector {
  private:
   struct Sums {
     double kinetic;
-    double gravity;  // - sum of m g.x
+    double gravity;  // - sum of m (g + p).x, with what pulls at each vertex
     bool finite;
   };
   Sums sums(const SpringSystem& system, Motion motion) const;

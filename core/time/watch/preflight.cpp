@@ -29,6 +29,8 @@ StepResult refusal(const SpringSystem& system, Motion motion, double h) {
   if (const StepResult state = check_finite(motion.x, motion.v); !state.ok()) return state;
   for (int c = 0; c < 3; ++c)
     if (!std::isfinite(system.gravity[c])) return {StepCode::nonfinite, Witness::none, 0, "gravity", system.gravity[c]};
+  for (std::size_t i = 0; i < system.pull.size(); ++i)
+    if (!system.pull[i].allFinite()) return at_vertex(StepCode::nonfinite, i, "force", system.pull[i].sum());
   for (std::size_t i = 0; i < system.vertex_count(); ++i) {
     if (std::isnan(system.mass[i]) || std::isinf(system.mass[i]))
       return at_vertex(StepCode::nonfinite, i, "mass", system.mass[i]);
@@ -62,8 +64,11 @@ void warn_of_springs(const SpringSystem& system, Motion motion, std::vector<Step
     if ((motion.x[j] - motion.x[i]).norm() == 0.0 && zero == system.springs.size()) zero = s;
   }
   if (zero < system.springs.size()) warnings.push_back(at_edge(StepCode::zero_length, zero, "length", 0.0));
-  if (const auto coarse = find_coarse_coordinate(system, motion.x))
-    warnings.push_back(at_edge(StepCode::coordinate_precision, coarse->edge, "rounding over length", coarse->relative));
+  if (const auto coarse = find_coarse_coordinate(system, motion.x)) {
+    const bool of_element = coarse->edge == CoordinatePrecision::of_element;
+    warnings.push_back({StepCode::coordinate_precision, of_element ? Witness::vertex : Witness::edge,
+                        of_element ? coarse->vertex : coarse->edge, "rounding over length", coarse->relative});
+  }
 }
 
 void warn_of_denormals(const SpringSystem& system, Motion motion, std::vector<StepResult>& warnings) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/forces/term_damping.h"
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
 #include "core/time/system/accelerations.h"
@@ -49,6 +50,14 @@ Bounds damping_times(const SpringSystem& system) {
     const double time = s.damping == 0.0 ? 0.0 : s.damping / s.stiffness;
     b.lower = std::min(b.lower, time);
     b.upper = std::max(b.upper, time);
+  }
+  for (const ForceTerm* term : system.terms) {
+    const TermDamping* damping = term->damping();
+    for (std::size_t piece = 0; piece < (damping == nullptr ? 0 : term->size()); ++piece) {
+      b.lower = std::min(b.lower, damping->time(piece));
+      b.upper = std::max(b.upper, damping->time(piece));
+    }
+    if (damping == nullptr && term->size() > 0) b.lower = 0.0;
   }
   if (b.lower > b.upper) b.lower = b.upper;
   return b;
@@ -116,6 +125,7 @@ StableStep quick_stable_step(const SpringSystem& system) {
   for (std::size_t i = 0; i < system.vertex_count(); ++i)
     if (!system.fixed[i]) finite += 0.0 * (system.inverse_mass[i] + system.viscosity[i]);
   if (finite != 0.0 || !system.terms.empty()) step.any_state = step.upper = unlimited;
+  if (has_damped_terms(system)) step.damping_rate.upper = unlimited;
   return step;
 }
 
@@ -245,8 +255,11 @@ Bounds StableStepEstimate::largest_eigenvalue(const Operator& matrix, SplitMix64
 }
 
 // The draws are of its own, so that damping changes no bit of the frequencies.
-Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, double factor) {
-  const double bound = damping_bound(system);
+Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, std::span<const Vector3d> x,
+                                                double factor) {
+  const bool damped = has_damped_terms(system);
+  if (damped) damping_of_terms(system, {{x}, TermTangents::Kind::projected}, terms_);
+  const double bound = damping_bound(system) + (damped ? largest_row_sum(system, terms_) : 0.0);
   if (bound == 0.0) return {};
   dampers_ = tangents_;
   for (SpringTangent& t : dampers_) {
@@ -254,8 +267,19 @@ Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, doub
     t.across = 0.0;
   }
   SplitMix64 random(2);
-  const Bounds found = largest_eigenvalue({system, dampers_, bound, true, nullptr}, random, factor);
+  const Bounds found = largest_eigenvalue({system, dampers_, bound, true, damped ? &terms_ : nullptr}, random, factor);
   return {bound * std::max(0.0, found.lower * (1.0 - rounding)), std::min(bound, bound * (found.upper + rounding))};
+}
+
+// With damped force terms. Of those x'Kx = x'Nx + x'Dx, with N the stiffness that their damping is in proportion to and
+// D the difference, which is nothing near rest; Gershgorin bounds x'Dx by r x'Mx. So a rate of damping lies between
+// time (omega^2 - across^2 - r) and time (omega^2 + r), besides viscosity. Terms that are not damped, of which a bound
+// from below would know nothing, have no damping time.
+void StableStepEstimate::allow_for_stress(const SpringSystem& system, std::span<const Vector3d> x) {
+  stiffness_of_stress(system, {{x}, TermTangents::Kind::projected}, terms_);
+  const double missing = largest_row_sum(system, terms_);
+  latest_.across = std::sqrt(latest_.across * latest_.across + missing);
+  latest_.viscous_rate.upper += latest_.damping_time.upper * missing;
 }
 
 const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::span<const Vector3d> x) {
@@ -268,20 +292,23 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
   if (!finite) return latest_;
   evaluate_tangents(system, x, Compression::projected, tangents_);
   if (unit_ == 0.0) {
-    latest_.damping_rate = largest_damping_rate(system, std::sqrt(excess));
+    latest_.damping_rate = largest_damping_rate(system, x, std::sqrt(excess));
     return latest_;
   }
   const Operator stiffness{system, tangents_, unit_, false, system.terms.empty() ? nullptr : &terms_};
   Bounds squared = largest_eigenvalue(stiffness, random_, excess);
   squared.lower = std::max(squared.lower, power_iteration(stiffness));
   latest_.across = across_bound(system, tangents_);
-  if (!system.terms.empty()) latest_.across = unlimited;  // elements have no direction of their own
+  if (has_damped_terms(system))
+    allow_for_stress(system, x);
+  else if (!system.terms.empty())
+    latest_.across = unlimited;  // elements have no direction of their own
   latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));
   // just above a ratio of 1 the rate of decay grows with the root of what is missing: 10 % are 0.9 % of a rate
   const Bounds ratio = latest_.damping_ratio();
   const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
-  latest_.damping_rate = largest_damping_rate(system, is_critical ? critical_excess : std::sqrt(excess));
+  latest_.damping_rate = largest_damping_rate(system, x, is_critical ? critical_excess : std::sqrt(excess));
   return latest_;
 }
 

@@ -41,7 +41,7 @@ class StableStepEstimate {
 
   /// Bracket anew: about 40 multiplications by the stiffness, each the cost of a force evaluation; and where there is
   /// damping as many by that, thrice as many where it is nearly critical. Force terms are linearised once, projected,
-  /// into a matrix that is let go of.
+  /// into a matrix that is let go of; damped ones thrice, as far as they are stressed too.
   const StableStep& refresh(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
   /// One power iteration on a vector that is kept, which raises the lower bound to where the highest frequency is now.
@@ -62,7 +62,8 @@ class StableStepEstimate {
   double dense_largest(const Operator& matrix);
   Bounds lanczos(const Operator& matrix, SplitMix64& random, double factor);
   Bounds largest_eigenvalue(const Operator& matrix, SplitMix64& random, double factor);
-  Bounds largest_damping_rate(const SpringSystem& system, double factor);
+  Bounds largest_damping_rate(const SpringSystem& system, std::span<const Eigen::Vector3d> x, double factor);
+  void allow_for_stress(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
   StableStep latest_;
   std::vector<SpringTangent> tangents_, dampers_;
@@ -70,7 +71,7 @@ class StableStepEstimate {
   std::vector<Eigen::Vector3d> scaled_, shape_, q_, previous_, w_;
   double scale_frequency_ = 0.0;  // [1/s] Gershgorin's bound of the matrix here; `any_state` without force terms
   double unit_ = 0.0;             // [1/s^2] its square, which the matrix is divided by
-  BlockMatrix terms_;             // the stiffness of force terms, while it is looked at
+  BlockMatrix terms_;             // the stiffness of force terms or their damping, while it is looked at
   std::size_t springs_ = 0, pieces_ = 0;  // of force terms
   std::uint64_t multiplications_ = 0;
   SplitMix64 random_{1};

@@ -60,7 +60,7 @@ constexpr TetDarts make_tet_darts() {
   int other_end[24] = {};
   for (int f = 0; f < 4; ++f)
     for (int r = 0; r < 6; ++r) {
-      const auto p = static_cast<std::size_t>(6 * f + r);
+      const std::size_t p = 6 * static_cast<std::size_t>(f) + static_cast<std::size_t>(r);
       const int here = cycle[f][(r / 2 + r % 2) % 3];
       const int there = cycle[f][(r / 2 + 1 - r % 2) % 3];
       t.node[p] = static_cast<std::uint8_t>(here);

@@ -206,5 +206,16 @@ TEST(LameConstants, AreThoseOfAStretchedBar) {
   }
 }
 
+TYPED_TEST(ElasticLaw, IsNotStifferAtRestThanItsModulus) {
+  for (const double nu : {-0.9, -0.4, 0.0, 0.3, 0.49}) {
+    const TypeParam other(lame_of(3e4, nu));
+    const Hessian h = other.hessian(Matrix3d::Identity(), Compression::exact);
+    const double largest = Eigen::SelfAdjointEigenSolver<Hessian>(h).eigenvalues()[8];
+    // a solver of nine by nine is right to some roundings of the largest eigenvalue
+    EXPECT_GE(other.modulus(), largest * (1.0 - 1e-14)) << nu;
+    EXPECT_LE(other.modulus(), 3.0 * largest) << nu;
+  }
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -56,16 +56,7 @@ TEST(Tetrahedra, PullWithoutNetForceOrTorque) {
   for (const Model model : element_models) {
     ElementBody body = box(model);
     body.shake(0.03, 3);
-    Vector3d sum(0, 0, 0), torque(0, 0, 0);
-    double size = 0.0;
-    const auto force = forces_of(body);
-    for (std::size_t i = 0; i < force.size(); ++i) {
-      sum += force[i];
-      torque += body.x[i].cross(force[i]);
-      size += force[i].norm();
-    }
-    EXPECT_LE(sum.norm(), 1e-15 * size) << name(model);
-    EXPECT_LE(torque.norm(), 1e-15 * size) << name(model);
+    expect_no_net_pull(forces_of(body), body.x, name(model));
   }
 }
 

@@ -12,8 +12,12 @@
 #include <random>
 #include <set>
 
-#include "tests/support/binary_mesh_samples.h"
-#include "tests/support/mesh_samples.h"
+#include "tests/support/folder_for_tests.h"
+#include "tests/support/meshes/binary_mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
+#include "tests/support/meshes/meshb_samples.h"
+#include "tests/support/meshes/pvtu_samples.h"
+#include "tests/support/meshes/vtk_polygon_samples.h"
 
 #ifndef DARTBOARD_FUZZ_ROUNDS
 #define DARTBOARD_FUZZ_ROUNDS 1
@@ -31,7 +35,8 @@ struct Sample {
   MeshFormat format;
 };
 
-std::vector<Sample> all_samples() {
+/// The pieces of grids in several files are written to a folder, and stay as they are.
+std::vector<Sample> all_samples(const std::filesystem::path& folder) {
   std::vector<Sample> all{{std::string(medit), MeshFormat::medit},
                           {tetgen(), MeshFormat::tetgen},
                           {std::string(gmsh1), MeshFormat::gmsh},
@@ -53,10 +58,21 @@ std::vector<Sample> all_samples() {
                           {std::string(ply_text), MeshFormat::ply},
                           {ply_binary(false), MeshFormat::ply},
                           {ply_binary(true), MeshFormat::ply},
-                          {std::string(off), MeshFormat::off}};
+                          {std::string(off), MeshFormat::off},
+                          {off_binary(), MeshFormat::off},
+                          {off_binary("OFF"), MeshFormat::off},
+                          {std::string(vtp_ascii), MeshFormat::vtp},
+                          {std::string(vtk_polygons), MeshFormat::vtk_legacy},
+                          {vtk_polygons_binary(false), MeshFormat::vtk_legacy},
+                          {vtk_polygons_binary(true), MeshFormat::vtk_legacy}};
+  for (const int version : {1, 2, 3, 4}) all.push_back({meshb(version, version == 3), MeshFormat::medit});
+  write_pieces(folder);
+  all.push_back({pvtu((folder / "a.vtu").string(), (folder / "b.vtu").string()), MeshFormat::pvtu});
   for (const auto& [encoding, compressor] : {std::pair{"raw", ""}, {"raw", "ZLib"}, {"base64", "LZ4"}, {"raw", "LZMA"}})
-    for (const bool wide : {false, true})
+    for (const bool wide : {false, true}) {
       all.push_back({vtu({.encoding = encoding, .compressor = compressor, .wide = wide}), MeshFormat::vtu});
+      if (wide) all.push_back({vtp({.encoding = encoding, .compressor = compressor, .wide = wide}), MeshFormat::vtp});
+    }
   return all;
 }
 
@@ -172,10 +188,12 @@ bool is_well_formed(const std::string& message) {
   return message.starts_with("file:") && message.find("; expected ") != message.npos;
 }
 
-TEST(MeshFuzz, EveryMutationIsReadSoundlyOrRefusedWithAReason) {
+class MeshFuzz : public FolderTest {};
+
+TEST_F(MeshFuzz, EveryMutationIsReadSoundlyOrRefusedWithAReason) {
   std::uint64_t seed = 20100601;
   std::size_t read = 0, refused = 0;
-  for (const Sample& sample : all_samples()) {
+  for (const Sample& sample : all_samples(folder_)) {
     ASSERT_EQ(flaw(parse_mesh(sample.text, sample.format, "file").mesh), "");
     for (std::size_t k = 0; k < mutations_per_sample; ++k, ++seed) {
       const std::string text = Mutator(seed).mutate(sample.text);
@@ -198,8 +216,8 @@ TEST(MeshFuzz, EveryMutationIsReadSoundlyOrRefusedWithAReason) {
   RecordProperty("refused", static_cast<int>(refused));
 }
 
-TEST(MeshFuzz, EveryPrefixOfAFileIsReadSoundlyOrRefused) {
-  for (const Sample& sample : all_samples())
+TEST_F(MeshFuzz, EveryPrefixOfAFileIsReadSoundlyOrRefused) {
+  for (const Sample& sample : all_samples(folder_))
     for (std::size_t length = 0; length < sample.text.size(); ++length) {
       try {
         const LoadedMesh loaded = parse_mesh(std::string_view(sample.text).substr(0, length), sample.format, "file");

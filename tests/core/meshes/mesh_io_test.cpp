@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {
@@ -74,9 +74,23 @@ TEST_F(MeshIo, RefusesAnEmptyFile) {
 }
 
 TEST_F(MeshIo, ListsTheKnownExtensionsWhenOneIsUnknown) {
-  expect_part(refused(write("a.step", medit)),
-              "a.step: the extension '.step' is unknown; expected .mesh (Medit), .node or .ele (TetGen), .msh (Gmsh), "
-              ".vtk (legacy VTK), .vtu (VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
+  expect_part(
+      refused(write("a.step", medit)),
+      "a.step: the extension '.step' is unknown; expected .mesh or .meshb (Medit), .node or .ele (TetGen), .msh (Gmsh), "
+      ".vtk (legacy VTK), .vtu (VTK XML), .vtp (VTK XML polygons), .pvtu (parallel VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
+}
+
+// The page that people read and the list that the program prints are one.
+TEST_F(MeshIo, HasAPageOfItsFormatsThatIsTrue) {
+  std::ifstream in(fs::path(DARTBOARD_SOURCE_DIR) / "core/meshes/README.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const MeshFormatInfo& format : mesh_formats()) {
+    std::string extensions;
+    for (const std::string_view e : format.extensions)
+      extensions += (extensions.empty() ? "`" : " `") + std::string(e) + "`";
+    expect_part(page, "\n| " + std::string(format.name) + " | " + extensions + " | " + std::string(format.read) +
+                          " | " + std::string(format.written) + " |\n");
+  }
 }
 
 TEST_F(MeshIo, WritesMeditThatReadsBackWithTheSameBits) {

@@ -7,11 +7,11 @@
 #include <limits>
 #include <tuple>
 
-#include "core/meshes/formats/vtu_array.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/meshes/text/base64.h"
+#include "core/meshes/vtk/vtu_array.h"
 #include "tests/support/folder_for_tests.h"
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {

@@ -124,6 +124,8 @@ TEST(TouchingCells, AreToldByTheNumbersOfTheFile) {
             0u)
       << to_string(touching, place);
   EXPECT_EQ(to_string(TouchingCells{}, place), "");
+  // no point of the file was dropped
+  EXPECT_NE(to_string(touching, {}).find("(points 2, 3; edge 2-3)"), std::string::npos) << to_string(touching, {});
 }
 
 }  // namespace

@@ -39,6 +39,15 @@ TEST_F(FolderClaimTest, IsRefusedWhileAnotherHoldsIt) {
   EXPECT_EQ(refusal(run), "");  // gone without a trace
 }
 
+TEST_F(FolderClaimTest, IsRefusedWhereAnotherHasWrittenAndGone) {
+  const fs::path run = folder_ / "run";
+  {
+    const FolderClaim first(run);
+    std::ofstream(run / "result") << "result";
+  }
+  EXPECT_EQ(refusal(run), run.string() + ": is not empty; expected a new or empty folder for the results");
+}
+
 TEST_F(FolderClaimTest, IsNotHeldByChildren) {
   const fs::path run = folder_ / "run";
   pid_t child = 0;

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "core/mechanics/fracture/stress.h"
@@ -196,7 +198,7 @@ TYPED_TEST(ElementsOn, HaveTheStressOfTheirLawAtEveryVertex) {
         e.body.vertices.position[k] = f * e.rest_of_point[e.body.vertices.point[k]];
     const ForceTerm* terms[] = {e.term.get()};
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses({}, {}, e.body.vertices.mass, 1000.0, e.body.vertices.position, stress, terms);
+    vertex_stresses({}, {}, {e.body.vertices.mass, 1000.0}, e.body.vertices.position, stress, terms);
     const Eigen::Matrix3d kirchhoff = NeoHookean(lame_of(2e4, 0.3)).stress(f) * f.transpose();
     for (std::uint32_t k = 0; k < stress.size(); ++k) {
       EXPECT_EQ(stress[k], vertex_stress(e.body, k)) << k;
@@ -207,17 +209,28 @@ TYPED_TEST(ElementsOn, HaveTheStressOfTheirLawAtEveryVertex) {
   }
 }
 
+/// A body of hexahedra, prisms, pyramids and tetrahedra with its view and its force term, shaken out of rest.
+struct SolidElements {
+  AdaptedBody<Map3> body;
+  SolidNodesView view;
+  std::unique_ptr<ForceTerm> term;
+
+  SolidElements(const Mesh& mesh, Model model) : body(build_body<Map3, Held::by_every_dart>(problem_of(mesh, model))) {
+    view.rebuild(body);
+    term = make_solids(body.material, {view.nodes, body.cell_solid});
+    SplitMix64 random(5);
+    for (Vector3d& x : body.vertices.position)
+      for (double& c : x) c += 0.01 * random.next_signed();
+  }
+};
+
 // Hexahedra, prisms, pyramids and tetrahedra: what holds of tetrahedra alone holds of them.
 TEST(SolidsOnAMap, FollowRandomOperationsUntilNothingIsLeft) {
   const Mesh mesh = mixed_box(3, 3, 3, 0.1);
-  auto body = build_body<Map3, Held::by_every_dart>(problem_of(mesh, Model::neo_hookean));
+  SolidElements elements(mesh, Model::neo_hookean);
+  AdaptedBody<Map3>& body = elements.body;
+  SolidNodesView& view = elements.view;
   ASSERT_EQ(body.cell_solid.size(), mesh.cell_count());
-  SolidNodesView view;
-  view.rebuild(body);
-  const auto term = make_solids(body.material, {view.nodes, body.cell_solid});
-  SplitMix64 random(5);
-  for (Vector3d& x : body.vertices.position)
-    for (double& c : x) c += 0.01 * random.next_signed();
   int operations = 0;
   operate_at_random(body, 3, 60, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
     view.apply(now, changed);
@@ -240,13 +253,9 @@ TEST(SolidsOnAMap, FollowRandomOperationsUntilNothingIsLeft) {
 }
 
 TEST(SolidsOnAMap, KeepTheirEnergyWhereFacesComeApart) {
-  auto body = build_body<Map3, Held::by_every_dart>(problem_of(mixed_box(3, 3, 3, 0.1), Model::corotational));
-  SolidNodesView view;
-  view.rebuild(body);
-  const auto term = make_solids(body.material, {view.nodes, body.cell_solid});
+  SolidElements elements(mixed_box(3, 3, 3, 0.1), Model::corotational);
+  auto& [body, view, term] = elements;
   SplitMix64 random(6);
-  for (Vector3d& x : body.vertices.position)
-    for (double& c : x) c += 0.01 * random.next_signed();
   const double before = term->energy(body.vertices.position);
   ASSERT_GT(before, 0.0);
   for (int k = 0; k < 60; ++k) {
@@ -259,17 +268,84 @@ TEST(SolidsOnAMap, KeepTheirEnergyWhereFacesComeApart) {
   EXPECT_NEAR(term->energy(body.vertices.position), before - own, 1e-14 * before);
 }
 
+// Vertices are put wherever tetrahedra alone are around, and refused elsewhere. The shape of every cell is that of the
+// places at rest, to a rounding for each refinement in its ancestry; an affine deformation keeps the energy, and pulls
+// at no vertex inside.
+TEST(SolidsOnAMap, AreRefinedWhereTheyAreTetrahedra) {
+  const Mesh mesh = mixed_box(2, 2, 2, 0.1);
+  SolidElements elements(mesh, Model::neo_hookean);
+  AdaptedBody<Map3>& body = elements.body;
+  SolidNodesView& view = elements.view;
+  const std::unique_ptr<ForceTerm>& term = elements.term;
+  for (std::size_t k = 0; k < body.vertices.size(); ++k)
+    body.vertices.position[k] = mesh.points[body.vertices.point[k]];
+  body.vertices.keep_rest();
+  Eigen::Matrix3d a;
+  a << 1.1, 0.1, -0.1, 0.05, 0.9, 0.1, 0.0, -0.1, 1.05;
+  for (Vector3d& x : body.vertices.position) x = a * x;
+  const auto mass = [&] { return std::accumulate(body.vertices.mass.begin(), body.vertices.mass.end(), 0.0); };
+  const auto forces = [&] {
+    std::vector<Vector3d> f(body.vertices.size(), Vector3d::Zero());
+    term->add_forces({body.vertices.position}, f);
+    return f;
+  };
+  const double energy = term->energy(body.vertices.position), whole = mass();
+  std::array<int, 4> refined{}, refused{};
+  SplitMix64 random(3);
+  for (int k = 0; k < 600; ++k) {
+    const Dart d{random.below(body.map.capacity())};
+    if (!body.map.is_live(d)) continue;
+    const std::size_t dimension = 1 + random.below(3);
+    try {
+      const Subdivision made = dimension == 1   ? subdivide(body.map, Edge{d})
+                               : dimension == 2 ? subdivide(body.map, Face{d})
+                                                : subdivide(body.map, Volume{d});
+      view.apply(body, adapt(body, made, 0.5));
+      ++refined[dimension];
+    } catch (const TopologyError&) {
+      ++refused[dimension];
+    }
+    if (body.cell_solid.size() > 400) break;
+  }
+  for (std::size_t dimension = 1; dimension < 4; ++dimension) {
+    EXPECT_GT(refined[dimension], 5) << dimension;
+    EXPECT_GT(refused[dimension], 5) << dimension;
+  }
+  SolidNodesView rebuilt;
+  rebuilt.rebuild(body);
+  ASSERT_EQ(view, rebuilt);
+  for (std::uint32_t c = 0; c < view.nodes.size(); ++c) {
+    std::vector<Vector3d> x;
+    for (std::size_t k = 0; k < view.nodes[c].count; ++k) x.push_back(body.vertices.rest[view.nodes[c].at[k]]);
+    const SolidShape shape = solid_shape_of(body.cell_solid[c].kind, x);
+    for (std::size_t q = 0; q < gauss_points(shape.kind); ++q) {
+      ASSERT_GT(shape.volume[q], 0.0) << c;
+      ASSERT_LE((shape.inverse[q] - body.cell_solid[c].inverse[q]).norm(), 1e-9 * shape.inverse[q].norm()) << c;
+      ASSERT_NEAR(shape.volume[q], body.cell_solid[c].volume[q], 1e-9 * shape.volume[q]) << c;
+    }
+  }
+  EXPECT_NEAR(term->energy(body.vertices.position), energy, 1e-12 * energy);
+  EXPECT_NEAR(mass(), whole, 1e-13 * whole);
+  // vertices inside are in equilibrium, also the new ones
+  double size = 0.0;
+  std::size_t inside = 0;
+  const std::vector<Vector3d> force = forces();
+  for (const Vector3d& f : force) size = std::max(size, f.norm());
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const Vector3d& x = body.vertices.rest[k];
+    if (x.minCoeff() < 1e-9 || x.maxCoeff() > 0.2 - 1e-9) continue;
+    ++inside;
+    EXPECT_LE(force[k].norm(), 1e-11 * size) << k;
+  }
+  EXPECT_GT(inside, 10u);
+}
+
 TEST(SolidsOnAMap, HaveTheStressOfTheirLawAtEveryVertex) {
-  auto body = build_body<Map3, Held::by_every_dart>(problem_of(mixed_box(2, 2, 2, 0.1), Model::stvk));
-  SolidNodesView view;
-  view.rebuild(body);
-  const auto term = make_solids(body.material, {view.nodes, body.cell_solid});
-  SplitMix64 random(7);
-  for (Vector3d& x : body.vertices.position)
-    for (double& c : x) c += 0.01 * random.next_signed();
+  SolidElements elements(mixed_box(2, 2, 2, 0.1), Model::stvk);
+  auto& [body, view, term] = elements;
   const ForceTerm* terms[] = {term.get()};
   std::vector<Eigen::Matrix3d> stress;
-  vertex_stresses({}, {}, body.vertices.mass, 1000.0, body.vertices.position, stress, terms);
+  vertex_stresses({}, {}, {body.vertices.mass, 1000.0}, body.vertices.position, stress, terms);
   for (std::uint32_t k = 0; k < stress.size(); ++k) EXPECT_EQ(stress[k], vertex_stress(body, k)) << k;
 }
 
@@ -293,6 +369,9 @@ TEST(ElementsOnAMap, AreSolidCellsOfAMaterialThatExists) {
             "poisson is 0.5, expected more than -1 and less than 0.5");
   EXPECT_EQ(message(box(), [](Material& m) { m.young = 0.0; }), "young is 0, expected a positive number of Pa");
   EXPECT_EQ(message(box(), [](Material& m) { m.damping = 1.0; }), "damping is 1, expected 0 N s/m beside elements");
+  EXPECT_EQ(message(box(), [](Material& m) { m.damping_time = -1.0; }), "damping time is -1, expected at least 0 s");
+  EXPECT_EQ(message(box(), [](Material& m) { m = {.damping_time = 1.0}; }),
+            "damping time is 1, expected 0 s beside springs");
 }
 
 }  // namespace

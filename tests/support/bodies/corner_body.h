@@ -158,8 +158,9 @@ class CornerBody {
     return node_[c * static_cast<std::size_t>(corners_) + static_cast<std::size_t>(k)];
   }
   bool is_glue(const Face& f) const { return f.closed && alive_[f.a] && alive_[f.b]; }
-  double cell_mass(std::size_t c) const {
-    return problem_.material.density * std::abs(signed_measure(problem_.mesh, c));
+  double cell_mass(std::size_t c) const { return material_of(c).density * std::abs(signed_measure(problem_.mesh, c)); }
+  const Material& material_of(std::size_t c) const {
+    return problem_.materials.empty() ? problem_.material : problem_.materials[problem_.cell_material[c]];
   }
   int place_in(std::size_t c, std::uint32_t point) const {
     const auto cell = problem_.mesh.cell(c);
@@ -216,8 +217,12 @@ class CornerBody {
           const std::uint32_t a = mesh.nodes[number(c, j)], b = mesh.nodes[number(c, k)];
           if (is_new)
             springs_.push_back({corner(c, j), corner(c, k), a, b, 0.0, 0.0, (mesh.points[b] - mesh.points[a]).norm()});
-          springs_[entry->second].stiffness += problem_.material.stiffness;
-          springs_[entry->second].damping += problem_.material.damping;
+          const Material& of = material_of(c);
+          const double stiffness = of.young > 0.0 ? of.young * std::abs(signed_measure(mesh, c)) /
+                                                        (mesh.points[b] - mesh.points[a]).squaredNorm()
+                                                  : of.stiffness;
+          springs_[entry->second].stiffness += stiffness;
+          springs_[entry->second].damping += of.young > 0.0 ? of.damping * stiffness / of.stiffness : of.damping;
         }
   }
 

@@ -1,11 +1,14 @@
 #pragma once
 // A body of elements as bare columns, from a mesh of tetrahedra: no map.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/elements/tetrahedra.h"
@@ -35,9 +38,15 @@ struct ElementBody {
   std::unique_ptr<ForceTerm> term;
   const ForceTerm* terms = nullptr;
 
-  ElementBody(const Mesh& mesh, Model model, double young, double poisson, double density = 1000.0) {
-    material = {
-        .density = density, .stiffness = 0.0, .damping = 0.0, .young = young, .poisson = poisson, .model = model};
+  ElementBody(const Mesh& mesh, Model model, double young, double poisson, double density = 1000.0,
+              double damping_time = 0.0) {
+    material = {.density = density,
+                .stiffness = 0.0,
+                .damping = 0.0,
+                .young = young,
+                .poisson = poisson,
+                .model = model,
+                .damping_time = damping_time};
     rest = x = mesh.points;
     v.assign(x.size(), Eigen::Vector3d(0, 0, 0));
     mass.assign(x.size(), 0.0);
@@ -72,6 +81,20 @@ struct ElementBody {
       for (double& c : p) c += size * random.next_signed();
   }
 };
+
+/// No net force and no torque, but for a rounding of what is summed.
+inline void expect_no_net_pull(std::span<const Eigen::Vector3d> force, std::span<const Eigen::Vector3d> x,
+                               std::string_view what) {
+  Eigen::Vector3d sum(0, 0, 0), torque(0, 0, 0);
+  double size = 0.0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    sum += force[i];
+    torque += x[i].cross(force[i]);
+    size += force[i].norm();
+  }
+  EXPECT_LE(sum.norm(), 1e-15 * size) << what;
+  EXPECT_LE(torque.norm(), 1e-15 * size) << what;
+}
 
 inline constexpr std::array element_models{Model::neo_hookean, Model::corotational, Model::stvk};
 

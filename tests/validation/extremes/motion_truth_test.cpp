@@ -53,6 +53,19 @@ TEST(MotionTruth, IsThatOfTheBodyAndOfTheTimeAskedFor) {
   EXPECT_EQ(distance_from_truth(body, body, time)->moved, moved);
 }
 
+TEST(MotionTruth, OfOneSolidIsNotThatOfAnother) {
+  const Material soft{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
+  Material stiff = soft;
+  stiff.young *= 2;
+  SpringColumns one = elastic_body("tetrahedra", soft), other = elastic_body("tetrahedra", stiff);
+  const double time = 1 / highest_frequency(one);
+  for (SpringColumns* body : {&one, &other})
+    for (std::size_t i = 0; i < body->x.size(); ++i) body->v[i] = {0.01 * static_cast<double>(i), 0, 0};
+  const double moved = distance_from_truth(one, one, time)->moved;
+  EXPECT_NE(distance_from_truth(other, other, time)->moved, moved);
+  EXPECT_EQ(distance_from_truth(one, one, time)->moved, moved);
+}
+
 TEST(MotionTruth, IsNotSoughtWhereItIsFarAway) {
   const SpringColumns body = moving_body("oscillator");
   EXPECT_TRUE(distance_from_truth(body, body, 200 / highest_frequency(body)).has_value());

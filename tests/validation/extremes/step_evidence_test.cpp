@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include "core/time/integrators.h"
 #include "validation/extremes/extreme_run.h"
 #include "validation/judges/wrong_integrators.h"
+#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 namespace {
@@ -42,7 +44,7 @@ Trial draw(SplitMix64& random) {
 }
 
 StepEvidence judged(std::string_view name, Integrator& integrator, Trial trial, std::uint64_t steps) {
-  StepEvidence evidence(name, steps);
+  StepEvidence evidence(name, steps, trial.body.solid.get());
   for (std::uint64_t k = 0; k < steps; ++k) {
     evidence.before(trial.body.system(), trial.body.motion(), trial.h);
     // an unstable step leaves the range of doubles sooner or later; what comes before is judged
@@ -83,6 +85,115 @@ TEST(StepEvidence, SeesEveryWrongIntegratorInEveryMethod) {
     }
 }
 
+constexpr Model laws[] = {Model::neo_hookean, Model::corotational, Model::stvk};
+
+/// A solid of one law in a state and at a step that are drawn at random, its halves of different stiffness.
+Trial draw_solid(SplitMix64& random, Model model, bool damped = false) {
+  const auto power = [&random](double low, double high) {
+    return std::pow(10.0, low + (high - low) * 0.5 * (1 + random.next_signed()));
+  };
+  const double nus[] = {0.0, 0.25, 0.4, 0.49};
+  Material one{.density = 1.0, .young = 100.0, .poisson = nus[random.below(4)], .model = model};
+  Material other = one;
+  other.young *= power(0, 6);
+  const std::string_view kind = elastic_bodies[random.below(2)];
+  SpringColumns body = elastic_body(kind, one, other);
+  const double omega = highest_frequency(body), size = power(-4, -0.5), fast = power(-3, 0);
+  for (std::size_t i = 0; i < body.x.size(); ++i) {
+    body.x[i] += size * random.next_in_ball();
+    body.v[i] += size * omega * fast * random.next_in_ball();
+  }
+  // e-folding in a step at most: what is left of much more is a difference of 1 and of nearly 1 in double precision
+  const double h = power(-4, 3) / omega, rate = std::min(0.1 * omega, 1 / h);
+  if (random.below(2) == 0)
+    for (std::size_t i = 0; i < body.x.size(); ++i) body.viscosity[i] = rate * body.mass[i];
+  if (random.below(3) == 0) body.fixed[0] = body.fixed[1] = body.fixed[5] = 1;
+  for (std::size_t i = 0; i < body.x.size(); ++i)
+    if (body.fixed[i]) body.v[i].setZero();
+  if (damped) {
+    // one half may have none; the fastest motion loses e^-3 in a step at most
+    one.damping_time = std::min(power(-3, 1) / omega, 3 / (h * omega * omega));
+    other.damping_time = random.below(3) == 0 ? 0.0 : power(-2, 0) * one.damping_time;
+    const SpringColumns of_this = elastic_body(kind, one, other);
+    body.solid = of_this.solid;
+    body.terms = of_this.terms;
+  }
+  return {body, h};
+}
+
+TEST(StepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
+  SplitMix64 random(2027);
+  std::uint64_t steps = 0, seeing = 0;
+  for (int k = 0; k < 48; ++k) {
+    const Trial trial = draw_solid(random, laws[k % 3], k >= 24);
+    for (const IntegratorEntry& entry : integrators()) {
+      const StepEvidence evidence = judged(entry.name, *entry.make(), trial, 8);
+      EXPECT_LE(evidence.worst(), 1.0) << entry.name << ", body " << k << ", step " << evidence.worst_step();
+      steps += evidence.judged();
+      seeing += evidence.seeing();
+    }
+  }
+  EXPECT_GT(steps, 2000u);
+  EXPECT_GT(seeing, 2000u);
+}
+
+// The body is damped by a time, and is judged by one of a millionth more, or by none.
+TEST(StepEvidence, TellsOneDampingOfElementsFromAnother) {
+  for (const std::string_view kind : elastic_bodies) {
+    Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
+    const double omega = highest_frequency(elastic_body(kind, right));
+    right.damping_time = 0.2 / omega;
+    Material more = right, none = right;
+    more.damping_time *= 1 + 1e-6;
+    none.damping_time = 0;
+    SpringColumns body = elastic_body(kind, right);
+    set_moving(body, 0.01, omega / 4);
+    for (const IntegratorEntry& entry : integrators()) {
+      EXPECT_LE(judged(entry.name, *entry.make(), {body, 0.3 / omega}, 4).worst(), 1.0) << entry.name << kind;
+      for (const Material& other : {more, none}) {
+        SpringColumns wrong = body;
+        const SpringColumns keeps = elastic_body(kind, other);
+        wrong.terms = {&keeps.solid->term()};
+        EXPECT_GT(judged(entry.name, *entry.make(), {wrong, 0.3 / omega}, 4).worst(), 1.0) << entry.name << kind;
+      }
+    }
+  }
+}
+
+TEST(StepEvidence, SeesEveryWrongIntegratorOverElements) {
+  for (const Model model : laws) {
+    SpringColumns body = elastic_body("tetrahedra", {.density = 1.0, .young = 100.0, .poisson = 0.3, .model = model});
+    set_moving(body, 0.01, highest_frequency(body) / 4);
+    const double h = 0.3 / highest_frequency(body);
+    for (const WrongIntegrator& wrong : wrong_integrators())
+      for (const IntegratorEntry& entry : integrators()) {
+        // the others change springs and dampers
+        if (wrong.kind != Wrong::does_nothing && wrong.kind != Wrong::one_order_less && wrong.kind != Wrong::drifts)
+          continue;
+        const StepEvidence evidence = judged(entry.name, *make_wrong(wrong.kind, entry.name), {body, h}, 4);
+        EXPECT_GT(evidence.worst(), 1.0) << entry.name << " " << wrong.name << " " << name(model);
+      }
+  }
+}
+
+// The body moves by one law and is judged by another, or by a modulus of a millionth more.
+TEST(StepEvidence, TellsOneElasticLawFromAnother) {
+  const Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
+  Material stiffer = right, law = right;
+  stiffer.young *= 1 + 1e-6;
+  law.model = Model::corotational;
+  SpringColumns body = elastic_body("tetrahedra", right);
+  set_moving(body, 0.01, highest_frequency(body) / 4);
+  const double h = 0.3 / highest_frequency(body);
+  for (const IntegratorEntry& entry : integrators())
+    for (const Material& other : {stiffer, law}) {
+      SpringColumns wrong = body;
+      const SpringColumns keeps = elastic_body("tetrahedra", other);
+      wrong.terms = {&keeps.solid->term()};
+      EXPECT_GT(judged(entry.name, *entry.make(), {wrong, h}, 4).worst(), 1.0) << entry.name << name(other.model);
+    }
+}
+
 // Compressed springs, in steps so short that the exact matrix is positive definite: there is no reason to project.
 TEST(StepEvidence, TellsProjectedTangentsFromExactOnes) {
   SpringColumns body = moving_body("box");
@@ -102,6 +213,17 @@ TEST(StepEvidence, JudgesTheFirstStepsAndASampleOfTheOthers) {
   EXPECT_EQ(judged("rk4", *make_integrator("rk4"), trial, 60).judged(), 60u);
   EXPECT_EQ(judged("rk4", *make_integrator("rk4"), trial, 4000).judged(), 7u + 4000 / 20);
   EXPECT_EQ(judged("ros2", *make_integrator("ros2"), trial, 60).judged(), 8u + 10);
+}
+
+TEST(StepEvidence, KnowsNoForcesThatItIsNotToldOf) {
+  const SpringColumns body = elastic_body("tetrahedra", {.young = 100.0, .poisson = 0.3, .model = Model::stvk});
+  EXPECT_TRUE(network_of(body.system(), body.solid.get()).has_value());
+  EXPECT_FALSE(network_of(body.system()).has_value());
+  const SpringColumns box = moving_body("box");
+  SpringSystem pulled = box.system();
+  const std::vector<Eigen::Vector3d> pull(pulled.vertex_count(), Eigen::Vector3d(1, 0, 0));
+  pulled.pull = pull;
+  EXPECT_FALSE(network_of(pulled).has_value());
 }
 
 // What a method kept from before an event is of no use behind it, to the judge as to the method.

@@ -84,7 +84,7 @@ TEST(WrongIntegrators, AreOfAnOrderLessWhereTheySaySo) {
   const SpringColumns body = moving_body("box", 1e-2);
   const double omega = highest_frequency(body);
   for (const auto& [name, order] : {std::pair("verlet", 2), std::pair("rk4", 4)}) {
-    const auto off = [&](double h) {
+    const auto off = [&body, name = name](double h) {
       return distance(stepped(*make_wrong(Wrong::one_order_less, name), body, h),
                       stepped(*make_integrator(name), body, h));
     };

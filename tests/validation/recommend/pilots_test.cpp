@@ -251,6 +251,30 @@ TEST(PilotFar, FindsThatTheErrorsOfALongChainGrowWithTime) {
   EXPECT_LT(c.error_at(run.h), 3.0 * actual);
 }
 
+// What comes late in a motion is in no prefix of it; of a run of a millisecond the whole can be seen.
+TEST(PilotLonger, SeesTheWholeOfAShortRunThoughTheTimeIsUp) {
+  const TradeoffScene scene = chain_scene(8, 64.0);
+  const CpuClock ticks = ticking();
+  std::int64_t gone = 0;
+  const CpuClock clock = [&] { return ticks() + gone; };
+  const RecommendOptions options;
+  Pilots pilots(scene, clock, options, clock());
+  Candidate c = candidate("verlet", false);
+  pilot_prefix(c, pilots, 0.5 / scene.fastest_rate, 1e-9, 1e-9);
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  ASSERT_LT(c.seen_part, 0.5);
+  c.limit_h = 0.5 / scene.fastest_rate;
+  c.h = c.pilot_h;
+  c.predicted_s = 1e-3;
+  pilots.predicted(c.predicted_s);
+  gone = 10'000'000'000;
+  ASSERT_LT(pilots.left_s(), 0.0);
+  EXPECT_EQ(pilot_longer(c, pilots), Longer::confirmed);
+  EXPECT_TRUE(c.full_length);
+  c.predicted_s = 1.0;  // of a long run it cannot
+  EXPECT_EQ(pilot_longer(c, pilots), Longer::skipped);
+}
+
 TEST(PilotCheckpoints, AreAQuarterOrUpToTheOneAfterTheFirstEvent) {
   TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
   for (int c = 1; c <= 16; ++c) scene.motion.checkpoints.push_back(c);

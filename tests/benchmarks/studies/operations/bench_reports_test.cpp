@@ -72,7 +72,7 @@ TEST(BenchTopologyClaims, FallShortOfAFigureThatIsTooSlowOnOneBody) {
       {"vertex-orbit", 3.1}, {"full-check", 5.1}, {"local-check", 1010.0}, {"build", 810.0}};
   for (const std::string& body : topology_bodies)
     for (const auto& [figure, ns] : slower)
-      EXPECT_EQ(topology_short_with([&](auto& f) { slow(f, body + ":" + figure, ns); }),
+      EXPECT_EQ(topology_short_with([&body, figure = figure, ns = ns](auto& f) { slow(f, body + ":" + figure, ns); }),
                 Ids{std::string("topology-") + figure})
           << body;
 }

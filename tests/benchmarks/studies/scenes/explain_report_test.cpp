@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/harness/table.h"
@@ -90,6 +91,78 @@ TEST(ExplainText, SaysNothingOfTimesThatAreNone) {
   EXPECT_TRUE(text.starts_with(heading + to_text(table))) << text;
 }
 
+SceneFile with_floor() {
+  SceneFile s = scene();
+  SceneObstacle floor{.obstacle = {}, .law = {}, .path = "/contact/obstacles/0"};
+  floor.law.pressure = 2000;
+  floor.law.depth = 0.002;
+  s.obstacles = {floor};
+  return s;
+}
+ScenePlan touching() {
+  ScenePlan p = plan();
+  p.contact = {
+      .obstacles =
+          {{.mass_behind = 100, .depth_at_rest = 0.0014, .speed = 3, .depth_at_impact = 0.0035, .share = 1.75}},
+      .share = 1.75,
+      .body_rate = 900,
+      .contact_rate = 1000,
+      .body_step = 0.002,
+      .stable_step = 0.001};
+  return p;
+}
+
+/// One contact as in `touching`.
+std::string contact_table(const std::string& key, const std::string& path) {
+  Table table({{key},
+               {"carries"},
+               {"mass behind kg/m^2", Align::right},
+               {"depth at rest m", Align::right},
+               {"impact m/s", Align::right},
+               {"depth at impact m", Align::right},
+               {"over that of its law", Align::right}});
+  table.add_row({path, "2000 Pa at 0.002 m", "100", "0.0014", "3", "0.0035", "1.75"});
+  return to_text(table);
+}
+
+TEST(ExplainText, TellsHowDeepContactsWillBeAndWhichStepTheyAllow) {
+  const std::string text = to_text(with_floor(), touching(), std::nullopt);
+  const auto has = [&text](const std::string& words) { return text.find(words) != std::string::npos; };
+  EXPECT_TRUE(has(contact_table("obstacle", "/contact/obstacles/0") +
+                  "The longest stable step at these depths is 0.001 s, which the stiffness of the "
+                  "contact limits; of the body alone 0.002 s. Depths are those of a column"))
+      << text;
+  ScenePlan stiff = touching();
+  stiff.contact->body_rate = 1100;
+  EXPECT_NE(to_text(with_floor(), stiff, std::nullopt).find("0.001 s, which the body limits"), std::string::npos);
+  stiff.contact->body_step = stiff.contact->stable_step = std::numeric_limits<double>::infinity();
+  EXPECT_NE(to_text(with_floor(), stiff, std::nullopt).find("Every step is stable with rk4."), std::string::npos);
+}
+
+/// With bodies that touch in place of the floor.
+ScenePlan touching_bodies() {
+  ScenePlan p = touching();
+  p.contact->obstacles.clear();
+  TouchForecast touch{.path = "/contact/pairs/1", .law = {}, .first = 0, .second = 2, .contact = {}};
+  touch.law.pressure = 2000;
+  touch.law.depth = 0.002;
+  touch.contact = touching().contact->obstacles[0];
+  p.contact->touches = {touch};
+  return p;
+}
+
+TEST(ExplainText, TellsOfBodiesThatTouchByTheirKey) {
+  const std::string text = to_text(scene(), touching_bodies(), std::nullopt);
+  EXPECT_NE(text.find(contact_table("key", "/contact/pairs/1") + "The longest stable step"), std::string::npos) << text;
+}
+
+TEST(ExplainJson, HoldsTheFiguresOfBodiesThatTouch) {
+  const Json contact = to_json(scene(), touching_bodies(), std::nullopt).at("contact");
+  EXPECT_FALSE(contact.contains("obstacles"));
+  EXPECT_EQ(contact.at("bodies"), Json::parse(R"([{"path": "/contact/pairs/1", "of": [0, 2], "mass_behind": 100.0,
+    "depth_at_rest": 0.0014, "speed": 3.0, "depth_at_impact": 0.0035, "allowed_depth": 0.002}])"));
+}
+
 Json expected() {
   return Json::parse(R"({"scene": "box", "map": "general 3-g-map", "integrator": "rk4", "steps": 16,
     "counts": {"vertices": 11, "edges": 12, "faces": 13, "cells": 14, "darts": 15}, "bytes": 120, "ns_per_step": 40.0,
@@ -100,6 +173,16 @@ Json expected() {
 }
 
 TEST(ExplainJson, HoldsEveryFigureOfThePlan) { EXPECT_EQ(to_json(scene(), plan(), std::nullopt), expected()); }
+
+TEST(ExplainJson, HoldsTheFiguresOfContact) {
+  EXPECT_EQ(to_json(with_floor(), touching(), std::nullopt).at("contact"), Json::parse(R"({"stable_step": 0.001,
+    "stable_step_of_body": 0.002, "contact_rate": 1000.0, "body_rate": 900.0,
+    "obstacles": [{"path": "/contact/obstacles/0", "mass_behind": 100.0, "depth_at_rest": 0.0014, "speed": 3.0,
+                   "depth_at_impact": 0.0035, "allowed_depth": 0.002}]})"));
+  ScenePlan implicit = touching();
+  implicit.contact->stable_step = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(to_json(with_floor(), implicit, std::nullopt).at("contact").at("stable_step").is_null());
+}
 
 TEST(ExplainJson, HoldsWhatWasMeasuredAndWhatNoItemPlans) {
   Json json = expected();

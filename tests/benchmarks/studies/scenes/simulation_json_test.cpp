@@ -26,6 +26,16 @@ TEST(SimulationJson, OfDiagnosticsHasEveryNumberUnderItsName) {
                                       "boundary": 17.0, "largest_principal_stress": 18.0, "operations": 19})"));
 }
 
+TEST(SimulationJson, OfContactHasEveryNumberUnderItsName) {
+  Diagnostics touching = telling;
+  touching.contact = {.energy = 21, .damped = 22, .rubbed = 23, .supplied = 24, .contacts = 25, .deepest = 26};
+  nlohmann::json more = to_json(touching, 3);
+  const nlohmann::json known = to_json(telling, 3);
+  for (const auto& [name, value] : known.items()) more.erase(name);
+  EXPECT_EQ(more, nlohmann::json::parse(R"({"contact": 21.0, "lost_by_restitution": 22.0, "lost_by_friction": 23.0,
+                                            "supplied_at_contacts": 24.0, "contacts": 25, "deepest_contact": 26.0})"));
+}
+
 TEST(SimulationJson, NamesTheStressOfASurfaceAsThatOfASolidAndTheTensionOfAChain) {
   EXPECT_EQ(to_json(telling, 2).at("largest_principal_stress"), 18.0);
   EXPECT_EQ(to_json(telling, 0).at("largest_tension"), 18.0);

@@ -33,9 +33,12 @@ void expect_one_limit(SceneFile scene) {
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   if (!(scene.step > 0.0)) scene.step = scene.duration / 16;
   const StepLimit limit = Simulation(scene).step_limit();
-  const StepExplanation explained = explain_step(scene);
-  EXPECT_EQ(explained.limit.stable, limit.stable) << scene.file;
-  EXPECT_EQ(explained.limit.unstable, limit.unstable) << scene.file;
+  const bool is_explained = !scene.has_contact();  // which explain-dt refuses
+  if (is_explained) {
+    const StepExplanation explained = explain_step(scene);
+    EXPECT_EQ(explained.limit.stable, limit.stable) << scene.file;
+    EXPECT_EQ(explained.limit.unstable, limit.unstable) << scene.file;
+  }
   SceneFile quiet = scene;
   quiet.events.clear();  // recommend looks ahead at what they leave
   try {
@@ -60,7 +63,9 @@ void expect_one_limit(SceneFile scene) {
     if (simulation.step_warning()) {
       EXPECT_EQ(simulation.step_warning()->stable, limit.stable) << scene.file << ", " << factor;
     }
-    EXPECT_EQ(explain_step(other).limit.stable, limit.stable) << scene.file << ", " << factor;
+    if (is_explained) {
+      EXPECT_EQ(explain_step(other).limit.stable, limit.stable) << scene.file << ", " << factor;
+    }
     other.unstable_step = UnstableStep::refuse;
     if (factor > 1.0)
       EXPECT_THROW(Simulation{other}, InputError) << scene.file << ", " << factor;

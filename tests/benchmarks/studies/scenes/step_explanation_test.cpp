@@ -188,5 +188,18 @@ TEST(StepExplanation, IsOfAStepThatTheSceneRefuses) {
   EXPECT_LT(explain_step(scene).limit.stable, 1.0);
 }
 
+TEST(StepExplanation, RefusesContactWhichNoSpringIsToBlameFor) {
+  Json scene = moving_box();
+  scene["contact"] = Json::parse(R"({"pressure": 1, "depth": 1,
+                                     "obstacles": [{"sphere": {"centre": [9, 9, 9], "radius": 1}}]})");
+  try {
+    explain_step(parse(scene));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("file: /contact: stiffens a body where it touches"))
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace dartboard

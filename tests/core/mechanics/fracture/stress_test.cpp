@@ -48,7 +48,7 @@ std::vector<Matrix3d> stresses(const Body<Map>& body) {
   std::vector<std::array<std::uint32_t, 2>> ends;
   for (const EdgeEntry& edge : arrays.edges) ends.push_back(edge.ends);
   std::vector<Matrix3d> stress;
-  vertex_stresses(ends, body.springs, body.vertices.mass, body.material.density, body.vertices.position, stress);
+  vertex_stresses(ends, body.springs, {body.vertices.mass, body.material.density}, body.vertices.position, stress);
   return stress;
 }
 
@@ -113,7 +113,7 @@ TEST(VertexStresses, OfASingleSpringAreEqualAtItsEnds) {
   const std::vector<double> mass{2.0, 2.0, 2.0};
   const std::vector<Vector3d> position{{1, 1, 1}, {1, 1, 5}, {0, 0, 0}};
   std::vector<Matrix3d> stress{7, Matrix3d::Ones()};  // what was there does not matter
-  vertex_stresses(ends, springs, mass, 8.0, position, stress);
+  vertex_stresses(ends, springs, {mass, 8.0}, position, stress);
   ASSERT_EQ(stress.size(), 3u);
   Matrix3d expected = Matrix3d::Zero();
   expected(2, 2) = 0.5 * 8.0 * 4.0 / 0.25;  // T = 4 (4 - 2), l = 4, V = 2 / 8

@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
-#include "tests/support/binary_mesh_samples.h"
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/binary_mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {

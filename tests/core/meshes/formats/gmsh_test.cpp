@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/meshes/gmsh/gmsh_elements.h"
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {

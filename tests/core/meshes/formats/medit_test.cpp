@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {
@@ -42,6 +42,10 @@ TEST(Medit, ReadsHexahedraPrismsAndPyramids) {
   constexpr double tolerance = 64 * std::numeric_limits<double>::epsilon();
   const double volumes[] = {1.0, 0.5, 1.0 / 3.0};
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(signed_measure(loaded.mesh, c), volumes[c], tolerance);
+}
+
+TEST(Medit, PassesOverSolutionsThatStandBesideTheMesh) {
+  expect_two_tetrahedra(parse(with(medit, "End", "SolAtVertices 5 2 1 2 1 0 0 0 2 0 0 0 3 0 0 0 4 0 0 0 5 0 0 0 End")));
 }
 
 TEST(Medit, RefusesAFileWithoutEndSinceItMayBeTruncated) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/binary_mesh_samples.h"
-#include "tests/support/mesh_samples.h"
+#include "tests/support/meshes/binary_mesh_samples.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {
@@ -126,6 +126,28 @@ TEST(Ply, RefusesVerticesWithoutThreeCoordinates) {
 // ---- OFF
 
 TEST(Off, ReadsPointsAndPolygonsPassingOverColours) { expect_square(off, MeshFormat::off); }
+
+TEST(Off, ReadsBytesWithWhatEachWordSaysOfPoints) {
+  EXPECT_EQ(expect_square(off_binary(), MeshFormat::off).format, "OFF binary");
+  expect_square(off_binary("OFF"), MeshFormat::off);
+  expect_square(off_binary("OFF") + "\n", MeshFormat::off);
+}
+
+TEST(Off, RefusesBytesThatAreTooFewOrTooMany) {
+  const std::string text = off_binary("OFF");
+  const auto put = [&text](std::size_t at, std::vector<std::int32_t> value) {
+    std::string bad = text;
+    return bad.replace(11 + at, 4, bytes_of(value, true));
+  };
+  expect_part(refusal(text.substr(0, text.size() - 1), MeshFormat::off), "expected the colour of a polygon");
+  expect_part(refusal(text + "x", MeshFormat::off), "'x' follows the last polygon");
+  expect_part(refusal(put(0, {5}), MeshFormat::off), "expected");
+  expect_part(refusal(put(0, {0x7fffffff}), MeshFormat::off), "bytes are left; expected a coordinate of point");
+  expect_part(refusal(put(4, {3}), MeshFormat::off), "0 bytes are left; expected the number of corners of polygon 2");
+  expect_part(refusal(put(60, {-3}), MeshFormat::off), "-3 is negative; expected the number of corners of polygon 0");
+  expect_part(refusal(put(60 + 12, {4}), MeshFormat::off), "a triangle has the point 4");
+  expect_part(refusal(put(12, {0x7f800000}), MeshFormat::off), "file: byte 23: inf is not finite");
+}
 
 TEST(Off, RefusesMoreOrFewerPolygonsThanAnnounced) {
   expect_part(refusal(with(off, "4 2 0", "4 1 0"), MeshFormat::off), "file:9: '3' follows the last polygon");

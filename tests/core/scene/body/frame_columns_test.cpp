@@ -172,7 +172,7 @@ TEST(FrameStress, IsThatOfTheDiagnostics) {
     // each vertex its own: the measures of the stress with its number
     std::vector<Eigen::Matrix3d> stress;
     const SpringSystem system = body->system();
-    vertex_stresses(system.ends, system.springs, system.mass, 8.0, body->vertices().position, stress);
+    vertex_stresses(system.ends, system.springs, {system.mass, 8.0}, body->vertices().position, stress);
     for (std::size_t k = 0; k < stress.size(); ++k) {
       EXPECT_EQ(f.largest_principal_stress[k], measures_of(stress[k]).largest_principal);
       EXPECT_EQ(f.largest_stress_magnitude[k], measures_of(stress[k]).largest_magnitude);

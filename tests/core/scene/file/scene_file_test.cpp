@@ -261,14 +261,14 @@ TEST(SceneSchema, NamesEveryKeyOfTheTableAndAllowsNoOther) {
     EXPECT_EQ(shape.at("additionalProperties"), false);
   }
   EXPECT_EQ(schema.at("$defs").at("material").at("properties").at("density").at("exclusiveMinimum"), 0.0);
-  EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "body", "duration"])"));
+  EXPECT_EQ(schema.at("required"), Json::parse(R"(["name", "duration"])"));
 }
 
 TEST(SceneSchema, WantsWordsOfAListOnce) {
   const Json fields = scene_schema().at("$defs").at("output").at("properties").at("fields");
   EXPECT_EQ(fields.at("type"), "array");
   EXPECT_EQ(fields.at("uniqueItems"), true);
-  EXPECT_EQ(fields.at("items"), Json::parse(R"({"enum": ["held", "stress", "displacement", "springs"]})"));
+  EXPECT_EQ(fields.at("items"), Json::parse(R"({"enum": ["held", "stress", "displacement", "springs", "contact"]})"));
   EXPECT_FALSE(fields.contains("minItems"));
   EXPECT_EQ(fields.at("default"), Json::parse(R"(["held", "stress"])"));
 }
@@ -342,6 +342,55 @@ TEST(SceneFile, TakesTimesFarBeyondItsEnd) {
   EXPECT_GT(scene.output.frame_steps, 4u);  // a number above that of all steps
   const SceneEvent& event = scene.events.at(0);
   EXPECT_EQ(steps_of({event.from, event.until, event.every, scene.step}), Steps{0});
+}
+
+// ---- contact
+
+TEST(SceneFile, ReadsContactsAndTheirObstacles) {
+  const SceneFile scene = parse_scene(R"({"name": "s", "step": 0.1, "duration": 2,
+    "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}},
+    "contact": {"pressure": 1500, "depth": 0.25, "exponent": 4, "restitution": 0.5, "friction": 0.125, "mass_behind": 8,
+      "obstacles": [{"plane": {"point": [1, 2, 3], "normal": [0, 3, 4]}},
+        {"sphere": {"centre": [4, 5, 6], "radius": 7}, "friction": 0.75, "restitution": 1, "pressure": 3000, "depth": 2},
+        {"box": {"min": [-1, -2, -3], "max": [1, 2, 3]}, "velocity": [9, 8, 7], "from": 0.5, "until": 1.5}]}})",
+                                      "file", "");
+  ASSERT_EQ(scene.obstacles.size(), 3u);
+  const auto law_is = [](const ContactLaw& law, double pressure, double depth, double restitution, double friction) {
+    return law.pressure == pressure && law.depth == depth && law.restitution == restitution &&
+           law.friction == friction && law.exponent == 4 && law.mass_behind == 8;
+  };
+  EXPECT_TRUE(law_is(scene.obstacles[0].law, 1500, 0.25, 0.5, 0.125));
+  EXPECT_TRUE(law_is(scene.obstacles[1].law, 3000, 2, 1, 0.75));
+  EXPECT_TRUE(law_is(scene.obstacles[2].law, 1500, 0.25, 0.5, 0.125));
+  const auto& plane = std::get<HalfSpace>(scene.obstacles[0].obstacle.shape);
+  EXPECT_EQ(plane.point, Eigen::Vector3d(1, 2, 3));
+  EXPECT_LE((plane.normal - Eigen::Vector3d(0, 0.6, 0.8)).norm(), 1e-15);
+  const auto& ball = std::get<Ball>(scene.obstacles[1].obstacle.shape);
+  EXPECT_EQ(ball.centre, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(ball.radius, 7);
+  const auto& block = std::get<Block>(scene.obstacles[2].obstacle.shape);
+  EXPECT_EQ(block.low, Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(block.high, Eigen::Vector3d(1, 2, 3));
+  const Obstacle& moves = scene.obstacles[2].obstacle;
+  EXPECT_EQ(moves.velocity, Eigen::Vector3d(9, 8, 7));
+  EXPECT_EQ(moves.from, 0.5);
+  EXPECT_EQ(moves.until, 1.5);
+  EXPECT_TRUE(scene.obstacles[2].moves());
+  EXPECT_FALSE(scene.obstacles[0].moves());
+  EXPECT_TRUE(std::isinf(scene.obstacles[0].obstacle.until));
+  EXPECT_EQ(scene.obstacles[2].path, "/contact/obstacles/2");
+}
+
+TEST(SceneFile, GivesContactsTheDefaultsOfTheirPage) {
+  const SceneFile scene = parse_scene(R"({"name": "s", "step": 0.1, "duration": 2,
+    "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}},
+    "contact": {"pressure": 1500, "depth": 0.25, "obstacles": [{"sphere": {"centre": [0, 0, -9], "radius": 1}}]}})",
+                                      "file", "");
+  const ContactLaw& law = scene.obstacles.at(0).law;
+  EXPECT_EQ(law.exponent, 3);
+  EXPECT_EQ(law.restitution, 1.0);
+  EXPECT_EQ(law.friction, 0.0);
+  EXPECT_EQ(law.mass_behind, 0.0);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST(WriteVtu, SaysOfWhichSortAColumnIs) {
 /// The same with all that a scene may ask for, and a spring.
 Frame full_frame() {
   Frame frame = telling_frame();
-  frame.fields = {.held = true, .stress = true, .displacement = true, .springs = true};
+  frame.fields = {.held = true, .stress = true, .displacement = true, .springs = true, .contact = true};
   frame.springs = {{3, 1}};
   frame.strain = {0.25};
   for (std::size_t k = 0; k < frame.mesh.points.size(); ++k) {
@@ -104,6 +104,8 @@ Frame full_frame() {
     frame.largest_stress_magnitude.push_back(2000 + n);
     frame.von_mises_stress.push_back(3000 + n);
     frame.displacement.emplace_back(400 + n, 500 + n, 600 + n);
+    frame.contact_force.emplace_back(700 + n, 800 + n, 900 + n);
+    frame.contact_depth.push_back(4000 + n);
   }
   return frame;
 }
@@ -117,10 +119,12 @@ TEST(WriteVtu, PutsEveryColumnThatIsAskedForUnderItsName) {
   EXPECT_EQ(column<double>(points, "largest_stress_magnitude", "Float64"), frame.largest_stress_magnitude);
   EXPECT_EQ(column<double>(points, "von_mises_stress", "Float64"), frame.von_mises_stress);
   EXPECT_EQ(column<double>(points, "displacement", "Float64"), flat(frame.displacement));
+  EXPECT_EQ(column<double>(points, "contact_force", "Float64"), flat(frame.contact_force));
+  EXPECT_EQ(column<double>(points, "contact_depth", "Float64"), frame.contact_depth);
   EXPECT_NE(points.find("Name=\"displacement\" NumberOfComponents=\"3\""), std::string::npos);
   EXPECT_EQ(vtu.find("\"tension\""), std::string::npos);
   const std::string bare = to_vtu(telling_frame());
-  for (const char* name : {"held", "stress", "displacement", "tension", "strain"})
+  for (const char* name : {"held", "stress", "displacement", "tension", "strain", "contact"})
     EXPECT_EQ(bare.find(name), std::string::npos) << name;
 }
 
@@ -199,8 +203,10 @@ TEST(WriteVtu, RefusesEachColumnOfAnotherLength) {
       [](Frame& f) { f.largest_stress_magnitude.pop_back(); }, [](Frame& f) { f.von_mises_stress.pop_back(); },
       [](Frame& f) { f.displacement.pop_back(); }, [](Frame& f) { f.springs.pop_back(); },
       [](Frame& f) { f.strain.pop_back(); }, [](Frame& f) { f.tension.push_back(1.0); },
+      [](Frame& f) { f.contact_force.pop_back(); }, [](Frame& f) { f.contact_depth.pop_back(); },
       // what no field asks for
-      [](Frame& f) { f.fields.held = false; }, [](Frame& f) { f.fields.displacement = false; }};
+      [](Frame& f) { f.fields.held = false; }, [](Frame& f) { f.fields.displacement = false; },
+      [](Frame& f) { f.fields.contact = false; }};
   EXPECT_NO_THROW(to_vtu(full_frame()));
   for (const auto& shorten : shortened) {
     Frame frame = full_frame();
@@ -219,7 +225,8 @@ std::vector<std::string> fields(const std::string& row) {
 }
 
 std::map<std::string, double> named(const Diagnostics& d, int dimension) {
-  const auto heads = fields(diagnostics_header(dimension)), values = fields(diagnostics_row(d));
+  const auto heads = fields(diagnostics_header(dimension, d.applied.has_value(), d.contact.has_value())),
+             values = fields(diagnostics_row(d));
   std::map<std::string, double> all;
   EXPECT_EQ(heads.size(), values.size());
   for (std::size_t k = 0; k < std::min(heads.size(), values.size()); ++k) all[heads[k]] = std::stod(values[k]);
@@ -259,6 +266,33 @@ TEST(Diagnostics, PutEveryNumberUnderItsName) {
                                                {"operations", 19}};
   EXPECT_EQ(named(d, 3), expected);
   EXPECT_EQ(d.energy(), 2 + 3 - 4);
+  Diagnostics pulled = d;
+  pulled.applied = 20;
+  auto with_applied = expected;
+  with_applied["applied forces [J]"] = 20;
+  EXPECT_EQ(named(pulled, 3), with_applied);
+  EXPECT_EQ(pulled.energy(), 2 + 3 - 4 + 20);
+  Diagnostics touching = d;
+  touching.contact = {.energy = 21, .damped = 22, .rubbed = 23, .supplied = 24, .contacts = 25, .deepest = 26};
+  auto with_contact = expected;
+  with_contact.insert({{"contact [J]", 21},
+                       {"lost by restitution [J]", 22},
+                       {"lost by friction [J]", 23},
+                       {"supplied at contacts [J]", 24},
+                       {"contacts", 25},
+                       {"deepest contact [m]", 26}});
+  EXPECT_EQ(named(touching, 3), with_contact);
+  EXPECT_EQ(touching.energy(), 2 + 3 - 4 + 21);
+  touching.applied = 20;
+  with_contact["applied forces [J]"] = 20;
+  EXPECT_EQ(named(touching, 3), with_contact);
+  for (double ContactDiagnostics::*number : {&ContactDiagnostics::energy, &ContactDiagnostics::damped,
+                                             &ContactDiagnostics::rubbed, &ContactDiagnostics::supplied}) {
+    Diagnostics wrong = touching;
+    EXPECT_TRUE(is_finite(wrong));
+    (*wrong.contact).*number = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(is_finite(wrong));
+  }
 }
 
 TEST(Diagnostics, AreWrittenSoThatTheyAreReadBackWithEveryBit) {

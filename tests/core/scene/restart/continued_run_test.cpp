@@ -54,12 +54,14 @@ const char* const eventful = R"([
 TEST(ContinuedRun, OfABodyWithoutAMapIsTheSame) { expect_same_wherever_interrupted(moving_box()); }
 
 TEST(ContinuedRun, OfABodyOfElementsIsTheSame) {
-  for (const char* integrator : {"verlet", "backward-euler", "energy-momentum"}) {
-    Json scene = with_events(moving_box(), eventful);
-    scene["material"] = Json::parse(R"({"density": 768, "young": 2e4, "poisson": 0.3})");
-    scene["integrator"] = integrator;
-    expect_same_wherever_interrupted(scene);
-  }
+  for (const char* integrator : {"verlet", "backward-euler", "energy-momentum"})
+    for (const bool damped : {false, true}) {
+      Json scene = with_events(moving_box(), eventful);
+      scene["material"] = Json::parse(R"({"density": 768, "young": 2e4, "poisson": 0.3})");
+      if (damped) scene["material"]["damping"] = Json::parse(R"({"ratio": 0.05, "frequency": 4})");
+      scene["integrator"] = integrator;
+      expect_same_wherever_interrupted(scene);
+    }
 }
 
 TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {

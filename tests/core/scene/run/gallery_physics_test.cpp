@@ -116,7 +116,8 @@ TEST_P(FollowedScene, EndsWhereABodyOfCornersEnds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gallery, FollowedScene,
-                         testing::Values("ball_twisted", "beam_to_accuracy", "liver_cut", "liver_removal", "sheet_cut"),
+                         testing::Values("ball_twisted", "beam_to_accuracy", "liver_cut", "liver_of_two_tissues",
+                                         "liver_removal", "sheet_cut"),
                          [](const auto& which) { return which.param; });
 
 // The part that is cut off is a free body: whatever its springs do, its centre of mass flies.
@@ -228,6 +229,27 @@ TEST(GalleryPhysics, TheBeamOfHexahedraMovesAsAChainDoes) {
   const Vector2d moved = chain.x.at(static_cast<std::size_t>(std::lround(rest.x() / box.spacing)));
   expect_place(scene, place, {moved.x(), rest.y(), rest.z() + moved.y()});
   EXPECT_NEAR(*scene.expect.mass, cell * box.cells[0] * box.cells[1] * box.cells[2], 1e-14);
+}
+
+// A bar of Poisson's ratio 0 that hangs is pulled at z by the weight below: u' = rho g z / E from the upper end down,
+// so that its mean sag is rho g L^2 / 3E. Strains are up to 8 %, and laws differ in their squares.
+TEST(GalleryPhysics, TheTwoBarsSagByTheirOwnWeight) {
+  const SceneFile scene = gallery("two_bars");
+  ASSERT_EQ(scene.bodies().size(), 2u);
+  double mass = 0.0;
+  for (std::size_t b = 0; b < 2; ++b) {
+    const BodySource& body = scene.bodies()[b];
+    const auto& box = std::get<BoxMesh>(body.mesh);
+    const Vector3d size = box.spacing * Vector3d(box.cells[0], box.cells[1], box.cells[2]);
+    const Material& of = body.material.value();
+    EXPECT_EQ(of.poisson, 0.0);
+    const double sag = of.density * -scene.gravity.z() * size.z() * size.z() / (3.0 * of.young);
+    const ExpectedPlace& place = place_of(scene, b == 0 ? "stiff" : "soft", true);
+    EXPECT_LE(place.within, sag / 30);
+    EXPECT_LT((place.position - (body.translate + 0.5 * size - Vector3d(0, 0, sag))).norm(), 1e-12);
+    mass += of.density * size.prod();
+  }
+  EXPECT_NEAR(*scene.expect.mass, mass, 1e-12);
 }
 
 // ---- free bodies
@@ -372,6 +394,189 @@ TEST(GalleryPhysics, ThePartCutOffTheLiverOfElementsFlies) {
   }
   expect_place(scene, place_of(scene, "right", true),
                flight(centre / mass, velocity / mass, scene, end - scene.duration));
+}
+
+// ---- springs that no edge stands for, and bending
+
+// A bar of a Young's modulus E under its weight: density g L^2 / (2 E) longer, of which 3/4 at half its length, and
+// thinner by Poisson's ratio 1/4 times the strain there.
+TEST(GalleryPhysics, TheLatticeHangsAsASolidOfItsYoungsModulus) {
+  const SceneFile scene = gallery("lattice_sags");
+  const auto& box = std::get<BoxMesh>(scene.body.mesh);
+  const double length = box.cells[2] * box.spacing;
+  const double strain = -scene.gravity.z() * scene.material.density * length / (2.0 * scene.material.young);
+  expect_place(scene, place_of(scene, "foot"), {0, 0, -strain * length});
+  const double thinner = strain / 4 * box.spacing / 2;
+  expect_place(scene, place_of(scene, "side"), {thinner, thinner, length / 2 - 0.75 * strain * length});
+}
+
+// Rows of a wide sheet at distance h are a beam with a hinge of D / h at each: D times the fourth difference of the sag
+// is the load. That has a polynomial which vanishes on the last two rows held still on either side.
+TEST(GalleryPhysics, TheSheetSagsAsAPlateOfItsRigidity) {
+  const SceneFile scene = gallery("sheet_sags");
+  const auto& sheet = std::get<SheetMesh>(scene.body.mesh);
+  const double h = sheet.spacing, length = (sheet.cells[0] - 2) * h, load = scene.material.density * -scene.gravity.z();
+  for (const auto& [probe, row] : {std::pair{"middle", sheet.cells[0] / 2}, {"quarter", sheet.cells[0] / 4}}) {
+    const double x = (row - 1) * h;
+    const double sag = load * x * (x + h) * (length - x) * (length + h - x) / (24.0 * scene.bending.rigidity);
+    expect_place(scene, place_of(scene, probe), {row * h, sheet.cells[1] / 2 * h, -sag});
+  }
+}
+
+// Provot's cloth without cells: points of a grid with springs to their neighbours, across the squares, and to the
+// second neighbours along each line. On the border there is half of what there is within.
+TEST(GalleryPhysics, TheClothHangsAsANetOfSpringsDoes) {
+  const SceneFile scene = gallery("cloth_hangs");
+  const auto& sheet = std::get<SheetMesh>(scene.body.mesh);
+  const int n = sheet.cells[0];
+  ASSERT_EQ(n, sheet.cells[1]);
+  const auto at = [n](int i, int j) { return static_cast<std::size_t>(j * (n + 1) + i); };
+  struct Link {
+    std::size_t a, b;
+    double rest, stiffness;
+  };
+  std::vector<Link> links;
+  std::vector<Vector3d> x, v;
+  std::vector<double> mass;
+  const double k = scene.material.stiffness, second = scene.bending.second_neighbours, a = sheet.spacing;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      x.emplace_back(i * a, j * a, 0);
+      const double sides = (i % n == 0 ? 0.5 : 1.0) * (j % n == 0 ? 0.5 : 1.0);
+      mass.push_back(scene.material.density * a * a * sides);
+      const double along_x = j % n == 0 ? 1 : 2, along_y = i % n == 0 ? 1 : 2;
+      if (i < n) links.push_back({at(i, j), at(i + 1, j), a, along_x * k});
+      if (j < n) links.push_back({at(i, j), at(i, j + 1), a, along_y * k});
+      if (i + 1 < n) links.push_back({at(i, j), at(i + 2, j), 2 * a, along_x / 2 * second});
+      if (j + 1 < n) links.push_back({at(i, j), at(i, j + 2), 2 * a, along_y / 2 * second});
+      if (i < n && j < n) {
+        links.push_back({at(i, j), at(i + 1, j + 1), std::sqrt(2.0) * a, k});
+        links.push_back({at(i + 1, j), at(i, j + 1), std::sqrt(2.0) * a, k});
+      }
+    }
+  v.assign(x.size(), Vector3d(0, 0, 0));
+  const std::size_t held[] = {at(0, 0), at(n, 0)};
+  std::vector<Vector3d> force(x.size());
+  const auto kick = [&](double h) {
+    for (std::size_t p = 0; p < x.size(); ++p) force[p] = mass[p] * scene.gravity;
+    for (const Link& link : links) {
+      const Vector3d line = x[link.b] - x[link.a];
+      const Vector3d f = link.stiffness * (1 - link.rest / line.norm()) * line;
+      force[link.a] += f;
+      force[link.b] -= f;
+    }
+    for (std::size_t p = 0; p < x.size(); ++p) v[p] += h / mass[p] * force[p];
+    for (const std::size_t p : held) v[p].setZero();
+  };
+  // leapfrog, with the viscosity as an exact decay around it
+  const double h = scene.step / 16, decay = std::exp(-scene.material.viscosity * h / 2);
+  for (double t = 0.0; t < scene.duration - h / 2; t += h) {
+    for (Vector3d& w : v) w *= decay;
+    kick(h / 2);
+    for (std::size_t p = 0; p < x.size(); ++p) x[p] += h * v[p];
+    kick(h / 2);
+    for (Vector3d& w : v) w *= decay;
+  }
+  expect_place(scene, place_of(scene, "hem"), x[at(n / 2, n)]);
+  expect_place(scene, place_of(scene, "collar"), x[at(n / 2, 0)]);
+}
+
+// ---- membranes
+
+// A strip of Young's modulus times thickness Y under its weight: density g L^2 / (2 Y) longer, of which 3/4 at half its
+// length, and narrower by Poisson's ratio times the strain there.
+TEST(GalleryPhysics, TheMembraneHangsAsAStripOfItsYoungsModulus) {
+  const SceneFile scene = gallery("membrane_hangs");
+  const auto& sheet = std::get<SheetMesh>(scene.body.mesh);
+  const double length = sheet.cells[1] * sheet.spacing, width = sheet.cells[0] * sheet.spacing;
+  const double strain = -scene.gravity.y() * scene.material.density * length / (2.0 * scene.material.young);
+  expect_place(scene, place_of(scene, "foot"), {width / 2, -strain * length, 0});
+  expect_place(scene, place_of(scene, "side"),
+               {scene.material.poisson * strain * width / 2, length / 2 - 0.75 * strain * length, 0});
+}
+
+// ---- contact
+
+// A point that slides: gravity along the slope less mu times what presses on it; a box is the mean of its points.
+TEST(GalleryPhysics, TheBlockSlidesAsAPointWithFriction) {
+  const SceneFile scene = gallery("block_slides");
+  const SceneObstacle& slope = scene.obstacles.at(0);
+  const Vector3d normal = std::get<HalfSpace>(slope.obstacle.shape).normal, v = scene.initial_velocity.constant;
+  const Mesh mesh = make_problem(scene).mesh;
+  Vector3d centre(0, 0, 0);
+  for (const Vector3d& x : mesh.points) centre += x / static_cast<double>(mesh.points.size());
+  const double presses = -scene.gravity.dot(normal), time = scene.duration;
+  EXPECT_NEAR(v.dot(normal), 0.0, 1e-15);
+  const Vector3d acceleration = scene.gravity + presses * normal - slope.law.friction * presses * v.normalized();
+  expect_place(scene, place_of(scene, "corner", true), centre + v * time + acceleration * (time * time / 2));
+  // and it starts as deep as its weight needs
+  const Simulation simulation(scene);
+  const ContactState state = simulation.body().contact()->state_at(simulation.body().vertices().position);
+  EXPECT_NEAR(-state.force_on.at(0).dot(normal), simulation.body().mass() * presses, 1e-4 * presses);
+}
+
+TEST(GalleryPhysics, TheSheetHangsFromTheHighestPointOfTheBall) {
+  const SceneFile scene = gallery("sheet_drapes");
+  const Ball& ball = std::get<Ball>(scene.obstacles.at(0).obstacle.shape);
+  const ExpectedPlace& crown = place_of(scene, "crown");
+  // anywhere from the surface to the depth that is allowed
+  EXPECT_LE(crown.within, scene.obstacles.at(0).law.depth / 2);
+  expect_place(scene, crown, ball.centre + Vector3d(0, 0, ball.radius - crown.within));
+  const Mesh mesh = make_problem(scene).mesh;
+  Vector3d centre(0, 0, 0);
+  for (const Vector3d& x : mesh.points) centre += x / static_cast<double>(mesh.points.size());
+  EXPECT_LE((centre - ball.centre).head<2>().norm(), 1e-12);
+}
+
+// A table without friction pushes up alone: along it, what has landed goes on as it flew.
+TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
+  SceneFile scene = gallery("liver_lands");
+  const ExpectedPlace& place = place_of(scene, "right", true);
+  const Mesh mesh = make_problem(scene).mesh;
+  const double end = scene.duration, cut = scene.events.at(0).from;
+  SceneFile until_cut = scene;
+  until_cut.duration = cut;
+  const CornerBody::Part part = body_at_end(until_cut).part_of(point_of(scene.probes.at(place.probe), mesh));
+  const Vector3d flown = flight(part.centre, part.velocity, scene, end - cut);
+  EXPECT_LE((flown - place.position).head<2>().norm(), place.within) << flown.transpose();
+  // and above the table, by no more than it is large
+  const HalfSpace& table = std::get<HalfSpace>(scene.obstacles.at(0).obstacle.shape);
+  EXPECT_EQ(table.normal, Vector3d(0, 0, 1));
+  EXPECT_LT(flown.z(), table.point.z());
+  EXPECT_GT(place.position.z(), table.point.z());
+  EXPECT_LT(place.position.z(), table.point.z() + 0.15);
+}
+
+// Columns on each other: each is as deep in what is below as the weight from it upwards needs, and shorter by the mean
+// of the weight on its two ends.
+TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
+  const SceneFile scene = gallery("boxes_stacked");
+  struct Column {
+    double side, mass;
+  };
+  std::vector<Column> columns;
+  for (const BodySource& body : scene.bodies()) {
+    const auto& box = std::get<BoxMesh>(body.mesh);
+    const double side = box.cells[2] * box.spacing;
+    columns.push_back({side, scene.material.density * side * side * side});
+  }
+  const ContactLaw& law = scene.obstacles.at(0).law;
+  EXPECT_EQ(scene.touches.at(0).law.depth, law.depth);
+  EXPECT_EQ(scene.touches.at(0).law.pressure, law.pressure);
+  const double g = -scene.gravity.z();
+  std::vector<double> centre;
+  double z = 0.0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto [side, mass] = columns[k];
+    double above = 0.0;
+    for (std::size_t j = k + 1; j < columns.size(); ++j) above += columns[j].mass * g;
+    z -= law.depth_at_rest((above + mass * g) / (side * side));
+    const double height = side * (1.0 - (above + mass * g / 2) / (side * side) / scene.material.young);
+    centre.push_back(z + height / 2);
+    z += height;
+  }
+  expect_place(scene, place_of(scene, "middle", true), {0.05, 0.05, centre[1]});
+  expect_place(scene, place_of(scene, "top", true), {0.05, 0.05, centre[2]});
 }
 
 // ---- none is left out

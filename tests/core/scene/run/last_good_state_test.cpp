@@ -41,6 +41,10 @@ TEST(LastGoodState, IsTheLastFrame) {
   EXPECT_EQ(keeper.times_of_diagnostics, (std::vector<double>{0.0, kept}));
   EXPECT_EQ(result.last.time, kept);
   EXPECT_EQ(simulation.time(), kept);
+
+  Simulation again(scene);
+  while (again.time() < kept) ASSERT_FALSE(again.advance()) << again.time();
+  EXPECT_EQ(again.body().vertices().position, simulation.body().vertices().position);
 }
 
 TEST(LastGoodState, IsNotHandedOutAfterALaterOne) {

@@ -53,6 +53,25 @@ TEST(StoppedRun, KeepsTheStateOfTheLastStepThatWasTaken) {
   }
 }
 
+// What contact did to the velocities before the step is undone, and obstacles and losses are where they were.
+TEST(StoppedRun, UndoesWhatContactHasBegun) {
+  Json json = moving_box();
+  json["integrator"] = "backward-euler";
+  json["contact"] = Json::parse(R"({"pressure": 2000, "depth": 0.01, "restitution": 0.3, "friction": 0.4,
+    "obstacles": [{"plane": {"point": [0, 0, 0.001], "normal": [0, 0, 1]}, "velocity": [0.2, 0, 0.1]}]})");
+  const SceneFile scene = parse(json);
+  for (int looks = 1; looks < 12; looks += 2) {
+    Simulation stopped(scene), whole(scene);
+    Times times, unused;
+    const RunResult result = stopped_run(stopped, scene, looks, times);
+    ASSERT_TRUE(result.interrupted);
+    run_scene(whole, scene.output, unused, stopped.steps_done());
+    EXPECT_EQ(stopped.body().state_hash(), whole.body().state_hash());
+    EXPECT_EQ(diagnostics_row(stopped.diagnostics()), diagnostics_row(whole.diagnostics()));
+    EXPECT_EQ(stopped.diagnostics().contact->damped > 0.0, stopped.steps_done() > 0);
+  }
+}
+
 TEST(StoppedRun, HandsItsLastStateOutOnce) {
   const SceneFile scene = implicit_scene();
   std::set<std::uint64_t> seen;

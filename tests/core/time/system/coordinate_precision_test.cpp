@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/meshes/generators/mesh_generators.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
 namespace dartboard {
@@ -80,6 +82,53 @@ TEST(CoordinatePrecision, IsNotThatOfASpringWithoutLength) {
   row.ends.erase(row.ends.begin());
   row.springs.erase(row.springs.begin());
   EXPECT_FALSE(find_coarse_coordinate(row.system(), row.x));
+}
+
+/// A cube of 0.5 m of six tetrahedra, `far` from the origin along z.
+ElementBody cube_at(double far) {
+  ElementBody cube(kuhn_box(1, 1, 1, 0.5), Model::stvk, 1e5, 0.3);
+  for (Eigen::Vector3d& p : cube.x) p.z() += far;
+  return cube;
+}
+
+TEST(CoordinatePrecision, IsThatOfTheShortestEdgeOfElements) {
+  EXPECT_FALSE(find_coarse_coordinate(cube_at(0.0).system(), cube_at(0.0).x));
+  const ElementBody cube = cube_at(1e10);
+  const auto found = find_coarse_coordinate(cube.system(), cube.x);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->edge, CoordinatePrecision::of_element);
+  EXPECT_EQ(found->axis, 2);
+  EXPECT_EQ(found->coordinate, 1e10 + 0.5);
+  EXPECT_EQ(found->coordinate, cube.x[found->vertex].z());
+  EXPECT_EQ(found->length, 0.5);
+  EXPECT_NEAR(found->relative, epsilon * 2e10, 1e-9 * epsilon * 2e10);
+  const std::string text = to_string(*found);
+  EXPECT_NE(text.find("of the shortest edge of an element beside it (0.5 m); move the body to the origin"),
+            std::string::npos)
+      << text;
+}
+
+TEST(CoordinatePrecision, IsSaidToBeCoarseOfElementsWhereItIsOfSprings) {
+  const double edge = 0.5 * 1e-6 / epsilon;
+  const ElementBody below = cube_at(0.99 * edge), above = cube_at(1.01 * edge);
+  EXPECT_FALSE(find_coarse_coordinate(below.system(), below.x));
+  EXPECT_TRUE(find_coarse_coordinate(above.system(), above.x));
+}
+
+// Springs of 4 m at all vertices but the last, and at that one too.
+TEST(CoordinatePrecision, IsThatOfSpringsWhereAllVerticesOfAnElementHaveSome) {
+  const ElementBody cube = cube_at(1e11);
+  SpringArrays springs;
+  for (const Eigen::Vector3d& p : cube.x) springs.add_vertex(1.0, p);
+  for (std::uint32_t i = 1; i + 1 < cube.x.size(); ++i) springs.add_spring(0, i, 1.0, 4.0);
+  const auto length = [&] {
+    SpringSystem system = springs.system();
+    system.terms = cube.system().terms;
+    return find_coarse_coordinate(system, cube.x).value().length;
+  };
+  EXPECT_EQ(length(), 0.5);
+  springs.add_spring(0, static_cast<std::uint32_t>(cube.x.size()) - 1, 1.0, 4.0);
+  EXPECT_EQ(length(), 4.0);
 }
 
 }  // namespace

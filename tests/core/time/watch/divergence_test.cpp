@@ -397,6 +397,21 @@ TEST(Divergence, LooksAtOneStepInSixteen) {
   EXPECT_GE(detector.checks(), 1600u / 16);
 }
 
+// Without forces and at rest there is no energy but that of rounding: one kilogram of motion has to come from
+// somewhere.
+TEST(Divergence, IsNotFoundInMotionThatWorkFromOutsideExplains) {
+  for (const double share : {0.0, 0.02, 1.0}) {
+    SpringArrays body = spring_grid(2, 2, 2);
+    DivergenceDetector detector;
+    ASSERT_TRUE(detector.start(body.system(), body.motion(), 1e-6).ok());
+    for (Eigen::Vector3d& v : body.motion().v) v = {0, 0, 100};
+    const double energy = kinetic_energy(body.system(), body.motion().v);
+    detector.add_work(share * energy);
+    detector.add_work(-0.5 * share * energy);  // what it has been at most counts
+    EXPECT_EQ(detector.after_step(body.system(), body.motion()).ok(), share > 0.0) << share;
+  }
+}
+
 TEST(Divergence, OfNothingIsNone) {
   SpringArrays nothing;
   DivergenceDetector detector;

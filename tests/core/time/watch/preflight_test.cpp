@@ -6,7 +6,9 @@
 
 #include <limits>
 
+#include "core/meshes/generators/mesh_generators.h"
 #include "core/time/integrators.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
 namespace dartboard {
@@ -68,6 +70,21 @@ TEST(Preflight, WarnsOfAnUnstableStep) {
   EXPECT_TRUE(check(body, 1.0).warns_of(StepCode::unstable_step));
   EXPECT_FALSE(check(body, 1.0, "backward-euler").warns_of(StepCode::unstable_step));
   EXPECT_TRUE(check(body, 1.0, "backward-euler").warns_of(StepCode::bad_scaling));
+}
+
+TEST(Preflight, NamesAVertexOfElementsWhoseCoordinatesAreCoarse) {
+  ElementBody far(kuhn_box(1, 1, 1, 0.1), Model::neo_hookean, 1e5, 0.3);
+  const auto check = [&] {
+    return check_before_run(far.system(), far.motion(), make_integrator("verlet")->scheme(), 1e-4,
+                            StableStepEstimate().refresh(far.system(), far.x));
+  };
+  EXPECT_TRUE(check().warnings.empty());
+  for (Eigen::Vector3d& p : far.x) p[0] += 1e9;
+  ASSERT_EQ(check().warnings.size(), 1u);
+  const StepResult warning = check().warnings[0];
+  EXPECT_EQ(warning.code, StepCode::coordinate_precision);
+  EXPECT_EQ(warning.witness, Witness::vertex);
+  EXPECT_EQ(far.x[warning.number][0], 1e9 + 0.1);
 }
 
 TEST(Preflight, WarnsOfRoundingZeroLengthsAndDenormals) {

@@ -1,0 +1,139 @@
+#include "benchmarks/studies/contact/contact_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/plain/nan_maximum.h"
+
+namespace dartboard {
+namespace {
+
+// Contact is felt at vertices and in the middles of faces: edges that cross, and a corner in a face between these,
+// overlap by a part of a face before one is inside: a third of its height each, which is more than the least altitude
+// of a cell by what cells differ.
+constexpr double most_unfelt = 0.75;
+// A sample is in contact with one cell, so that of the pairs there some have their contact a cell beside them.
+constexpr double least_share = 0.95;
+constexpr std::size_t deep_class = 3;  // from 0.6 of the least altitude on
+static_assert(OverlapTally::classes == 10);
+// Velocity Verlet with h omega of some 0.2 leaves (h omega)^2 / 24 of the energy of vibrations, kinks of the depth as
+// much again.
+constexpr double most_energy = 5e-3;
+// Sums of some hundred forces in each of some hundred steps, by their roundings.
+constexpr double most_momentum = 1e-12;
+
+Claim claim(std::string id, std::string text, double bound, double worst, const std::string& unit) {
+  Claim made{.id = std::move(id),
+             .text = std::move(text),
+             .paper_value = fmt::format("<= {:g}{}", bound, unit),
+             .measured = fmt::format("{:.2g}{}", worst, unit)};
+  made.verdict = worst <= bound ? Verdict::holds : Verdict::falls_short;
+  return made;
+}
+
+std::string share_of(std::size_t part, std::size_t all) {
+  return all == 0 ? "" : fmt::format("{:.3g} %", 100.0 * static_cast<double>(part) / static_cast<double>(all));
+}
+
+}  // namespace
+
+std::vector<Claim> claims_of(const ContactResults& results) {
+  // what was not looked at is not right
+  double quiet = results.placements.empty() ? NAN : 0.0, in_motion = results.runs.empty() ? NAN : 0.0,
+         depth = in_motion, energy = in_motion;
+  double momentum = std::ranges::any_of(results.runs, &ContactRun::alone) ? 0.0 : NAN, angular = momentum;
+  std::size_t overlapping = 0, pairs = 0, felt = 0;
+  for (const ContactResults::Placed& placed : results.placements) {
+    quiet = max_or_nan(quiet, placed.found.deepest_quiet);
+    overlapping += placed.found.overlapping;
+    const OverlapTally& tally = placed.found.by_depth;
+    for (std::size_t k = deep_class; k < OverlapTally::classes; ++k) {
+      pairs += tally.overlaps[k];
+      felt += tally.overlaps[k] - tally.missed[k];
+    }
+    if (placed.found.overlapping == 0) quiet = NAN;
+  }
+  std::size_t looks = 0;
+  for (const ContactRun& run : results.runs) {
+    in_motion = max_or_nan(in_motion, run.by_depth.deepest_missed);
+    depth = max_or_nan(depth, run.deepest / run.allowed);
+    energy = max_or_nan(energy, run.energy);
+    momentum = max_or_nan(momentum, run.momentum);
+    angular = max_or_nan(angular, run.angular);
+    looks += run.looks;
+    if (!run.ended || run.contacts == 0) in_motion = depth = energy = momentum = angular = NAN;
+  }
+  std::vector<Claim> claims{
+      claim("contact-placed", "bodies that overlap deeper than 3/4 of the least altitude of a cell are felt",
+            most_unfelt, quiet, " altitudes"),
+      claim_on_share("contact-placed-pairs", "pairs of cells deeper than 0.6 of it have a contact at their own corners",
+                     felt, pairs, least_share),
+      claim("contact-moving-pairs", "in motion, cells that overlap deeper than their law allows are felt", 1.0,
+            in_motion, " depths"),
+      claim("contact-depth", "no cells overlap deeper than their law allows", 1.0, depth, " depths"),
+      claim("contact-energy", "energy is what it was, less what was lost, of the largest kinetic energy", most_energy,
+            energy, ""),
+      claim("contact-momentum", "bodies on which nothing acts keep their momentum", most_momentum, momentum, ""),
+      claim("contact-angular-momentum", "and their angular momentum", most_momentum, angular, "")};
+  claims[0].bound_or_interval = fmt::format("of {} placements that overlap", overlapping);
+  for (std::size_t k = 2; k < claims.size(); ++k) claims[k].bound_or_interval = fmt::format("in {} looks", looks);
+  return claims;
+}
+
+Table placements_table(const ContactResults& results) {
+  Table table({{"bodies"},
+               {"placements", Align::right},
+               {"overlap", Align::right},
+               {"unfelt", Align::right},
+               {"deepest unfelt", Align::right},
+               {"pairs of cells", Align::right},
+               {"unfelt", Align::right},
+               {"deepest unfelt", Align::right}});
+  for (const auto& [bodies, f] : results.placements)
+    table.add_row({bodies, std::to_string(f.placements), std::to_string(f.overlapping), std::to_string(f.quiet),
+                   fmt::format("{:.2g}", f.deepest_quiet), std::to_string(f.by_depth.count()),
+                   std::to_string(f.by_depth.count_missed()), fmt::format("{:.2g}", f.by_depth.deepest_missed)});
+  return table;
+}
+
+Table depths_table(const ContactResults& results) {
+  Table table({{"depth over least altitude"},
+               {"pairs of cells", Align::right},
+               {"unfelt", Align::right},
+               {"share", Align::right}});
+  OverlapTally all;
+  for (const ContactResults::Placed& placed : results.placements) all.add(placed.found.by_depth);
+  constexpr double width = 2.0 / static_cast<double>(OverlapTally::classes);
+  for (std::size_t k = 0; k < OverlapTally::classes; ++k) {
+    const double from = width * static_cast<double>(k);
+    table.add_row({k + 1 < OverlapTally::classes ? fmt::format("{:.1f} to {:.1f}", from, from + width)
+                                                 : fmt::format("{:.1f} and more", from),
+                   std::to_string(all.overlaps[k]), std::to_string(all.missed[k]),
+                   share_of(all.missed[k], all.overlaps[k])});
+  }
+  return table;
+}
+
+Table runs_table(const std::vector<ContactRun>& runs) {
+  Table table({{"scene"},
+               {"looks", Align::right},
+               {"contacts", Align::right},
+               {"pairs of cells", Align::right},
+               {"unfelt", Align::right},
+               {"deepest m", Align::right},
+               {"allowed m", Align::right},
+               {"energy", Align::right},
+               {"momentum", Align::right},
+               {"angular", Align::right}});
+  for (const ContactRun& run : runs)
+    table.add_row({run.scene, std::to_string(run.looks), std::to_string(run.contacts),
+                   std::to_string(run.by_depth.count()), std::to_string(run.by_depth.count_missed()),
+                   fmt::format("{:.2g}", run.deepest), fmt::format("{:g}", run.allowed),
+                   fmt::format("{:.1e}", run.energy), run.alone ? fmt::format("{:.1e}", run.momentum) : "",
+                   run.alone ? fmt::format("{:.1e}", run.angular) : ""});
+  return table;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,31 @@
+#pragma once
+// What `validate contact` concludes from what it found.
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/claim.h"
+#include "benchmarks/harness/table.h"
+#include "validation/contact/contact_run.h"
+#include "validation/contact/random_placements.h"
+
+namespace dartboard {
+
+struct ContactResults {
+  struct Placed {
+    std::string bodies;
+    PlacementsFound found;
+  };
+  std::vector<Placed> placements;
+  std::vector<ContactRun> runs;
+};
+
+std::vector<Claim> claims_of(const ContactResults& results);
+
+/// A row for each pair of bodies; and for each class of depth, how many pairs of cells overlap and how many nobody
+/// feels.
+Table placements_table(const ContactResults& results);
+Table depths_table(const ContactResults& results);
+Table runs_table(const std::vector<ContactRun>& runs);
+
+}  // namespace dartboard

@@ -1,0 +1,81 @@
+#include "benchmarks/studies/contact/contact_study.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "benchmarks/studies/contact/contact_report.h"
+#include "core/meshes/generators/mesh_generators.h"
+#include "validation/contact/contact_scenes.h"
+
+namespace dartboard {
+namespace {
+
+struct Pair {
+  std::string bodies;
+  Mesh first, second;
+};
+// boxes with cells of all shapes, balls, and bodies finer than their partners
+std::array<Pair, 4> pairs() {
+  return {{{"two boxes", kuhn_box(2, 2, 2, 0.5, 0.15, 5), kuhn_box(2, 2, 2, 0.5, 0.15, 6)},
+           {"a box and a ball", kuhn_box(2, 2, 2, 0.5, 0.15, 5), tetrahedron_ball(2, 0.5)},
+           {"a finer box and ball", kuhn_box(3, 3, 3, 1.0 / 3, 0.15, 5), tetrahedron_ball(3, 0.5)},
+           {"two balls", tetrahedron_ball(2, 0.5), tetrahedron_ball(2, 0.7)}}};
+}
+
+nlohmann::json depths_of(const OverlapTally& tally) {
+  return {{"overlaps", tally.overlaps}, {"unfelt", tally.missed}, {"deepest_unfelt", tally.deepest_missed}};
+}
+
+}  // namespace
+
+Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
+  // in parts, so that the work shows
+  constexpr std::size_t part = 250;
+  ContactResults results;
+  const auto bodies = pairs();
+  const std::size_t each = std::max<std::size_t>(1, plan.placements / bodies.size());
+  log.begin("validate contact: placements", bodies.size() * ((each + part - 1) / part));
+  for (const Pair& pair : bodies) {
+    ContactResults::Placed placed{pair.bodies, {}};
+    for (std::size_t done = 0; done < each; done += part) {
+      placed.found.add(
+          judge_placements(pair.first, pair.second,
+                           {.placements = std::min(part, each - done), .seed = plan.seed * 1'000'003 + done / part}));
+      log.advance(pair.bodies);
+    }
+    log.sample({{"bodies", pair.bodies},
+                {"seed", plan.seed},
+                {"placements", placed.found.placements},
+                {"overlapping", placed.found.overlapping},
+                {"quiet", placed.found.quiet},
+                {"deepest_quiet", placed.found.deepest_quiet},
+                {"pairs", depths_of(placed.found.by_depth)}});
+    results.placements.push_back(std::move(placed));
+  }
+  const std::vector<SceneFile> scenes = contact_scenes();
+  log.begin("validate contact: runs", scenes.size());
+  for (const SceneFile& scene : scenes) {
+    const ContactRun run = judge_run(scene, plan.looks);
+    log.sample({{"scene", run.scene},
+                {"looks", run.looks},
+                {"contacts", run.contacts},
+                {"ended", run.ended},
+                {"deepest", run.deepest},
+                {"allowed", run.allowed},
+                {"energy", run.energy},
+                {"momentum", run.momentum},
+                {"angular", run.angular},
+                {"pairs", depths_of(run.by_depth)}});
+    results.runs.push_back(run);
+    log.advance(scene.name);
+  }
+  return {.tables = {{"placements", "Bodies put into each other at random; depths over the least altitude of a cell",
+                      placements_table(results)},
+                     {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
+                     {"runs", "Runs, looked at on the way", runs_table(results.runs)}},
+          .claims = claims_of(results)};
+}
+
+}  // namespace dartboard

@@ -1,0 +1,66 @@
+#pragma once
+// What `dartboard tradeoff --models` measures, and which model is the cheapest for an error.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/harness/paired.h"
+#include "benchmarks/studies/models/model_times.h"
+#include "validation/elements/measured_model.h"
+
+namespace dartboard {
+
+/// The four questions, in the order of BarErrors.
+enum class Asked { tip, frequencies, confined, motion };
+inline constexpr std::array<std::string_view, 4> asked_names{"tip", "frequencies", "confined modulus", "motion"};
+inline constexpr std::array all_asked{Asked::tip, Asked::frequencies, Asked::confined, Asked::motion};
+constexpr std::string_view name(Asked asked) { return asked_names[static_cast<std::size_t>(asked)]; }
+double error_of(const BarErrors& errors, Asked asked);
+
+/// A model on a mesh.
+struct ModelPoint {
+  TimedBar timed;
+  MeasuredModel measured;
+  Figure cost;  // [s] of processor time for a simulated second
+};
+
+struct ModelsResults {
+  std::string what;  // the bar, in words
+  std::vector<BarTruth> truths;
+  std::vector<ModelPoint> points;
+  std::vector<Sample> samples;
+
+  const BarTruth& truth(double poisson) const;
+  double sure = 0.02;                    // how far tip and frequencies of the reference may be off
+  static constexpr double exact = 1e-6;  // errors below that are none
+  /// What can be told of a point: its error, or that of the reference where this is larger.
+  double told(const ModelPoint& point, Asked asked) const;
+  /// The cheapest point with at most that error, of a family ("springs", "hexahedra", empty for all) and a ratio; null
+  /// where none is.
+  const ModelPoint* cheapest(Asked asked, double poisson, double error, std::string_view family = {}) const;
+  /// Cost per simulated second of one over that of another, paired within rounds.
+  Figure cost_ratio(const ModelPoint& point, const ModelPoint& baseline) const;
+};
+
+/// Of a bar, from the samples of its task: seconds of processor time for a simulated second.
+Figure cost_of(const std::vector<Sample>& samples, const TimedBar& bar);
+
+/// Is a model of this family: does its name have the word in it?
+bool belongs(const ModelPoint& point, std::string_view family);
+
+/// What an error costs by a model, for a simulated second [s]: between two meshes that follow each other, cost is a
+/// power of error; infinite below the errors of all of them.   pre  points of a model go from coarse to fine
+double cost_for(const ModelsResults& results, const std::string& model, Asked asked, double poisson, double error);
+
+/// Errors for which one model is the cheapest by `cost_for`.
+struct Reign {
+  std::string model;
+  double least = 0.0, below = 0.0;  // errors from `least` on, smaller than `below`; infinite for the first
+};
+/// From large errors to small ones, at those of all meshes and in steps of a hundredth of a decade; below the last
+/// nobody was measured.
+std::vector<Reign> reigns(const ModelsResults& results, Asked asked, double poisson);
+
+}  // namespace dartboard

@@ -1,0 +1,451 @@
+#include "core/contact/body_contact.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/contact/nearest_on_triangle.h"
+#include "core/plain/bytes.h"
+#include "core/plain/compensated_sum.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// What a place may be outside of a face within the body, over the tetrahedron's altitude there.
+constexpr double seam = 0x1p-40;
+/// Depths below this share of the coordinates are rounding.
+constexpr double rounding = 0x1p-46;
+
+/// Where a vertex is, on its way in a step if it is on one.
+struct PlaceNow {
+  const StagePlaces& at;
+  Vector3d operator()(std::uint32_t i) const { return at.w.empty() ? at.x[i] : Vector3d(at.x[i] + at.t * at.w[i]); }
+};
+/// After it has moved on.
+struct PlaceAfter {
+  const StagePlaces& at;
+  std::span<const Vector3d> step;
+  double scale;
+  Vector3d operator()(std::uint32_t i) const { return PlaceNow{at}(i) + scale * step[i]; }
+};
+
+double volume_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
+
+enum class Side { inside, outside, inverted };
+
+/// Where y is by its weights over the corners.
+template <class Place>
+Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, std::array<double, 4>& weights) {
+  const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
+                 r = y - p;
+  const double volume = volume_of(a, b, c);
+  if (!(volume > 0.0)) return Side::inverted;
+  weights[1] = volume_of(r, b, c) / volume;
+  weights[2] = volume_of(r, c, a) / volume;
+  weights[3] = volume_of(r, a, b) / volume;
+  weights[0] = 1.0 - (weights[1] + weights[2] + weights[3]);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool outer = (t.outer >> k & 1u) != 0;
+    if (!(outer ? weights[k] > 0.0 : weights[k] > -seam)) return Side::outside;
+  }
+  return Side::inside;
+}
+
+/// The way out of the tetrahedron for the sample at y. False where y is on the boundary but for rounding.
+template <class Place>
+bool find_way_out(const SkinSolids& solids, const SkinSample& sample, const Vector3d& y, const Place& place,
+                  BodyTouch& touch) {
+  const auto corners = sample.corners();
+  const auto& triangles = solids.triangles();
+  double least = 0.0;
+  touch.triangle = BodyTouch::none;
+  NearestOnTriangle best;
+  for (const std::uint32_t i : solids.tetrahedra()[touch.tetrahedron].nodes)
+    solids.for_each_triangle_at(i, [&](std::uint32_t k) {
+      const SkinTriangle& t = triangles[k];
+      if (k == touch.triangle) return;
+      for (const std::uint32_t j : t.nodes)
+        if (std::ranges::find(corners, j) != corners.end()) return;
+      const NearestOnTriangle found =
+          nearest_on_triangle(place(t.nodes[0]) - y, place(t.nodes[1]) - y, place(t.nodes[2]) - y);
+      const double square = found.way.squaredNorm();
+      if (touch.triangle != BodyTouch::none) {
+        if (!(square <= least)) return;
+        const SkinTriangle& other = triangles[touch.triangle];
+        if (square == least && std::tie(other.face, other.part) < std::tie(t.face, t.part)) return;
+      }
+      least = square;
+      best = found;
+      touch.triangle = k;
+    });
+  if (touch.triangle == BodyTouch::none) return true;
+  touch.depth = std::sqrt(least);
+  double coordinates = y.cwiseAbs().maxCoeff();
+  for (const std::uint32_t j : triangles[touch.triangle].nodes)
+    coordinates = std::max(coordinates, place(j).cwiseAbs().maxCoeff());
+  if (!(touch.depth > rounding * coordinates)) return false;
+  touch.normal = best.way / touch.depth;
+  touch.nearest = best.weight;
+  return true;
+}
+
+}  // namespace
+
+BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids,
+                         const std::vector<ContactPair>& pairs)
+    : samples_(samples), solids_(solids), candidates_(samples, solids, groups_) {
+  for (const ContactPair& pair : pairs) {
+    pair.law.require_valid();
+    groups_.set(pair.a, pair.b, static_cast<std::uint32_t>(laws_.size()));
+    laws_.push_back(pair.law);
+    friction_ = friction_ || pair.law.friction > 0.0;
+    damping_ = damping_ || pair.law.restitution < 1.0;
+  }
+}
+
+/// One sample among some tetrahedra, in the order of their cells and parts.
+template <class Place, class Tetrahedra, class F>
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const Place& place, const F& found) const {
+  const SkinSample& sample = samples_[s];
+  const Vector3d y = mean_of(sample, place);
+  BodyTouch touch{.sample = s};
+  for (const std::uint32_t t : tetrahedra) {
+    const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
+    const Side side = side_of(tetrahedron, y, place, touch.inside);
+    if (side == Side::inverted) ++inverted_;
+    if (side != Side::inside) continue;
+    touch.tetrahedron = t;
+    touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
+    touch.area = 0.5 * sample.area;
+    if (find_way_out(solids_, sample, y, place, touch)) found(touch);
+    return;
+  }
+}
+
+template <class Place>
+void BodyContact::find_touching(const Place& place) const {
+  candidates_.make_sure(place);
+  touching_.clear();
+  lost_.clear();
+  inverted_ = 0;
+  const auto list = candidates_.tetrahedra();
+  for (const CandidatePairs::Row& row : candidates_.rows())
+    look_at(row.sample, list.subspan(row.first, row.count), place, [this](const BodyTouch& touch) {
+      (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
+    });
+}
+
+std::span<const BodyTouch> BodyContact::touching(const StagePlaces& at) const {
+  find_touching(PlaceNow{at});
+  return touching_;
+}
+
+std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& at,
+                                                            std::vector<BodyTouch>* out_of_reach) const {
+  const auto& tetrahedra = solids_.tetrahedra();
+  std::vector<std::uint32_t> order(tetrahedra.size()), may;
+  for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
+  std::ranges::sort(order, {},
+                    [&tetrahedra](std::uint32_t t) { return std::pair(tetrahedra[t].cell, tetrahedra[t].part); });
+  MayTouch may_touch(solids_, groups_);
+  std::vector<BodyTouch> touches;
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    may_touch.look_at(samples_[s]);
+    may.clear();
+    for (const std::uint32_t t : order)
+      if (may_touch(tetrahedra[t])) may.push_back(t);
+    look_at(s, may, PlaceNow{at}, [&](const BodyTouch& touch) {
+      if (touch.triangle != BodyTouch::none) touches.push_back(touch);
+      if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
+    });
+  }
+  return touches;
+}
+
+ContactSite BodyContact::normal_site(const BodyTouch& touch) const {
+  const SkinSample& sample = samples_[touch.sample];
+  const SkinTriangle& triangle = solids_.triangles()[touch.triangle];
+  ContactSite site;
+  for (const std::uint32_t i : sample.corners()) site.add(i, 1.0 / static_cast<double>(sample.count));
+  for (std::size_t k = 0; k < 3; ++k) site.add(triangle.nodes[k], -touch.nearest[k]);
+  return site;
+}
+
+ContactSite BodyContact::tangential_site(const BodyTouch& touch) const {
+  const SkinSample& sample = samples_[touch.sample];
+  const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[touch.tetrahedron];
+  ContactSite site;
+  for (const std::uint32_t i : sample.corners()) site.add(i, 1.0 / static_cast<double>(sample.count));
+  for (std::size_t k = 0; k < 4; ++k) site.add(tetrahedron.nodes[k], -touch.inside[k]);
+  return site;
+}
+
+// ---- what is told
+
+BodyContactState BodyContact::state_at(std::span<const Vector3d> x) const {
+  BodyContactState state;
+  CompensatedSum energy;
+  for (const BodyTouch& t : touching({x})) {
+    ++state.contacts;
+    state.area += t.area;
+    energy.add(laws_[t.law].energy(t.area, t.depth));
+    state.deepest_share = std::max(state.deepest_share, t.depth / laws_[t.law].depth);
+    if (t.depth <= state.deepest) continue;
+    state.deepest = t.depth;
+    state.sample = t.sample;
+    state.from = solids_.group_at(samples_[t.sample].nodes[0]);
+    state.into = solids_.tetrahedra()[t.tetrahedron].group;
+  }
+  state.energy = energy.value();
+  state.out_of_reach = lost_.size();
+  if (!lost_.empty()) state.lost = lost_.front().sample;
+  state.inverted = inverted_;
+  return state;
+}
+
+void BodyContact::raise_vertex_depths(std::span<const Vector3d> x, std::span<double> depth) const {
+  for (const BodyTouch& t : touching({x}))
+    if (const SkinSample& s = samples_[t.sample]; s.count == 1)
+      depth[s.nodes[0]] = std::max(depth[s.nodes[0]], t.depth);
+}
+
+std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
+  const StagePlaces at{x};
+  const PlaceNow place{at};
+  const auto now = touching(at);
+  gone_.assign(lost_.begin(), lost_.end());
+  if (before_changes_ == solids_.changes()) {
+    auto still = now.begin();
+    for (const BodyTouch& t : before_) {
+      while (still != now.end() && still->sample < t.sample) ++still;
+      if (still != now.end() && still->sample == t.sample) continue;
+      if (std::ranges::find(lost_, t.sample, &BodyTouch::sample) != lost_.end()) continue;
+      // it has left: outwards is where its way out leads to, from the triangle that it was nearest to
+      const SkinTriangle& triangle = solids_.triangles()[t.triangle];
+      const Vector3d y = mean_of(samples_[t.sample], place), a = place(triangle.nodes[0]);
+      const Vector3d outwards = (place(triangle.nodes[1]) - a).cross(place(triangle.nodes[2]) - a);
+      if ((y - a).dot(outwards) < 0.0 && -(y - a).dot(outwards) > 0.5 * t.depth * outwards.norm()) gone_.push_back(t);
+    }
+  }
+  before_changes_ = solids_.changes();
+  before_.assign(now.begin(), now.end());
+  return gone_;
+}
+
+double BodyContact::least_altitude(std::span<const Vector3d> x) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SkinTetrahedron& t : solids_.tetrahedra()) {
+    const Vector3d &p = x[t.nodes[0]], a = x[t.nodes[1]] - p, b = x[t.nodes[2]] - p, c = x[t.nodes[3]] - p;
+    const double volume = std::abs(volume_of(a, b, c));
+    double largest = (b - a).cross(c - a).norm();  // twice the area of a face
+    for (const double area : {a.cross(b).norm(), b.cross(c).norm(), c.cross(a).norm()})
+      largest = std::max(largest, area);
+    if (largest > 0.0) least = std::min(least, volume / largest);
+  }
+  return least;
+}
+
+double BodyContact::largest_stiffness(std::uint32_t sample, double share_of_depth) const {
+  const SkinSample& s = samples_[sample];
+  const std::uint32_t group = solids_.group_at(s.nodes[0]);
+  double largest = 0.0;
+  for (std::uint32_t other = 0; other < groups_.count(); ++other)
+    if (const std::uint32_t law = groups_.law(group, other); law != ContactGroups::none)
+      largest = std::max(largest, laws_[law].stiffness(0.5 * s.area, share_of_depth * laws_[law].depth));
+  return largest;
+}
+
+// Of a contact k w w' n n' with the weights w of a site, the row of a node has |w| times the sum of all |w|, which is
+// 2. Weights of the samples at a node are 1/n, and those of triangles there at most 1.
+double BodyContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {
+  std::vector<double> own(inverse_mass.size(), 0.0);
+  double single = 0.0;
+  for (std::uint32_t k = 0; k < samples_.size(); ++k) {
+    const double stiffness = largest_stiffness(k, share_of_depth);
+    single = std::max(single, stiffness);
+    for (const std::uint32_t i : samples_[k].corners()) own[i] += stiffness / static_cast<double>(samples_[k].count);
+  }
+  double highest = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i] > 0.0) highest = std::max(highest, 2.0 * inverse_mass[i] * (own[i] + std::max(own[i], single)));
+  return highest;
+}
+
+double BodyContact::frequency_squared_at(std::span<const Vector3d> x, std::span<const double> inverse_mass) const {
+  std::vector<double> row(inverse_mass.size(), 0.0);
+  for (const BodyTouch& t : touching({x})) {
+    // along the line, and across it: a force that turns with its line
+    const double stiffness =
+        std::max(laws_[t.law].stiffness(t.area, t.depth), laws_[t.law].force(t.area, t.depth) / t.depth);
+    const ContactSite site = normal_site(t);
+    for (std::size_t k = 0; k < site.count; ++k)
+      row[site.nodes[k]] += 2.0 * inverse_mass[site.nodes[k]] * stiffness * std::abs(site.weights[k]);
+  }
+  return row.empty() ? 0.0 : *std::ranges::max_element(row);
+}
+
+// ---- the force term
+
+BodyContact::Nodes BodyContact::nodes(std::size_t piece) const {
+  if (piece < samples_.size()) return samples_[piece].corners();
+  piece -= samples_.size();
+  if (piece < solids_.triangles().size()) return solids_.triangles()[piece].nodes;
+  return solids_.tetrahedra()[piece - solids_.triangles().size()].nodes;
+}
+
+void BodyContact::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  for (const BodyTouch& t : touching(at)) normal_site(t).add_to(force, laws_[t.law].force(t.area, t.depth) * t.normal);
+  for (const BodyFriction& f : frozen_) f.site.add_to(force, f.force);
+}
+
+void BodyContact::add_discrete_forces(const StagePlaces&, std::span<Vector3d>) const {
+  throw SolverError("contact between bodies has kinks, through which there is no discrete gradient");
+}
+
+void BodyContact::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
+  const PlaceNow place{at};
+  const auto add = [size](const ContactSite& site, double force) {
+    for (std::size_t k = 0; k < site.count; ++k) size[site.nodes[k]] += std::abs(site.weights[k]) * force;
+  };
+  for (const BodyTouch& t : touching(at)) {
+    // the depth is a difference of coordinates, and the line turns with what it is wrong by
+    const ContactSite site = normal_site(t);
+    double coordinates = 0.0;
+    for (std::size_t k = 0; k < site.count; ++k) coordinates = std::max(coordinates, place(site.nodes[k]).norm());
+    const double force = laws_[t.law].force(t.area, t.depth);
+    add(site, force + 4.0 * (laws_[t.law].stiffness(t.area, t.depth) + force / t.depth) * coordinates);
+  }
+  for (const BodyFriction& f : frozen_) add(f.site, f.force.norm());
+}
+
+double BodyContact::energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const {
+  CompensatedSum sum;
+  for (const BodyTouch& t : touching({x}))
+    if (t.sample >= first && (t.sample - first) % stride == 0) sum.add(laws_[t.law].energy(t.area, t.depth));
+  for (const BodyFriction& f : frozen_)
+    if (f.sample >= first && (f.sample - first) % stride == 0) sum.add(-f.force.dot(f.site.difference(x) - f.from));
+  return sum.value();
+}
+
+EnergyChange BodyContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
+  EnergyChange sum;
+  // by sample and law: the depth before and after
+  find_touching(PlaceNow{at});
+  earlier_.assign(touching_.begin(), touching_.end());
+  find_touching(PlaceAfter{at, step, scale});
+  const auto add = [&](const BodyTouch* before, const BodyTouch* after) {
+    const BodyTouch& any = before != nullptr ? *before : *after;
+    const ContactLaw& law = laws_[any.law];
+    const double d0 = before != nullptr ? before->depth : 0.0, d1 = after != nullptr ? after->depth : 0.0;
+    const double force = law.mean_force(any.area, d0, d1);
+    double coordinates = 0.0;
+    for (const std::uint32_t i : samples_[any.sample].corners())
+      coordinates = std::max(coordinates, PlaceNow{at}(i).norm());
+    sum.value += force * (d1 - d0);
+    sum.sizes += force * (std::abs(d1 - d0) + 4.0 * coordinates);
+  };
+  auto after = touching_.begin();
+  for (const BodyTouch& before : earlier_) {
+    for (; after != touching_.end() && after->sample < before.sample; ++after) add(nullptr, &*after);
+    const bool same = after != touching_.end() && after->sample == before.sample;
+    if (same && after->law == before.law) {
+      add(&before, &*after);
+    } else {
+      add(&before, nullptr);
+      if (same) add(nullptr, &*after);
+    }
+    if (same) ++after;
+  }
+  for (; after != touching_.end(); ++after) add(nullptr, &*after);
+  for (const BodyFriction& f : frozen_) {
+    const Vector3d way = scale * f.site.difference(step);
+    sum.value -= f.force.dot(way);
+    sum.sizes += f.force.norm() * way.norm();
+  }
+  return sum;
+}
+
+double BodyContact::power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
+                          std::span<const Vector3d> w) const {
+  const auto touches = touching({x});
+  if (touches.empty() && frozen_.empty()) return 0.0;
+  const std::size_t triangles = samples_.size(), tetrahedra = triangles + solids_.triangles().size();
+  asked_.assign(size(), 0);
+  for (const std::uint32_t piece : pieces) asked_[piece] = 1;
+  double sum = 0.0;
+  const auto speed = [w](const auto& nodes, const auto& weights) {
+    Vector3d mean(0, 0, 0);
+    for (std::size_t k = 0; k < weights.size(); ++k) mean += weights[k] * w[nodes[k]];
+    return mean;
+  };
+  const auto of_sample = [this, w](std::uint32_t sample) {
+    return mean_of(samples_[sample], [w](std::uint32_t i) -> const Vector3d& { return w[i]; });
+  };
+  for (const BodyTouch& t : touches) {
+    const Vector3d force = laws_[t.law].force(t.area, t.depth) * t.normal;
+    if (asked_[t.sample] != 0) sum += force.dot(of_sample(t.sample));
+    if (asked_[triangles + t.triangle] != 0) sum -= force.dot(speed(solids_.triangles()[t.triangle].nodes, t.nearest));
+  }
+  for (const BodyFriction& f : frozen_) {
+    if (asked_[f.sample] != 0) sum += f.force.dot(of_sample(f.sample));
+    if (asked_[tetrahedra + f.tetrahedron] == 0) continue;
+    for (std::size_t k = samples_[f.sample].count; k < f.site.count; ++k)
+      sum += f.site.weights[k] * f.force.dot(w[f.site.nodes[k]]);
+  }
+  return sum;
+}
+
+// With w the weights of a site, (w . v)^2 <= 2 (own part)^2 + 2 (other part)^2.
+void BodyContact::for_each_tangent(const StagePlaces& at, Compression, const VisitTangent& visit) const {
+  find_touching(PlaceNow{at});
+  const auto tangent_of = [this](const BodyTouch& t) -> Matrix3d {
+    // along the line; that it turns is left out
+    return 2.0 * laws_[t.law].stiffness(t.area, t.depth) * (t.normal * t.normal.transpose());
+  };
+  auto touch = touching_.begin();
+  for (std::uint32_t k = 0; k < samples_.size(); ++k) {
+    const bool touches = touch != touching_.end() && touch->sample == k;
+    visit_tangent(samples_[k], touches ? tangent_of(*touch++) : Matrix3d(Matrix3d::Zero()), visit);
+  }
+  by_triangle_.clear();
+  for (std::uint32_t k = 0; k < touching_.size(); ++k) by_triangle_.emplace_back(touching_[k].triangle, k);
+  std::ranges::sort(by_triangle_);
+  auto next = by_triangle_.begin();
+  std::array<Matrix3d, 10> blocks;
+  for (std::uint32_t k = 0; k < solids_.triangles().size(); ++k) {
+    std::fill_n(blocks.begin(), 6, Matrix3d::Zero());
+    for (; next != by_triangle_.end() && next->first == k; ++next) {
+      const BodyTouch& t = touching_[next->second];
+      const Matrix3d tangent = tangent_of(t);
+      for (std::size_t a = 0, place = 0; a < 3; ++a)
+        for (std::size_t b = 0; b <= a; ++b, ++place) blocks[place] += t.nearest[a] * t.nearest[b] * tangent;
+    }
+    visit(solids_.triangles()[k].nodes, std::span(blocks).first(6));
+  }
+  blocks.fill(Matrix3d::Zero());
+  for (const SkinTetrahedron& t : solids_.tetrahedra()) visit(t.nodes, blocks);
+}
+
+void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
+  // twice for the side of its own, and as much again for what the other side's samples do to its nodes
+  for (std::uint32_t k = 0; k < samples_.size(); ++k)
+    visit_tangent(samples_[k], 4.0 * largest_stiffness(k, 1.0) * Matrix3d::Identity(), visit);
+  std::array<Matrix3d, 10> blocks;
+  blocks.fill(Matrix3d::Zero());
+  for (const SkinTriangle& t : solids_.triangles()) visit(t.nodes, std::span(blocks).first(6));
+  for (const SkinTetrahedron& t : solids_.tetrahedra()) visit(t.nodes, blocks);
+}
+
+std::size_t BodyContact::bytes() const {
+  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) + bytes_of(asked_, by_triangle_) +
+         groups_.bytes() + candidates_.bytes();
+}
+
+}  // namespace dartboard

@@ -1,0 +1,196 @@
+#include "core/contact/candidate_pairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+#include "core/plain/bytes.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A tetrahedron that reaches over more cells of the grid than this is asked for by every sample.
+constexpr double most_cells = 512.0;
+/// What rounding may take of a margin: of the size of what is looked at.
+constexpr double slack = 0x1p-30;
+
+std::size_t hash_of(double x, double y, double z) {
+  const auto whole = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c)); };
+  std::uint64_t h = whole(x) * 0x9E3779B97F4A7C15u;
+  h = (h ^ (h >> 32u) ^ whole(y)) * 0xBF58476D1CE4E5B9u;
+  h = (h ^ (h >> 29u) ^ whole(z)) * 0x94D049BB133111EBu;
+  return static_cast<std::size_t>(h ^ (h >> 31u));
+}
+
+}  // namespace
+
+// ---- which groups
+
+void ContactGroups::set(std::uint32_t a, std::uint32_t b, std::uint32_t law) {
+  if (this->law(a, b) != none) throw InputError(fmt::format("bodies {} and {} have two laws of contact", a, b));
+  if (const std::size_t count = std::max<std::size_t>(a, b) + 1; count > count_) {
+    std::vector<std::uint32_t> larger(count * count, none);
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t j = 0; j < count_; ++j) larger[i * count + j] = table_[i * count_ + j];
+    table_ = std::move(larger);
+    count_ = count;
+  }
+  table_[a * count_ + b] = table_[b * count_ + a] = law;
+}
+
+// ---- which pairs, wherever they are
+
+void MayTouch::look_at(const SkinSample& sample) {
+  sample_ = &sample;
+  group_ = solids_.group_at(sample.nodes[0]);
+  marked_ = false;
+}
+
+bool MayTouch::operator()(const SkinTetrahedron& tetrahedron) {
+  if (groups_.law(group_, tetrahedron.group) == ContactGroups::none) return false;
+  if (group_ != tetrahedron.group) return true;  // no cell joins two bodies
+  if (!marked_) mark_near();
+  return std::ranges::none_of(tetrahedron.nodes, [this](std::uint32_t i) { return near_[i] == current_; });
+}
+
+/// The corners of the cells at the sample's nodes.
+void MayTouch::mark_near() {
+  marked_ = true;
+  ++current_;
+  near_.resize(std::max(near_.size(), solids_.node_count()), 0);
+  for (const std::uint32_t i : sample_->corners())
+    solids_.for_each_tetrahedron_at(i, [this](std::uint32_t at) {
+      solids_.for_each_tetrahedron_of(solids_.tetrahedra()[at].cell, [this](std::uint32_t part) {
+        for (const std::uint32_t j : solids_.tetrahedra()[part].nodes) near_[j] = current_;
+      });
+    });
+}
+
+// ---- which pairs are near
+
+CandidatePairs::CandidatePairs(const std::vector<SkinSample>& samples, const SkinSolids& solids,
+                               const ContactGroups& groups)
+    : samples_(samples), solids_(solids), may_touch_(solids, groups) {}
+
+void CandidatePairs::set_margin(double share) {
+  if (!(share > 0.0 && std::isfinite(share)))
+    throw InputError(fmt::format("the margin of contacts is {} of the size of cells, expected more than 0", share));
+  share_ = share;
+  changes_ = solids_.changes() - 1;  // no list has this margin
+}
+
+/// The nodes of tetrahedra, once for each state of the skin.
+void CandidatePairs::watch() {
+  if (made_ > 0 && changes_ == solids_.changes()) return;
+  watched_.clear();
+  place_of_node_.assign(solids_.node_count(), SkinSolids::none);
+  for (const SkinTetrahedron& t : solids_.tetrahedra())
+    for (const std::uint32_t i : t.nodes) {
+      if (place_of_node_[i] != SkinSolids::none) continue;
+      place_of_node_[i] = static_cast<std::uint32_t>(watched_.size());
+      watched_.push_back(i);
+    }
+  where_.resize(watched_.size());
+}
+
+std::size_t CandidatePairs::bucket_of(const Vector3d& y) const {
+  const Vector3d cell = y / cell_size_;
+  return hash_of(std::floor(cell[0]), std::floor(cell[1]), std::floor(cell[2])) & (bucket_first_.size() - 2);
+}
+
+// Twice over all cells that the boxes reach over: to count, and to fill.
+void CandidatePairs::put_into_grid() {
+  const std::size_t buckets = std::bit_ceil(2 * std::max<std::size_t>(boxes_.size(), 1));
+  bucket_first_.assign(buckets + 1, 0);
+  everywhere_.clear();
+  const auto for_each_bucket = [&](const Box& box, auto&& visit) {
+    const Vector3d low = (box.low / cell_size_).array().floor(), high = (box.high / cell_size_).array().floor();
+    const Vector3d cells = high - low + Vector3d(1, 1, 1);
+    // of what is no number, too
+    if (!(cells[0] * cells[1] * cells[2] <= most_cells && low.cwiseAbs().maxCoeff() < 1e15)) return false;
+    for (double x = low[0]; x <= high[0]; ++x)
+      for (double y = low[1]; y <= high[1]; ++y)
+        for (double z = low[2]; z <= high[2]; ++z) visit(hash_of(x, y, z) & (buckets - 1));
+    return true;
+  };
+  for (std::uint32_t t = 0; t < boxes_.size(); ++t)
+    if (!for_each_bucket(boxes_[t], [this](std::size_t bucket) { ++bucket_first_[bucket]; })) everywhere_.push_back(t);
+  for (std::size_t k = 0; k < buckets; ++k) bucket_first_[k + 1] += bucket_first_[k];
+  bucket_entry_.resize(bucket_first_[buckets]);
+  // filled from the back of each, so that what was its end becomes its beginning
+  for (std::uint32_t t = 0; t < boxes_.size(); ++t)
+    for_each_bucket(boxes_[t], [this, t](std::size_t bucket) { bucket_entry_[--bucket_first_[bucket]] = t; });
+}
+
+void CandidatePairs::make() {
+  const auto place = [this](std::uint32_t i) -> const Vector3d& { return where_[place_of_node_[i]]; };
+  const auto& tetrahedra = solids_.tetrahedra();
+  rows_.clear();
+  tetrahedra_.clear();
+  changes_ = solids_.changes();
+  sample_count_ = samples_.size();
+  ++made_;
+
+  boxes_.resize(tetrahedra.size());
+  double sizes = 0.0, count = 0.0;
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    Box& box = boxes_[t];
+    box.low = box.high = place(tetrahedra[t].nodes[0]);
+    for (const std::uint32_t i : tetrahedra[t].nodes) {
+      box.low = box.low.cwiseMin(place(i));
+      box.high = box.high.cwiseMax(place(i));
+    }
+    if (const double size = (box.high - box.low).maxCoeff(); std::isfinite(size)) {
+      sizes += size;
+      count += 1.0;
+    }
+  }
+  cell_size_ = count > 0.0 && sizes > 0.0 ? sizes / count : 1.0;
+  const double margin = share_ * cell_size_;
+  limit_ = 0.25 * margin * margin;
+  for (Box& box : boxes_) {
+    const double far = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+    const double by = margin + slack * (cell_size_ + margin) + 0x1p-44 * far;
+    box.low.array() -= by;
+    box.high.array() += by;
+  }
+  put_into_grid();
+
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    const SkinSample& sample = samples_[s];
+    if (sample.nodes[0] >= place_of_node_.size() || place_of_node_[sample.nodes[0]] == SkinSolids::none) continue;
+    const Vector3d y = mean_of(sample, place);
+    if (!y.allFinite() || !(y.cwiseAbs().maxCoeff() < 1e15 * cell_size_)) continue;
+    may_touch_.look_at(sample);
+    found_.clear();
+    const auto try_one = [&](std::uint32_t t) {
+      const Box& box = boxes_[t];
+      if ((y.array() < box.low.array()).any() || (y.array() > box.high.array()).any()) return;
+      if (may_touch_(tetrahedra[t])) found_.push_back(t);
+    };
+    const std::size_t bucket = bucket_of(y);
+    for (std::size_t k = bucket_first_[bucket]; k < bucket_first_[bucket + 1]; ++k) try_one(bucket_entry_[k]);
+    for (const std::uint32_t t : everywhere_) try_one(t);
+    if (found_.empty()) continue;
+    // two cells of the grid may share a bucket
+    std::ranges::sort(found_, [&tetrahedra](std::uint32_t a, std::uint32_t b) {
+      return std::tie(tetrahedra[a].cell, tetrahedra[a].part) < std::tie(tetrahedra[b].cell, tetrahedra[b].part);
+    });
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    rows_.push_back({s, static_cast<std::uint32_t>(tetrahedra_.size()), static_cast<std::uint32_t>(found_.size())});
+    tetrahedra_.insert(tetrahedra_.end(), found_.begin(), found_.end());
+  }
+}
+
+std::size_t CandidatePairs::bytes() const {
+  return bytes_of(rows_, tetrahedra_, watched_, where_, place_of_node_, boxes_) +
+         bytes_of(bucket_first_, bucket_entry_, everywhere_) + may_touch_.bytes();
+}
+
+}  // namespace dartboard

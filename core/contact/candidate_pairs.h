@@ -1,0 +1,127 @@
+#pragma once
+// Which samples are near which tetrahedra: a list with a margin, that holds until something has moved by half of it.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/contact/skin_samples.h"
+#include "core/contact/skin_solids.h"
+
+namespace dartboard {
+
+/// Which groups may touch, and by which law: a table.
+class ContactGroups {
+ public:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  /// throws  InputError where the pair has one
+  void set(std::uint32_t a, std::uint32_t b, std::uint32_t law);
+  /// The number of their law; none where they do not touch.
+  std::uint32_t law(std::uint32_t a, std::uint32_t b) const {
+    return a < count_ && b < count_ ? table_[a * count_ + b] : none;
+  }
+  std::size_t count() const { return count_; }
+  std::size_t bytes() const { return table_.size() * sizeof(std::uint32_t); }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> table_;
+};
+
+/// Whether a sample may be in contact with a tetrahedron wherever both are: groups that may touch, and no vertex shared
+/// with a cell at one of the sample's own nodes.
+class MayTouch {
+ public:
+  MayTouch(const SkinSolids& solids, const ContactGroups& groups) : solids_(solids), groups_(groups) {}
+  /// What is asked about next.
+  void look_at(const SkinSample& sample);
+  bool operator()(const SkinTetrahedron& tetrahedron);
+  std::size_t bytes() const { return near_.size() * sizeof(std::uint64_t); }
+
+ private:
+  void mark_near();
+
+  const SkinSolids& solids_;
+  const ContactGroups& groups_;
+  const SkinSample* sample_ = nullptr;
+  std::uint32_t group_ = 0;
+  bool marked_ = false;
+  std::vector<std::uint64_t> near_;  // by node: the last sample near which it was
+  std::uint64_t current_ = 0;
+};
+
+/// All pairs whose sample is less than a margin beyond the bounding box of the tetrahedron, and may touch it: by
+/// sample, of each the tetrahedra in the order of their cells and parts. Found with a grid of the tetrahedra, hashed.
+class CandidatePairs {
+ public:
+  /// The candidates of a sample: from `first` on in `tetrahedra()`.
+  struct Row {
+    std::uint32_t sample, first, count;
+  };
+
+  CandidatePairs(const std::vector<SkinSample>& samples, const SkinSolids& solids, const ContactGroups& groups);
+
+  void set_margin(double share);
+  double margin_share() const { return share_; }
+
+  /// Make the list anew if a vertex has moved by half of the margin since, or the skin has changed.
+  /// cost  O(nodes of tetrahedra) where it holds
+  template <class At>
+  void make_sure(const At& place) {
+    if (holds(place)) return;
+    make_from(place);
+  }
+  std::span<const Row> rows() const { return rows_; }
+  std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }
+  std::size_t pair_count() const { return tetrahedra_.size(); }
+  /// How often a list has been made.
+  std::uint64_t times_made() const { return made_; }
+  std::size_t bytes() const;
+
+ private:
+  template <class At>
+  bool holds(const At& place) const {
+    if (changes_ != solids_.changes() || sample_count_ != samples_.size() || made_ == 0) return false;
+    for (std::size_t k = 0; k < watched_.size(); ++k)
+      if (!((place(watched_[k]) - where_[k]).squaredNorm() < limit_)) return false;
+    return true;
+  }
+  template <class At>
+  void make_from(const At& place) {
+    watch();
+    for (std::size_t k = 0; k < watched_.size(); ++k) where_[k] = place(watched_[k]);
+    make();
+  }
+  void watch();
+  void make();
+  void put_into_grid();
+  std::size_t bucket_of(const Eigen::Vector3d& y) const;
+
+  const std::vector<SkinSample>& samples_;
+  const SkinSolids& solids_;
+  double share_ = 0.25;
+
+  std::vector<Row> rows_;
+  std::vector<std::uint32_t> tetrahedra_;
+  // when the list was made: nodes of tetrahedra and where they were; where they may not have moved from [m^2]
+  std::vector<std::uint32_t> watched_;
+  std::vector<Eigen::Vector3d> where_;
+  double limit_ = 0.0;
+  std::uint64_t changes_ = 0, made_ = 0;
+  std::size_t sample_count_ = 0;
+
+  // scratch
+  struct Box {
+    Eigen::Vector3d low, high;
+  };
+  MayTouch may_touch_;
+  std::vector<std::uint32_t> place_of_node_;  // in watched_
+  std::vector<Box> boxes_;                    // of tetrahedra, with the margin
+  std::vector<std::uint32_t> bucket_first_, bucket_entry_, everywhere_, found_;
+  double cell_size_ = 0.0;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,333 @@
+#include "core/contact/contact_impulses.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/forces/one_minus_exp.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+using Mobility = std::span<const double>;
+using Fixed = std::span<const std::uint8_t>;
+
+// Sweeps over contacts that share vertices in one step, the next step going on from there; and the change of a force,
+// relative to what it has at most, that ends them.
+constexpr int most_sweeps = 4;
+constexpr double settled = 1e-12;
+
+double mobility_of(std::uint32_t i, Mobility inverse_mass, Fixed fixed) {
+  return !fixed.empty() && fixed[i] != 0 ? 0.0 : inverse_mass[i];
+}
+
+/// What a force at the sample accelerates its place by [1/kg]: each node has 1/n of it, and 1/n of the place.
+double mobility_of(const SkinSample& sample, Mobility inverse_mass, Fixed fixed) {
+  double sum = 0.0;
+  for (const std::uint32_t i : sample.corners()) sum += mobility_of(i, inverse_mass, fixed);
+  return sum / static_cast<double>(sample.count * sample.count);
+}
+
+/// A force or an impulse at the sample, over the masses of its nodes.
+void push(const SkinSample& sample, const Vector3d& impulse, Mobility inverse_mass, Fixed fixed,
+          std::span<Vector3d> v) {
+  const Vector3d share = impulse / static_cast<double>(sample.count);
+  for (const std::uint32_t i : sample.corners()) v[i] += mobility_of(i, inverse_mass, fixed) * share;
+}
+
+/// The same between two bodies.
+double mobility_of(const ContactSite& site, Mobility inverse_mass, Fixed fixed) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < site.count; ++k)
+    sum += site.weights[k] * site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed);
+  return sum;
+}
+
+void push(const ContactSite& site, const Vector3d& impulse, Mobility inverse_mass, Fixed fixed, std::span<Vector3d> v) {
+  for (std::size_t k = 0; k < site.count; ++k)
+    v[site.nodes[k]] += (site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed)) * impulse;
+}
+
+/// What stands behind a contact and is stopped by it [kg].
+double mass_behind(const ContactLaw& law, double area, double mobility) {
+  return law.mass_behind > 0.0 ? law.mass_behind * area : 1.0 / mobility;
+}
+
+/// What friction has at most [N] in a step of h, where places approach each other at this speed from the depth at its
+/// beginning to that half way.
+double most_friction(const ContactLaw& law, double damping_ratio, double area, double mass, double depth,
+                     double depth_half_way, double approach, double h) {
+  const double pushed =
+      law.force(area, depth_half_way) + law.damping(damping_ratio, area, mass, depth_half_way) * approach;
+  // A step that is long for the contact comes in deeper than it will be: its force cannot have more than the force at
+  // the beginning and what turns the normal speed.
+  const double turned = law.force(area, depth) + (1.0 + law.restitution) * mass * std::max(0.0, approach) / h;
+  return law.friction * std::clamp(pushed, 0.0, turned);
+}
+
+Vector3d across(const Vector3d& v, const Vector3d& normal) { return v - v.dot(normal) * normal; }
+
+/// Drawn in to a size that is allowed.
+Vector3d at_most(const Vector3d& force, double size) {
+  const double now = force.norm();
+  return now > size ? Vector3d(size / now * force) : force;
+}
+
+}  // namespace
+
+ContactImpulses::ContactImpulses(ObstacleContact* obstacles, BodyContact* bodies)
+    : obstacles_(obstacles), bodies_(bodies) {
+  if (obstacles_ != nullptr)
+    for (const ContactLaw& law : obstacles_->laws()) damping_ratio_.push_back(law.damping_ratio());
+  if (bodies_ != nullptr)
+    for (const ContactLaw& law : bodies_->laws()) damping_ratio_of_bodies_.push_back(law.damping_ratio());
+}
+
+bool ContactImpulses::has_friction() const {
+  return (obstacles_ != nullptr && obstacles_->has_friction()) || (bodies_ != nullptr && bodies_->has_friction());
+}
+
+bool ContactImpulses::begin(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+                            std::span<Vector3d> v, const Accelerations& accelerations) {
+  losses_at_begin_ = losses_;
+  bool changed = place_at(time, x);
+  changed = damp(time, h / 2, inverse_mass, fixed, x, v) || changed;
+  changed = place_at(time + h / 2, x) || changed;
+  return set_friction(time, h, inverse_mass, fixed, x, v, accelerations) || changed;
+}
+
+bool ContactImpulses::end(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+                          std::span<Vector3d> v) {
+  bool changed = false;
+  if (obstacles_ != nullptr) {
+    auto& frozen = obstacles_->frozen_friction_to_set();
+    changed = !frozen.empty();
+    for (const ContactFriction& f : frozen) {
+      const Obstacle& obstacle = obstacles_->obstacles()[f.obstacle];
+      const double carried = f.force.dot(obstacle.moved_by(time + h) - obstacle.moved_by(time));
+      losses_.supplied += carried;
+      losses_.rubbed += carried - f.force.dot(ObstacleContact::place_of(obstacles_->samples()[f.sample], x) - f.from);
+    }
+    frozen.clear();
+  }
+  if (bodies_ != nullptr) {
+    auto& frozen = bodies_->frozen_friction_to_set();
+    changed = changed || !frozen.empty();
+    for (const BodyFriction& f : frozen) losses_.rubbed -= f.force.dot(f.site.difference(x) - f.from);
+    frozen.clear();
+  }
+  changed = place_at(time + h, x) || changed;
+  return damp(time + h, h / 2, inverse_mass, fixed, x, v) || changed;
+}
+
+void ContactImpulses::take_back() {
+  if (obstacles_ != nullptr) obstacles_->frozen_friction_to_set().clear();
+  if (bodies_ != nullptr) bodies_->frozen_friction_to_set().clear();
+  losses_ = losses_at_begin_;
+  if (!has_friction()) return;
+  // where `begin` has put them
+  std::swap(before_, now_);
+  std::swap(bodies_before_, bodies_now_);
+}
+
+bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
+  if (obstacles_ == nullptr) return false;
+  const EnergyChange work = obstacles_->work_of_placing(time, x);
+  losses_.supplied += work.value;
+  obstacles_->place_at(time);
+  return work.sizes > 0.0;  // what moves elsewhere changes no force
+}
+
+bool ContactImpulses::damp(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+                           std::span<Vector3d> v) {
+  const bool samples =
+                 obstacles_ != nullptr && obstacles_->has_damping() && damp_samples(time, h, inverse_mass, fixed, x, v),
+             bodies = bodies_ != nullptr && bodies_->has_damping() && damp_bodies(h, inverse_mass, fixed, x, v);
+  return samples || bodies;
+}
+
+bool ContactImpulses::damp_samples(double time, double h, Mobility inverse_mass, Fixed fixed,
+                                   std::span<const Vector3d> x, std::span<Vector3d> v) {
+  bool changed = false;
+  Penetration in;
+  for (const SkinSample& s : obstacles_->samples()) {
+    const Vector3d y = ObstacleContact::place_of(s, x);
+    for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
+      if (damping_ratio_[o] == 0.0 || !obstacles_->find_penetration(o, y, in)) continue;
+      const double mobility = mobility_of(s, inverse_mass, fixed);
+      if (mobility == 0.0) continue;
+      const ContactLaw& law = obstacles_->laws()[o];
+      const double speed_of_obstacle = obstacles_->obstacles()[o].velocity_at(time).dot(in.normal),
+                   speed = ObstacleContact::place_of(s, v).dot(in.normal) - speed_of_obstacle,
+                   mass = mass_behind(law, s.area, mobility),
+                   c = law.damping(damping_ratio_[o], s.area, mass, in.depth),
+                   lost = one_minus_exp_of_minus(c * mobility * h), impulse = -speed * lost / mobility;
+      if (impulse == 0.0) continue;
+      // what moves whatever acts on it: the obstacle, and nodes that are driven
+      double driven = 0.0;
+      for (const std::uint32_t i : s.corners())
+        if (mobility_of(i, inverse_mass, fixed) == 0.0) driven += v[i].dot(in.normal) / static_cast<double>(s.count);
+      push(s, impulse * in.normal, inverse_mass, fixed, v);
+      losses_.damped += 0.5 * speed * speed * lost * (2.0 - lost) / mobility;
+      losses_.supplied += impulse * (speed_of_obstacle - driven);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+bool ContactImpulses::damp_bodies(double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+                                  std::span<Vector3d> v) {
+  bool changed = false;
+  for (const BodyTouch& t : bodies_->touching({x})) {
+    const double ratio = damping_ratio_of_bodies_[t.law];
+    if (ratio == 0.0) continue;
+    const ContactSite site = bodies_->normal_site(t);
+    const double mobility = mobility_of(site, inverse_mass, fixed);
+    if (mobility == 0.0) continue;
+    const ContactLaw& law = bodies_->laws()[t.law];
+    const double speed = site.difference(v).dot(t.normal), mass = mass_behind(law, t.area, mobility),
+                 gone = one_minus_exp_of_minus(law.damping(ratio, t.area, mass, t.depth) * mobility * h),
+                 impulse = -speed * gone / mobility;
+    if (impulse == 0.0) continue;
+    double driven = 0.0;
+    for (std::size_t k = 0; k < site.count; ++k)
+      if (mobility_of(site.nodes[k], inverse_mass, fixed) == 0.0)
+        driven += site.weights[k] * v[site.nodes[k]].dot(t.normal);
+    push(site, impulse * t.normal, inverse_mass, fixed, v);
+    losses_.damped += 0.5 * speed * speed * gone * (2.0 - gone) / mobility;
+    losses_.supplied -= impulse * driven;
+    changed = true;
+  }
+  return changed;
+}
+
+void ContactImpulses::find_rubbing_samples(double time, double h, Mobility inverse_mass, Fixed fixed,
+                                           std::span<const Vector3d> x, std::span<const Vector3d> v) {
+  Penetration in;
+  auto old = before_.begin();
+  const auto& samples = obstacles_->samples();
+  for (std::uint32_t k = 0; k < samples.size(); ++k) {
+    const SkinSample& s = samples[k];
+    const Vector3d y = ObstacleContact::place_of(s, x), speed = ObstacleContact::place_of(s, v),
+                   half_way = y + (h / 2) * speed;
+    for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
+      const ContactLaw& law = obstacles_->laws()[o];
+      if (law.friction == 0.0 || !obstacles_->find_penetration(o, half_way, in)) continue;
+      const double mobility = mobility_of(s, inverse_mass, fixed);
+      if (mobility == 0.0) continue;
+      const double approach = (obstacles_->obstacles()[o].velocity_at(time + h / 2) - speed).dot(in.normal);
+      most_.push_back(most_friction(law, damping_ratio_[o], s.area, mass_behind(law, s.area, mobility),
+                                    obstacles_->penetration_in(o, y).depth, in.depth, approach, h));
+      normal_.push_back(in.normal);
+      while (old != before_.end() && std::pair(old->sample, old->obstacle) < std::pair(k, o)) ++old;
+      const bool held = old != before_.end() && old->sample == k && old->obstacle == o;
+      now_.push_back({k, o, held ? across(old->force, in.normal) : Vector3d(0, 0, 0), y});
+    }
+  }
+}
+
+void ContactImpulses::find_rubbing_bodies(double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+                                          std::span<const Vector3d> v) {
+  depth_.clear();
+  for (const BodyTouch& t : bodies_->touching({x})) depth_.emplace_back(t.sample, t.depth);
+  auto old = bodies_before_.begin();
+  auto deep = depth_.begin();
+  for (const BodyTouch& t : bodies_->touching({x, v, h / 2})) {
+    const ContactLaw& law = bodies_->laws()[t.law];
+    if (law.friction == 0.0) continue;
+    const ContactSite along = bodies_->normal_site(t), site = bodies_->tangential_site(t);
+    const double mobility = mobility_of(along, inverse_mass, fixed);
+    if (mobility == 0.0 || mobility_of(site, inverse_mass, fixed) == 0.0) continue;
+    const double approach = -along.difference(v).dot(t.normal);
+    while (deep != depth_.end() && deep->first < t.sample) ++deep;
+    const double depth = deep != depth_.end() && deep->first == t.sample ? deep->second : 0.0;
+    most_.push_back(most_friction(law, damping_ratio_of_bodies_[t.law], t.area, mass_behind(law, t.area, mobility),
+                                  depth, t.depth, approach, h));
+    normal_.push_back(t.normal);
+    while (old != bodies_before_.end() && old->sample < t.sample) ++old;
+    const bool held = old != bodies_before_.end() && old->sample == t.sample;
+    bodies_now_.push_back(
+        {t.sample, t.tetrahedron, site, held ? across(old->force, t.normal) : Vector3d(0, 0, 0), site.difference(x)});
+  }
+}
+
+bool ContactImpulses::set_friction(double time, double h, Mobility inverse_mass, Fixed fixed,
+                                   std::span<const Vector3d> x, std::span<const Vector3d> v,
+                                   const Accelerations& accelerations) {
+  if (!has_friction()) return false;
+  now_.clear();
+  bodies_now_.clear();
+  normal_.clear();
+  most_.clear();
+  if (obstacles_ != nullptr && obstacles_->has_friction()) find_rubbing_samples(time, h, inverse_mass, fixed, x, v);
+  if (bodies_ != nullptr && bodies_->has_friction()) find_rubbing_bodies(h, inverse_mass, fixed, x, v);
+  if (now_.empty() && bodies_now_.empty()) {
+    before_.swap(now_);
+    bodies_before_.swap(bodies_now_);
+    return false;
+  }
+
+  acceleration_.resize(x.size());
+  accelerations(x, v, acceleration_);  // with no friction set yet
+  for (std::size_t k = 0; k < now_.size(); ++k) {
+    now_[k].force = at_most(now_[k].force, most_[k]);
+    push(obstacles_->samples()[now_[k].sample], now_[k].force, inverse_mass, fixed, acceleration_);
+  }
+  const std::size_t first = now_.size();  // of those between bodies
+  for (std::size_t k = 0; k < bodies_now_.size(); ++k) {
+    bodies_now_[k].force = at_most(bodies_now_[k].force, most_[first + k]);
+    push(bodies_now_[k].site, bodies_now_[k].force, inverse_mass, fixed, acceleration_);
+  }
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    bool done = true;
+    // What would stop it by the end of the step; or, against the way that it goes half way there, what is allowed.
+    const auto relax = [&](const Vector3d& speed, const Vector3d& others, double mobility, double most, Vector3d& old) {
+      Vector3d force = -(speed + others) / mobility;
+      if (force.norm() > most) {
+        const Vector3d way = speed + 0.5 * others;
+        const double size = way.norm();
+        force = size > 0.0 ? Vector3d(-most / size * way) : at_most(force, most);
+      }
+      Vector3d change = force - old;
+      if (change.norm() > settled * most) done = false;
+      old = force;
+      return change;
+    };
+    for (std::size_t k = 0; k < now_.size(); ++k) {
+      ContactFriction& f = now_[k];
+      const SkinSample& s = obstacles_->samples()[f.sample];
+      const Obstacle& obstacle = obstacles_->obstacles()[f.obstacle];
+      const double mobility = mobility_of(s, inverse_mass, fixed);
+      const Vector3d carried = (obstacle.moved_by(time + h) - obstacle.moved_by(time)) / h,
+                     speed = across(ObstacleContact::place_of(s, v) - carried, normal_[k]) / h,
+                     others = across(ObstacleContact::place_of(s, acceleration_), normal_[k]) - mobility * f.force;
+      push(s, relax(speed, others, mobility, most_[k], f.force), inverse_mass, fixed, acceleration_);
+    }
+    for (std::size_t k = 0; k < bodies_now_.size(); ++k) {
+      BodyFriction& f = bodies_now_[k];
+      const Vector3d& normal = normal_[first + k];
+      const double mobility = mobility_of(f.site, inverse_mass, fixed);
+      const Vector3d speed = across(f.site.difference(v), normal) / h,
+                     others = across(f.site.difference(acceleration_), normal) - mobility * f.force;
+      push(f.site, relax(speed, others, mobility, most_[first + k], f.force), inverse_mass, fixed, acceleration_);
+    }
+    if (done) break;
+  }
+  if (obstacles_ != nullptr) obstacles_->frozen_friction_to_set() = now_;
+  if (bodies_ != nullptr) bodies_->frozen_friction_to_set() = bodies_now_;
+  before_.swap(now_);
+  bodies_before_.swap(bodies_now_);
+  return true;
+}
+
+std::size_t ContactImpulses::bytes() const {
+  return (damping_ratio_.capacity() + most_.capacity()) * sizeof(double) +
+         (acceleration_.capacity() + normal_.capacity()) * sizeof(Vector3d) +
+         (before_.capacity() + now_.capacity()) * sizeof(ContactFriction) +
+         damping_ratio_of_bodies_.capacity() * sizeof(double) +
+         (bodies_before_.capacity() + bodies_now_.capacity()) * sizeof(BodyFriction) +
+         depth_.capacity() * sizeof(std::pair<std::uint32_t, double>);
+}
+
+}  // namespace dartboard

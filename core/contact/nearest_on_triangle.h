@@ -1,0 +1,20 @@
+#pragma once
+// The point of a triangle that is nearest to a place.
+
+#include <Eigen/Core>
+#include <array>
+
+namespace dartboard {
+
+/// The point, by its weights over the corners: at least 0, and 1 together.
+struct NearestOnTriangle {
+  std::array<double, 3> weight{};
+  Eigen::Vector3d way{0, 0, 0};  // [m] from the place to the point
+};
+
+/// Of corners relative to the place, so that its coordinates cancel once. The way is straight along the normal where
+/// the point is within the triangle, so that its direction keeps its digits however short it is. A triangle without
+/// area is its edges.
+NearestOnTriangle nearest_on_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+}  // namespace dartboard

@@ -1,0 +1,261 @@
+#include "core/contact/obstacle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/way_inside.h"
+#include "core/plain/compensated_sum.h"
+#include "core/plain/error.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Vector3d mean_of(const SkinSample& sample, std::span<const Vector3d> of) {
+  return mean_of(sample, [of](std::uint32_t i) -> const Vector3d& { return of[i]; });
+}
+
+Vector3d place_on_the_way(const SkinSample& sample, const StagePlaces& at) {
+  Vector3d place = mean_of(sample, at.x);
+  if (at.w.empty()) return place;
+  return place + at.t * mean_of(sample, at.w);
+}
+
+/// A share of it to each node.
+void share_force(const SkinSample& sample, const Vector3d& f, std::span<Vector3d> force) {
+  if (sample.count == 1) {
+    force[sample.nodes[0]] += f;
+    return;
+  }
+  const Vector3d share = f / static_cast<double>(sample.count);
+  for (const std::uint32_t i : sample.corners()) force[i] += share;
+}
+
+/// The origin that places in a shape are taken from: what rounding acts on beside the place itself.
+const Vector3d& origin_of(const ObstacleShape& shape) {
+  if (const auto* plane = std::get_if<HalfSpace>(&shape)) return plane->point;
+  if (const auto* ball = std::get_if<Ball>(&shape)) return ball->centre;
+  return std::get<Block>(shape).high;
+}
+
+}  // namespace
+
+ObstacleContact::ObstacleContact(std::vector<ContactLaw> laws, std::vector<Obstacle> obstacles,
+                                 const std::vector<SkinSample>& samples)
+    : laws_(std::move(laws)),
+      obstacles_(std::move(obstacles)),
+      samples_(samples),
+      moved_(obstacles_.size(), Vector3d(0, 0, 0)) {
+  if (laws_.size() != obstacles_.size()) throw InputError("every obstacle needs one law of contact");
+  for (const Obstacle& obstacle : obstacles_) obstacle.require_valid();
+  for (const ContactLaw& law : laws_) {
+    law.require_valid();
+    friction_ = friction_ || law.friction > 0.0;
+    damping_ = damping_ || law.restitution < 1.0;
+  }
+}
+
+bool ObstacleContact::place_at(double time) {
+  bool any = false;
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    const Vector3d there = obstacles_[o].moved_by(time);
+    any = any || there != moved_[o];
+    moved_[o] = there;
+  }
+  return any;
+}
+
+EnergyChange ObstacleContact::work_of_placing(double time, std::span<const Vector3d> x) const {
+  CompensatedSum sum;
+  double sizes = 0.0;
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    // an obstacle that goes one way is a body that goes the other
+    const Vector3d way = moved_[o] - obstacles_[o].moved_by(time);
+    if (way.isZero(0.0)) continue;
+    for (const SkinSample& s : samples_) {
+      const EnergyChange change = change_on_way(laws_[o], s.area, obstacles_[o].shape, mean_of(s, x) - moved_[o], way);
+      sum.add(change.value);
+      sizes += change.sizes;
+    }
+  }
+  return {sum.value(), sizes};
+}
+
+Vector3d ObstacleContact::place_of(const SkinSample& sample, std::span<const Vector3d> x) { return mean_of(sample, x); }
+
+Penetration ObstacleContact::penetration_in(std::uint32_t o, const Vector3d& y) const {
+  return penetration(obstacles_[o].shape, y - moved_[o]);
+}
+
+bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penetration& found) const {
+  const Vector3d place = y - moved_[o];
+  if (!is_inside(obstacles_[o].shape, place)) return false;
+  found = penetration(obstacles_[o].shape, place);
+  return found.depth > 0.0;
+}
+
+template <class F>
+void ObstacleContact::for_each_contact(const Vector3d& y, F&& f) const {
+  Penetration found;
+  for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
+    if (find_penetration(o, y, found)) f(laws_[o], found, o);
+}
+
+std::span<const ContactFriction> ObstacleContact::friction_at(std::size_t piece) const {
+  const auto by_sample = [](const ContactFriction& f) { return f.sample; };
+  const auto first = std::ranges::lower_bound(frozen_, piece, {}, by_sample),
+             last = std::ranges::upper_bound(frozen_, piece, {}, by_sample);
+  return {first, last};
+}
+
+ContactState ObstacleContact::state_at(std::span<const Vector3d> x) const {
+  ContactState state;
+  state.force_on.assign(obstacles_.size(), Vector3d(0, 0, 0));
+  CompensatedSum energy;
+  for (std::uint32_t k = 0; k < samples_.size(); ++k) {
+    const double area = samples_[k].area;
+    for_each_contact(mean_of(samples_[k], x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t o) {
+      ++state.contacts;
+      state.area += area;
+      energy.add(law.energy(area, in.depth));
+      state.force_on[o] -= law.force(area, in.depth) * in.normal;
+      state.deepest_share = std::max(state.deepest_share, in.depth / law.depth);
+      if (in.depth <= state.deepest) return;
+      state.deepest = in.depth;
+      state.sample = k;
+      state.obstacle = o;
+    });
+  }
+  state.energy = energy.value();
+  return state;
+}
+
+void ObstacleContact::vertex_depths(std::span<const Vector3d> x, std::span<double> depth) const {
+  std::ranges::fill(depth, 0.0);
+  for (const SkinSample& s : samples_)
+    if (s.count == 1)
+      for_each_contact(mean_of(s, x), [&](const ContactLaw&, const Penetration& in, std::uint32_t) {
+        depth[s.nodes[0]] = std::max(depth[s.nodes[0]], in.depth);
+      });
+}
+
+double ObstacleContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {
+  std::vector<double> row(inverse_mass.size(), 0.0);
+  for (const SkinSample& s : samples_)
+    for (const std::uint32_t i : s.corners())
+      row[i] += inverse_mass[i] * largest_stiffness(s.area, share_of_depth) / static_cast<double>(s.count);
+  return row.empty() ? 0.0 : *std::ranges::max_element(row);
+}
+
+double ObstacleContact::largest_stiffness(double area, double share_of_depth) const {
+  double largest = 0.0;
+  for (const ContactLaw& law : laws_) largest = std::max(largest, law.stiffness(area, share_of_depth * law.depth));
+  return largest;
+}
+
+void ObstacleContact::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  for (const SkinSample& s : samples_)
+    for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+      share_force(s, law.force(s.area, in.depth) * in.normal, force);
+    });
+  for (const ContactFriction& f : frozen_) share_force(samples_[f.sample], f.force, force);
+}
+
+void ObstacleContact::add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  for (const SkinSample& s : samples_) {
+    const Vector3d from = mean_of(s, at.x), way = (2.0 * at.t) * mean_of(s, at.w);
+    for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
+      const Vector3d f = mean_force_on_way(laws_[o], s.area, obstacles_[o].shape, from - moved_[o], way);
+      if (!f.isZero(0.0)) share_force(s, f, force);
+    }
+  }
+  for (const ContactFriction& f : frozen_) share_force(samples_[f.sample], f.force, force);
+}
+
+void ObstacleContact::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
+  const auto share = [&size](const SkinSample& s, double force) {
+    for (const std::uint32_t i : s.corners()) size[i] += force / static_cast<double>(s.count);
+  };
+  for (const SkinSample& s : samples_) {
+    const Vector3d y = place_on_the_way(s, at);
+    for_each_contact(y, [&](const ContactLaw& law, const Penetration& in, std::uint32_t o) {
+      // the depth is a difference of coordinates
+      double coordinates = y.norm() + origin_of(obstacles_[o].shape).norm() + moved_[o].norm();
+      for (const std::uint32_t i : s.corners()) {
+        coordinates += at.x[i].norm();
+        if (!at.w.empty()) coordinates += std::abs(at.t) * at.w[i].norm();
+      }
+      share(s, law.force(s.area, in.depth) + law.stiffness(s.area, in.depth) * coordinates);
+    });
+  }
+  for (const ContactFriction& f : frozen_) share(samples_[f.sample], f.force.norm());
+}
+
+double ObstacleContact::energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const {
+  CompensatedSum sum;
+  for (std::size_t k = first; k < samples_.size(); k += stride)
+    for_each_contact(mean_of(samples_[k], x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+      sum.add(law.energy(samples_[k].area, in.depth));
+    });
+  for (const ContactFriction& f : frozen_)
+    if (f.sample >= first && (f.sample - first) % stride == 0)
+      sum.add(-f.force.dot(mean_of(samples_[f.sample], x) - f.from));
+  return sum.value();
+}
+
+EnergyChange ObstacleContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
+  EnergyChange sum;
+  const auto add = [&sum](const EnergyChange& change) {
+    sum.value += change.value;
+    sum.sizes += change.sizes;
+  };
+  for (const SkinSample& s : samples_) {
+    const Vector3d from = place_on_the_way(s, at), way = scale * mean_of(s, step);
+    for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
+      add(change_on_way(laws_[o], s.area, obstacles_[o].shape, from - moved_[o], way));
+  }
+  for (const ContactFriction& f : frozen_) {
+    const Vector3d way = scale * mean_of(samples_[f.sample], step);
+    add({-f.force.dot(way), f.force.norm() * way.norm()});
+  }
+  return sum;
+}
+
+double ObstacleContact::power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
+                              std::span<const Vector3d> w) const {
+  double sum = 0.0;
+  for (const std::uint32_t k : pieces) {
+    const SkinSample& s = samples_[k];
+    const Vector3d speed = mean_of(s, w);
+    for_each_contact(mean_of(s, x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+      sum += law.force(s.area, in.depth) * in.normal.dot(speed);
+    });
+    for (const ContactFriction& f : friction_at(k)) sum += f.force.dot(speed);
+  }
+  return sum;
+}
+
+void ObstacleContact::for_each_tangent(const StagePlaces& at, Compression compression,
+                                       const VisitTangent& visit) const {
+  for (const SkinSample& s : samples_) {
+    Matrix3d sum = Matrix3d::Zero();
+    for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+      sum += law.stiffness(s.area, in.depth) * (in.normal * in.normal.transpose());
+      if (compression == Compression::exact) sum -= law.force(s.area, in.depth) * in.curvature;
+    });
+    visit_tangent(s, sum, visit);
+  }
+}
+
+void ObstacleContact::for_each_constant_tangent(const VisitTangent& visit) const {
+  for (const SkinSample& s : samples_) visit_tangent(s, largest_stiffness(s.area, 1.0) * Matrix3d::Identity(), visit);
+}
+
+std::size_t ObstacleContact::bytes() const {
+  return laws_.capacity() * sizeof(ContactLaw) + obstacles_.capacity() * sizeof(Obstacle) +
+         moved_.capacity() * sizeof(Vector3d) + frozen_.capacity() * sizeof(ContactFriction);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,140 @@
+#pragma once
+// Contact of a body's boundary with obstacles, as a force term.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/contact/contact_law.h"
+#include "core/contact/obstacle.h"
+#include "core/contact/skin_samples.h"
+#include "core/forces/force_term.h"
+
+namespace dartboard {
+
+/// A sample inside an obstacle, and a frozen force that friction has on it.
+struct ContactFriction {
+  std::uint32_t sample = 0, obstacle = 0;
+  Eigen::Vector3d force{0, 0, 0};  // [N] on the body
+  Eigen::Vector3d from{0, 0, 0};   // [m] where the sample was
+
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(sample, obstacle, force, from);
+  }
+};
+
+/// What a run tells of its contacts.
+struct ContactState {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  std::size_t contacts = 0;                      // pairs of a sample and an obstacle that it is inside
+  double area = 0.0;                             // [m^2] that these stand for
+  double energy = 0.0;                           // [J]
+  double deepest = 0.0;                          // [m]; 0 without a contact
+  std::uint32_t sample = none, obstacle = none;  // of the deepest, the first of equals
+  double deepest_share = 0.0;                    // the largest depth over the `depth` of its law
+  std::vector<Eigen::Vector3d> force_on;         // [N] on each obstacle
+};
+
+/// A zero-thickness penalty: each sample that is inside an obstacle has the energy of the obstacle's law at its depth.
+/// A sample feels every obstacle that it is inside, not the deepest alone, so that the energy is a sum of smooth ones
+/// and has p - 1 continuous derivatives wherever the depths are smooth (half-spaces; balls but for their centre).
+///
+/// Pieces are the samples, whether they touch or not, so that patterns stay while contacts come and go. The force at a
+/// sample is shared by its nodes equally, as its place is their mean. Obstacles stand still between two calls of
+/// `place_at`. There is no virial: what acts from outside is no tension within (as for gravity and pulls), and tearing
+/// goes by what the body does against it.
+///
+/// The constant tangent is what a contact of the depth of its law has, in the obstacle of the stiffest law at each
+/// sample, as if all were touching. Projected tangents leave out the curvature of balls, whose sign is negative.
+/// pre     the samples live as long as the term and are read anew in each call
+/// cost    per sample that is outside of all obstacles: its mean and, for each obstacle, a dot product (half-space),
+///         a squared distance (ball) or up to six comparisons (block), no root; no allocation
+class ObstacleContact final : public ForceTerm {
+ public:
+  /// One law for each obstacle.
+  /// throws  InputError where a law or an obstacle is not valid
+  ObstacleContact(std::vector<ContactLaw> laws, std::vector<Obstacle> obstacles,
+                  const std::vector<SkinSample>& samples);
+
+  const std::vector<SkinSample>& samples() const { return samples_; }
+  std::span<const Obstacle> obstacles() const { return obstacles_; }
+  std::span<const ContactLaw> laws() const { return laws_; }
+  /// Whether any law has friction, or loses speed: what ContactImpulses are there for.
+  bool has_friction() const { return friction_; }
+  bool has_damping() const { return damping_; }
+
+  /// Put the obstacles where they are at this time [s]; true if that moved any.
+  bool place_at(double time);
+  /// What the energy changes by if they are put there: the work of whoever moves them, from differences that do not
+  /// cancel. Its sizes are 0 if they pass no sample on the way.
+  EnergyChange work_of_placing(double time, std::span<const Eigen::Vector3d> x) const;
+  /// The place of a sample [m].
+  static Eigen::Vector3d place_of(const SkinSample& sample, std::span<const Eigen::Vector3d> x);
+  /// How deep the place y is in an obstacle, where that is now.
+  Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
+  /// The same; false, and nothing is set, where y is not inside: a few comparisons.
+  bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
+
+  ContactState state_at(std::span<const Eigen::Vector3d> x) const;
+  /// By vertex: the largest depth [m] of a sample of its own, 0 outside.
+  void vertex_depths(std::span<const Eigen::Vector3d> x, std::span<double> depth) const;
+
+  /// An upper bound of the square of what contact alone adds to frequencies [1/s^2], were every sample at this share of
+  /// the depth of its law in the stiffest of the obstacles: with K the sum of k w w' n n', rows of M^-1 K add up to
+  /// 1/m_i sum of k_s / n_s over the samples at i. Together with a body whose highest is omega, no frequency is above
+  /// the root of omega^2 plus it.
+  /// units   inverse_mass [1/kg], 0 where fixed
+  double frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const;
+
+  /// Forces that friction has during a step, beside what derives from depth: constant, with the energy - F . (y - from)
+  /// in all of the below, so that every integrator takes them as any other force. ContactImpulses sets them.
+  std::span<const ContactFriction> frozen_friction() const { return frozen_; }
+  /// pre  what is set is in the order of samples
+  std::vector<ContactFriction>& frozen_friction_to_set() { return frozen_; }
+
+  std::string_view pieces_name() const override { return "contact samples"; }
+  std::size_t size() const override { return samples_.size(); }
+  Nodes nodes(std::size_t piece) const override { return samples_[piece].corners(); }
+  void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
+  /// Of half-spaces and balls the quotient of energy and depth along the mean normal, of blocks the mean force along
+  /// the way: in each the work is the energy's change, and forces have no part along the surface of a half-space.
+  void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
+  void add_force_sizes(const StagePlaces& at, std::span<double> size) const override;
+  double energy(std::span<const Eigen::Vector3d> x, std::size_t first = 0, std::size_t stride = 1) const override;
+  EnergyChange energy_change(const StagePlaces& at, std::span<const Eigen::Vector3d> step, double scale) const override;
+  double power(std::span<const std::uint32_t> pieces, std::span<const Eigen::Vector3d> x,
+               std::span<const Eigen::Vector3d> w) const override;
+  void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override;
+  void for_each_constant_tangent(const VisitTangent& visit) const override;
+  Eigen::Matrix3d virial(std::span<const Eigen::Vector3d>, std::size_t) const override {
+    return Eigen::Matrix3d::Zero();
+  }
+
+  /// Where the obstacles are.
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(moved_);
+  }
+  std::size_t bytes() const;
+
+ private:
+  /// f(law, penetration, obstacle) for each obstacle that the sample, being at y, is inside.
+  template <class F>
+  void for_each_contact(const Eigen::Vector3d& y, F&& f) const;
+  std::span<const ContactFriction> friction_at(std::size_t piece) const;
+  /// Over the laws, each at this share of its depth [N/m].
+  double largest_stiffness(double area, double share_of_depth) const;
+
+  std::vector<ContactLaw> laws_;
+  std::vector<Obstacle> obstacles_;
+  const std::vector<SkinSample>& samples_;
+  std::vector<Eigen::Vector3d> moved_;  // [m] by obstacle
+  std::vector<ContactFriction> frozen_;
+  bool friction_ = false, damping_ = false;
+};
+
+}  // namespace dartboard

@@ -1,0 +1,38 @@
+#include "core/elements/tetrahedra_damping.h"
+
+#include "core/elements/strain_damping.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of each tetrahedron its one point.
+class TetrahedronPoints {
+ public:
+  explicit TetrahedronPoints(const TetrahedronColumns& columns) : columns_(columns) {}
+  std::size_t size() const { return columns_.nodes.size(); }
+  std::span<const std::uint32_t, 4> nodes(std::size_t piece) const { return columns_.nodes[piece]; }
+  static std::size_t points(std::size_t) { return 1; }
+  double place(std::size_t piece, std::size_t, const DampedMaterial& material, std::array<Vector3d, 8>& g) const {
+    const RestShape& shape = columns_.shape[piece];
+    g[1] = shape.row(0);
+    g[2] = shape.row(1);
+    g[3] = shape.row(2);
+    g[0] = -(g[1] + g[2] + g[3]);
+    return material.per_mass * columns_.mass[piece];
+  }
+
+ private:
+  TetrahedronColumns columns_;
+};
+
+}  // namespace
+
+std::unique_ptr<TermDamping> make_tetrahedra_damping(const CellMaterials& materials,
+                                                     const TetrahedronColumns& columns) {
+  auto damping = std::make_unique<StrainDamping<TetrahedronPoints>>(materials, TetrahedronPoints(columns));
+  return damping->any() ? std::move(damping) : nullptr;
+}
+
+}  // namespace dartboard

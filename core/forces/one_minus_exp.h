@@ -1,0 +1,9 @@
+#pragma once
+// What an exact decay takes.
+
+namespace dartboard {
+
+/// 1 - exp(-z) to a few roundings, without libm, so that its bits are the same on every platform.
+double one_minus_exp_of_minus(double z);
+
+}  // namespace dartboard

@@ -1,0 +1,26 @@
+#pragma once
+// The sections of a Medit file that hold cells, for its text and its binary variant.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+struct MeditSection {
+  std::string_view keyword;
+  std::int64_t code;  // among bytes
+  CellKind kind;
+  int nodes;                      // corners first
+  std::string_view element = {};  // of higher order
+
+  std::string called() const { return std::string(element.empty() ? name(kind) : element); }
+};
+
+/// nullptr for a section of anything else.
+const MeditSection* medit_section(std::string_view keyword);
+const MeditSection* medit_section(std::int64_t code);
+
+}  // namespace dartboard

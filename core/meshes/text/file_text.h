@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dartboard {
+
+/// All of a regular file. `wanted` is what is expected there, for errors.
+///
+/// throws  IoError when it is not there, is a folder or a device, cannot be read, or is empty
+std::string file_text(const std::filesystem::path& path, std::string_view wanted);
+
+// a path that cannot be examined is not there, and no folder
+bool is_there(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+
+}  // namespace dartboard

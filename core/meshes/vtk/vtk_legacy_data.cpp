@@ -1,0 +1,137 @@
+#include "core/meshes/vtk/vtk_legacy_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/meshes/vtk/vtk_legacy_types.h"
+
+namespace dartboard {
+namespace {
+
+constexpr std::string_view keywords[] = {"POINTS",        "CELLS",       "CELL_TYPES", "METADATA",        "FIELD",
+                                         "VERTICES",      "LINES",       "POLYGONS",   "TRIANGLE_STRIPS", "POINT_DATA",
+                                         "CELL_DATA",     "SCALARS",     "VECTORS",    "NORMALS",         "TENSORS",
+                                         "COLOR_SCALARS", "LOOKUP_TABLE"};
+
+bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != std::end(keywords); }
+
+/// Data of POINT_DATA or CELL_DATA, one tuple for each of `count` things.
+struct Data {
+  TextScanner& scan;
+  FileNumbers& numbers;
+  const VtkCellPlaces& places;
+  MeshBuilder& builder;
+  bool is_of_cells = false;
+  std::uint64_t count = 0;
+};
+
+void read_values(Data& d, std::string_view name, Scalar type, std::uint64_t components, std::uint64_t tuples) {
+  const std::string what = fmt::format("a value of {}", in_quotes(name));
+  d.numbers.begin();
+  const bool is_tag = d.is_of_cells && !is_real(type) && components == 1 && tuples == d.places.count();
+  if (!is_tag) {
+    for (std::uint64_t k = 0; k < components; ++k) d.numbers.skip(type, tuples, what.c_str());
+    return;
+  }
+  std::vector<std::int64_t> values;
+  values.reserve(d.numbers.plausible(tuples, size_of(type), 2));
+  for (std::uint64_t k = 0; k < tuples; ++k) values.push_back(d.numbers.integer(type, {what, k}));
+  d.places.tag(d.builder, name, values);
+}
+
+/// How many components a line still names; one where it names none.
+std::uint64_t read_components(TextScanner& scan) {
+  const std::uint64_t components = scan.more_on_line() ? scan.count("the number of components") : 1;
+  constexpr std::uint64_t most = 1u << 20;  // far beyond any: 9 make a tensor
+  if (components > most) scan.fail(fmt::format("{} components", components), fmt::format("at most {}", most));
+  return components;
+}
+
+void read_field(Data& d) {
+  d.scan.token("the name of a field");
+  const std::uint64_t arrays = d.scan.count("the number of arrays");
+  for (std::uint64_t k = 0; k < arrays; ++k) {
+    if (!d.scan.at_end() && d.scan.peek() == "METADATA") {
+      d.scan.token("METADATA");
+      skip_vtk_metadata(d.scan);
+    }
+    const std::string name(d.scan.token({"the name of array", k}));
+    const std::uint64_t components = d.scan.count("the number of components");
+    const std::uint64_t tuples = d.scan.count("the number of tuples");
+    const std::string_view type_name = d.scan.token("the type of an array");
+    if (const auto type = vtk_legacy_type(type_name)) {
+      read_values(d, name, *type, tuples == 0 ? 0 : components, tuples);
+    } else if (d.numbers.is_binary()) {
+      d.scan.fail(fmt::format("an array of the type {} among bytes", in_quotes(type_name)), "a type of numbers");
+    } else {
+      while (!d.scan.at_end() && !is_keyword(d.scan.peek())) d.scan.token("the rest of a field");
+      return;
+    }
+  }
+}
+
+/// One attribute, whose keyword was read; false when it is none that is known.
+bool read_attribute(Data& d, std::string_view keyword) {
+  if (keyword == "FIELD") {
+    read_field(d);
+    return true;
+  }
+  const bool is_vector = keyword == "VECTORS" || keyword == "NORMALS";
+  const bool is_index = keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS";
+  if (keyword != "SCALARS" && keyword != "TENSORS" && !is_vector && !is_index) return false;
+  const std::string name(d.scan.token("the name of data"));
+  const auto type = vtk_legacy_type(d.scan.token("the type of data"));
+  if (!type) return false;
+  std::uint64_t components = is_vector ? 3 : keyword == "TENSORS" ? 9 : 1;
+  if (keyword == "SCALARS") {
+    components = read_components(d.scan);
+    if (d.scan.peek() == "LOOKUP_TABLE") {
+      d.scan.token("LOOKUP_TABLE");
+      d.scan.token("the name of a lookup table");
+    }
+  }
+  read_values(d, name, *type, components, d.count);
+  return true;
+}
+
+}  // namespace
+
+void skip_vtk_metadata(TextScanner& scan) {
+  scan.rest_of_line();
+  while (!scan.at_line_of_blanks() && !is_keyword(scan.peek())) {
+    if (scan.at_end()) return;
+    scan.rest_of_line();
+  }
+}
+
+void skip_vtk_field(TextScanner& scan, FileNumbers& numbers) {
+  MeshBuilder nothing("", "");
+  const VtkCellPlaces nowhere;
+  Data d{scan, numbers, nowhere, nothing};
+  read_field(d);
+}
+
+void read_vtk_legacy_data(TextScanner& scan, FileNumbers& numbers, const VtkCellPlaces& places, MeshBuilder& builder) {
+  Data d{scan, numbers, places, builder};
+  while (!scan.at_end()) {
+    const std::string keyword(scan.token("data"));
+    if (keyword == "METADATA") {
+      skip_vtk_metadata(scan);
+    } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+      d.is_of_cells = keyword == "CELL_DATA";
+      d.count = scan.count("the number of points or cells");
+      if (const std::uint64_t right = d.is_of_cells ? places.count() : builder.point_count(); d.count != right)
+        scan.fail(fmt::format("{} for {}", keyword, d.count), fmt::format("{}", right));
+    } else if (!read_attribute(d, keyword)) {
+      builder.add_notice(
+          fmt::format("did not read the data from {} on: of a kind that is not known", in_quotes(keyword)));
+      return;
+    }
+  }
+}
+
+}  // namespace dartboard

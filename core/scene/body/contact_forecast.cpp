@@ -1,0 +1,223 @@
+#include "core/scene/body/contact_forecast.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/file/selection.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+/// From the lowest to the highest of the points along a direction.
+double extent(std::span<const Vector3d> points, const Vector3d& along) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vector3d& x : points) {
+    low = std::min(low, x.dot(along));
+    high = std::max(high, x.dot(along));
+  }
+  return points.empty() ? 0.0 : high - low;
+}
+
+class Forecaster {
+ public:
+  Forecaster(const SceneFile& scene, const Problem& problem)
+      : scene_(scene), points_(problem.mesh.points), gravity_(problem.surroundings.gravity.norm()) {
+    surface_ = problem.mesh.dimension() == 2;
+    for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
+    if (gravity_ > 0.0) up_ = -problem.surroundings.gravity / gravity_;
+    velocities_ = problem.initial_velocity;
+    if (velocities_.empty()) velocities_.emplace_back(0, 0, 0);
+    for (const SceneDrive& drive : scene.driven)
+      for (const std::uint32_t p : select_points(drive.vertices, points_, drive.path)) {
+        velocities_.push_back(drive.velocity.at(points_[p]));
+        if (drive.reverse_every) velocities_.push_back(-velocities_.back());
+      }
+  }
+
+  ContactForecast at(const SceneObstacle& one) const {
+    const ContactLaw& law = one.law;
+    ContactForecast f;
+    f.mass_behind = law.mass_behind > 0.0 ? law.mass_behind : surface_ ? density_ : density_ * height(one);
+    const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape);
+    const double weight = plane == nullptr ? gravity_ : gravity_ * std::max(0.0, up_.dot(plane->normal));
+    f.depth_at_rest = law.depth_at_rest(f.mass_behind * weight);
+    const double own = own_speed(one), fall = fall_onto(one);
+    f.speed = std::min(std::sqrt(own * own + 2.0 * gravity_ * fall), own + gravity_ * scene_.duration);
+    f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
+    f.share = std::max(f.depth_at_rest, f.depth_at_impact) / law.depth;
+    return f;
+  }
+
+ private:
+  double height(const SceneObstacle& one) const {
+    if (const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape)) return extent(points_, plane->normal);
+    if (gravity_ > 0.0) return extent(points_, up_);
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, extent(points_, Vector3d::Unit(k)));
+    return longest;
+  }
+
+  /// Before anything falls; of obstacles that move, while they do and while they do not.
+  double own_speed(const SceneObstacle& one) const {
+    double most = 0.0;
+    for (const Vector3d& v : velocities_)
+      most = std::max({most, v.norm(), one.moves() ? (v - one.obstacle.velocity).norm() : 0.0});
+    return most;
+  }
+
+  double fall_onto(const SceneObstacle& one) const {
+    if (gravity_ == 0.0) return 0.0;
+    double most = 0.0;
+    if (const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape)) {
+      const double slope = up_.dot(plane->normal);
+      for (const Vector3d& x : points_)
+        if (slope > 0.0) most = std::max(most, (x - plane->point).dot(plane->normal) / slope);
+      return most;
+    }
+    double top = 0.0;
+    if (const auto* ball = std::get_if<Ball>(&one.obstacle.shape)) {
+      top = ball->centre.dot(up_) + ball->radius;
+    } else {
+      const Block& block = std::get<Block>(one.obstacle.shape);
+      top = ((block.low + block.high) / 2).dot(up_) + ((block.high - block.low) / 2).dot(up_.cwiseAbs());
+    }
+    for (const Vector3d& x : points_) most = std::max(most, x.dot(up_) - top);
+    return most;
+  }
+
+  const SceneFile& scene_;
+  std::span<const Vector3d> points_;
+  double gravity_;
+  double density_ = 0.0;
+  bool surface_ = false;
+  Vector3d up_{0, 0, 0};
+  std::vector<Vector3d> velocities_;  // that some vertex has at some time of its own
+};
+
+/// Of bodies with each other.
+class TouchForecaster {
+ public:
+  TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene) {
+    for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
+    const Vector3d& g = problem.surroundings.gravity;
+    gravity_ = g.norm();
+    const std::vector<std::size_t> first_cell = first_cells(scene);
+    bodies_.resize(first_cell.size());
+    std::vector<std::uint32_t> body_of(problem.mesh.points.size());
+    for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
+      const std::size_t end = b + 1 < bodies_.size() ? first_cell[b + 1] : problem.mesh.cell_count();
+      for (std::size_t c = first_cell[b]; c < end; ++c)
+        for (const std::uint32_t p : problem.mesh.cell(c)) body_of[p] = b;
+    }
+    // without gravity, along the axis that a body is longest along
+    for (std::uint32_t p = 0; p < body_of.size(); ++p) {
+      Body& body = bodies_[body_of[p]];
+      const Vector3d& x = problem.mesh.points[p];
+      const Vector3d heights = gravity_ > 0.0 ? Vector3d::Constant(-x.dot(g) / gravity_) : x;
+      body.low = body.low.cwiseMin(heights);
+      body.high = body.high.cwiseMax(heights);
+      if (!problem.initial_velocity.empty()) body.speed = std::max(body.speed, problem.initial_velocity[p].norm());
+    }
+    for (const SceneDrive& drive : scene.driven)
+      for (const std::uint32_t p : select_points(drive.vertices, problem.mesh.points, drive.path)) {
+        double& speed = bodies_[body_of[p]].speed;
+        speed = std::max(speed, drive.velocity.at(problem.mesh.points[p]).norm());
+      }
+    Vector3d low = bodies_[0].low, high = bodies_[0].high;
+    for (const Body& body : bodies_) {
+      low = low.cwiseMin(body.low);
+      high = high.cwiseMax(body.high);
+      heights_ += body.height();
+    }
+    extent_ = (high - low).maxCoeff();
+    changes_ = std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action);
+  }
+
+  ContactForecast at(const SceneTouch& touch) const {
+    const ContactLaw& law = touch.law;
+    const Body &a = bodies_[touch.first], &b = bodies_[touch.second];
+    const bool itself = touch.first == touch.second;
+    const double column = itself ? a.height() : std::min(heights_ - std::min(a.height(), b.height()), extent_);
+    ContactForecast f;
+    f.mass_behind = law.mass_behind > 0.0 ? law.mass_behind : density_ * column;
+    f.depth_at_rest = law.depth_at_rest(f.mass_behind * gravity_);
+    const double both = a.speed + b.speed;
+    const double fall = itself ? (changes_ ? a.height() : 0.0) : std::abs(a.high[0] - b.high[0]);
+    f.speed = std::min(std::sqrt(both * both + 2.0 * gravity_ * fall), both + gravity_ * scene_.duration);
+    f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
+    f.share = std::max(f.depth_at_rest, f.depth_at_impact) / law.depth;
+    return f;
+  }
+
+ private:
+  struct Body {
+    Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    double speed = 0.0;  // of its fastest vertex [m/s]
+    double height() const { return (high - low).maxCoeff(); }
+  };
+
+  const SceneFile& scene_;
+  double density_ = 0.0, gravity_ = 0.0, heights_ = 0.0, extent_ = 0.0;
+  bool changes_ = false;  // the topology
+  std::vector<Body> bodies_;
+};
+
+}  // namespace
+
+std::vector<ContactForecast> forecast_contacts(const SceneFile& scene, const Problem& problem) {
+  std::vector<ContactForecast> contacts;
+  if (scene.obstacles.empty()) return contacts;
+  const Forecaster forecaster(scene, problem);
+  for (const SceneObstacle& one : scene.obstacles) contacts.push_back(forecaster.at(one));
+  return contacts;
+}
+
+std::vector<TouchForecast> forecast_touches(const SceneFile& scene, const Problem& problem) {
+  std::vector<TouchForecast> keys;
+  if (scene.touches.empty()) return keys;
+  const TouchForecaster forecaster(scene, problem);
+  for (const SceneTouch& touch : scene.touches) {
+    const ContactForecast f = forecaster.at(touch);
+    const auto known = std::ranges::find(keys, touch.path, &TouchForecast::path);
+    if (known == keys.end())
+      keys.push_back({touch.path, touch.law, touch.first, touch.second, f});
+    else if (f.share > known->contact.share)
+      *known = {touch.path, touch.law, touch.first, touch.second, f};
+  }
+  return keys;
+}
+
+double largest_share(std::span<const ContactForecast> contacts) {
+  double most = 0.0;
+  for (const ContactForecast& f : contacts) most = std::max(most, f.share);
+  return most;
+}
+
+double largest_share(std::span<const TouchForecast> contacts) {
+  double most = 0.0;
+  for (const TouchForecast& f : contacts) most = std::max(most, f.contact.share);
+  return most;
+}
+
+double contact_rate(const SpringSystem& system, const ObstacleContact* obstacles, const BodyContact* bodies,
+                    double share_of_depth) {
+  std::vector<double> mobility(system.inverse_mass.begin(), system.inverse_mass.end());
+  for (std::size_t i = 0; i < mobility.size(); ++i)
+    if (system.fixed[i] != 0) mobility[i] = 0.0;
+  return std::sqrt((obstacles != nullptr ? obstacles->frequency_squared(mobility, share_of_depth) : 0.0) +
+                   (bodies != nullptr ? bodies->frequency_squared(mobility, share_of_depth) : 0.0));
+}
+
+StableStep with_contact(StableStep limits, double rate) {
+  limits.upper = std::hypot(limits.upper, rate);
+  limits.any_state = std::hypot(limits.any_state, rate);
+  limits.across = std::hypot(limits.across, rate);
+  return limits;
+}
+
+}  // namespace dartboard

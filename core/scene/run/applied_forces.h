@@ -1,0 +1,54 @@
+#pragma once
+// Forces from outside that a scene applies: which vertex feels what, and when.
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mechanics/mass_spring_body.h"
+#include "core/plain/mesh.h"
+#include "core/scene/file/scene_file.h"
+
+namespace dartboard {
+
+/// Applies and ends forces at step boundaries.
+///
+/// A force keeps its direction, so it has a potential. It is kept as an acceleration of each vertex, whose parts share
+/// it in proportion to their masses when it comes apart: no cut changes the sum. What loses cells loses their share.
+class AppliedForces {
+ public:
+  AppliedForces() = default;
+  /// `mesh` is the body at rest; its vertices are as they were built.
+  ///
+  /// throws  InputError "/forces/0...: ..." for a force on no vertex, or on fixed ones alone, and a pressure where no
+  ///         facet of the boundary is selected or there are no facets
+  AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step);
+
+  /// Set what is due after n steps.
+  ///
+  /// pre      called for n = 0, 1, 2 ... in turn
+  /// returns  whether any has begun or ended since the last call
+  /// cost     O(forces), and O(vertices + points pulled at) where one begins or ends
+  bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
+
+  std::size_t size() const { return forces_.size(); }
+  std::size_t bytes() const;
+  /// Which of them act; what they do is in the scene.
+  template <class Archive>
+  void state(Archive& archive) {
+    for (Force& force : forces_) archive(force.acts);
+  }
+
+ private:
+  struct Force {
+    std::vector<std::uint32_t> points;  // of the mesh
+    std::vector<Eigen::Vector3d> pull;  // [m/s^2] of each point, or one for all
+    std::uint64_t first, last;          // steps that it begins and ends after
+    bool acts = false;
+  };
+  std::vector<Force> forces_;
+  std::size_t points_ = 0;  // of the mesh
+};
+
+}  // namespace dartboard

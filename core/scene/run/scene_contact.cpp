@@ -1,0 +1,299 @@
+#include "core/scene/run/scene_contact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/plain/bytes.h"
+#include "core/plain/counted.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+/// "vertex 5", "the middle of the face of vertices 1, 2 and 3"
+std::string place_in_words(std::span<const std::uint32_t> nodes) {
+  if (nodes.size() == 1) return fmt::format("vertex {}", nodes[0]);
+  return fmt::format("the middle of the face of vertices {} and {}", fmt::join(nodes.first(nodes.size() - 1), ", "),
+                     nodes.back());
+}
+
+std::vector<std::uint32_t> nodes_of(const SkinSample& sample) {
+  return {sample.corners().begin(), sample.corners().end()};
+}
+
+std::span<const std::uint8_t> fixed_of(const SpringSystem& system) {
+  return {system.fixed.data(), system.fixed.empty() ? 0 : system.vertex_count()};
+}
+
+}  // namespace
+
+std::string to_string(const ContactWarning& w, std::span<const std::string> obstacles,
+                      std::span<const std::string> bodies) {
+  const std::string other = !w.of_bodies       ? obstacles[w.obstacle]
+                            : w.from == w.into ? "its own body " + bodies[w.into]
+                                               : bodies[w.into];
+  switch (w.kind) {
+    case ContactWarning::Kind::starts_inside:
+      return fmt::format("{} of the boundary {} inside {} at the start, the deepest {}{}, {:.4g} m inside {}",
+                         counted(w.samples, "place"), w.samples == 1 ? "is" : "are",
+                         w.of_bodies ? "bodies" : "obstacles", place_in_words(w.nodes),
+                         w.of_bodies ? " of " + bodies[w.from] : "", w.value, other);
+    case ContactWarning::Kind::too_deep:
+      return fmt::format(
+          "at t = {:.6g} s: {} is {:.4g} m inside {}, deeper than the {:.4g} m of its law; a larger "
+          "'pressure' or 'depth' carries more",
+          w.time, place_in_words(w.nodes), w.value, other, w.limit);
+    case ContactWarning::Kind::out_of_reach:
+      return fmt::format(
+          "at t = {:.6g} s: {} of the boundary {} so far inside a body that no way out is found and no contact felt, "
+          "the first {}, {}inside {}; take a shorter /step, or a larger 'pressure' or 'depth'",
+          w.time, counted(w.samples, "place"), w.samples == 1 ? "is" : "are", place_in_words(w.nodes),
+          w.value > 0.0 ? fmt::format("more than {:.4g} m ", w.value) : "", other);
+    case ContactWarning::Kind::will_be_fast:
+      if (w.of_bodies)
+        return fmt::format(
+            "what falls or moves as fast as can be expected comes {:.4g} m in a step relative to {}, where half of the "
+            "least altitude of a cell at the boundary is {:.4g} m: it may pass through; take a shorter /step",
+            w.value, other, w.limit);
+      return fmt::format(
+          "what falls or moves as fast as can be expected comes {:.4g} m in a step relative to {}, where "
+          "nothing is more than {:.4g} m inside: it may pass through; take a shorter /step",
+          w.value, other, w.limit);
+    case ContactWarning::Kind::too_fast: break;
+  }
+  if (w.of_bodies)
+    return fmt::format(
+        "at t = {:.6g} s: {} moves {:.4g} m in a step relative to others, where half of the least altitude of a cell at "
+        "the boundary is {:.4g} m: it may pass through; take a shorter /step",
+        w.time, place_in_words(w.nodes), w.value, w.limit);
+  return fmt::format(
+      "at t = {:.6g} s: {} moves {:.4g} m in a step relative to {}, where nothing is more than {:.4g} m "
+      "inside: it may pass through; take a shorter /step",
+      w.time, place_in_words(w.nodes), w.value, other, w.limit);
+}
+
+SceneContact::SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes)
+    : obstacles_(obstacles), bodies_(bodies), impulses_(obstacles, bodies), undoes_(undoes) {}
+
+bool SceneContact::has_told(ContactWarning::Kind kind, bool of_bodies) const {
+  return std::ranges::any_of(warnings_,
+                             [=](const ContactWarning& w) { return w.kind == kind && w.of_bodies == of_bodies; });
+}
+
+void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactForecast> expected,
+                         std::span<const TouchForecast> expected_touches, double h) {
+  if (bodies_ != nullptr) start_bodies(x, expected_touches, h);
+  if (obstacles_ == nullptr) return;
+  obstacles_->place_at(0.0);
+  for (std::uint32_t o = 0; o < expected.size(); ++o)
+    if (const double half = obstacles_->obstacles()[o].half_thickness(); expected[o].speed * h > half) {
+      warnings_.push_back({.kind = ContactWarning::Kind::will_be_fast,
+                           .obstacle = o,
+                           .nodes = {},
+                           .value = expected[o].speed * h,
+                           .limit = half});
+      break;
+    }
+  const ContactState found = obstacles_->state_at(x);
+  if (found.contacts == 0) return;
+  warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
+                       .obstacle = found.obstacle,
+                       .samples = found.contacts,
+                       .nodes = nodes_of(obstacles_->samples()[found.sample]),
+                       .value = found.deepest});
+}
+
+void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const TouchForecast> expected, double h) {
+  const double half = 0.5 * bodies_->least_altitude(x);
+  for (const TouchForecast& f : expected)
+    if (f.contact.speed * h > half) {
+      warnings_.push_back({.kind = ContactWarning::Kind::will_be_fast,
+                           .of_bodies = true,
+                           .from = f.first,
+                           .into = f.second,
+                           .nodes = {},
+                           .value = f.contact.speed * h,
+                           .limit = half});
+      break;
+    }
+  const BodyContactState found = bodies_->state_at(x);
+  if (found.contacts > 0)
+    warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
+                         .of_bodies = true,
+                         .from = found.from,
+                         .into = found.into,
+                         .samples = found.contacts,
+                         .nodes = nodes_of(bodies_->samples()[found.sample]),
+                         .value = found.deepest});
+  look_for_lost(0.0, x);
+}
+
+void SceneContact::resume(std::span<const Vector3d> x) {
+  if (bodies_ != nullptr) bodies_->find_lost(x);
+}
+
+void SceneContact::system_changed(const SpringSystem& system, std::span<const Vector3d> x) {
+  terms_ = terms_of(system);
+  if (bodies_ != nullptr) least_altitude_ = bodies_->least_altitude(x);
+}
+
+bool SceneContact::begin(double time, double h, const SpringSystem& system, Motion motion) {
+  if (undoes_) kept_v_.assign(motion.v.begin(), motion.v.end());
+  const auto accelerate = [&system, this](std::span<const Vector3d> x, std::span<const Vector3d> v,
+                                          std::span<Vector3d> a) { accelerations(system, terms_, x, v, a); };
+  return impulses_.begin(time, h, system.inverse_mass, fixed_of(system), motion.x, motion.v, accelerate);
+}
+
+bool SceneContact::end(double time, double h, const SpringSystem& system, Motion motion) {
+  const bool changed = impulses_.end(time, h, system.inverse_mass, fixed_of(system), motion.x, motion.v);
+  if (obstacles_ != nullptr) {
+    if (!has_told(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
+    if (!has_told(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
+  }
+  if (bodies_ != nullptr) {
+    look_for_lost(time + h, motion.x);
+    look_for_depth_of_bodies(time + h, motion.x);
+    if (!has_told(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
+  }
+  return changed;
+}
+
+void SceneContact::undo(double time, Motion motion) {
+  impulses_.take_back();
+  go_to(time);
+  if (undoes_) std::ranges::copy(kept_v_, motion.v.begin());
+}
+
+/// The deepest over what its law allows.
+void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
+  ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
+  double most = 1.0;
+  Penetration in;
+  for (const SkinSample& sample : obstacles_->samples()) {
+    const Vector3d y = ObstacleContact::place_of(sample, x);
+    for (std::uint32_t o = 0; o < obstacles_->obstacles().size(); ++o) {
+      if (!obstacles_->find_penetration(o, y, in)) continue;
+      const double allowed = obstacles_->laws()[o].depth;
+      if (!(in.depth > most * allowed)) continue;
+      most = in.depth / allowed;
+      worst.obstacle = o;
+      worst.nodes = nodes_of(sample);
+      worst.value = in.depth;
+      worst.limit = allowed;
+    }
+  }
+  if (!worst.nodes.empty()) warnings_.push_back(std::move(worst));
+}
+
+void SceneContact::look_for_speed(double time, double h, std::span<const Vector3d> v) {
+  for (std::uint32_t o = 0; o < obstacles_->obstacles().size(); ++o) {
+    const Obstacle& obstacle = obstacles_->obstacles()[o];
+    const double half = obstacle.half_thickness();
+    if (!std::isfinite(half)) continue;
+    const Vector3d speed = obstacle.velocity_at(time);
+    double most = half / h * (half / h);
+    std::uint32_t fastest = ContactState::none;
+    for (std::uint32_t i = 0; i < v.size(); ++i)
+      if (const double square = (v[i] - speed).squaredNorm(); square > most) {
+        most = square;
+        fastest = i;
+      }
+    if (fastest == ContactState::none) continue;
+    warnings_.push_back({.kind = ContactWarning::Kind::too_fast,
+                         .time = time,
+                         .obstacle = o,
+                         .nodes = {fastest},
+                         .value = std::sqrt(most) * h,
+                         .limit = half});
+    return;
+  }
+}
+
+ContactWarning SceneContact::inside_body(ContactWarning::Kind kind, double time, const BodyTouch& touch) const {
+  const SkinSample& sample = bodies_->samples()[touch.sample];
+  return {.kind = kind,
+          .of_bodies = true,
+          .time = time,
+          .from = bodies_->solids().group_at(sample.nodes[0]),
+          .into = bodies_->solids().tetrahedra()[touch.tetrahedron].group,
+          .nodes = nodes_of(sample),
+          .value = touch.depth};
+}
+
+void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
+  using Kind = ContactWarning::Kind;
+  if (has_told(Kind::out_of_reach, true)) return;
+  const auto lost = bodies_->find_lost(x);
+  if (lost.empty()) return;
+  warnings_.push_back(inside_body(Kind::out_of_reach, time, lost.front()));
+  warnings_.back().samples = lost.size();
+}
+
+/// The deepest over what its law allows.
+void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3d> x) {
+  using Kind = ContactWarning::Kind;
+  if (has_told(Kind::too_deep, true)) return;
+  double most = 1.0;
+  std::optional<ContactWarning> worst;
+  // looking for the lost has found them already
+  for (const BodyTouch& touch :
+       has_told(Kind::out_of_reach, true) ? bodies_->touching({x}) : bodies_->found_touching()) {
+    const double allowed = bodies_->laws()[touch.law].depth;
+    if (!(touch.depth > most * allowed)) continue;
+    most = touch.depth / allowed;
+    worst = inside_body(Kind::too_deep, time, touch);
+    worst->limit = allowed;
+  }
+  if (worst) warnings_.push_back(std::move(*worst));
+}
+
+// No two places move faster relative to each other than the corners of a box that holds all velocities.
+void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<const Vector3d> v) {
+  if (v.empty()) return;
+  Vector3d low = v[0], high = v[0];
+  for (const Vector3d& speed : v) {
+    low = low.cwiseMin(speed);
+    high = high.cwiseMax(speed);
+  }
+  const double way = (high - low).norm() * h;
+  if (!(way > 0.5 * least_altitude_)) return;
+  const Vector3d middle = 0.5 * (low + high);
+  std::uint32_t fastest = 0;
+  for (std::uint32_t i = 1; i < v.size(); ++i)
+    if ((v[i] - middle).squaredNorm() > (v[fastest] - middle).squaredNorm()) fastest = i;
+  warnings_.push_back({.kind = ContactWarning::Kind::too_fast,
+                       .of_bodies = true,
+                       .time = time,
+                       .nodes = {fastest},
+                       .value = way,
+                       .limit = 0.5 * least_altitude_});
+}
+
+double SceneContact::new_work() {
+  const double work = impulses_.losses().supplied - work_told_;
+  work_told_ = impulses_.losses().supplied;
+  return work;
+}
+
+ContactDiagnostics SceneContact::diagnostics(std::span<const Vector3d> x) const {
+  const ContactLosses& losses = impulses_.losses();
+  ContactDiagnostics d{.damped = losses.damped, .rubbed = losses.rubbed, .supplied = losses.supplied};
+  const auto add = [&d](const auto& now) {
+    d.energy += now.energy;
+    d.contacts += now.contacts;
+    d.deepest = std::max(d.deepest, now.deepest);
+  };
+  if (obstacles_ != nullptr) add(obstacles_->state_at(x));
+  if (bodies_ != nullptr) add(bodies_->state_at(x));
+  return d;
+}
+
+std::size_t SceneContact::bytes() const { return impulses_.bytes() + bytes_of(kept_v_); }
+
+}  // namespace dartboard

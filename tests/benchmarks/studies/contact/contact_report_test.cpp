@@ -1,0 +1,123 @@
+// What `validate contact` concludes from what it found: with one wrong figure, the claim about it falls short.
+
+#include "benchmarks/studies/contact/contact_report.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "benchmarks/studies/contact/contact_study.h"
+#include "tests/support/claims_for_tests.h"
+
+namespace dartboard {
+namespace {
+
+ContactResults good_results() {
+  ContactResults r;
+  r.placements = {{"boxes", {.placements = 100, .overlapping = 90, .quiet = 2, .deepest_quiet = 0.2}},
+                  {"balls", {.placements = 100, .overlapping = 80, .quiet = 1, .deepest_quiet = 0.1}}};
+  for (ContactResults::Placed& placed : r.placements) {
+    placed.found.by_depth.add(0.1, false);
+    for (int k = 0; k < 200; ++k) placed.found.by_depth.add(0.7, true);
+  }
+  for (const char* scene : {"one", "other"}) {
+    ContactRun run{.scene = scene, .looks = 100, .contacts = 20, .allowed = 0.01};
+    run.by_depth.add(0.3, true);
+    run.deepest = 0.008;
+    run.energy = 1e-4;
+    run.momentum = run.angular = 1e-15;
+    run.ended = true;
+    r.runs.push_back(run);
+  }
+  return r;
+}
+
+using Ids = std::vector<std::string>;
+/// The claims that fall short when one thing is not as in `good_results`.
+Ids short_with(const std::function<void(ContactResults&)>& spoil) {
+  ContactResults r = good_results();
+  spoil(r);
+  return ids_of(claims_of(r), Verdict::falls_short);
+}
+const Ids moving{"contact-moving-pairs", "contact-depth", "contact-energy", "contact-momentum",
+                 "contact-angular-momentum"};
+
+TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
+  const auto claims = claims_of(good_results());
+  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 7u);
+  expect_words(claims, "contact-placed", "<= 0.75 altitudes", "0.2 altitudes", "of 170 placements that overlap");
+  const Claim& pairs = find_claim(claims, "contact-placed-pairs");
+  EXPECT_EQ(pairs.paper_value, ">= 95 %");
+  EXPECT_EQ(pairs.measured, "400 of 400, 100.0 %");
+  expect_words(claims, "contact-moving-pairs", "<= 1 depths", "0 depths", "in 200 looks");
+  expect_words(claims, "contact-depth", "<= 1 depths", "0.8 depths", "in 200 looks");
+  expect_words(claims, "contact-energy", "<= 0.005", "0.0001", "in 200 looks");
+  expect_words(claims, "contact-momentum", "<= 1e-12", "1e-15", "in 200 looks");
+}
+
+TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
+  EXPECT_EQ(short_with([](auto& r) { r.placements[0].found.deepest_quiet = 0.76; }), Ids{"contact-placed"});
+  EXPECT_EQ(short_with([](auto& r) {
+              for (int k = 0; k < 60; ++k) r.placements[1].found.by_depth.add(0.61, false);
+            }),
+            Ids{"contact-placed-pairs"});
+  EXPECT_EQ(short_with([](auto& r) {
+              for (int k = 0; k < 60; ++k) r.placements[1].found.by_depth.add(0.59, false);
+            }),
+            Ids{});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].by_depth.add(1.1, false); }), Ids{"contact-moving-pairs"});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[1].deepest = 0.011; }), Ids{"contact-depth"});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].energy = 6e-3; }), Ids{"contact-energy"});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].momentum = 2e-12; }), Ids{"contact-momentum"});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[1].angular = 2e-12; }), Ids{"contact-angular-momentum"});
+}
+
+TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
+  EXPECT_EQ(short_with([](auto& r) { r.placements.clear(); }), Ids{"contact-placed"});
+  EXPECT_EQ(short_with([](auto& r) { r.placements[0].found.overlapping = 0; }), Ids{"contact-placed"});
+  EXPECT_EQ(short_with([](auto& r) { r.runs.clear(); }), moving);
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].ended = false; }), moving);
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].contacts = 0; }), moving);
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].energy = std::numeric_limits<double>::quiet_NaN(); }),
+            Ids{"contact-energy"});
+}
+
+TEST(ContactClaims, FallShortOfMomentaWhereSomethingActsOnEveryBody) {
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].alone = false; }), Ids{});
+  EXPECT_EQ(short_with([](auto& r) { r.runs[0].alone = r.runs[1].alone = false; }),
+            (Ids{"contact-momentum", "contact-angular-momentum"}));
+}
+
+TEST(ContactTables, SayNothingOfMomentaWhereSomethingActs) {
+  ContactResults r = good_results();
+  r.runs[1].alone = false;
+  EXPECT_EQ(runs_table(r.runs).rows()[1],
+            (std::vector<std::string>{"other", "100", "20", "1", "0", "0.008", "0.01", "1.0e-04", "", ""}));
+}
+
+TEST(ContactTables, HaveARowForEachPairOfBodiesClassOfDepthAndScene) {
+  const ContactResults r = good_results();
+  EXPECT_EQ(placements_table(r).rows().size(), 2u);
+  EXPECT_EQ(placements_table(r).rows()[0],
+            (std::vector<std::string>{"boxes", "100", "90", "2", "0.2", "201", "1", "0.1"}));
+  const Table depths = depths_table(r);
+  ASSERT_EQ(depths.rows().size(), 10u);
+  EXPECT_EQ(depths.rows()[0], (std::vector<std::string>{"0.0 to 0.2", "2", "2", "100 %"}));
+  EXPECT_EQ(depths.rows()[3], (std::vector<std::string>{"0.6 to 0.8", "400", "0", "0 %"}));
+  EXPECT_EQ(depths.rows()[9], (std::vector<std::string>{"1.8 and more", "0", "0", ""}));
+  EXPECT_EQ(runs_table(r.runs).rows()[1], (std::vector<std::string>{"other", "100", "20", "1", "0", "0.008", "0.01",
+                                                                    "1.0e-04", "1.0e-15", "1.0e-15"}));
+}
+
+TEST(ContactStudy, HoldsAndSaysSo) {
+  StudyLog log;
+  const Report report = contact_study({.placements = 80, .looks = 6, .seed = 2}, log);
+  EXPECT_EQ(ids_of(report.claims, Verdict::falls_short), Ids{});
+  EXPECT_EQ(report.claims.size(), 7u);
+  EXPECT_EQ(exit_code(report), 0);
+  ASSERT_EQ(report.tables.size(), 3u);
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,457 @@
+// Contact between the bodies of a scene, and of a body with itself: what a run does, what it reports, and what is told.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "core/scene/body/contact_forecast.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/plan/measured_plan.h"
+#include "core/scene/run/scene_warnings.h"
+#include "core/time/system/energy.h"
+#include "tests/support/moving_box.h"
+#include "tests/support/recorded_run.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+using Eigen::Vector3d;
+
+constexpr double g = 9.81;
+
+/// A cube of 0.1 m and 1 kg, and one of 0.08 m and 0.512 kg, a millimetre above its middle.
+Json small_on_large() {
+  return Json::parse(R"({"name": "two cubes", "step": 0.0002, "duration": 0.05, "integrator": "verlet",
+    "bodies": [{"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.05}}},
+               {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.04}}, "translate": [0.01, 0.012, 0.101]}],
+    "material": {"density": 1000, "young": 200000, "damping": 0, "viscosity": 0},
+    "contact": {"pressure": 4000, "depth": 0.002, "bodies": "others"}})");
+}
+/// Nothing holds them, and the small one comes down on the large one, turning and across.
+Json colliding() {
+  Json scene = small_on_large();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][1]["initial_velocity"] = Json::parse(
+      R"({"constant": [0.3, 0.1, -0.6], "linear": [[0, -1, 0], [1, 0, 0], [0, 0, 0]], "centre": [0.05, 0.05, 0.14]})");
+  return scene;
+}
+/// A bar that runs together towards its middle and is cut there, along x.
+Json cut_in_two() {
+  return with_events(Json::parse(R"({"name": "cut", "step": 0.0002, "duration": 0.05, "integrator": "verlet",
+    "body": {"generate": {"box": {"cells": [4, 2, 2], "spacing": 0.05}}, "translate": [-0.1, 0, 0]},
+    "material": {"density": 1000, "young": 200000, "damping": 0, "viscosity": 0}, "gravity": [0, 0, 0],
+    "initial_velocity": {"linear": [[-4, 0, 0], [0, 0, 0], [0, 0, 0]]},
+    "contact": {"pressure": 20000, "depth": 0.004, "bodies": "themselves"}})"),
+                     R"([{"at": 0.001, "dissociate": {"plane": {"point": [0, 0, 0], "normal": [1, 0, 0]}}}])");
+}
+
+std::uint32_t body_of(const Simulation& simulation, std::uint32_t vertex, std::uint32_t points_of_first) {
+  return simulation.body().vertices().point[vertex] < points_of_first ? 0u : 1u;
+}
+bool some_warning_has(const std::vector<std::string>& warnings, const std::string& words) {
+  return std::ranges::any_of(warnings, [&words](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+const ContactWarning* warning_of(const Simulation& simulation, ContactWarning::Kind kind) {
+  const auto all = simulation.contact_warnings();
+  const auto found = std::ranges::find(all, kind, &ContactWarning::kind);
+  return found == all.end() ? nullptr : &*found;
+}
+
+// ---- what a run does
+
+// Drag takes what moves, by exp(-15 t), 1e-6 of it is left after a second; what creeps against it on the soft contact
+// takes longer, and presses with 1e-4 of the weight still.
+TEST(TouchingBodies, RestOnEachOtherAndCarryTheWeight) {
+  for (const char* integrator : {"verlet", "rk4", "backward-euler"}) {
+    Json scene = small_on_large();
+    scene["contact"]["obstacles"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}])");
+    scene["material"]["viscosity"] = 30;
+    scene["integrator"] = integrator;
+    scene["step"] = 0.0005;
+    scene["duration"] = 1;
+    scene["output"] = Json::parse(R"({"fields": ["contact"]})");
+    Simulation simulation(parse(scene));
+    run(simulation);
+    const Frame frame = simulation.frame({.contact = true});
+    Vector3d force[2] = {{0, 0, 0}, {0, 0, 0}};
+    double deepest = 0.0;
+    for (std::uint32_t k = 0; k < frame.mesh.points.size(); ++k) {
+      const std::uint32_t body = body_of(simulation, k, 27);
+      force[body] += frame.contact_force[k];
+      if (body == 1) deepest = std::max(deepest, frame.contact_depth[k]);
+    }
+    EXPECT_NEAR(force[1].z(), 0.512 * g, 1e-3) << integrator;
+    EXPECT_NEAR(force[0].z(), g, 1e-3) << integrator;
+    // 4000 Pa on 0.0064 m^2 at 2 mm: the weight needs 0.44 of that depth; the vertices of edges stand for sides, too,
+    // and samples of one side are not where those of the other are
+    EXPECT_NEAR(deepest, 0.002 * std::sqrt(0.512 * g / 0.0064 / 4000), 0.25 * 0.0009) << integrator;
+  }
+}
+
+// Second order with h omega of some 0.2 leaves (h omega)^2 / 24 of the energy of the vibrations, 2e-3 of it; kinks of
+// the depth as much again.
+TEST(TouchingBodies, AccountForAllThatACollisionLoses) {
+  for (const char* integrator : {"verlet", "blanes-moan-4", "rk4", "implicit-midpoint"}) {
+    Json scene = colliding();
+    scene["contact"]["restitution"] = 0.5;
+    scene["contact"]["friction"] = 0.3;
+    scene["integrator"] = integrator;
+    Simulation simulation(parse(scene));
+    const Diagnostics before = simulation.diagnostics();
+    std::size_t contacts = 0;
+    while (simulation.steps_done() < simulation.step_count()) {
+      ASSERT_FALSE(simulation.advance());
+      contacts = std::max(contacts, simulation.diagnostics().contact->contacts);
+    }
+    const Diagnostics after = simulation.diagnostics();
+    EXPECT_GT(contacts, 5u) << integrator;
+    EXPECT_EQ(after.contact->contacts, 0u) << integrator;
+    EXPECT_GT(after.contact->damped, 0.02 * before.kinetic) << integrator;
+    EXPECT_GT(after.contact->rubbed, 0.001 * before.kinetic) << integrator;
+    EXPECT_EQ(after.contact->supplied, 0.0) << integrator;
+    EXPECT_NEAR(after.energy() + after.contact->damped + after.contact->rubbed, before.energy(), 4e-3 * before.kinetic)
+        << integrator;
+    // 250 steps of some hundred forces each: roundings of 0.36 kg m/s; and what an implicit one's solver leaves, 1e-10
+    // of forces that turn that round
+    const bool implicit = std::string_view(integrator) == "implicit-midpoint";
+    EXPECT_LE((after.momentum - before.momentum).norm(), (implicit ? 1e-10 : 250 * 100 * 1.2e-16) * 0.36) << integrator;
+  }
+}
+
+TEST(TouchingBodies, CountTheEnergyOfContactsOnceAndApartFromTheElasticOne) {
+  Json scene = small_on_large();
+  scene["bodies"][1]["translate"] = {0.01, 0.012, 0.0995};
+  scene["contact"]["obstacles"] = Json::parse(R"([{"plane": {"point": [0, 0, 0.0005], "normal": [0, 0, 1]}}])");
+  const Simulation simulation(parse(scene));
+  const auto& x = simulation.body().vertices().position;
+  const ContactState floor = simulation.body().contact()->state_at(x);
+  const BodyContactState bodies = simulation.body().body_contact()->state_at(x);
+  const Diagnostics d = simulation.diagnostics();
+  EXPECT_GT(floor.energy, 0.0);
+  EXPECT_GT(bodies.energy, 0.0);
+  EXPECT_EQ(d.contact->energy, floor.energy + bodies.energy);
+  EXPECT_EQ(d.contact->contacts, floor.contacts + bodies.contacts);
+  EXPECT_EQ(d.contact->deepest, std::max(floor.deepest, bodies.deepest));
+  EXPECT_LT(d.elastic, 1e-20);
+}
+
+TEST(TouchingBodies, KeepTheirAngularMomentumWhereNothingRubs) {
+  Simulation simulation(parse(colliding()));
+  const Diagnostics before = simulation.diagnostics();
+  run(simulation);
+  const Diagnostics after = simulation.diagnostics();
+  EXPECT_GT((after.momentum - before.momentum).norm() + std::abs(after.kinetic - before.kinetic), 1e-3);
+  EXPECT_LE((after.angular_momentum - before.angular_momentum).norm(), 1e-13);
+}
+
+TEST(TouchingBodies, PassThroughEachOtherWhereThePairIsOff) {
+  Json off = colliding(), none = colliding();
+  off["contact"]["bodies"] = "all";
+  off["contact"]["pairs"] = Json::parse(R"([{"of": [1, 0], "touch": "no"}])");
+  none.erase("contact");
+  Simulation one(parse(off)), other(parse(none)), touching(parse(colliding()));
+  run(one);
+  run(other);
+  run(touching);
+  EXPECT_EQ(one.body().state_hash(), other.body().state_hash());
+  EXPECT_NE(touching.body().state_hash(), other.body().state_hash());
+}
+
+TEST(TouchingBodies, HaveTheLawOfTheirPair) {
+  Json own = colliding(), all = colliding();
+  own["contact"]["pairs"] = Json::parse(R"([{"of": [0, 1], "pressure": 9000, "depth": 0.003}])");
+  all["contact"]["pressure"] = 9000;
+  all["contact"]["depth"] = 0.003;
+  Simulation one(parse(own)), other(parse(all)), plain(parse(colliding()));
+  run(one);
+  run(other);
+  run(plain);
+  EXPECT_EQ(one.body().state_hash(), other.body().state_hash());
+  EXPECT_NE(one.body().state_hash(), plain.body().state_hash());
+}
+
+TEST(TouchingBodies, MoveWithTheSameBitsOnAMap) {
+  Json scene = colliding();
+  Json on_map = with_events(scene, R"([{"at": 0.05, "remove": {"box": {"min": [9, 9, 9], "max": [10, 10, 10]}}}])");
+  Simulation one(parse(scene)), other(parse(on_map));
+  ASSERT_NE(one.body().map_name(), other.body().map_name());
+  run(one);
+  run(other);
+  EXPECT_EQ(one.body().state_hash(), other.body().state_hash());
+}
+
+// A fresh cut touches nothing; then its sides do, and the halves part again.
+TEST(TouchingBodies, KeepTheSidesOfACutApart) {
+  Simulation simulation(parse(cut_in_two()));
+  simulation.watch_events(true);
+  while (simulation.body().counts().components == 1) ASSERT_FALSE(simulation.advance());
+  EXPECT_LE(simulation.jumps().energy, 1e-14);
+  EXPECT_EQ(simulation.diagnostics().contact->contacts, 0u);
+  double deepest = 0.0;
+  while (simulation.steps_done() < simulation.step_count()) {
+    ASSERT_FALSE(simulation.advance());
+    deepest = std::max(deepest, simulation.diagnostics().contact->deepest);
+  }
+  EXPECT_GT(deepest, 1e-4);
+  EXPECT_LT(deepest, 0.004);
+  // each half has turned round: the part of the vertices that were at x > 0 goes on to there
+  const VertexColumns& v = simulation.body().vertices();
+  double momentum = 0.0;
+  for (std::uint32_t k = 0; k < v.size(); ++k)
+    if (v.point[k] % 5 > 2) momentum += v.mass[k] * v.velocity[k].x();
+  EXPECT_GT(momentum, 0.0);
+  Json without = cut_in_two();
+  without.erase("contact");
+  Simulation through(parse(without));
+  run(through);
+  EXPECT_NE(through.body().state_hash(), simulation.body().state_hash());
+}
+
+TEST(TouchingBodies, KnowWhichBodyWhatIsLeftOfACutIsOf) {
+  Json scene = with_events(colliding(), R"([
+    {"at": 0, "remove": {"random": {"count": 7, "seed": 3}}},
+    {"at": 0, "dissociate": {"plane": {"point": [0.05, 0, 0], "normal": [1, 0, 0]}}},
+    {"at": 0, "refine": {"cells": {"random": {"count": 5, "seed": 2}}, "at": "centre"}}])");
+  const Simulation simulation(parse(scene));
+  const SkinSolids& solids = simulation.body().body_contact()->solids();
+  std::size_t of[2] = {0, 0};
+  for (const SkinTetrahedron& t : solids.tetrahedra()) {
+    // vertices put in have no point of the mesh: one that has
+    const auto known =
+        std::ranges::find_if(t.nodes, [&](std::uint32_t k) { return simulation.body().vertices().point[k] < 2 * 27u; });
+    ASSERT_NE(known, t.nodes.end());
+    EXPECT_EQ(t.group, body_of(simulation, *known, 27));
+    ++of[t.group];
+  }
+  EXPECT_GT(of[0], 30u);
+  EXPECT_GT(of[1], 30u);
+  // and the way out is through all of the boundary, the sides of the cut included
+  const auto& x = simulation.body().vertices().position;
+  double area = 0.0;
+  for (const SkinTriangle& t : solids.triangles())
+    area += 0.5 * (x[t.nodes[1]] - x[t.nodes[0]]).cross(x[t.nodes[2]] - x[t.nodes[0]]).norm();
+  EXPECT_NEAR(area, simulation.diagnostics().boundary, 1e-13);
+}
+
+TEST(TouchingBodies, GoOnFromACheckpointWithTheSameBits) {
+  for (const char* integrator : {"verlet", "bdf2"}) {
+    Json scene = colliding();
+    scene["integrator"] = integrator;
+    scene["contact"]["friction"] = 0.3;
+    scene["contact"]["restitution"] = 0.5;
+    scene["duration"] = 0.02;
+    scene["output"] = Json::parse(R"({"frames_every": 0.01, "diagnostics_every": 0.005, "fields": ["contact"]})");
+    const SceneFile file = parse(scene);
+    const recorded::RecordedRun whole = recorded::whole(file);
+    EXPECT_GT(whole.result.last.contact->rubbed, 0.0);
+    recorded::expect_same(whole, recorded::in_two(file, 30));
+  }
+}
+
+TEST(TouchingBodies, GoOnFromACheckpointAfterACut) {
+  Json scene = cut_in_two();
+  scene["duration"] = 0.02;
+  scene["output"] = Json::parse(R"({"frames_every": 0.01, "diagnostics_every": 0.005, "fields": ["contact"]})");
+  const SceneFile file = parse(scene);
+  recorded::expect_same(recorded::whole(file), recorded::in_two(file, 60));
+}
+
+// ---- what is told
+
+// 0.005 m of the small cube is in the large one: its lower corners are the nearest to the upper side of that.
+TEST(TouchingBodies, AreNamedWhereTheyStartInsideEachOther) {
+  Json scene = small_on_large();
+  scene["bodies"][1]["translate"] = {0.01, 0.012, 0.095};
+  const SceneFile file = parse(scene);
+  const Simulation simulation(file);
+  const ContactWarning* warning = warning_of(simulation, ContactWarning::Kind::starts_inside);
+  ASSERT_NE(warning, nullptr);
+  EXPECT_TRUE(warning->of_bodies);
+  EXPECT_EQ(warning->samples, simulation.diagnostics().contact->contacts);
+  EXPECT_NEAR(warning->value, 0.005, 1e-15);
+  EXPECT_NE(warning->from, warning->into);
+  const std::vector<std::string> said = warnings_of(file, simulation);
+  EXPECT_TRUE(some_warning_has(said, "of the boundary are inside bodies at the start, the deepest "));
+  EXPECT_TRUE(some_warning_has(said, warning->into == 0 ? " of /bodies/1, 0.005 m inside /bodies/0"
+                                                        : " of /bodies/0, 0.005 m inside /bodies/1"));
+  EXPECT_EQ(warning_of(Simulation(parse(small_on_large())), ContactWarning::Kind::starts_inside), nullptr);
+}
+
+TEST(TouchingBodies, AreNamedOnceWhereTheyAreDeeperThanAllowed) {
+  Json scene = colliding();
+  scene["contact"]["pressure"] = 1000;
+  const SceneFile file = parse(scene);
+  Simulation simulation(file);
+  run(simulation);
+  const ContactWarning* warning = warning_of(simulation, ContactWarning::Kind::too_deep);
+  ASSERT_NE(warning, nullptr);
+  EXPECT_EQ(std::ranges::count(simulation.contact_warnings(), ContactWarning::Kind::too_deep, &ContactWarning::kind),
+            1);
+  EXPECT_GT(warning->value, 0.002);
+  EXPECT_EQ(warning->limit, 0.002);
+  EXPECT_GT(warning->time, 0.001);
+  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), warning->into == 0 ? "m inside /bodies/0, deeper than"
+                                                                                 : "m inside /bodies/1, deeper than"));
+  scene["contact"]["pressure"] = 40000;
+  Simulation stiff(parse(scene));
+  run(stiff);
+  EXPECT_EQ(warning_of(stiff, ContactWarning::Kind::too_deep), nullptr);
+}
+
+// A cube cut in six has the altitude spacing / sqrt(2): 0.04 / sqrt(2) / 2 is 14.1 mm, and 71 m/s are 14.2 mm in a
+// step.
+TEST(TouchingBodies, AreToldWhereTheyMayPassThroughEachOtherInAStep) {
+  Json scene = small_on_large();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][1]["initial_velocity"] = {0, 0, 71};
+  const SceneFile file = parse(scene);
+  Simulation simulation(file);
+  const ContactWarning* before = warning_of(simulation, ContactWarning::Kind::will_be_fast);
+  ASSERT_NE(before, nullptr);
+  EXPECT_NEAR(before->value, 0.0142, 1e-12);
+  EXPECT_NEAR(before->limit, 0.02 / std::sqrt(2.0), 1e-15);
+  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "comes 0.0142 m in a step relative to /bodies/1"));
+  EXPECT_EQ(warning_of(simulation, ContactWarning::Kind::too_fast), nullptr);
+  ASSERT_FALSE(simulation.advance());
+  const ContactWarning* now = warning_of(simulation, ContactWarning::Kind::too_fast);
+  ASSERT_NE(now, nullptr);
+  EXPECT_NEAR(now->value, 0.0142, 1e-12);
+  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "moves 0.0142 m in a step relative to others"));
+  scene["bodies"][1]["initial_velocity"] = {0, 0, 70};
+  Simulation slower(parse(scene));
+  ASSERT_FALSE(slower.advance());
+  EXPECT_TRUE(slower.contact_warnings().empty());
+  // both as fast
+  scene["initial_velocity"] = {0, 0, 300};
+  scene["bodies"][1].erase("initial_velocity");
+  Simulation together(parse(scene));
+  ASSERT_FALSE(together.advance());
+  EXPECT_EQ(warning_of(together, ContactWarning::Kind::too_fast), nullptr);
+}
+
+// Too soft a law for a shot: it goes through the outer cells of a finer cube, and inside there is nothing to feel.
+TEST(TouchingBodies, AreToldWhereNoWayOutIsFound) {
+  Json scene = small_on_large();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][0]["generate"]["box"] = {{"cells", {8, 8, 8}}, {"spacing", 0.0125}};
+  scene["bodies"][1]["generate"]["box"] = {{"cells", {1, 1, 1}}, {"spacing", 0.02}};
+  scene["bodies"][1]["translate"] = {0.041, 0.042, 0.101};
+  scene["bodies"][1]["initial_velocity"] = {0, 0, -10};
+  scene["contact"]["pressure"] = 1;
+  scene["step"] = 0.0001;
+  scene["duration"] = 0.008;
+  const SceneFile file = parse(scene);
+  Simulation simulation(file);
+  run(simulation);
+  const ContactWarning* warning = warning_of(simulation, ContactWarning::Kind::out_of_reach);
+  ASSERT_NE(warning, nullptr);
+  EXPECT_GT(warning->time, 0.001);
+  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "so far inside a body that no way out is found"));
+}
+
+// ---- what is expected
+
+// By hand: two cubes of 1000 kg/m^3, 0.1 and 0.08 m high; the heights of both less the lesser one is 0.1 m. The higher
+// falls from 0.181 m to 0.1 m.
+TEST(TouchForecast, HasTheClosedFormsOfAColumn) {
+  Json scene = small_on_large();
+  scene["duration"] = 1;
+  const SceneFile file = parse(scene);
+  const std::vector<TouchForecast> f = forecast_touches(file, make_problem(file));
+  ASSERT_EQ(f.size(), 1u);
+  EXPECT_EQ(f[0].path, "/contact/bodies");
+  EXPECT_EQ(f[0].first, 0u);
+  EXPECT_EQ(f[0].second, 1u);
+  EXPECT_NEAR(f[0].contact.mass_behind, 100, 1e-11);
+  EXPECT_NEAR(f[0].contact.depth_at_rest, 0.002 * std::sqrt(100 * g / 4000), 1e-15);
+  const double speed = std::sqrt(2 * g * 0.081);
+  EXPECT_NEAR(f[0].contact.speed, speed, 1e-12);
+  EXPECT_NEAR(f[0].contact.depth_at_impact, 0.002 * std::cbrt(3 * 100 * speed * speed / 2 / (4000 * 0.002)), 1e-15);
+  EXPECT_NEAR(f[0].contact.share, f[0].contact.depth_at_impact / 0.002, 1e-12);
+  // no faster than in the time that the run lasts
+  const SceneFile brief = parse(small_on_large());
+  EXPECT_NEAR(forecast_touches(brief, make_problem(brief))[0].contact.speed, 0.05 * g, 1e-12);
+}
+
+TEST(TouchForecast, OfAStackIsTheLoadOfItsLowest) {
+  Json scene = small_on_large();
+  for (int k = 0; k < 3; ++k) {
+    scene["bodies"].push_back(scene["bodies"][1]);
+    scene["bodies"].back()["translate"][2] = 0.182 + 0.081 * k;
+  }
+  const SceneFile stack = parse(scene);
+  EXPECT_NEAR(forecast_touches(stack, make_problem(stack))[0].contact.mass_behind, 1000 * (0.1 + 3 * 0.08), 1e-9);
+  // side by side nothing is higher than the highest
+  for (std::size_t k = 1; k < 5; ++k) scene["bodies"][k]["translate"] = {0.2 * static_cast<double>(k), 0, 0};
+  const SceneFile row = parse(scene);
+  EXPECT_NEAR(forecast_touches(row, make_problem(row))[0].contact.mass_behind, 100, 1e-9);
+}
+
+TEST(TouchForecast, HasARowForEachKeyAndOfItsPairsTheDeepest) {
+  Json scene = small_on_large();
+  scene["contact"]["bodies"] = "all";
+  scene["contact"]["pairs"] = Json::parse(R"([{"of": [0, 0], "depth": 0.004}])");
+  const SceneFile file = parse(scene);
+  const std::vector<TouchForecast> f = forecast_touches(file, make_problem(file));
+  ASSERT_EQ(f.size(), 2u);
+  EXPECT_EQ(f[0].path, "/contact/pairs/0");
+  EXPECT_EQ(f[0].law.depth, 0.004);
+  EXPECT_NEAR(f[0].contact.mass_behind, 100, 1e-11);
+  EXPECT_EQ(f[0].contact.speed, 0.0);
+  // of 0 with 1, and 1 with itself, which does not fall on itself
+  EXPECT_EQ(f[1].path, "/contact/bodies");
+  EXPECT_EQ(f[1].first, 0u);
+  EXPECT_EQ(f[1].second, 1u);
+}
+
+TEST(TouchForecast, CountsBothSpeedsAndTheFallOfWhatIsCut) {
+  Json scene = small_on_large();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"][0]["initial_velocity"] = {0, 3, 0};
+  scene["bodies"][1]["initial_velocity"] = {0, 0, -4};
+  const SceneFile two = parse(scene);
+  EXPECT_EQ(forecast_touches(two, make_problem(two))[0].contact.speed, 7.0);
+  Json cut = cut_in_two();
+  cut["gravity"] = {0, 0, -g};
+  cut["initial_velocity"] = {0, 0, 0};
+  cut["duration"] = 1;
+  const SceneFile one = parse(cut);
+  EXPECT_NEAR(forecast_touches(one, make_problem(one))[0].contact.speed, std::sqrt(2 * g * 0.1), 1e-12);
+}
+
+TEST(TouchingBodies, AreInThePlanWithWhatTheyCostAndTheStepTheyAllow) {
+  const SceneFile file = parse(small_on_large());
+  const ScenePlan plan = plan_scene(file, make_problem(file));
+  const auto item = std::ranges::find(plan.items, Part::contact, &PlanItem::part);
+  ASSERT_NE(item, plan.items.end());
+  // 26 vertices and 48 faces of each; all 48 tetrahedra of each have a corner on the boundary
+  EXPECT_EQ(item->what, "148 places of the surface, each held against 96 tetrahedra along the surface");
+  EXPECT_EQ(item->why, "/contact/bodies");
+  ASSERT_TRUE(plan.contact);
+  EXPECT_TRUE(plan.contact->obstacles.empty());
+  ASSERT_EQ(plan.contact->touches.size(), 1u);
+  EXPECT_EQ(plan.contact->share, plan.contact->touches[0].contact.share);
+  EXPECT_GT(plan.contact->contact_rate, 0.0);
+  EXPECT_LT(plan.contact->stable_step, plan.contact->body_step);
+  const Simulation simulation(file);
+  std::size_t bytes = 0;
+  for (const MemoryItem& part : simulation.memory())
+    if (part.part == Part::contact) bytes += part.bytes;
+  EXPECT_GT(bytes, 148 * sizeof(SkinSample) + 96 * sizeof(SkinTetrahedron));
+}
+
+TEST(TouchingBodies, LimitTheStepByTheirStiffness) {
+  Json scene = small_on_large();
+  scene["contact"]["pressure"] = 4e7;
+  scene["step"] = 0.001;
+  const SceneFile file = parse(scene);
+  EXPECT_TRUE(
+      some_warning_has(warnings_of(file, Simulation(file)), "is stable where contacts are as deep as is expected"));
+}
+
+}  // namespace
+}  // namespace dartboard

@@ -1,0 +1,44 @@
+#pragma once
+// A solid of elements built by hand: the force term of core, and what the witnesses know of it.
+
+#include <memory>
+#include <vector>
+
+#include "core/elements/solids.h"
+#include "core/elements/tetrahedra.h"
+#include "core/plain/cell_materials.h"
+#include "core/plain/mesh.h"
+#include "reference/elements/elastic_point.h"
+
+namespace dartboard {
+
+/// Tetrahedra, or cells of several kinds, of given materials; at rest in the mesh.
+class ElasticSolid {
+ public:
+  /// pre  the mesh is one of tetrahedra or hexahedra; `material_of` has a number for each cell
+  ElasticSolid(Mesh rest, std::vector<Material> materials, std::vector<MaterialNumber> material_of);
+  ElasticSolid(const ElasticSolid&) = delete;
+  ElasticSolid& operator=(const ElasticSolid&) = delete;
+
+  const Mesh& rest() const { return rest_; }
+  const Material& material(std::size_t cell) const { return materials_[material_of_[cell]]; }
+  const ForceTerm& term() const { return *term_; }
+  const std::vector<reference::ElasticPoint>& points() const { return points_; }
+
+  /// Of the same rest shape and the same materials?
+  bool is_like(const ElasticSolid& other) const;
+
+ private:
+  Mesh rest_;
+  std::vector<Material> materials_;
+  std::vector<MaterialNumber> material_of_;
+  std::vector<TetrahedronNodes> tetrahedra_;
+  std::vector<RestShape> tetrahedron_shapes_;
+  std::vector<double> cell_mass_;
+  std::vector<SolidNodes> solids_;
+  std::vector<SolidShape> solid_shapes_;
+  std::unique_ptr<ForceTerm> term_;
+  std::vector<reference::ElasticPoint> points_;
+};
+
+}  // namespace dartboard

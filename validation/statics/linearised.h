@@ -1,0 +1,16 @@
+#pragma once
+// What moves as springs and elements do, as two matrices.
+
+#include <Eigen/Core>
+#include <span>
+
+#include "core/time/system/spring_system.h"
+#include "reference/elements/held_solid.h"
+
+namespace dartboard {
+
+/// The stiffness of a system's springs and force terms where it is, and its masses; its fixed vertices are held.
+reference::HeldSolid linearised(const SpringSystem& system, std::span<const Eigen::Vector3d> x,
+                                Compression compression = Compression::exact);
+
+}  // namespace dartboard
