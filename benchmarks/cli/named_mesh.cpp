@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/scene/file/load_mesh.h"
@@ -38,8 +39,7 @@ MeshSource find_mesh(const std::string& name) {
 std::vector<MeshSource> all_meshes() {
   std::vector<MeshSource> sources = generated();
   std::vector<std::filesystem::path> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder() / "benchmarks/meshes"))
     if (entry.path().extension() == ".mesh") files.push_back(entry.path());
   std::ranges::sort(files);
   for (const auto& file : files) sources.push_back(file_source(file));

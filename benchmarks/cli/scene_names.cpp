@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
@@ -28,7 +29,7 @@ std::vector<std::string> near_names(const std::vector<std::string>& names, const
 
 }  // namespace
 
-fs::path gallery_folder() { return fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes"; }
+fs::path gallery_folder() { return source_folder() / "benchmarks" / "scenes"; }
 
 std::vector<std::string> scene_names(const fs::path& folder) {
   std::vector<std::string> names;

@@ -15,13 +15,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/processes.h"
 #include "core/plain/error.h"
 
-#if !defined(DARTBOARD_VERSION) || !defined(DARTBOARD_SOURCE_DIR) || !defined(DARTBOARD_FLAGS) || \
-    !defined(DARTBOARD_BUILD_TYPE)
-#error "the build must define DARTBOARD_VERSION, DARTBOARD_SOURCE_DIR, DARTBOARD_FLAGS and DARTBOARD_BUILD_TYPE"
+#if !defined(DARTBOARD_VERSION) || !defined(DARTBOARD_FLAGS) || !defined(DARTBOARD_BUILD_TYPE)
+#error "the build must define DARTBOARD_VERSION, DARTBOARD_FLAGS and DARTBOARD_BUILD_TYPE"
 #endif
 
 namespace dartboard {
@@ -222,7 +222,7 @@ std::string published_path(const fs::path& path) {
   std::error_code error;
   const fs::path here = fs::current_path(error);
   const fs::path full = (here / path).lexically_normal();
-  for (const fs::path& root : {fs::path(DARTBOARD_SOURCE_DIR), here}) {
+  for (const fs::path& root : {source_folder(), here}) {
     // everything lies below "/": a path relative to it hides nothing
     if (!root.has_relative_path()) continue;
     const fs::path relative = full.lexically_relative(root);
@@ -244,7 +244,7 @@ std::string published_command(std::string_view words) {
 
 json begin_manifest(const RunFacts& facts) {
   return {{"dartboard", DARTBOARD_VERSION},
-          {"git", git_state(DARTBOARD_SOURCE_DIR)},
+          {"git", git_state(source_folder())},
           {"command_line", command_line(facts.command_line)},
           {"seeds", facts.seeds},
           {"inputs", input_files(facts.input_files)},

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <array>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
 namespace {
 
-const std::filesystem::path meshes = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes";
+const std::filesystem::path meshes = source_folder() / "benchmarks" / "meshes";
 
 // The stiffness makes the body sag by about a millimetre and h omega_max about 0.3, well inside the 2.83 of RK4.
 Problem liver() {

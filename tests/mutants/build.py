@@ -85,8 +85,8 @@ def check_headers(build, tree, texts, mutants, say):
             file.writelines('#include "%s"\n' % header for header in headers)
         schemata.write_tree(tree, texts, [m for m in mutants if m["id"] not in out])
         result = subprocess.run(["g++", "-std=c++20", "-fsyntax-only", "-w", "-fmax-errors=0", "-DNDEBUG",
-                                 "-DDARTBOARD_SOURCE_DIR=\"\"", "-DDARTBOARD_FLAGS=\"\"", "-DDARTBOARD_VERSION=\"\"",
-                                 "-DDARTBOARD_BUILD_TYPE=\"\"", "-include", os.path.join(build, "mutant_switch.h"), "-I", tree,
+                                 "-DDARTBOARD_FLAGS=\"\"", "-DDARTBOARD_VERSION=\"\"", "-DDARTBOARD_BUILD_TYPE=\"\"",
+                                 "-include", os.path.join(build, "mutant_switch.h"), "-I", tree,
                                  "-I", "/usr/include/eigen3", "-I", "/usr/include/suitesparse", unit],
                                 capture_output=True, text=True)
         if result.returncode == 0:

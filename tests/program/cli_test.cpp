@@ -12,14 +12,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "tests/support/program_for_tests.h"
 
 namespace dartboard {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string binary = DARTBOARD_BINARY;
-const std::string liver = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/meshes/liver564.mesh";
+const std::string binary = program_path();
+const std::string liver = source_folder().string() + "/benchmarks/meshes/liver564.mesh";
 
 // A file that is gone when the test is over.
 struct TemporaryFile {
@@ -210,7 +211,7 @@ TEST(Reproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
   fs::remove_all(out);
 }
 
-const std::string scenes = std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/scenes/";
+const std::string scenes = source_folder().string() + "/benchmarks/scenes/";
 
 TEST(Simulate, ChecksWhatTheSceneExpectsAndWritesFramesThatParaViewPlays) {
   const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-frames");
@@ -383,8 +384,7 @@ TEST(Explain, SaysWhatIsLeftOutAndWhy) {
 TEST(Explain, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("explain /nowhere/scene.json").status, 3); }
 
 TEST(Explain, RefusesAnEventThatTheBodyRefuses) {
-  const Answer answer =
-      run("explain " + std::string(DARTBOARD_SOURCE_DIR) + "/tests/scenes_bad/removed_id_out_of_range.json");
+  const Answer answer = run("explain " + source_folder().string() + "/tests/scenes_bad/removed_id_out_of_range.json");
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/events/0/remove"), std::string::npos) << answer.out;
 }

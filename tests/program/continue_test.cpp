@@ -55,8 +55,8 @@ class Continue : public FolderTest {
       signal(SIGINT, SIG_DFL);
       (void)!freopen("/dev/null", "w", stdout);
       (void)!freopen("/dev/null", "w", stderr);
-      execl(DARTBOARD_BINARY, DARTBOARD_BINARY, "simulate", path("scene.json").c_str(), "--seed", "5", "--out",
-            path(out).c_str(), nullptr);
+      execl(program_path().c_str(), program_path().c_str(), "simulate", path("scene.json").c_str(), "--seed", "5",
+            "--out", path(out).c_str(), nullptr);
       _exit(127);
     }
     int status = 0;

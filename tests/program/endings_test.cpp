@@ -45,7 +45,7 @@ class Endings : public FolderTest {
     std::vector<char*> argv{const_cast<char*>("dartboard")};
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
-    execv(DARTBOARD_BINARY, argv.data());
+    execv(program_path().c_str(), argv.data());
     _exit(127);
   }
   static int ended(pid_t child) {

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/checkout/source_folder.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,7 +23,7 @@ struct Include {
 };
 
 std::vector<Include> includes_of_project() {
-  const fs::path root = DARTBOARD_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::vector<Include> found;
   for (const char* room : {"core", "reference", "validation", "benchmarks"})
     for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
@@ -46,7 +48,7 @@ std::string folder_of(const std::string& file) { return fs::path(file).parent_pa
 // reads "core/views: core/forces core/mechanics".
 std::map<std::string, std::set<std::string>> rules() {
   std::map<std::string, std::set<std::string>> seen;
-  std::ifstream file(DARTBOARD_FOLDERS);
+  std::ifstream file(folders_file());
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line.substr(line.find(':') + 1));
     auto& folders = seen[line.substr(0, line.find(':'))];
@@ -65,7 +67,7 @@ TEST(Includes, GoWhereTheFolderSays) {
   Files wrong;
   for (const auto& [from, to] : includes_of_project()) {
     const std::string here = folder_of(from), there = folder_of(to);
-    if (!fs::exists(fs::path(DARTBOARD_SOURCE_DIR) / to) || there == here || there == "core/plain") continue;
+    if (!fs::exists(source_folder() / to) || there == here || there == "core/plain") continue;
     const auto rule = allowed.find(here);
     if (rule == allowed.end() || !rule->second.contains(there)) wrong.push_back(from + " includes " + to);
   }
@@ -111,7 +113,7 @@ TEST(Rooms, LeaveCgalToTwoFolders) {
   EXPECT_EQ(users, Files{});
 }
 TEST(Rooms, AreOfASizeThatOneSeesAtAGlance) {
-  const fs::path root = DARTBOARD_SOURCE_DIR;
+  const fs::path root = source_folder();
   Files large;
   for (const char* room : {"core", "reference", "validation", "benchmarks", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
@@ -126,7 +128,7 @@ TEST(Rooms, AreOfASizeThatOneSeesAtAGlance) {
 
 /// Files below `room` but the `allowed` ones that hold one of some words.
 Files users_of(const std::string& room, const std::vector<std::string>& words, const Files& allowed) {
-  const fs::path root = DARTBOARD_SOURCE_DIR;
+  const fs::path root = source_folder();
   Files users;
   for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
     const std::string name = fs::relative(entry.path(), root).generic_string();

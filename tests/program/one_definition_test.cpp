@@ -2,6 +2,7 @@
 // compile and link, and then share constructors, destructors and whatever else the linker believes to be the same.
 
 #include "tests/program/one_definition.h"
+#include "benchmarks/checkout/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -41,12 +42,12 @@ std::string repeated(const Definitions& definitions) {
 Definitions of_project() {
   Definitions found;
   for (const char* room : {"core", "reference", "validation", "benchmarks", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / room)) {
+    for (const auto& entry : fs::recursive_directory_iterator(source_folder() / room)) {
       const auto extension = entry.path().extension();
       if (extension != ".h" && extension != ".cpp") continue;
       std::ostringstream text;
       text << std::ifstream(entry.path()).rdbuf();
-      add_definitions(text.str(), fs::relative(entry.path(), DARTBOARD_SOURCE_DIR).generic_string(), found);
+      add_definitions(text.str(), fs::relative(entry.path(), source_folder()).generic_string(), found);
     }
   return found;
 }

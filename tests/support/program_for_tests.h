@@ -14,9 +14,13 @@ struct Answer {
   std::string out;  // standard output and error together
 };
 
-/// DARTBOARD_BINARY with the arguments, through a shell.
+/// The program that is tested, and the file that says which folder may include which: absolute paths.
+const std::string& program_path();
+const std::string& folders_file();
+
+/// The program with the arguments, through a shell.
 inline Answer run(const std::string& arguments, const char* redirect = "2>&1") {
-  const std::string command = std::string(DARTBOARD_BINARY) + " " + arguments + " " + redirect;
+  const std::string command = program_path() + " " + arguments + " " + redirect;
   FILE* pipe = popen(command.c_str(), "r");
   Answer answer;
   std::array<char, 4096> buffer;

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/plain/material.h"
 #include "core/plain/mesh.h"
 
 namespace dartboard {
 
 inline nlohmann::json reference_values() {
-  std::ifstream file(DARTBOARD_SOURCE_DIR "/reference/elements/values/reference_values.json");
+  std::ifstream file(source_folder() / "reference/elements/values/reference_values.json");
   return nlohmann::json::parse(file);
 }
 

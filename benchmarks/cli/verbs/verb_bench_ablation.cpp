@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
@@ -33,7 +34,7 @@ void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto options = study_options(*verb, {.quick = "fewer rounds, fewer processes", .seed = "the order of the tasks"});
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks", options->seed}},
-                   .input_files = {std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh"}};
+                   .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh"}};
     run_study(
         *options, {.label = "ablation", .facts = facts},
         [&](StudyLog& log) {

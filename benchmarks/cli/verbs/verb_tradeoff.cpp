@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/study_names.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
@@ -52,8 +53,7 @@ void tradeoff(const TradeoffOptions& options, Outcome& outcome) {
   check_tradeoff(plan);                                     // before there is a folder
 
   RunFacts facts{.seeds = {{"order of the integrators", plan.seed}}};
-  facts.input_files = {file ? std::filesystem::path(given)
-                            : std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh"};
+  facts.input_files = {file ? std::filesystem::path(given) : source_folder() / "benchmarks/meshes/liver564.mesh"};
   run_study(
       options, {.label = "tradeoff", .facts = facts}, [&](StudyLog& log) { return tradeoff_study(plan, log); },
       outcome);

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/named_mesh.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
@@ -12,7 +13,7 @@ namespace dartboard {
 
 void add_validate_conservation(CLI::App& validate, Outcome& outcome) {
   struct Options : StudyOptions {
-    std::string mesh = (std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh").string();
+    std::string mesh = (source_folder() / "benchmarks/meshes/liver564.mesh").string();
     std::optional<std::size_t> operations;
   };
   auto* verb = validate.add_subcommand(

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/named_mesh.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
@@ -21,7 +22,7 @@ OperatedPlan operated_plan(const std::vector<std::string>& meshes, std::size_t o
   for (const std::string& mesh : meshes)
     plan.bodies.emplace_back(std::filesystem::path(mesh).filename().string(), find_mesh(mesh).make());
   if (meshes.empty()) {
-    const auto liver = std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh";
+    const auto liver = source_folder() / "benchmarks/meshes/liver564.mesh";
     plan.bodies.emplace_back(liver.filename().string(), find_mesh(liver.string()).make());
     plan.bodies.emplace_back("box of all kinds of cell", mixed_box(6, 6, 6, 0.1));
   }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/solvers/solver_study.h"
@@ -20,7 +21,7 @@ void add_validate_solvers(CLI::App& validate, Outcome& outcome) {
   verb->add_option("--only", options->only, fmt::format("of {} [all]", fmt::join(solver_parts(), ", ")));
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks", options->seed}},
-                   .input_files = {std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks/meshes/liver564.mesh"}};
+                   .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh"}};
     run_study(
         *options, {.label = "solvers", .facts = facts},
         [&](StudyLog& log) {

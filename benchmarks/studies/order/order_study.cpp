@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/studies/order/order_report.h"
 
 namespace dartboard {
@@ -53,7 +54,7 @@ OrderResults measure(const OrderPlan& plan, StudyLog& log) {
   }
   results.drift = measure_energy_drift(plan.quick ? 1000 : 10000, 20.0);
   log.advance("energy-momentum at large steps");
-  results.factor = compare_kept_factor(100, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  results.factor = compare_kept_factor(100, source_folder() / "benchmarks" / "meshes");
   log.advance("a factor that is kept");
   return results;
 }

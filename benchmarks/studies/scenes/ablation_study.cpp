@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/studies/scenes/plain_loop.h"
 #include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
@@ -67,8 +68,7 @@ AblationVariant make_variant(std::string name, Has&& has, const char* integrator
   scene["integrator"] = integrator;
   for (const Feature& feature : features())
     if (has(feature.name)) feature.add(variant, scene);
-  variant.scene =
-      parse_scene(scene.dump(), variant.name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  variant.scene = parse_scene(scene.dump(), variant.name, source_folder() / "benchmarks" / "meshes");
   return variant;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/plain/error.h"
 #include "core/time/implicit/baraff_witkin.h"
 #include "core/time/solve/backward_error.h"
@@ -178,8 +179,7 @@ SolverTimes time_updates(int side, double stretch, int rounds, std::uint64_t see
 }
 
 SolverTimes time_implicit_step(double h_omega, int rounds, std::uint64_t seed) {
-  const TradeoffScene scene =
-      make_tradeoff_scene("smooth", std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  const TradeoffScene scene = make_tradeoff_scene("smooth", source_folder() / "benchmarks" / "meshes");
   const double h = h_omega / scene.fastest_rate;
   SolverTimes result;
   result.vertices = scene.motion.network.point_count();

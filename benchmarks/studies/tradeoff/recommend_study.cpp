@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/tradeoff/recommend_report.h"
 #include "validation/scenes/scene_of_file.h"
@@ -12,8 +13,7 @@
 namespace dartboard {
 
 Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
-  const TradeoffScene scene =
-      find_scene(plan.scene, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  const TradeoffScene scene = find_scene(plan.scene, source_folder() / "benchmarks" / "meshes");
   for (const std::string& omission : scene.omissions) log.say(omission);
   const CpuClock clock = thread_cpu_ns;
   Report report{.numbers = nlohmann::ordered_json::array()};

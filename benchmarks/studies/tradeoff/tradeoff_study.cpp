@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/tradeoff/tradeoff_json.h"
@@ -35,8 +36,7 @@ std::vector<TradeoffContender> contenders_of(const TradeoffPlan& plan) {
 }
 
 Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, StudyLog& log) {
-  const TradeoffScene scene =
-      find_scene(scene_name, std::filesystem::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "meshes");
+  const TradeoffScene scene = find_scene(scene_name, source_folder() / "benchmarks" / "meshes");
   log.say(fmt::format("{}: {}; T omega_max = {:.4g}", one_line(scene.name), one_line(scene.what, 400),
                       scene.duration * scene.fastest_rate));
   const CpuClock clock = thread_cpu_ns;

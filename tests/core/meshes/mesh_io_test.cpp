@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
@@ -82,7 +83,7 @@ TEST_F(MeshIo, ListsTheKnownExtensionsWhenOneIsUnknown) {
 
 // The page that people read and the list that the program prints are one.
 TEST_F(MeshIo, HasAPageOfItsFormatsThatIsTrue) {
-  std::ifstream in(fs::path(DARTBOARD_SOURCE_DIR) / "core/meshes/README.md");
+  std::ifstream in(source_folder() / "core/meshes/README.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};
   for (const MeshFormatInfo& format : mesh_formats()) {
     std::string extensions;

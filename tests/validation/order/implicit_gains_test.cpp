@@ -1,4 +1,5 @@
 #include "validation/order/implicit_gains.h"
+#include "benchmarks/checkout/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ TEST(ConservedDrift, StaysAtRoundingAcrossACutAtLargeSteps) {
 }
 
 TEST(KeptFactor, SavesTenFactorisationsOutOfElevenForLessThanTheErrorOfTheStep) {
-  const KeptFactor found = compare_kept_factor(16, std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/meshes");
+  const KeptFactor found = compare_kept_factor(16, source_folder().string() + "/benchmarks/meshes");
   EXPECT_EQ(found.diagnosis, "");
   EXPECT_GE(found.fresh, 10 * found.kept);
   EXPECT_GT(found.step_error, 0.0);

@@ -1,4 +1,5 @@
 #include "validation/recommend/settle_accuracy.h"
+#include "benchmarks/checkout/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -136,7 +137,7 @@ TEST(SettleAccuracy, SettlesASceneThatDoesNotMove) {
 TEST(SettleAccuracy, ScenesOfTheProjectThatAskForOneEndAsTheyExpect) {
   namespace fs = std::filesystem;
   std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {
+  for (const auto& entry : fs::directory_iterator(source_folder() / "benchmarks" / "scenes")) {
     SceneFile scene = read_scene(entry.path());
     if (!settle_accuracy(scene, ticking())) continue;
     ++count;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/order/implicit_gains.h"
@@ -84,7 +85,7 @@ TEST(EnergyDriftJudge, SeesAMethodThatDoesNotKeepTheEnergy) {
 }
 
 TEST(KeptFactorJudge, ComparesTwoRunsThatAreNotTheSame) {
-  const KeptFactor found = compare_kept_factor(4, std::string(DARTBOARD_SOURCE_DIR) + "/benchmarks/meshes");
+  const KeptFactor found = compare_kept_factor(4, source_folder().string() + "/benchmarks/meshes");
   EXPECT_EQ(found.diagnosis, "");
   EXPECT_GT(found.fresh, found.kept);
   EXPECT_GT(found.difference, 0.0);

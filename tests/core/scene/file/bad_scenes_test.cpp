@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
 
@@ -16,7 +17,7 @@ namespace dartboard {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path folder = fs::path(DARTBOARD_SOURCE_DIR) / "tests" / "scenes_bad";
+const fs::path folder = source_folder() / "tests" / "scenes_bad";
 
 struct BadScene {
   std::string name, exit_code, part;

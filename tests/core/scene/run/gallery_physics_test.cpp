@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <set>
 
+#include "benchmarks/checkout/source_folder.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/file/selection.h"
 #include "core/scene/run/simulation.h"
@@ -23,7 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 SceneFile gallery(const std::string& name) {
-  return read_scene(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes" / (name + ".json"));
+  return read_scene(source_folder() / "benchmarks" / "scenes" / (name + ".json"));
 }
 
 const ExpectedPlace& place_of(const SceneFile& scene, const std::string& probe, bool of_part = false) {
@@ -582,7 +583,7 @@ TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
 // ---- none is left out
 
 TEST(GalleryPhysics, IsExpectedOfEveryScene) {
-  for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {
+  for (const auto& entry : fs::directory_iterator(source_folder() / "benchmarks" / "scenes")) {
     const SceneFile scene = read_scene(entry.path());
     EXPECT_TRUE(!scene.expect.places.empty() || scene.name == "block_eroded") << entry.path();
     EXPECT_FALSE(scene.expect.why.empty()) << entry.path();

@@ -1,4 +1,5 @@
 #include "core/scene/run/scene_verdict.h"
+#include "benchmarks/checkout/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -221,7 +222,7 @@ TEST(Verdict, WeighsTheVerticesOfAPart) {
 
 TEST(Scenes, OfTheProjectEndAsTheyExpect) {
   std::size_t count = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(DARTBOARD_SOURCE_DIR) / "benchmarks" / "scenes")) {
+  for (const auto& entry : fs::directory_iterator(source_folder() / "benchmarks" / "scenes")) {
     const SceneFile scene = read_scene(entry.path());
     if (scene.accuracy) continue;  // settle_accuracy_test.cpp chooses its step
     ++count;
