@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/support/folder_for_tests.h"
+#include "tests/support/program_for_tests.h"
 
 namespace dartboard {
 namespace {

@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "benchmarks/checkout/source_folder.h"
+#include "tests/support/program_for_tests.h"
 
+namespace dartboard {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,3 +163,4 @@ TEST(Sources, StartNoShell) {
 }
 
 }  // namespace
+}  // namespace dartboard
