@@ -78,7 +78,9 @@ class Scout {
     const auto& cut = std::get<Dissociate>(event.action);
     if (const auto* plane = std::get_if<PlaneSelection>(&cut.faces)) {
       std::vector<Dart> seam = faces_on_plane(body_, plane->point, plane->normal);
-      std::erase_if(seam, [&](Dart d) { return cut.within && !contains(*cut.within, facet_centre(body_, d)); });
+      const double thickness = border_thickness(body_.vertices.position);
+      std::erase_if(seam,
+                    [&](Dart d) { return cut.within && !contains(*cut.within, facet_centre(body_, d), thickness); });
       return seam;
     }
     if (const auto* blade = std::get_if<BladeSweep>(&cut.faces))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
+#include "core/plain/border.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 
@@ -52,9 +53,10 @@ std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& 
         fmt::format("a plane through ({}, {}, {}) with normal ({}, {}, {}), expected finite numbers and a "
                     "normal that is not zero",
                     point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()));
+  const double thickness = border_thickness(body.vertices.position);
   std::vector<bool> in_front(body.cell_dart.size());
   for (std::size_t c = 0; c < in_front.size(); ++c)
-    in_front[c] = (middle<n>(body, body.cell_dart[c]) - point).dot(normal) >= 0.0;
+    in_front[c] = is_in_front(middle<n>(body, body.cell_dart[c]), point, normal, thickness);
   std::vector<Dart> seam;
   for_each_interior_facet(body.map, [&](Dart d) {
     const Dart opposite = body.map.template alpha<n>(d);
@@ -63,18 +65,22 @@ std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& 
   return seam;
 }
 
-/// Does the segment from a to b cross the parallelogram at `corner` along u and w? Its border, to rounding, is part of
-/// it, so that nothing slips through where two of them meet.
+/// Does the segment from a to b cross the parallelogram at `corner` along u and w? Its border is part of it, so that
+/// nothing slips through where two of them meet.
 bool crosses(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& corner,
-             const Eigen::Vector3d& u, const Eigen::Vector3d& w) {
+             const Eigen::Vector3d& u, const Eigen::Vector3d& w, double thickness) {
   const Eigen::Vector3d normal = u.cross(w);
+  if (is_in_front(a, corner, normal, thickness) == is_in_front(b, corner, normal, thickness)) return false;
   const double above_a = (a - corner).dot(normal), above_b = (b - corner).dot(normal);
-  if ((above_a >= 0.0) == (above_b >= 0.0)) return false;
-  const Eigen::Vector3d there = a + above_a / (above_a - above_b) * (b - a) - corner;
+  const double at =
+      std::clamp(above_a / (above_a - above_b), 0.0, 1.0);  // outside where an end is within the thickness
+  const Eigen::Vector3d there = a + at * (b - a) - corner;
   const double s = there.cross(w).dot(normal) / normal.squaredNorm(),
                t = u.cross(there).dot(normal) / normal.squaredNorm();
-  constexpr double slack = 1e-12;
-  return std::min(s, t) >= -slack && std::max(s, t) <= 1.0 + slack;
+  const double along_u = u.norm(), along_w = w.norm();
+  const double size = std::max({a.lpNorm<Eigen::Infinity>(), corner.lpNorm<Eigen::Infinity>(), along_u, along_w});
+  return is_inside(std::min(s, 1.0 - s) * along_u, size, thickness) &&
+         is_inside(std::min(t, 1.0 - t) * along_w, size, thickness);
 }
 
 // Call f(choice) for every way to choose N of the ascending numbers, each choice ascending.
@@ -127,9 +133,9 @@ Eigen::Vector3d facet_centre(const Body<Map>& body, Dart d) {
 }
 
 bool crosses_sweep(std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth, const Eigen::Vector3d& a,
-                   const Eigen::Vector3d& b) {
+                   const Eigen::Vector3d& b, double thickness) {
   for (std::size_t leg = 0; leg + 1 < path.size(); ++leg)
-    if (crosses(a, b, path[leg], path[leg + 1] - path[leg], depth)) return true;
+    if (crosses(a, b, path[leg], path[leg + 1] - path[leg], depth, thickness)) return true;
   return false;
 }
 
@@ -140,11 +146,12 @@ std::vector<Dart> facets_on_sweep(const Body<Map>& body, std::span<const Eigen::
   std::vector<Eigen::Vector3d> centre;
   centre.reserve(body.cell_dart.size());
   for (const Dart d : body.cell_dart) centre.push_back(middle<n>(body, d));
+  const double thickness = border_thickness(body.vertices.position);
   std::vector<Dart> seam;
   for_each_interior_facet(body.map, [&](Dart d) {
     const Eigen::Vector3d &a = centre[body.cell(body.map, d)],
                           &b = centre[body.cell(body.map, body.map.template alpha<n>(d))];
-    if (crosses_sweep(path, depth, a, b)) seam.push_back(d);
+    if (crosses_sweep(path, depth, a, b, thickness)) seam.push_back(d);
   });
   return seam;
 }

@@ -31,21 +31,21 @@ class FaceSet {
 
 /// The interior faces between cells on different sides of a plane: one dart of each, its lowest, ascending.
 ///
-/// A cell is on the side where the mean of its vertices' positions is now; on the plane counts as in front of it
-/// (where the normal points). Every path from cell to cell between the sides crosses such a face, so dissociating all
-/// of them separates the body completely. The normal need not be a unit vector.
-/// throws  InputError if a number is not finite or the normal is zero
-/// cost    O(darts)
+/// A cell is on the side where the mean of its vertices' positions is now; on the plane, which is as thick as
+/// border_thickness() of these positions, counts as in front of it (where the normal points). Every path from cell to
+/// cell between the sides crosses such a face, so dissociating all of them separates the body completely. The normal
+/// need not be a unit vector. throws  InputError if a number is not finite or the normal is zero cost    O(darts)
 template <class Map>
 std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);
 
 /// Does the segment from a to b cross what a blade sweeps that goes along a path and reaches from it as far as `depth`:
-/// a parallelogram on each leg? An end on a leg's plane counts as in front of it.
+/// a parallelogram on each leg? An end on a leg's plane counts as in front of it. Borders are `thickness` thick
+/// (border.h).
 ///
 /// pre     no leg is of length 0 or along the depth
 bool crosses_sweep(std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth, const Eigen::Vector3d& a,
-                   const Eigen::Vector3d& b);
+                   const Eigen::Vector3d& b, double thickness);
 
 /// The interior faces, of a surface edges, between cells that the sweep of a blade separates: one dart of each, its
 /// lowest, ascending.

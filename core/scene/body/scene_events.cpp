@@ -16,6 +16,7 @@
 #include "core/operations/remove_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/operations/tear_fan.h"
+#include "core/plain/border.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/body_on_map.h"
@@ -98,7 +99,10 @@ class ReadyPlane : public ReadyEvent {
       : on_(on), plane_(plane), within_(within) {}
   std::size_t apply() override {
     std::vector<Dart> seam = seam_on(on_, plane_);
-    if (within_) std::erase_if(seam, [this](Dart d) { return !contains(*within_, facet_centre(on_.body(), d)); });
+    if (within_) {
+      const double thickness = border_thickness(on_.body().vertices.position);
+      std::erase_if(seam, [&](Dart d) { return !contains(*within_, facet_centre(on_.body(), d), thickness); });
+    }
     return follow_dissociation(on_, dissociate_all(on_.body().map, seam));
   }
 
@@ -160,8 +164,13 @@ class CellChooser {
     const auto count = static_cast<std::uint32_t>(on_.body().cell_dart.size());
     if (random_) return draw(count, std::get<RandomSelection>(selection_).count);
     std::vector<std::uint32_t> cells;
+    if (ids_.empty()) {
+      std::vector<Eigen::Vector3d> centroids(count);
+      for (std::uint32_t k = 0; k < count; ++k) centroids[k] = centroid(on_.body(), k);
+      return cells_in(selection_, centroids, border_thickness(on_.body().vertices.position));
+    }
     for (std::uint32_t k = 0; k < count; ++k)
-      if (is_chosen(k)) cells.push_back(k);
+      if (ids_.contains(on_.mesh_cell()[k])) cells.push_back(k);
     return cells;
   }
 
@@ -174,18 +183,6 @@ class CellChooser {
   }
 
  private:
-  bool is_chosen(std::uint32_t k) const {
-    if (!ids_.empty()) return ids_.contains(on_.mesh_cell()[k]);
-    return std::visit(
-        [&](const auto& region) {
-          if constexpr (requires { contains(region, Eigen::Vector3d()); })
-            return contains(region, centroid(on_.body(), k));
-          else
-            return false;
-        },
-        selection_);
-  }
-
   /// The first places of a shuffle of 0 .. count - 1 (Fisher and Yates).
   std::vector<std::uint32_t> draw(std::uint32_t count, std::uint32_t wanted) {
     std::vector<std::uint32_t> numbers(count);

@@ -536,8 +536,10 @@ std::span<const ShapeHelp> scene_shapes() {
        "contact with it where that is another one. Times are exact, whatever the step."},
       {Shape::cell_selection, "cell_selection", "Some of the cells: volumes, or the faces of a surface."},
       {Shape::tag, "tag", "A mark of cells in a mesh file: a region, a material, a physical group."},
-      {Shape::box, "box", "A box with faces across the axes, its surface included."},
-      {Shape::plane, "plane", "A plane; its positive side is where the normal points to."},
+      {Shape::box, "box",
+       "A box with faces across the axes, its surface included. What is nearer to a border, here and elsewhere, than a "
+       "billionth of the body's size counts as on it."},
+      {Shape::plane, "plane", "A plane; its positive side is where the normal points to, the plane itself included."},
       {Shape::sphere, "sphere", "A ball, its surface included."},
       {Shape::around, "around", "What is within a distance of a path, or of what a blade sweeps along it."},
       {Shape::random, "random", "A number of cells, each subset of that size as likely."},

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/plain/border.h"
 #include "core/plain/error.h"
 #include "core/plain/young.h"
 #include "core/scene/file/cell_tags.h"
@@ -36,13 +37,7 @@ std::vector<std::uint32_t> cells_of(const SceneFile& scene, const SceneRegion& r
              fmt::format("a cell of the mesh, less than {}", mesh.cell_count()));
     cells = by_id->ids;
   } else {
-    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c)
-      std::visit(
-          [&](const auto& place) {
-            if constexpr (requires { contains(place, Eigen::Vector3d()); })
-              if (contains(place, centroid(mesh, c))) cells.push_back(c);
-          },
-          region.cells);
+    cells = cells_in(region.cells, centroids(mesh), border_thickness(mesh.points));
   }
   if (cells.empty())
     fail(scene, path, "selects no cell of the body", "a region that some cells have their centroid in");
@@ -90,6 +85,13 @@ Eigen::Vector3d centroid(const Mesh& mesh, std::size_t c) {
   Eigen::Vector3d sum(0, 0, 0);
   for (const std::uint32_t p : mesh.cell(c)) sum += mesh.points[p];
   return sum / static_cast<double>(mesh.cell(c).size());
+}
+
+std::vector<Eigen::Vector3d> centroids(const Mesh& mesh) {
+  std::vector<Eigen::Vector3d> all;
+  all.reserve(mesh.cell_count());
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) all.push_back(centroid(mesh, c));
+  return all;
 }
 
 void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell, Problem& problem) {

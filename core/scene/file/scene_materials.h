@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "core/plain/problem.h"
 #include "core/scene/file/scene_file.h"
@@ -11,6 +12,7 @@ namespace dartboard {
 
 /// Where a selection takes cell c of a mesh to be: the mean of its corners [m].
 Eigen::Vector3d centroid(const Mesh& mesh, std::size_t c);
+std::vector<Eigen::Vector3d> centroids(const Mesh& mesh);
 
 /// What the cells of a tissue are modelled by, in a mesh of this dimension: what it names; where it has a 'poisson' and
 /// names nothing, stable neo-Hookean solids, or membranes of St. Venant and Kirchhoff.

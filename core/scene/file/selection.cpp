@@ -7,20 +7,28 @@
 #include <cmath>
 #include <string>
 
+#include "core/plain/border.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
 
-bool contains(const BoxSelection& box, const Eigen::Vector3d& x) {
-  return (x.array() >= box.min.array()).all() && (x.array() <= box.max.array()).all();
+bool contains(const BoxSelection& box, const Eigen::Vector3d& x, double thickness) {
+  for (int k = 0; k < 3; ++k) {
+    const auto is_beyond = [&](double distance, double border) {
+      return !is_inside(distance, std::max(std::abs(x[k]), std::abs(border)), thickness);
+    };
+    if (is_beyond(x[k] - box.min[k], box.min[k]) || is_beyond(box.max[k] - x[k], box.max[k])) return false;
+  }
+  return true;
 }
 
-bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x) {
-  return (x - plane.point).dot(plane.normal) >= 0.0;
+bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x, double thickness) {
+  return is_in_front(x, plane.point, plane.normal, thickness);
 }
 
-bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x) {
-  return (x - sphere.centre).norm() <= sphere.radius;
+bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x, double thickness) {
+  const double size = std::max(x.lpNorm<Eigen::Infinity>(), sphere.centre.lpNorm<Eigen::Infinity>());
+  return is_inside(sphere.radius - (x - sphere.centre).norm(), std::max(size, sphere.radius), thickness);
 }
 
 namespace {
@@ -51,19 +59,27 @@ double distance_to_parallelogram(const Eigen::Vector3d& x, const Eigen::Vector3d
 
 }  // namespace
 
-bool contains(const AroundSelection& around, const Eigen::Vector3d& x) {
+bool contains(const AroundSelection& around, const Eigen::Vector3d& x, double thickness) {
   const std::vector<Eigen::Vector3d>& path = around.sweep.path;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k)
-    if (distance_to_parallelogram(x, path[k], path[k + 1] - path[k], around.sweep.depth) <= around.distance)
-      return true;
+  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+    const double size =
+        std::max({x.lpNorm<Eigen::Infinity>(), path[k].lpNorm<Eigen::Infinity>(), path[k + 1].lpNorm<Eigen::Infinity>(),
+                  around.sweep.depth.lpNorm<Eigen::Infinity>(), around.distance});
+    const double distance = distance_to_parallelogram(x, path[k], path[k + 1] - path[k], around.sweep.depth);
+    if (is_inside(around.distance - distance, size, thickness)) return true;
+  }
   return false;
 }
 
-bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x) {
+bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x, double thickness) {
   const Eigen::Vector3d right = polygon.along.unitOrthogonal(), up = polygon.along.cross(right);
+  const auto seen = [&](const Eigen::Vector3d& d) { return Eigen::Vector3d(d.dot(right), d.dot(up), 0.0); };
   bool inside = false;
   for (std::size_t k = 0; k < polygon.corners.size(); ++k) {
     const Eigen::Vector3d a = polygon.corners[k] - x, b = polygon.corners[(k + 1) % polygon.corners.size()] - x;
+    const double size =
+        std::max({x.lpNorm<Eigen::Infinity>(), a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()});
+    if (is_inside(-distance_to_segment({0, 0, 0}, seen(a), seen(b)), size, thickness)) return true;  // on its border
     const double a_up = a.dot(up), b_up = b.dot(up);
     if ((a_up > 0.0) == (b_up > 0.0)) continue;
     if (a.dot(right) + a_up / (a_up - b_up) * (b - a).dot(right) > 0.0) inside = !inside;
@@ -71,11 +87,23 @@ bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x) {
   return inside;
 }
 
-bool contains(const CutRegion& region, const Eigen::Vector3d& x) {
-  return std::visit([&x](const auto& of_a_kind) { return contains(of_a_kind, x); }, region);
+bool contains(const CutRegion& region, const Eigen::Vector3d& x, double thickness) {
+  return std::visit([&](const auto& of_a_kind) { return contains(of_a_kind, x, thickness); }, region);
 }
 
 namespace {
+
+/// Calls f(k) for each place in a region; for none where the selection names no region.
+template <class Selection, class F>
+void for_each_inside(const Selection& selection, std::span<const Eigen::Vector3d> places, double thickness, F&& f) {
+  std::visit(
+      [&](const auto& region) {
+        if constexpr (requires { contains(region, places[0], thickness); })
+          for (std::uint32_t k = 0; k < places.size(); ++k)
+            if (contains(region, places[k], thickness)) f(k);
+      },
+      selection);
+}
 
 void choose(const VertexSelection& selection, std::span<const Eigen::Vector3d> points, std::string_view path,
             std::vector<bool>& chosen) {
@@ -88,17 +116,7 @@ void choose(const VertexSelection& selection, std::span<const Eigen::Vector3d> p
     }
     return;
   }
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const bool inside = std::visit(
-        [&](const auto& region) {
-          if constexpr (requires { contains(region, points[p]); })
-            return contains(region, points[p]);
-          else
-            return false;
-        },
-        selection);
-    if (inside) chosen[p] = true;
-  }
+  for_each_inside(selection, points, border_thickness(points), [&chosen](std::uint32_t p) { chosen[p] = true; });
 }
 
 std::vector<std::uint32_t> numbers_of(const std::vector<bool>& chosen) {
@@ -128,6 +146,13 @@ std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::
   std::vector<bool> chosen(points.size(), false);
   choose(selection, points, path, chosen);
   return numbers_of(chosen);
+}
+
+std::vector<std::uint32_t> cells_in(const CellSelection& selection, std::span<const Eigen::Vector3d> centroids,
+                                    double thickness) {
+  std::vector<std::uint32_t> cells;
+  for_each_inside(selection, centroids, thickness, [&cells](std::uint32_t c) { cells.push_back(c); });
+  return cells;
 }
 
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,

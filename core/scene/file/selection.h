@@ -60,15 +60,16 @@ using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, 
 using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
                                    RandomSelection, TagSelection>;
 
-bool contains(const BoxSelection& box, const Eigen::Vector3d& x);
-bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x);
-bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x);
-bool contains(const AroundSelection& around, const Eigen::Vector3d& x);
+/// Is a place in a region, whose border is `thickness` thick (core/plain/border.h) and belongs to it?
+bool contains(const BoxSelection& box, const Eigen::Vector3d& x, double thickness);
+bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x, double thickness);
+bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x, double thickness);
+bool contains(const AroundSelection& around, const Eigen::Vector3d& x, double thickness);
 /// By the parity of the sides that a ray crosses, so the polygon need not be convex.
-bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x);
-bool contains(const CutRegion& region, const Eigen::Vector3d& x);
+bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x, double thickness);
+bool contains(const CutRegion& region, const Eigen::Vector3d& x, double thickness);
 
-/// The numbers of the points in the selection at `path`, ascending, each once.
+/// The numbers of the points in the selection at `path`, ascending, each once. The thickness of borders is theirs.
 ///
 /// throws  InputError "PATH/ids/1: ..." for an id that is no point
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
@@ -78,6 +79,10 @@ std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::
 /// throws  InputError as above, and for a selection of no point
 std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
                                          std::span<const Eigen::Vector3d> points, std::string_view path = "/fixed");
+
+/// The numbers of those centroids that are in a region, ascending; none for what names cells otherwise.
+std::vector<std::uint32_t> cells_in(const CellSelection& selection, std::span<const Eigen::Vector3d> centroids,
+                                    double thickness);
 
 /// throws  InputError "PATH: ..." if none of the points is selected; it says where they are
 void require_some(std::span<const std::uint32_t> selected, std::string_view path,

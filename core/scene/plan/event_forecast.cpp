@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/mechanics/fracture/seam.h"
+#include "core/plain/border.h"
 #include "core/scene/file/scene_materials.h"
 #include "core/scene/run/event_clock.h"
 
@@ -22,9 +23,7 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
         } else if constexpr (requires { s.ids; }) {
           return static_cast<double>(s.ids.size());
         } else {
-          double count = 0.0;
-          for (std::size_t c = 0; c < mesh.cell_count(); ++c) count += contains(s, centroid(mesh, c));
-          return count;
+          return static_cast<double>(cells_in(s, centroids(mesh), border_thickness(mesh.points)).size());
         }
       },
       selection);
@@ -33,15 +32,16 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
 // Between the centroids of the two cells of a face is about where the face is.
 double facets_of(const Dissociate& cut, const Mesh& mesh, const MeshTally& counts) {
   if (const auto* faces = std::get_if<0>(&cut.faces)) return static_cast<double>(faces->size());
+  const double thickness = border_thickness(mesh.points);
   double count = 0.0;
   for (const auto& [a, b] : counts.cells_of_facet) {
     const Eigen::Vector3d from = centroid(mesh, a), to = centroid(mesh, b);
     if (const auto* blade = std::get_if<BladeSweep>(&cut.faces)) {
-      count += crosses_sweep(blade->path, blade->depth, from, to);
+      count += crosses_sweep(blade->path, blade->depth, from, to, thickness);
     } else {
       const auto& plane = std::get<PlaneSelection>(cut.faces);
-      count +=
-          contains(plane, from) != contains(plane, to) && (!cut.within || contains(*cut.within, (from + to) / 2.0));
+      count += contains(plane, from, thickness) != contains(plane, to, thickness) &&
+               (!cut.within || contains(*cut.within, (from + to) / 2.0, thickness));
     }
   }
   return count;

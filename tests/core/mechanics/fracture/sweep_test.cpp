@@ -12,8 +12,8 @@ const std::vector<Vector3d> path{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}};
 const Vector3d depth(0, 0, 1);
 
 bool crosses(const Vector3d& a, const Vector3d& b) {
-  const bool there = crosses_sweep(path, depth, a, b);
-  EXPECT_EQ(crosses_sweep(path, depth, b, a), there);
+  const bool there = crosses_sweep(path, depth, a, b, 0.0);
+  EXPECT_EQ(crosses_sweep(path, depth, b, a, 0.0), there);
   return there;
 }
 

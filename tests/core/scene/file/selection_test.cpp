@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -27,7 +28,7 @@ TEST(Selection, OfASphereIncludesItsSurface) {
 // A blade of depth 2 along z that goes by (0, 0, 0), (4, 0, 0), (4, 4, 0): two rectangles.
 TEST(Selection, AroundAPathIsWhatIsNearTheSweptRectanglesTheirEdgesAndTheirCorners) {
   const AroundSelection around{{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, {0, 0, 2}}, 1.0};
-  const auto is_in = [&around](double x, double y, double z) { return contains(around, {x, y, z}); };
+  const auto is_in = [&around](double x, double y, double z) { return contains(around, {x, y, z}, 0.0); };
   for (const double y : {-1.0, 0.5}) EXPECT_TRUE(is_in(2, y, 1));  // beside the first
   EXPECT_FALSE(is_in(2, -1.01, 1));
   EXPECT_TRUE(is_in(4.9, 2, 1));  // beside the second
@@ -41,10 +42,10 @@ TEST(Selection, AroundAPathIsWhatIsNearTheSweptRectanglesTheirEdgesAndTheirCorne
 }
 TEST(Selection, AroundAPathWithoutDepthIsATubeWithRoundEnds) {
   const AroundSelection around{{{{0, 0, 0}, {4, 0, 0}}, {0, 0, 0}}, 1.0};
-  EXPECT_TRUE(contains(around, {2, 0.6, 0.8}));
-  EXPECT_FALSE(contains(around, {2, 0.6, 0.81}));
-  EXPECT_TRUE(contains(around, {4.6, 0.8, 0}));
-  EXPECT_FALSE(contains(around, {4.6, 0.81, 0}));
+  EXPECT_TRUE(contains(around, {2, 0.6, 0.8}, 0.0));
+  EXPECT_FALSE(contains(around, {2, 0.6, 0.81}, 0.0));
+  EXPECT_TRUE(contains(around, {4.6, 0.8, 0}, 0.0));
+  EXPECT_FALSE(contains(around, {4.6, 0.81, 0}, 0.0));
 }
 TEST(Selection, OfSeveralIsTheirUnion) {
   EXPECT_EQ(select_points(std::vector<VertexSelection>{IdSelection{{3}}, SphereSelection{{0, 0, 0}, 0.0}}, points),
@@ -70,11 +71,33 @@ TEST(Selection, OfAPolygonIsWhatIsSeenInItThoughItIsNotConvex) {
     for (int y = -1; y <= 3; ++y)
       for (int z = -1; z <= 3; ++z) {
         const bool in_arms = (y == 1 && z >= 0 && z < 3) || (z == 1 && y >= 0 && y < 3);
-        EXPECT_EQ(contains(cross, {-5, y + 0.5, z + 0.25}), in_arms) << y << " " << z << " " << turn;
+        EXPECT_EQ(contains(cross, {-5, y + 0.5, z + 0.25}, 0.0), in_arms) << y << " " << z << " " << turn;
       }
     std::rotate(corners.begin(), corners.begin() + 1, corners.end());
     if (turn == 11) std::reverse(corners.begin(), corners.end());
   }
+}
+
+TEST(Selection, OfAPolygonIncludesItsSides) {
+  const PolygonSelection triangle{{0, 0, 1}, {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}};
+  for (const auto& x : std::vector<Eigen::Vector3d>{{0, 1, 9}, {1, 0, 9}, {1, 2, 9}, {3, 0, 9}, {2, 1, -9}})
+    EXPECT_TRUE(contains(triangle, x, 1e-9)) << x.transpose();
+  for (const auto& x : std::vector<Eigen::Vector3d>{{-1e-6, 1, 9}, {1, -1e-6, 9}, {1, 2.00001, 9}, {3.00001, 0, 9}})
+    EXPECT_FALSE(contains(triangle, x, 1e-9)) << x.transpose();
+}
+
+// 3 x 0.1 is 0.30000000000000004, and a unit normal rounds what was exact.
+TEST(Selection, HoldsAWholeLayerWhereverRoundingPutsItsPoints) {
+  const auto layer = [](const Mesh& mesh, const VertexSelection& selection) {
+    return select_points(selection, mesh.points, "").size();
+  };
+  EXPECT_EQ(layer(kuhn_box(10, 1, 1, 0.1), PlaneSelection{{0.3, 0, 0}, {-1, 0, 0}}), 16u);
+  EXPECT_EQ(layer(kuhn_box(9, 9, 9, 0.1), BoxSelection{{0, 0, 0}, {0.3, 0.3, 0.3}}), 64u);
+  const Eigen::Vector3d across = Eigen::Vector3d(1, 1, 1).normalized();
+  const Mesh cube = kuhn_box(6, 6, 6, 1.0);
+  const auto in_front =
+      std::count_if(cube.points.begin(), cube.points.end(), [](const auto& p) { return p.sum() >= 3; });
+  EXPECT_EQ(layer(cube, PlaneSelection{{3, 0, 0}, across}), static_cast<std::size_t>(in_front));
 }
 
 }  // namespace

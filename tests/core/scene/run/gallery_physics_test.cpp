@@ -333,7 +333,7 @@ TEST(GalleryPhysics, TheBarFallsFromWhenItsWeightPullsEnough) {
   const Problem problem = make_problem(scene);
   const auto& box = std::get<BoxMesh>(scene.body.mesh);
   const double area = box.cells[0] * box.cells[1] * box.spacing * box.spacing;
-  const auto above = [&](const Vector3d& x) { return contains(*tear.seam, x); };
+  const auto above = [&](const Vector3d& x) { return contains(*tear.seam, x, 0.0); };
   std::vector<Vector3d> ends;
   for (const double part : {0.5, 1.0}) {
     CornerBody body(problem);
