@@ -1,7 +1,8 @@
 // kernel_instructions SECTION: one piece of work of the core on a small body, for callgrind to count.
 //
-// Every section builds the same body first; callgrind collects from the section alone (--collect-atstart=no), so that neither
-// the start of the program nor its surroundings, which move it by tens of thousands of instructions, are in a count.
+// Every section builds the same body first; callgrind collects from the section alone (--collect-atstart=no), so that
+// neither the start of the program nor its surroundings, which move it by tens of thousands of instructions, are in a
+// count.
 
 #include <valgrind/callgrind.h>
 

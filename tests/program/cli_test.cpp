@@ -189,7 +189,7 @@ TEST(Reproduce, OfAPartThatThereIsNotIsAUsageErrorThatNamesThoseThereAre) {
   EXPECT_NE(answer.out.find("extremes"), std::string::npos) << answer.out;
 }
 
-TEST(Reproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
+TEST(LongReproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
   const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-reproduce");
   const Answer answer = run("reproduce --part paper --quick --json --out " + out.string(), "2>/dev/null");
   const auto json = nlohmann::json::parse(answer.out);

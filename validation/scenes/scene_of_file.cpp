@@ -11,6 +11,7 @@
 #include "core/mechanics/fracture/tearing.h"
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
+#include "core/places/border.h"
 #include "core/plain/error.h"
 #include "core/scene/body/needs.h"
 #include "core/scene/body/simulated_body.h"

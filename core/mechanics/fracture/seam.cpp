@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 

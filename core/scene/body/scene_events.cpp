@@ -16,7 +16,7 @@
 #include "core/operations/remove_face.h"
 #include "core/operations/remove_volume.h"
 #include "core/operations/tear_fan.h"
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/body_on_map.h"

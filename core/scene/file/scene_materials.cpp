@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/plain/error.h"
 #include "core/plain/young.h"
 #include "core/scene/file/cell_tags.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

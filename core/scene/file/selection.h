@@ -60,7 +60,7 @@ using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, 
 using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
                                    RandomSelection, TagSelection>;
 
-/// Is a place in a region, whose border is `thickness` thick (core/plain/border.h) and belongs to it?
+/// Is a place in a region, whose border is `thickness` thick (core/places/border.h) and belongs to it?
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x, double thickness);
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x, double thickness);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x, double thickness);

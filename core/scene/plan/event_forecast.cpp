@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/mechanics/fracture/seam.h"
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
 #include "core/scene/run/event_clock.h"
 

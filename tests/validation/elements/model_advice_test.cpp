@@ -32,7 +32,7 @@ TEST(ModelTrend, DoesNotBelieveThatAFloorFalls) {
 }
 
 // The advice, followed by hand beside a reference that it has not seen.
-TEST(ModelAdvice, IsWhatMeetsTheErrorWhenItIsFollowed) {
+TEST(LongModelAdvice, IsWhatMeetsTheErrorWhenItIsFollowed) {
   const ClampedBar bar{.cubes = {3, 1, 1}};
   std::int64_t now = 0;
   const auto clock = [&now] { return now += 1000; };

@@ -30,7 +30,7 @@ std::vector<ExtremeCell> run_some(std::string_view axis, std::size_t every) {
   return cells;
 }
 
-TEST(Extremes, HasNoSilentRunInASampleOfEveryAxis) {
+TEST(LongExtremes, HasNoSilentRunInASampleOfEveryAxis) {
   for (const ExtremeAxis& axis : extreme_axes())
     EXPECT_TRUE(axis.name == "long" || !run_some(axis.name, 5).empty()) << axis.name;
 }

@@ -121,7 +121,7 @@ Trial draw_solid(SplitMix64& random, Model model, bool damped = false) {
   return {body, h};
 }
 
-TEST(StepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
+TEST(LongStepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
   SplitMix64 random(2027);
   std::uint64_t steps = 0, seeing = 0;
   for (int k = 0; k < 48; ++k) {

@@ -14,7 +14,7 @@
 #include "core/mechanics/fracture/seam.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/plain/border.h"
+#include "core/places/border.h"
 #include "core/plain/random.h"
 #include "core/scene/file/scene_materials.h"
 #include "core/scene/file/selection.h"
@@ -62,17 +62,17 @@ Mesh placed(const WholeMesh& whole, const Placing& place) {
   return mesh;
 }
 
-std::int64_t whole(Random& random, int low, int high) {
-  return low + static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+std::int64_t whole(SplitMix64& random, int low, int high) {
+  return low + static_cast<std::int64_t>(random.below(static_cast<std::size_t>(high - low + 1)));
 }
-WholePoint whole_point(Random& random, int low, int high) {
+WholePoint whole_point(SplitMix64& random, int low, int high) {
   return {whole(random, low, high), whole(random, low, high), whole(random, low, high)};
 }
 
 struct RandomBox {
   reference::WholeBox exact;
   BoxSelection given;
-  RandomBox(Random& random, const Placing& place)
+  RandomBox(SplitMix64& random, const Placing& place)
       : exact{whole_point(random, -1, 3), {0, 0, 0}}, given{place(exact.min), {0, 0, 0}} {
     exact.max = exact.min + whole_point(random, 0, 4);
     given.max = place(exact.max);
@@ -81,7 +81,8 @@ struct RandomBox {
 struct RandomPlane {
   reference::WholePlane exact;
   PlaneSelection given;
-  RandomPlane(Random& random, const Placing& place) : exact{whole_point(random, -1, 7), whole_point(random, -3, 3)} {
+  RandomPlane(SplitMix64& random, const Placing& place)
+      : exact{whole_point(random, -1, 7), whole_point(random, -3, 3)} {
     if (exact.normal.isZero()) exact.normal.x() = 1;
     given = {place(exact.point), exact.normal.cast<double>().normalized()};
   }
@@ -89,7 +90,7 @@ struct RandomPlane {
 struct RandomSphere {
   reference::WholeSphere exact;
   SphereSelection given;
-  RandomSphere(Random& random, const Placing& place)
+  RandomSphere(SplitMix64& random, const Placing& place)
       : exact{whole_point(random, -1, 7), whole(random, 0, 5)},
         given{place(exact.centre), place.unit * static_cast<double>(exact.radius)} {}
 };
@@ -118,7 +119,7 @@ bool has_some_on(const reference::WholeSphere& sphere, std::span<const WholePoin
 // 10^4 shapes of a kind over all meshes and places: points and cells that they select.
 template <class Shape>
 void expect_exact_selections() {
-  Random random(1);
+  SplitMix64 random(1);
   Tally tally;
   for (const WholeMesh& whole : whole_meshes())
     for (const Placing& place : placings) {
@@ -167,7 +168,7 @@ std::set<std::vector<std::uint32_t>> cut_by(const MassSpringBody<Map, Held::by_e
 }
 
 template <class Map>
-int planes_that_cut_otherwise(const WholeMesh& whole, const Placing& place, Random& random, int count) {
+int planes_that_cut_otherwise(const WholeMesh& whole, const Placing& place, SplitMix64& random, int count) {
   Problem problem;
   problem.mesh = placed(whole, place);
   problem.material = {.density = 1.0, .stiffness = 1.0};
@@ -181,7 +182,7 @@ int planes_that_cut_otherwise(const WholeMesh& whole, const Placing& place, Rand
 }
 
 TEST(ExactBorders, OfPlanesCutTheFacesBetweenCellsThatIntegersSeparate) {
-  Random random(2);
+  SplitMix64 random(2);
   for (const WholeMesh& whole : whole_meshes())
     for (const Placing& place : placings) {
       const int differ = whole.mesh.dimension() == 2  ? planes_that_cut_otherwise<Map2>(whole, place, random, 667)

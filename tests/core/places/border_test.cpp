@@ -1,4 +1,4 @@
-#include "core/plain/border.h"
+#include "core/places/border.h"
 
 #include <gtest/gtest.h>
 
