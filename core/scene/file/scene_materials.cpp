@@ -117,7 +117,7 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
   std::vector<std::vector<std::uint32_t>> cells(tissues.size());
   for (std::uint32_t c = 0; c < count; ++c) cells[tissue_of[c]].push_back(c);
   const bool has_cells = count > 0;
-  std::vector<MaterialNumber> number(tissues.size());
+  std::vector<MaterialNumber> number_of(tissues.size());
   for (std::size_t t = 0; t < tissues.size(); ++t) {
     if (has_cells && cells[t].empty()) continue;
     Material& material = tissues[t].material;
@@ -126,7 +126,7 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
       require_elements(scene, problem.mesh, tissues[t].path, material);
     else if (material.young > 0.0)
       material.stiffness = stiffness_of_young(scene, problem.mesh, tissues[t], cells[t]);
-    number[t] = static_cast<MaterialNumber>(problem.materials.size());
+    number_of[t] = static_cast<MaterialNumber>(problem.materials.size());
     problem.materials.push_back(material);
     problem.materials.back().viscosity = scene.material.viscosity;
   }
@@ -135,7 +135,7 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
     problem.materials.clear();
     return;
   }
-  for (const std::size_t t : tissue_of) problem.cell_material.push_back(number[t]);
+  for (const std::size_t t : tissue_of) problem.cell_material.push_back(number_of[t]);
 }
 
 }  // namespace dartboard
