@@ -41,7 +41,7 @@ PARTS = [
           "core and the witnesses, by Clang, under its address and undefined-behaviour sanitizers"),
     suite("verbs", 3, ["--only", "verbs"], "every verb once, every mesh format and hostile names through those that take them"),
     suite("long", 1, ["--only", "long"], "tests that take more than a few seconds each"),
-    suite("lint", 4, ["--preset", "asan", "--only", "lint"], "clang-tidy over the twenty sources changed last"),
+    suite("lint", 4, ["--preset", "lint", "--only", "lint"], "clang-tidy over the twenty sources changed last"),
     suite("faults-mesh", 3, ["--only", "faults-mesh"], "seeded faults in the readers and generators of meshes"),
     suite("faults-scene", 7, ["--only", "faults-scene"], "seeded faults in scenes"),
     suite("faults-time", 5, ["--only", "faults-time"], "seeded faults in integrators and solvers"),
