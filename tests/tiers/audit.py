@@ -27,7 +27,7 @@ RED = os.path.join(red.ROOT, "build", "red")
 @dataclasses.dataclass
 class Part:
     name: str
-    minutes: float  # building from nothing and running, alone on two cores (results/README.md says which)
+    minutes: float  # about, building from nothing and running, alone on two cores
     command: list
     sees: str
 
@@ -37,15 +37,15 @@ def suite(name, minutes, options, sees):
 
 
 PARTS = [
-    suite("sanitizers-core", 25, ["--preset", "asan", "--only", "core"],
+    suite("sanitizers-core", 21, ["--preset", "asan", "--only", "core"],
           "core and the witnesses, by Clang, under its address and undefined-behaviour sanitizers"),
     suite("verbs", 3, ["--only", "verbs"], "every verb once, every mesh format and hostile names through those that take them"),
     suite("long", 1, ["--only", "long"], "tests that take more than a few seconds each"),
     suite("lint", 4, ["--preset", "lint", "--only", "lint"], "clang-tidy over the twenty sources changed last"),
-    suite("faults-mesh", 3, ["--only", "faults-mesh"], "seeded faults in the readers and generators of meshes"),
-    suite("faults-scene", 7, ["--only", "faults-scene"], "seeded faults in scenes"),
+    suite("faults-mesh", 4, ["--only", "faults-mesh"], "seeded faults in the readers and generators of meshes"),
+    suite("faults-scene", 5, ["--only", "faults-scene"], "seeded faults in scenes"),
     suite("faults-time", 5, ["--only", "faults-time"], "seeded faults in integrators and solvers"),
-    suite("faults-body", 6, ["--only", "faults-body"], "seeded faults in maps, operations, mechanics and views"),
+    suite("faults-body", 5, ["--only", "faults-body"], "seeded faults in maps, operations, mechanics and views"),
     suite("faults-program", 15, ["--only", "faults-program"],
           "seeded faults in witnesses, judges, reports and verbs; each claim has one that it sees"),
     suite("sanitizers-verbs", 15, ["--preset", "asan", "--only", "verbs"], "every verb under the sanitizers"),
