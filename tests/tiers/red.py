@@ -13,6 +13,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 GTEST = re.compile(r"^(?P<file>\S+?):(?P<line>\d+): Failure\n(?P<text>.*)", re.M)
 COMPILER = re.compile(r"^(?P<file>[^\s:]+):(?P<line>\d+):(?:\d+:)? (?:fatal )?error: (?P<text>.*)", re.M)
+STALE = re.compile(r"^(?P<text>line \d+: fault '.*)", re.M)
 LINKER = re.compile(r"^(?P<text>.*(?:undefined reference|multiple definition|cannot find ).*)", re.M)
 SANITIZER = re.compile(r"^(?:=+\d+=+)?(?P<text>ERROR: (?:Address|Leak)Sanitizer.*|.*runtime error: .*)", re.M)
 PYTHON_FRAME = re.compile(r'^ *File "(?P<file>[^"]+)", line (?P<line>\d+)', re.M)
@@ -49,9 +50,10 @@ def message_of(output):
         frames = list(PYTHON_FRAME.finditer(output, 0, error.start()))
         own = [frame for frame in frames if shown_path(frame["file"]).startswith("tests")] or frames
         return ("%s:%s" % (shown_path(own[-1]["file"]), own[-1]["line"]) if own else ""), short(error["text"])
-    linker = LINKER.search(output)
-    if linker:
-        return "", short(linker["text"])
+    for pattern in (STALE, LINKER):
+        found = pattern.search(output)
+        if found:
+            return "", short(found["text"])
     lines = [line for line in output.splitlines() if line.strip()]
     return "", short(lines[-1]) if lines else "it printed nothing"
 
