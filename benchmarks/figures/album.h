@@ -20,17 +20,15 @@ class Album {
   }
   /// The last good state of a run that ended before its time, and none after it.
   void ended(const Simulation& simulation) {
-    while (panels_.size() > 1 && panels_.back().frame.time > simulation.time()) panels_.pop_back();
-    if (panels_.back().frame.time < simulation.time()) take(simulation);
+    while (panels_.size() > 1 && panels_.back().time > simulation.time()) panels_.pop_back();
+    if (panels_.back().time < simulation.time()) take(simulation);
   }
-  const std::vector<BodyPanel>& panels() const { return panels_; }
+  const std::vector<Frame>& panels() const { return panels_; }
 
  private:
-  void take(const Simulation& simulation) {
-    panels_.push_back({simulation.frame({}), simulation.body().vertices().point});
-  }
+  void take(const Simulation& simulation) { panels_.push_back(simulation.frame({})); }
   std::uint64_t steps_;
-  std::vector<BodyPanel> panels_;
+  std::vector<Frame> panels_;
 };
 
 }  // namespace dartboard

@@ -58,11 +58,11 @@ std::vector<Facet> facets_of(const Mesh& mesh) {
   return all;
 }
 
-constexpr std::uint32_t no_origin = 0xffffffff;
+constexpr std::uint32_t no_origin = 0xffffffff;  // -1
 
-Key origin_of(const Facet& facet, const BodyPanel& panel) {
+Key origin_of(const Facet& facet, const Frame& panel) {
   Key points;
-  for (const std::uint32_t k : facet.nodes) points.push_back(panel.point[k]);
+  for (const std::uint32_t k : facet.nodes) points.push_back(static_cast<std::uint32_t>(panel.mesh_point[k]));
   return sorted(std::move(points));
 }
 
@@ -104,9 +104,9 @@ std::vector<Vector2d> widened(const std::vector<Vector2d>& line, double half_wid
 
 }  // namespace
 
-Box seen_box(const BodyPanel& panel) {
+Box seen_box(const Frame& panel) {
   Box box;
-  for (const Vector3d& x : panel.frame.mesh.points) box.extend(seen(x));
+  for (const Vector3d& x : panel.mesh.points) box.extend(seen(x));
   return box;
 }
 
@@ -139,21 +139,21 @@ std::string polygons_of(std::span<const DrawnFacet> facets, const Vector2d& shif
   return data;
 }
 
-std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Vector3d& up_now) {
-  std::vector<BodyPanel> turned(panels.begin(), panels.end());
+std::vector<Frame> upright(std::span<const Frame> panels, const Vector3d& up_now) {
+  std::vector<Frame> turned(panels.begin(), panels.end());
   if (up_now.isZero(0.0) || up_now.normalized() == Vector3d::UnitZ()) return turned;
   const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(up_now, Vector3d::UnitZ()).toRotationMatrix();
-  for (BodyPanel& panel : turned)
-    for (Vector3d& x : panel.frame.mesh.points) x = turn * x;
+  for (Frame& panel : turned)
+    for (Vector3d& x : panel.mesh.points) x = turn * x;
   return turned;
 }
 
-std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first) {
+std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first) {
   std::set<Key> skin;
-  for (const Facet& facet : facets_of(first.frame.mesh)) skin.insert(origin_of(facet, first));
+  for (const Facet& facet : facets_of(first.mesh)) skin.insert(origin_of(facet, first));
   std::vector<DrawnFacet> drawn;
-  for (const Facet& facet : facets_of(panel.frame.mesh)) {
-    const auto& x = panel.frame.mesh.points;
+  for (const Facet& facet : facets_of(panel.mesh)) {
+    const auto& x = panel.mesh.points;
     DrawnFacet d;
     Vector3d middle(0, 0, 0), normal(0, 0, 0);
     for (std::size_t k = 0; k < facet.nodes.size(); ++k) {
@@ -163,49 +163,56 @@ std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& fi
       normal += (here - x[facet.nodes[0]]).cross(next - x[facet.nodes[0]]);
     }
     // a face of a volume that looks away is hidden by the others
-    if (dimension(panel.frame.mesh.kinds[facet.cell]) == 3 && normal.dot(toward_viewer) <= 0.0) continue;
+    if (dimension(panel.mesh.kinds[facet.cell]) == 3 && normal.dot(toward_viewer) <= 0.0) continue;
     d.depth = middle.dot(toward_viewer);
     const Key origin = origin_of(facet, panel);
     // a facet with a vertex that refinement put in is not known to have been inside
     const bool was_inside = !skin.contains(origin) && origin.back() != no_origin;
-    const std::uint32_t component = panel.frame.component[facet.cell];
+    const std::uint32_t component = panel.component[facet.cell];
     const std::uint32_t colour = was_inside ? inside_colour : component_colours[component % component_colours.size()];
     // lit from the side that is seen
     const double side = normal.dot(toward_viewer) < 0.0 ? -1.0 : 1.0;
     const double cosine = normal.norm() > 0.0 ? side * normal.normalized().dot(toward_light) : 0.0;
-    d.colour = shaded(colour, 0.62 + 0.45 * std::max(0.0, cosine));
+    // in steps: an animated GIF has 256 colours, and takes the nearest of these, of whatever hue, for others
+    constexpr double steps = 12.0;
+    d.colour = shaded(colour, 0.62 + 0.45 * std::round(steps * std::max(0.0, cosine)) / steps);
     drawn.push_back(std::move(d));
   }
-  for (const auto& [a, b] : panel.frame.links) {
-    const Vector3d &from = panel.frame.mesh.points[a], &to = panel.frame.mesh.points[b];
+  for (const auto& [a, b] : panel.links) {
+    const Vector3d &from = panel.mesh.points[a], &to = panel.mesh.points[b];
     drawn.push_back({{seen(from), seen(to)}, ((from + to) / 2).dot(toward_viewer), component_colours[0]});
   }
   std::ranges::stable_sort(drawn, {}, &DrawnFacet::depth);
   return drawn;
 }
 
-std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& title,
-                        const std::filesystem::path& folder, const std::string& name, const std::string& gnuplot) {
+std::string draw_bodies(std::span<const Frame> panels, const std::string& title, const std::filesystem::path& folder,
+                        const std::string& name, const std::string& gnuplot) {
   std::vector<Box> boxes;
-  for (const BodyPanel& panel : panels) boxes.push_back(seen_box(panel));
+  for (const Frame& panel : panels) boxes.push_back(seen_box(panel));
   const PictureArea area = picture_area(boxes, 0.1);
   const Vector2d& size = area.size;
 
   constexpr double widest = 1400, highest = 900, above_and_below = 80;  // [pixels]
   const double count = static_cast<double>(std::max<std::size_t>(1, panels.size()));
-  const Vector2d whole(count * size.x(), 1.1 * size.y());
-  const double pixels = std::min(widest / whole.x(), (highest - above_and_below) / whole.y());  // per metre
+  constexpr double apart = 1.15, caption = 110;  // times the body's width; [pixels]
+  const double pixels = std::min(widest / (count * apart * size.x()), (highest - above_and_below) / (1.1 * size.y()));
+  const double pitch = std::max(apart * size.x(), caption / pixels);  // [m] from one time to the next
+  const Vector2d whole(count * pitch, 1.1 * size.y());
   std::string data, labels;
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    const BodyPanel& panel = panels[k];
-    const bool empty = panel.frame.mesh.points.empty();
+    const Frame& panel = panels[k];
+    const bool empty = panel.mesh.points.empty();
     const Vector2d centre = area.centre_of(boxes[k]);
-    const Vector2d shift(static_cast<double>(k) * size.x() - centre.x(), -centre.y());
+    const double middle = static_cast<double>(k) * pitch;
+    const Vector2d shift(middle - centre.x(), -centre.y());
     data += polygons_of(drawn_facets(panel, panels[0]), shift, pixels);
     labels +=
         fmt::format("set label {} {} at {:.6g},graph 0.02 center font \",13\"\n", k + 1,
-                    gnuplot_string(fmt::format("t = {:.3g} s{}", panel.frame.time, empty ? ", nothing left" : "")),
-                    static_cast<double>(k) * size.x());
+                    gnuplot_string(fmt::format("t = {:.3g} s{}", panel.time, empty ? ", nothing left" : "")), middle);
+    if (k > 0)
+      labels += fmt::format("set arrow {0} from {1:.6g},graph 0 to {1:.6g},graph 1 nohead linecolor rgb \"#d8d8d8\"\n",
+                            k, middle - pitch / 2);
   }
   write_plot_file(folder / (name + ".dat"), data);
   const int width = static_cast<int>(std::lround(std::max(560.0, pixels * whole.x())));
@@ -214,7 +221,7 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& ti
       "set encoding utf8\nunset key\nunset border\nunset tics\nset margins 0,0,0,3\nset size ratio -1\n"
       "set title {} font \",16\" noenhanced\n{}set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n"
       "set style fill solid 1.0 noborder\n",
-      quoted_title(title, width, 16.0, 1), labels, -0.5 * size.x(), (count - 0.5) * size.x(), -0.6 * size.y(),
+      quoted_title(title, width, 16.0, 1), labels, -0.5 * pitch, (count - 0.5) * pitch, -0.6 * size.y(),
       0.5 * size.y());
   const std::string commands = data.empty() ? "plot NaN"
                                             : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable",

@@ -12,15 +12,9 @@
 
 namespace dartboard {
 
-/// A body at one time, and the mesh point that each of its vertices came from (none: put in by refinement).
-struct BodyPanel {
-  Frame frame;
-  std::vector<std::uint32_t> point;
-};
-
 /// A body at a few times, side by side.
 struct BodyStrip {
-  std::vector<BodyPanel> panels;
+  std::vector<Frame> panels;
   std::string title;
 };
 
@@ -32,14 +26,14 @@ struct DrawnFacet {
 };
 
 /// The same bodies turned so that `up` is z, which pictures show upwards; as they are where `up` is z already, or zero.
-std::vector<BodyPanel> upright(std::span<const BodyPanel> panels, const Eigen::Vector3d& up);
+std::vector<Frame> upright(std::span<const Frame> panels, const Eigen::Vector3d& up);
 
 /// What is seen of a body from the front, a little from the right and above, z upwards: its boundary, the farthest
 /// facet first. Each component has a colour of its own, and facets that were inside the body of `first` another one.
-std::vector<DrawnFacet> drawn_facets(const BodyPanel& panel, const BodyPanel& first);
+std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first);
 
 /// What a body takes up in the plane of the picture [m]; empty for an empty body.
-Eigen::AlignedBox2d seen_box(const BodyPanel& panel);
+Eigen::AlignedBox2d seen_box(const Frame& panel);
 
 /// What pictures of one body at several times have in common.
 struct PictureArea {
@@ -63,9 +57,8 @@ std::string polygons_of(std::span<const DrawnFacet> facets, const Eigen::Vector2
 /// Where the body moves far beyond its size, each panel follows it.
 /// returns what went wrong, as `draw` does
 /// throws  IoError when the files cannot be written
-std::string draw_bodies(std::span<const BodyPanel> panels, const std::string& title,
-                        const std::filesystem::path& folder, const std::string& name,
-                        const std::string& gnuplot = "gnuplot");
+std::string draw_bodies(std::span<const Frame> panels, const std::string& title, const std::filesystem::path& folder,
+                        const std::string& name, const std::string& gnuplot = "gnuplot");
 
 inline std::string draw(const BodyStrip& strip, const std::filesystem::path& folder, const std::string& name) {
   return draw_bodies(strip.panels, strip.title, folder, name);

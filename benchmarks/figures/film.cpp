@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "benchmarks/figures/gnuplot.h"
 #include "core/plain/escape.h"
@@ -27,14 +29,14 @@ void Film::ended(const Simulation& simulation) {
   if (frames_.back().time < simulation.time()) take(simulation);
 }
 
-BodyPanel Film::panel_of(const Simulation& simulation) const {
-  const BodyPanel panel{simulation.frame({}), simulation.body().vertices().point};
-  return upright(std::span(&panel, 1), up_)[0];
+Frame Film::panel_of(const Simulation& simulation) const {
+  const Frame frame = simulation.frame({});
+  return upright(std::span(&frame, 1), up_)[0];
 }
 
 void Film::take(const Simulation& simulation) {
-  const BodyPanel panel = panel_of(simulation);
-  frames_.push_back({panel.frame.time, drawn_facets(panel, first_), seen_box(panel)});
+  const Frame panel = panel_of(simulation);
+  frames_.push_back({panel.time, drawn_facets(panel, first_), seen_box(panel)});
 }
 
 std::string draw_film(std::span<const FilmFrame> frames, const std::string& title, const std::filesystem::path& folder,
@@ -69,7 +71,12 @@ std::string draw_film(std::span<const FilmFrame> frames, const std::string& titl
   }
   write_plot_file(folder / data.file(), data.text());
   write_plot_file(folder / (name + ".gnuplot"), script + "unset output\n");
-  return run_gnuplot(gnuplot, folder, name);
+  std::string trouble = run_gnuplot(gnuplot, folder, name);
+  if (trouble.empty()) {  // ten times as large as the film
+    std::error_code ignored;
+    for (const std::string& used : {data.file(), name + ".gnuplot"}) std::filesystem::remove(folder / used, ignored);
+  }
+  return trouble;
 }
 
 }  // namespace dartboard

@@ -34,12 +34,12 @@ class Film {
   const std::vector<FilmFrame>& frames() const { return frames_; }
 
  private:
-  BodyPanel panel_of(const Simulation& simulation) const;
+  Frame panel_of(const Simulation& simulation) const;
   void take(const Simulation& simulation);
 
   std::uint64_t steps_;
   Eigen::Vector3d up_;
-  BodyPanel first_;
+  Frame first_;
   std::vector<FilmFrame> frames_;
 };
 

@@ -105,7 +105,7 @@ std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path&
     // in that folder, as a path with a slash: no command, no option and no pipe can be made of a name
     run_program(
         gnuplot, {"./" + name + ".gnuplot"}, [&](std::string_view line) { said += fmt::format(" {}", line); },
-        Stderr::shown, folder);
+        Stderr::as_output, folder);
   } catch (const ProcessError& error) {
     return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
   }

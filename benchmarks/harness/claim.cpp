@@ -16,6 +16,7 @@ std::string_view name(Verdict verdict) {
     case Verdict::holds: return "holds";
     case Verdict::falls_short: return "falls short";
     case Verdict::does_not_carry_over: return "does not carry over";
+    case Verdict::undecided: return "undecided";
     case Verdict::not_tested: return "not tested";
   }
   return "unknown verdict";
@@ -47,7 +48,10 @@ void to_json(nlohmann::json& json, const Claim& claim) {
   if (claim.expected != Verdict::holds) json["expected"] = name(claim.expected);
 }
 
-bool Claim::surprises() const { return verdict != Verdict::not_tested && verdict != expected && reason.empty(); }
+bool Claim::surprises() const {
+  const bool is_answered = verdict != Verdict::not_tested && verdict != Verdict::undecided;
+  return is_answered && verdict != expected && reason.empty();
+}
 
 namespace {
 
@@ -73,7 +77,7 @@ Met at_least(const Figure& figure, double bound) {
 }
 
 void judge(Claim& claim, Met met) {
-  claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::not_tested;
+  claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::undecided;
   if (met == Met::open)
     claim.reason = "the interval lies on both sides of the bound, or rests on too little: this run cannot tell";
 }
@@ -100,6 +104,7 @@ std::string in_words(std::span<const Claim> claims) {
        {those(of(Verdict::falls_short), "falls short", "fall short"),
         those(of(Verdict::does_not_carry_over), "of the paper's does not carry over to this machine",
               "of the paper's do not carry over to this machine"),
+        those(of(Verdict::undecided), "is undecided", "are undecided"),
         those(of(Verdict::not_tested), "was not tested", "were not tested"),
         those([](const Claim& claim) { return claim.verdict != Verdict::falls_short && claim.surprises(); },
               "has another answer than the known one, and no reason is known",

@@ -12,11 +12,11 @@
 namespace dartboard {
 
 /// A target of ours, or what the paper says of maps and bodies, holds or falls short. What the paper says of the times
-/// of its machine holds here too or does not carry over: that is a finding, and no failure. Each may be not tested, for
-/// a reason.
-enum class Verdict { holds, falls_short, does_not_carry_over, not_tested };
+/// of its machine holds here too or does not carry over: that is a finding, and no failure. Each may be undecided, where
+/// what was measured leaves it open, or not tested, for a reason.
+enum class Verdict { holds, falls_short, does_not_carry_over, undecided, not_tested };
 
-/// "holds", "falls short", "does not carry over", "not tested".
+/// "holds", "falls short", "does not carry over", "undecided", "not tested".
 std::string_view name(Verdict verdict);
 
 /// One assertion; values are text as printed, the raw numbers are in the samples of the run.
@@ -43,7 +43,7 @@ enum class Met { no, open, yes };
 Met at_most(const Figure& figure, double bound);
 Met at_least(const Figure& figure, double bound);
 
-/// The verdict on a target of ours: what is open falls not short, but is not tested, and the reason says so.
+/// The verdict on a target of ours: what is open does not fall short, but is undecided, and the reason says so.
 void judge(Claim& claim, Met met);
 
 /// A target of ours on the share of what was drawn that is good; the interval is that of the share of all there are.
@@ -52,8 +52,8 @@ Claim claim_on_share(std::string id, std::string text, std::size_t good, std::si
 /// The reason is left out where it is empty, the expected answer where it is that a claim holds.
 void to_json(nlohmann::json& json, const Claim& claim);
 
-/// 1 when a claim falls short or surprises, else 0. What does not carry over is a finding, and what was not tested does
-/// not count against a run, so that a quick run can succeed; their reasons are in the report.
+/// 1 when a claim falls short or surprises, else 0. What does not carry over is a finding, and what is undecided or
+/// was not tested does not count against a run, so that a quick run can succeed; their reasons are in the report.
 int exit_code(std::span<const Claim> claims);
 
 /// What was found, in words: "27 claims hold, 2 of the paper's do not carry over to this machine (arrays, ladder)."

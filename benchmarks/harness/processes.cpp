@@ -50,6 +50,7 @@ class Surroundings {
     check(posix_spawn_file_actions_adddup2(&actions_, standard_output, STDOUT_FILENO));
     if (errors == Stderr::discarded)
       check(posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0));
+    if (errors == Stderr::as_output) check(posix_spawn_file_actions_adddup2(&actions_, standard_output, STDERR_FILENO));
     if (!folder.empty()) check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
   }
   ~Surroundings() { posix_spawn_file_actions_destroy(&actions_); }

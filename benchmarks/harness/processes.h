@@ -19,7 +19,7 @@ struct ProcessError : std::runtime_error {
 /// Takes one line of output, without its newline.
 using LineSink = std::function<void(std::string_view line)>;
 
-enum class Stderr { shown, discarded };
+enum class Stderr { shown, discarded, as_output };
 
 /// Run a program, searched in PATH unless it holds a slash, and wait for its end. No shell comes in between, so nothing
 /// in an argument needs quoting. Standard input is empty. It runs in `folder`, or where we are.

@@ -41,6 +41,7 @@ void Progress::advance(std::string_view detail) {
   ++done_;
   if (quiet_) return;
   const std::int64_t now = steady_wall_ns();
+  if (done_ == 1) first_ns_ = now;
   if (now < next_print_ns_ && done_ != total_) return;
   next_print_ns_ = now + (terminal_ ? terminal_period_ns : log_period_ns);
   print(detail);
@@ -54,8 +55,12 @@ std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
 }
 
 void Progress::print(std::string_view detail) {
-  const double elapsed_s = 1e-9 * static_cast<double>(steady_wall_ns() - start_ns_);
-  const std::string counted = total_ > 0 ? fmt::format("{}/{}{}", done_, total_, time_left(done_, total_, elapsed_s))
+  const std::int64_t now = steady_wall_ns();
+  const double elapsed_s = 1e-9 * static_cast<double>(now - start_ns_);
+  // the first step may prepare what the others use, so they are timed by themselves
+  const std::string left =
+      done_ < 2 ? "" : time_left(done_ - 1, total_ - 1, 1e-9 * static_cast<double>(now - first_ns_));
+  const std::string counted = total_ > 0 ? fmt::format("{}/{}{}", done_, total_, left)
                                          : fmt::format("{} done in {:.0f} s", done_, elapsed_s);
   std::string line = terminal_text(fmt::format("{}: {}{}{}", label_, counted, detail.empty() ? "" : "  ", detail));
   if (!terminal_) {

@@ -27,7 +27,7 @@ class Progress {
   std::string label_;
   std::size_t total_, done_ = 0;
   bool quiet_, terminal_, line_open_ = false;
-  std::int64_t start_ns_, next_print_ns_ = 0;
+  std::int64_t start_ns_, first_ns_ = 0, next_print_ns_ = 0;
 };
 
 /// ", about 40 s left", once there is something to go by: half a second and a step.

@@ -30,7 +30,7 @@ Claim claim_of(std::string_view id);
 bool is_impossibility(std::string_view id);
 
 /// A claim that was tested. What the paper says of bodies falls short where it is not met, what it says of times
-/// or programs does not carry over, for the reason that is known or for none; what is open is not tested.
+/// or programs does not carry over, for the reason that is known or for none; what is open is undecided.
 ///
 /// throws  InputError if no claim has this id
 Claim answered(std::string_view id, Met met, std::string measured, std::string bound_or_interval);

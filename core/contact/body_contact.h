@@ -89,8 +89,9 @@ struct BodyContactState {
 ///
 /// Candidates come from a list with a margin (candidate_pairs.h) that every evaluation makes sure of: contacts, their
 /// order, and bits do not depend on when lists are made. After a change of the skin one is made anew. Not for two
-/// threads at once: lists and contacts found are kept. pre     samples and solids live as long as the term, are those
-/// of one body, and change together
+/// threads at once: lists and contacts found are kept.
+///
+/// pre     samples and solids live as long as the term, are those of one body, and change together
 /// cost    O(nodes of skin tetrahedra) to see whether the list holds, O(candidates); no allocation once there have been
 ///         as many candidates and contacts before
 class BodyContact final : public ForceTerm {
@@ -166,9 +167,7 @@ class BodyContact final : public ForceTerm {
   void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override;
   /// Of samples as deep as their laws allow, in the stiffest law that they may have; of the other side as much.
   void for_each_constant_tangent(const VisitTangent& visit) const override;
-  Eigen::Matrix3d virial(std::span<const Eigen::Vector3d>, std::size_t) const override {
-    return Eigen::Matrix3d::Zero();
-  }
+  Virial virial(std::span<const Eigen::Vector3d>, std::size_t) const override { return {}; }
 
   std::size_t bytes() const;
 

@@ -110,9 +110,7 @@ class ObstacleContact final : public ForceTerm {
                std::span<const Eigen::Vector3d> w) const override;
   void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override;
   void for_each_constant_tangent(const VisitTangent& visit) const override;
-  Eigen::Matrix3d virial(std::span<const Eigen::Vector3d>, std::size_t) const override {
-    return Eigen::Matrix3d::Zero();
-  }
+  Virial virial(std::span<const Eigen::Vector3d>, std::size_t) const override { return {}; }
 
   /// Where the obstacles are.
   template <class Archive>

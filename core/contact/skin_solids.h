@@ -48,11 +48,15 @@ class RowsAround {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   void clear();
-  /// How many nodes and owners have a number. pre  what is beyond has been erased
+  /// How many nodes and owners have a number.
+  ///
+  /// pre  what is beyond has been erased
   void resize(std::size_t nodes, std::size_t owners);
   std::size_t owner_count() const { return of_owner_.size(); }
   void push_back(std::uint32_t owner, const std::array<std::uint32_t, n>& nodes);
-  /// The last row takes the place; the caller's columns do likewise. pre  `nodes` of the place and of the last
+  /// The last row takes the place; the caller's columns do likewise.
+  ///
+  /// pre  `nodes` of the place and of the last
   void erase(std::uint32_t place, const std::array<std::uint32_t, n>& nodes, std::uint32_t owner,
              const std::array<std::uint32_t, n>& last_nodes, std::uint32_t last_owner);
 
@@ -129,7 +133,9 @@ class SkinSolids {
   std::uint64_t changes() const { return changes_; }
 
   void clear();
-  /// Numbers of what there is now; what is beyond is erased. pre  no row that is left names a node beyond
+  /// Numbers of what there is now; what is beyond is erased.
+  ///
+  /// pre  no row that is left names a node beyond
   void resize(std::size_t nodes, std::size_t faces, std::size_t cells);
   void add(const SkinTetrahedron& tetrahedron);
   void add(const SkinTriangle& triangle);

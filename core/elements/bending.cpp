@@ -74,7 +74,7 @@ class BendingTerm final : public ForceTerm {
     }
   }
 
-  Matrix3d virial(std::span<const Vector3d>, std::size_t) const override { return Matrix3d::Zero(); }
+  Virial virial(std::span<const Vector3d>, std::size_t) const override { return {}; }
 
  private:
   static Vector3d bend(const StagePlaces& at, const BendingEdge& e) {

@@ -49,7 +49,7 @@ std::unique_ptr<ForceTerm> make_cell_springs(const CellSpringColumns& columns) {
   return std::make_unique<SpringPieces<CellPieces>>(CellPieces(columns));
 }
 
-Eigen::Matrix3d cell_springs_virial(const CellSprings& springs, std::span<const Eigen::Vector3d> x) {
+Virial cell_springs_virial(const CellSprings& springs, std::span<const Eigen::Vector3d> x) {
   std::vector<SolidNodes> nodes(1);
   for (; nodes[0].count < x.size(); ++nodes[0].count) nodes[0].at[nodes[0].count] = nodes[0].count;
   const std::vector<CellSprings> one{springs};

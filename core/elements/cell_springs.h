@@ -44,6 +44,6 @@ struct CellSpringColumns {
 std::unique_ptr<ForceTerm> make_cell_springs(const CellSpringColumns& columns);
 
 /// The term's virial of one cell with its corners at x, to the bit.
-Eigen::Matrix3d cell_springs_virial(const CellSprings& springs, std::span<const Eigen::Vector3d> x);
+Virial cell_springs_virial(const CellSprings& springs, std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard

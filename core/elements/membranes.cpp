@@ -72,13 +72,15 @@ SurfaceGradient gradient(std::size_t count, const Gradients& g, const Line& line
 
 // The sum over the points of A P F', shared equally by the corners.
 template <class Points, class Line>
-Matrix3d virial_share(const MembraneLaw& law, const Points& points, std::size_t count, const Line& line) {
+Virial virial_share(const MembraneLaw& law, const Points& points, std::size_t count, const Line& line) {
   Matrix3d sum = Matrix3d::Zero();
+  double growth = 0.0;
   for_each_point(count, points, [&](const Gradients& g, double area) {
     const SurfaceGradient f = gradient(count, g, line);
     sum += area * (law.stress(f) * f.transpose());
+    growth += area * (f.col(0).cross(f.col(1)).norm() - 1.0);
   });
-  return (0.5 / static_cast<double>(count)) * (sum + sum.transpose());
+  return {(0.5 / static_cast<double>(count)) * (sum + sum.transpose()), growth / static_cast<double>(count)};
 }
 
 /// By the number of a cell's material.
@@ -207,7 +209,7 @@ class Membranes final : public ForceTerm {
     }
   }
 
-  Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
+  Virial virial(std::span<const Vector3d> x, std::size_t c) const override {
     const auto n = columns_.corners(c);
     return virial_share(laws_[c], columns_.points(c), n.size(), Lines({x}, n));
   }
@@ -277,7 +279,7 @@ std::unique_ptr<ForceTerm> make_membranes(const CellMaterials& materials, const 
   return std::make_unique<Membranes<MembraneColumns>>(materials, columns);
 }
 
-Matrix3d membrane_virial(const Material& material, std::span<const PlaneInverse> points, std::span<const Vector3d> x) {
+Virial membrane_virial(const Material& material, std::span<const PlaneInverse> points, std::span<const Vector3d> x) {
   return virial_share(MembraneLaw(material), points, x.size(), [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; });
 }
 

@@ -74,7 +74,7 @@ std::unique_ptr<ForceTerm> make_membranes(const CellMaterials& materials, const 
 std::unique_ptr<ForceTerm> make_membranes(const CellMaterials& materials, const MembraneColumns& columns);
 
 /// The term's virial of one cell with its corners at x, to the bit.
-Eigen::Matrix3d membrane_virial(const Material& material, std::span<const PlaneInverse> points,
-                                std::span<const Eigen::Vector3d> x);
+Virial membrane_virial(const Material& material, std::span<const PlaneInverse> points,
+                       std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard

@@ -105,16 +105,18 @@ Matrix3d gradient(std::size_t count, const Gradients& g, const Line& line) {
 
 // The sum over the points of V P F', shared equally by the corners.
 template <class Law, class Line>
-Matrix3d virial_share(const Law& law, const SolidShape& shape, std::size_t count, const Line& line) {
+Virial virial_share(const Law& law, const SolidShape& shape, std::size_t count, const Line& line) {
   const Rule& rule = rule_of(shape.kind);
   Gradients g;
   Matrix3d sum = Matrix3d::Zero();
+  double growth = 0.0;
   for (std::size_t q = 0; q < rule.weights.size(); ++q) {
     gradients_at(shape, rule, q, count, g);
     const Matrix3d f = gradient(count, g, line);
     sum += shape.volume[q] * (law.stress(f) * f.transpose());
+    growth += shape.volume[q] * (f.determinant() - 1.0);
   }
-  return (0.5 / static_cast<double>(count)) * (sum + sum.transpose());
+  return {(0.5 / static_cast<double>(count)) * (sum + sum.transpose()), growth / static_cast<double>(count)};
 }
 
 /// The Gauss points of each cell, for its damping.
@@ -250,7 +252,7 @@ class Solids final : public ForceTerm {
     }
   }
 
-  Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
+  Virial virial(std::span<const Vector3d> x, std::size_t c) const override {
     return virial_share(laws_[c], columns_.shape[c], columns_.nodes[c].count, Lines({x}, columns_.nodes[c]));
   }
 
@@ -326,8 +328,8 @@ std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const Sol
   });
 }
 
-Matrix3d solid_virial(const Material& material, const SolidShape& shape, std::span<const Vector3d> x) {
-  if (material.model == Model::springs) return Matrix3d::Zero();
+Virial solid_virial(const Material& material, const SolidShape& shape, std::span<const Vector3d> x) {
+  if (material.model == Model::springs) return {};
   return with_law_of(material, [&](const auto& law) {
     return virial_share(law, shape, x.size(), [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; });
   });

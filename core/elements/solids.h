@@ -63,6 +63,6 @@ struct SolidColumns {
 std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const SolidColumns& columns);
 
 /// The term's virial of one cell with its corners at x, to the bit.
-Eigen::Matrix3d solid_virial(const Material& material, const SolidShape& shape, std::span<const Eigen::Vector3d> x);
+Virial solid_virial(const Material& material, const SolidShape& shape, std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard

@@ -133,14 +133,14 @@ class SpringPieces final : public ForceTerm {
   }
 
   /// Of its springs, shared equally among its vertices.
-  Matrix3d virial(std::span<const Vector3d> x, std::size_t piece) const override {
+  Virial virial(std::span<const Vector3d> x, std::size_t piece) const override {
     const Nodes n = nodes(piece);
     Matrix3d sum = Matrix3d::Zero();
     for_each_of(piece, [&](std::uint32_t i, std::uint32_t j, const SpringLine& spring) {
       const Vector3d line = x[j] - x[i], f = spring.force(line);
       sum += f * line.transpose();
     });
-    return (0.5 / static_cast<double>(std::max<std::size_t>(1, n.size()))) * (sum + sum.transpose());
+    return {(0.5 / static_cast<double>(std::max<std::size_t>(1, n.size()))) * (sum + sum.transpose())};
   }
 
  private:

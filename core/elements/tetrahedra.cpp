@@ -11,11 +11,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// V P F' is the virial of an element, V times Cauchy's stress times J; a fourth of it for each corner.
+// V P F' is the virial of an element: its volume now, V det F, times Cauchy's stress. A fourth of it for each corner.
 template <class Law>
-Matrix3d virial_share(const Law& law, double volume, const Matrix3d& f) {
+Virial virial_share(const Law& law, double volume, const Matrix3d& f) {
   const Matrix3d whole = (0.25 * volume) * (law.stress(f) * f.transpose());
-  return 0.5 * (whole + whole.transpose());
+  return {0.5 * (whole + whole.transpose()), 0.25 * volume * (f.determinant() - 1.0)};
 }
 
 template <class Laws>
@@ -117,7 +117,7 @@ class Tetrahedra final : public ForceTerm {
     }
   }
 
-  Matrix3d virial(std::span<const Vector3d> x, std::size_t c) const override {
+  Virial virial(std::span<const Vector3d> x, std::size_t c) const override {
     return virial_share(laws_[c], volume(c), gradient(x, columns_.nodes[c], columns_.shape[c]));
   }
 
@@ -181,11 +181,11 @@ std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const
   });
 }
 
-Matrix3d tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
-                            const std::array<Vector3d, 4>& x) {
+Virial tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
+                          const std::array<Vector3d, 4>& x) {
   Matrix3d edges;
   edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
-  if (material.model == Model::springs) return Matrix3d::Zero();
+  if (material.model == Model::springs) return {};
   return with_law_of(material, [&](const auto& law) {
     return virial_share(law, 1.0 / material.density * mass, Matrix3d(edges * shape));
   });

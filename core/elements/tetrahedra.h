@@ -42,7 +42,7 @@ struct TetrahedronColumns {
 std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const TetrahedronColumns& columns);
 
 /// The term's virial of one tetrahedron with its corners at x, to the bit.
-Eigen::Matrix3d tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
-                                   const std::array<Eigen::Vector3d, 4>& x);
+Virial tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
+                          const std::array<Eigen::Vector3d, 4>& x);
 
 }  // namespace dartboard

@@ -26,9 +26,15 @@ struct StagePlaces {
   }
 };
 
-/// A change of energy [J], and the sum of the sizes of what it was summed from, of which rounding takes its share.
+/// A change of energy [J], and the sum of the sizes of what it is rounded from: |e(a)| + |e(b)| for e(b) - e(a).
 struct EnergyChange {
   double value = 0.0, sizes = 0.0;
+};
+
+/// What a piece adds to the stress at each of its vertices.
+struct Virial {
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();  // [J] symmetric, tension positive
+  double growth = 0.0;  // [m^3] of its volume (of a surface [m^2] of its area) since rest; 0 of pieces without one
 };
 
 class TermDamping;
@@ -74,8 +80,8 @@ class ForceTerm {
   /// The same of a constant matrix at least as stiff as the term near rest, each block a multiple of the identity.
   virtual void for_each_constant_tangent(const VisitTangent& visit) const = 0;
 
-  /// What a piece adds to the virial of each of its vertices [J]: symmetric, tension positive.
-  virtual Eigen::Matrix3d virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const = 0;
+  /// What a piece adds at each of its vertices: its virial and the growth of its volume, over the number of them.
+  virtual Virial virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const = 0;
 
   /// What damps its pieces (term_damping.h), beside all of the above; null where nothing does.
   virtual const TermDamping* damping() const { return nullptr; }

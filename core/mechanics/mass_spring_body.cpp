@@ -31,8 +31,6 @@ void require_sane(const Material& m) {
   } else {
     require(m.young > 0.0, "young", m.young, "a positive number of Pa");
     require(m.poisson > -1.0 && m.poisson < 0.5, "poisson", m.poisson, "more than -1 and less than 0.5");
-    require(m.stiffness == 0.0, "stiffness", m.stiffness, "0 N/m beside elements");
-    require(m.damping == 0.0, "damping", m.damping, "0 N s/m beside elements");
   }
   require(std::isfinite(m.damping) && m.damping >= 0.0, "damping", m.damping, "at least 0 N s/m");
   require(std::isfinite(m.damping_time) && m.damping_time >= 0.0, "damping time", m.damping_time, "at least 0 s");
@@ -78,6 +76,12 @@ void require_sane(const Problem& problem) {
     throw InputError(fmt::format("{} initial velocities for {} points", problem.initial_velocity.size(), points));
   for (const auto& v : problem.initial_velocity)
     if (!v.allFinite()) throw InputError("an initial velocity is not finite");
+}
+
+/// Elements have no use for what springs have, which has defaults.
+Material without_springs(Material material) {
+  if (material.model != Model::springs) material.stiffness = material.damping = 0.0;
+  return material;
 }
 
 bool has_springs_of_young(const Material& material) { return material.model == Model::springs && material.young > 0.0; }
@@ -139,8 +143,8 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   auto built = build_map<Map>(mesh);
 
   MassSpringBody<Map, held> body;
-  body.material = problem.material;
-  body.materials = problem.materials;
+  body.material = without_springs(problem.material);
+  for (const Material& material : problem.materials) body.materials.push_back(without_springs(material));
   body.cell_material = problem.cell_material;
   body.surroundings = problem.surroundings;
   body.map = std::move(built.map);

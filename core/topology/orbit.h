@@ -55,7 +55,9 @@ void leave_block(const Map& map, Involutions set, Dart at, F&& f) {
   }
 }
 
-/// Visit the orbit of d depth first. pre  `visited` holds representatives; that of d is among them already.
+/// Visit the orbit of d depth first.
+///
+/// pre  `visited` holds representatives; that of d is among them already.
 template <class Map, class F>
 bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
   auto& stack = visited.stack();

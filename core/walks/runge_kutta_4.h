@@ -5,19 +5,29 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/plain/error.h"
 #include "core/walks/spring_forces.h"
 
 namespace dartboard {
 
 /// One step of the classical Runge-Kutta method: x' = v, v' = a(x, v).
 ///
-/// Each of the four stages covers the edges once for the forces and the vertices once for everything else.
+/// Each of the four stages covers the edges once for the forces and the vertices once for everything else. Springs
+/// along edges are all the forces that a walk meets: bodies of elements, membranes or diagonals are stepped by the
+/// integrators of core/time over their system.
+///
+/// throws  InputError for a body with anything but springs along its edges
 /// order   4; stable on the imaginary axis up to h omega = 2 sqrt(2)
 /// cost    4 force evaluations
 class RungeKutta4 {
  public:
   template <class Walk, class Body>
   void step(const Walk& walk, Body& body, double h) {
+    if (!body.cell_shape.empty() || !body.cell_solid.empty() || !body.cell_triangle.empty() ||
+        !body.cell_membrane.empty() || !body.cell_springs.empty())
+      throw InputError(
+          "RungeKutta4 knows springs along edges alone, and the body has other forces; expected an "
+          "integrator of core/time over its system");
     VertexColumns& v = body.vertices;
     for (auto* column : {&x0_, &v0_, &sum_x_, &sum_v_}) column->resize(v.size());
     const Eigen::Vector3d gravity = body.surroundings.gravity;

@@ -332,6 +332,54 @@ TEST(Scene, CheckCountsTheCellsOfTheBodyAndTheSteps) {
       << answer.out;
 }
 
+// 3 x 0.1 is not the number 0.3; a border is thick enough for that, and not for a hundredth of a micrometre.
+TEST(CommandLine, SaysWhatEachSelectionOfASceneHolds) {
+  const TemporaryFile scene("bar.json", R"({"name": "x", "step": 0.001, "duration": 0.01,
+    "body": {"generate": {"box": {"cells": [10, 1, 1], "spacing": 0.1}}},
+    "fixed": [{"plane": {"point": [0.3, 0, 0], "normal": [-1, 0, 0]}}, {"box": {"min": [0.90000001, 0, 0], "max": [2, 1, 1]}}],
+    "events": [{"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}}}]})");
+  const std::string held = "/fixed/0: 16 of 44 vertices\n/fixed/1: 4 of 44 vertices\n",
+                    cut = "/events/0/dissociate: 2 of 78 faces between cells\n";
+  for (const std::string verb : {"scene --check ", "explain ", "simulate "}) {
+    const Answer answer = run(verb + scene.path.string(), "2>/dev/null");
+    EXPECT_EQ(answer.status, 0) << answer.out;
+    EXPECT_NE(answer.out.find("\n" + held + cut), std::string::npos) << verb << answer.out;
+    const auto json = nlohmann::json::parse(run(verb + scene.path.string() + " --json", "2>/dev/null").out);
+    EXPECT_EQ(json.at("selections").size(), 3u) << verb;
+    EXPECT_EQ(json.at("selections")[0], nlohmann::json::parse(R"({"path": "/fixed/0", "of_what": "vertices",
+                                          "selected": 16, "all": 44, "just_outside": 0})"))
+        << verb;
+    EXPECT_EQ(json.at("selections")[1].at("just_outside"), 4) << verb;
+    EXPECT_NE(json.at(verb == "explain " ? "remarks" : "warnings").dump().find("/fixed/1: 4 lie just outside"),
+              std::string::npos)
+        << json;
+  }
+}
+
+TEST(Simulate, GoesOnForLongerWhereTheSceneSaysSoAndDrawsWhatFollows) {
+  const TemporaryFile scene("longer.json", "");
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-longer");
+  const auto write = [&](const char* duration) {
+    std::ofstream(scene.path) << R"({"name": "x", "step": 0.001, "duration": )" << duration << R"(,
+      "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}}, "output": {"checkpoint": 1}})";
+  };
+  write("0.01");
+  EXPECT_EQ(run("simulate " + scene.path.string() + " --film").status, 2);  // into no folder
+  ASSERT_EQ(run("simulate " + scene.path.string() + " --picture --film --out " + out.string()).status, 0);
+  EXPECT_EQ(run("simulate --continue " + out.string()).status, 2);  // it has ended
+  write("0.02");
+  const Answer answer = run("simulate --picture --film --json --continue " + out.string(), "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("steps"), 20);
+  EXPECT_TRUE(json.at("divergence").is_null() && json.at("holds").is_null());
+  for (const char* drawn : {"picture.png", "picture_from_step_10.png", "film.gif", "film_from_step_10.gif"})
+    EXPECT_TRUE(fs::exists(out / drawn)) << drawn;
+  write("0.005");
+  EXPECT_EQ(run("simulate --continue " + out.string()).status, 2);
+  fs::remove_all(out);
+}
+
 TEST(CommandLine, NamesTheScenesThatAreNearAnUnknownOne) {
   for (const std::string verb : {"scene --check", "simulate", "explain", "explain-dt", "recommend", "tradeoff"}) {
     const Answer answer = run(verb + " liver_cutt" + (verb == "recommend" ? " --error 1e-3" : ""));

@@ -162,5 +162,11 @@ TEST(Sources, StartNoShell) {
     EXPECT_EQ(users_of(room, {"popen(", "std::system(", " system(\"", "\"/bin/sh\"", "\"sh\""}, {}), Files{}) << room;
 }
 
+// The formatter joins a tag to the sentence before it where no empty line stands between them.
+TEST(Sources, HaveEachTagOfADocstringOnALineOfItsOwn) {
+  for (const char* room : {"core", "reference", "validation", "benchmarks"})
+    EXPECT_EQ(users_of(room, {". cost  ", ". pre  ", ". throws  ", ". returns  ", ". source  "}, {}), Files{}) << room;
+}
+
 }  // namespace
 }  // namespace dartboard

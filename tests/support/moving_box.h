@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 inline Json moving_box() {
   return Json::parse(R"({
     "name": "box", "step": 0.001, "duration": 0.01,
-    "body": {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.125}}},
+    "body": {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.125, "pattern": "kuhn"}}},
     "material": {"density": 768, "stiffness": 64, "damping": 0.25, "viscosity": 0.5},
     "initial_velocity": {"linear": [[1, -2, 0], [2, 0.5, 0], [0, 0, -1]], "centre": [0.125, 0.125, 0.125]}})");
 }

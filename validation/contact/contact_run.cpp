@@ -25,7 +25,7 @@ Sizes sizes_of(const VertexColumns& v) {
 
 void look_at_overlaps(const SceneFile& scene, const std::vector<std::size_t>& first_cell, const Simulation& simulation,
                       ContactRun& run) {
-  const Frame frame = simulation.frame({});
+  const Frame frame = simulation.body().frame({});  // points by their numbers in the body
   std::vector<CellCorners> cells;
   for (std::size_t c = 0; c < frame.mesh.cell_count(); ++c) {
     const auto k = frame.mesh.cell(c);

@@ -201,11 +201,10 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
       Frame frame;
       frame.mesh = loaded.mesh;
       frame.component.assign(loaded.mesh.cell_count(), 0);
-      std::vector<std::uint32_t> point(loaded.mesh.points.size());
-      std::iota(point.begin(), point.end(), 0u);
-      const BodyPanel panel{frame, point};
+      frame.mesh_point.resize(loaded.mesh.points.size());
+      std::iota(frame.mesh_point.begin(), frame.mesh_point.end(), 0);
       picture_missing(outcome,
-                      draw_bodies(std::span(&panel, 1), std::filesystem::path(options->file).filename().string(),
+                      draw_bodies(std::span(&frame, 1), std::filesystem::path(options->file).filename().string(),
                                   options->out, "mesh"));
     }
     if (options->json) {

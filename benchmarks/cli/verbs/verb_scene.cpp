@@ -2,11 +2,14 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "benchmarks/cli/scene_names.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/plain/counted.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/file/scene_pages.h"
@@ -17,7 +20,7 @@
 namespace dartboard {
 namespace {
 
-void check_scene(const std::string& given) {
+void check_scene(const std::string& given, bool as_json) {
   SceneFile scene = read_named_scene(given);
   if (scene.accuracy) {
     // all but the step can be checked; any will do for that
@@ -27,6 +30,21 @@ void check_scene(const std::string& given) {
   }
   const Simulation simulation(scene);
   const CellCounts n = simulation.body().counts();
+  const std::vector<std::string> warnings =
+      scene.accuracy ? std::vector<std::string>{} : warnings_of(scene, simulation);
+  if (as_json) {
+    const nlohmann::ordered_json json{{"scene", scene.file},
+                                      {"map", simulation.body().map_name()},
+                                      {"vertices", n.vertices},
+                                      {"edges", n.edges},
+                                      {"faces", n.faces},
+                                      {"cells", n.cells},
+                                      {"components", n.components},
+                                      {"body", in_words(simulation.body())},
+                                      {"selections", to_json(simulation.selections())},
+                                      {"warnings", warnings}};
+    return tell("{}\n", json_text(json, 2));
+  }
   const std::string steps = scene.accuracy
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
                                 : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
@@ -34,15 +52,15 @@ void check_scene(const std::string& given) {
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
   tell("{}\n", in_words(simulation.body()));
-  if (!scene.accuracy)
-    for (const std::string& warning : warnings_of(scene, simulation)) tell(stderr, "warning: {}\n", warning);
+  for (const SelectionCount& count : simulation.selections()) tell("{}\n", to_string(count));
+  for (const std::string& warning : warnings) tell(stderr, "warning: {}\n", warning);
 }
 
 }  // namespace
 
 void add_scene(CLI::App& app, Outcome& outcome) {
   struct Options {
-    bool schema = false, keys = false;
+    bool schema = false, keys = false, json = false;
     std::string check;
   };
   auto options = std::make_shared<Options>();
@@ -52,11 +70,12 @@ void add_scene(CLI::App& app, Outcome& outcome) {
   what->add_flag("--keys", options->keys, "print the reference page of all keys, in Markdown");
   what->add_option("--check", options->check, "read and assemble a scene, and run nothing");
   what->require_option(1);
+  verb->add_flag("--json", options->json, "print JSON; schemas are JSON anyway");
   verb->callback([options, &outcome] {
     outcome.exit_code = exit_agrees;
     if (options->schema) tell("{}\n", json_text(scene_schema(), 2));
     if (options->keys) tell("{}", scene_reference());
-    if (!options->check.empty()) check_scene(options->check);
+    if (!options->check.empty()) check_scene(options->check, options->json);
   });
 }
 

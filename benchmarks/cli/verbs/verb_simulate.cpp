@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -124,7 +125,9 @@ void continue_from(Checkpoint& checkpoint, Simulation& simulation, const Simulat
   const std::string done = counted(checkpoint.steps_done(), "step");
   if (checkpoint.steps_done() >= simulation.step_count())
     throw InputError(
-        fmt::format("{}: the run has come to its end, after {}; expected one that can go on", options.continued, done));
+        fmt::format("{}: the run has come to its end, after {}; expected one that can go on, or a longer 'duration' in "
+                    "its scene",
+                    options.continued, done));
   if (const auto most = options.most_steps(); most && *most <= checkpoint.steps_done())
     throw InputError(fmt::format("{}: the run is to stop after {}, and its checkpoint is one after {}; expected more",
                                  options.continued, counted(*most, "step"), done));
@@ -166,8 +169,14 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
   Simulation simulation(scene);
   simulation.watch_events(true);
   const std::vector<std::string> told = warnings_of(scene, simulation);
-  const std::string words = step_in_words(simulation, scene);
+  const std::string opening = opening_of(scene, simulation, step_in_words(simulation, scene));
   const double removed_at_start = simulation.body().removed_mass();
+  const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
+  // of a run that is continued too, pictures begin at its start, where nothing has been cut
+  std::optional<Album> album;
+  if (options.picture) album.emplace(simulation, steps);
+  std::optional<Film> film;
+  if (options.film) film.emplace(simulation, steps, -scene.gravity);
   // the folder comes last: a scene that is wrong leaves nothing behind
   std::optional<SceneOutput> output;
   nlohmann::json manifest;
@@ -185,13 +194,12 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
   }
   write_manifest();
 
+  if (!options.json) {
+    tell("{}", opening);
+    std::fflush(stdout);  // before the progress, wherever that goes
+  }
   for (const std::string& warning : told) tell(stderr, "warning: {}\n", warning);
-  const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
-  std::optional<Album> album;
-  if (options.picture) album.emplace(simulation, steps);
-  std::optional<Film> film;
-  if (options.film) film.emplace(simulation, steps, -scene.gravity);
   RunResult result;
   std::optional<std::uint64_t> left_after;
   // of the whole process: long factorisations have a thread of their own
@@ -218,7 +226,6 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
                           .frames = output ? output->frame_count() : 0,
                           .picture = "",
                           .removed_at_start = removed_at_start,
-                          .step_in_words = words,
                           .told = told,
                           .steps_before = start.checkpoint ? start.checkpoint->steps_done() : 0};
   if (left_after && simulation.steps_done() < simulation.step_count() && !result.divergence)
@@ -235,18 +242,22 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
     report.expected = compare_with_expectation(scene, simulation, result);
 
   outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
+  // those of an earlier part of the run stay
+  const std::string from_step = start.checkpoint ? fmt::format("_from_step_{}", start.checkpoint->steps_done()) : "";
   if (album) {
     album->ended(simulation);
+    const std::string name = "picture" + from_step;
     const std::string trouble =
-        draw_bodies(upright(album->panels(), -scene.gravity), scene.name, output->folder(), "picture");
-    report.picture = trouble.empty() ? "picture.png and picture.svg drawn there." : trouble;
+        draw_bodies(upright(album->panels(), -scene.gravity), scene.name, output->folder(), name);
+    report.picture = trouble.empty() ? fmt::format("{0}.png and {0}.svg drawn there.", name) : trouble;
     picture_missing(outcome, trouble);
   }
   if (film) {
     film->ended(simulation);
-    const std::string trouble = draw_film(film->frames(), scene.name, output->folder(), "film");
-    report.picture +=
-        fmt::format("{}{}", report.picture.empty() ? "" : "\n", trouble.empty() ? "film.gif drawn there." : trouble);
+    const std::string name = "film" + from_step;
+    const std::string trouble = draw_film(film->frames(), scene.name, output->folder(), name);
+    report.picture += fmt::format("{}{}", report.picture.empty() ? "" : "\n",
+                                  trouble.empty() ? fmt::format("{}.gif drawn there.", name) : trouble);
     picture_missing(outcome, trouble);
   }
   if (output) {
@@ -274,16 +285,21 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   auto* continued = verb->add_option(
       "--continue", options->continued,
       "go on with the run in this folder, from the checkpoint that it left when it was interrupted, or at the times that "
-      "its scene asks for (output.checkpoint): what is written in the end has the bits of one run, but for the times it took");
+      "its scene asks for (output.checkpoint): what is written in the end is identical to an uninterrupted run, timings "
+      "excepted. A run that has come to its end and left a checkpoint goes on when its scene has been given a longer "
+      "'duration'");
   continued->excludes(scene)->excludes(out);
-  verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder")->needs(out);
-  verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder")->needs(out);
+  verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
+  verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder");
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options, &outcome] {
     if (options->scene.empty() && options->continued.empty()) throw CLI::RequiredError("SCENE");
+    if (options->out.empty() && options->continued.empty())
+      for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
+        if (asked) throw CLI::RequiresError(name, "--out or --continue");
     simulate(*options, outcome);
   });
 }

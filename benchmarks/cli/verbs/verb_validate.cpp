@@ -23,9 +23,9 @@ void add_validate_topology(CLI::App& validate, Outcome& outcome) {
       *verb, {.quick = "fewer operations", .seed = "the random operations", .keeps_folder = false});
   auto* what = verb->add_option_group("WHAT");
   what->add_option("MESH", options->mesh, "a mesh file, or the name of a mesh of the project");
-  what->add_flag("--all", options->all, "every mesh of the project");
+  what->add_flag("--all", options->all, "every mesh of the project, as without MESH and --replay");
   what->add_option("--replay", options->replay, "a script, as written at a disagreement");
-  what->require_option(1);
+  what->require_option(0, 1);
   verb->add_option("--operations", options->operations, "random operations per series [10000; 1000 with --quick]");
   verb->add_option("--script-out", options->script_out,
                    "where to write the script of a disagreement [disagreement-MESH-SEED.txt]");
@@ -34,7 +34,7 @@ void add_validate_topology(CLI::App& validate, Outcome& outcome) {
   verb->callback([options, &outcome] {
     const auto study = [&](StudyLog& log) {
       if (!options->replay.empty()) return topology_replay(options->replay, find_mesh);
-      return topology_study({.meshes = options->all ? all_meshes() : std::vector{find_mesh(options->mesh)},
+      return topology_study({.meshes = options->mesh.empty() ? all_meshes() : std::vector{find_mesh(options->mesh)},
                              .operations = options->operations.value_or(options->quick ? 1000 : 10000),
                              .self = options->self,
                              .script_out = options->script_out,

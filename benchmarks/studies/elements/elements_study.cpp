@@ -16,6 +16,7 @@
 #include "core/plain/nan_maximum.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/watch/stable_step.h"
+#include "core/topology/storage/hash.h"
 
 namespace dartboard {
 namespace {
@@ -59,6 +60,11 @@ struct Timed {
     for (int k = 0; k < evaluations; ++k)
       accelerations(system, {}, body->vertices().position, body->vertices().velocity, a);
   }
+  std::uint64_t hash() const {
+    Hash hash;
+    hash.add(a);
+    return hash.value();
+  }
 };
 
 std::vector<ModelCost> measure_costs(const ElementsPlan& plan, int across, StudyLog& log) {
@@ -68,13 +74,16 @@ std::vector<ModelCost> measure_costs(const ElementsPlan& plan, int across, Study
     timed.emplace_back(model, cells, across, plan.quick ? 20 : 200);
   std::vector<TimedTask> tasks;
   for (Timed& t : timed)
-    tasks.push_back({in_words(t.cost.model, t.cost.cells), [] {}, [&t] { t.run(); }, [] { return std::uint64_t{0}; }});
+    tasks.push_back({in_words(t.cost.model, t.cost.cells), [] {}, [&t] { t.run(); }, [&t] { return t.hash(); }});
   std::vector<std::vector<double>> ns(timed.size());
+  std::vector<Sample> samples;
   run_rounds(tasks, {.rounds = plan.quick ? 4 : 40}, [&](const Sample& sample) {
     log.sample(nlohmann::json(sample));
+    samples.push_back(sample);
     for (std::size_t k = 0; k < timed.size(); ++k)
       if (tasks[k].name == sample.task) ns[k].push_back(static_cast<double>(sample.cpu_ns) / timed[k].evaluations);
   });
+  check_repeats(samples);
   std::vector<ModelCost> costs;
   for (std::size_t k = 0; k < timed.size(); ++k) {
     timed[k].cost.ns = median(ns[k]);

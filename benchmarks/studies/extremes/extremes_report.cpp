@@ -67,9 +67,15 @@ Claim judged_claim(const ExtremesResults& results) {
     by_motion += by == to_string(JudgedBy::motion);
     by_scheme += by == to_string(JudgedBy::scheme);
   }
-  const double share = ended == 0 ? 1.0 : static_cast<double>(by_motion + by_scheme) / static_cast<double>(ended);
-  return claim("runs-are-judged", "runs that end without a diagnosis are judged by more than that they survived",
-               fmt::format(">= {:g} %", 100 * target), fmt::format("{:.2f} %", 100 * share), share >= target,
+  const std::string text = "runs that end without a diagnosis are judged by more than that they survived";
+  if (ended == 0)
+    return {.id = "runs-are-judged",
+            .text = text,
+            .paper_value = fmt::format(">= {:g} %", 100 * target),
+            .reason = "no run ended without a diagnosis"};
+  const double share = static_cast<double>(by_motion + by_scheme) / static_cast<double>(ended);
+  return claim("runs-are-judged", text, fmt::format(">= {:g} %", 100 * target), fmt::format("{:.2f} %", 100 * share),
+               share >= target,
                fmt::format("{} runs: {} by the motion, {} by the steps of the scheme", ended, by_motion, by_scheme));
 }
 

@@ -73,7 +73,7 @@ Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quic
       answered("real-time", at_least(figure, cells_of_paper),
                fmt::format("{:.0f} tetrahedra, a removal in each frame", figure.median), to_string(figure.interval));
   if (quick && claim.surprises()) {
-    claim.verdict = Verdict::not_tested;
+    claim.verdict = Verdict::undecided;
     claim.reason = "a quick run is too short to contradict what is known: leave out --quick";
   }
   return claim;

@@ -103,7 +103,7 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
                          "<= 0.5 % of a step", percent(ratio.cpu.median), percent(ratio.cpu.interval),
                          at_most(ratio.cpu, 1.005), fmt::format("'{}' over '{}'", pair.task, pair.baseline));
     claim.verdict = verdict_on_time(ratio.cpu);
-    if (claim.verdict == Verdict::not_tested && claim.reason.empty())
+    if (claim.verdict == Verdict::undecided && claim.reason.empty())
       claim.reason = fmt::format("'{}' does less than '{}' and is slower: no lower bound", pair.baseline, pair.task);
     claims.push_back(std::move(claim));
   }

@@ -8,6 +8,7 @@
 
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/studies/scenes/simulation_json.h"
 
 namespace dartboard {
 namespace {
@@ -60,8 +61,11 @@ std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<double>& measured_ns) {
-  std::string text = fmt::format("{}\n{}; {}; {} steps of {:.6g} s\n\n", one_line(scene.name), plan.map, counted(plan),
+  std::string text = fmt::format("{}\n{}; {}; {} steps of {:.6g} s\n", one_line(scene.name), plan.map, counted(plan),
                                  plan.steps, scene.step);
+  for (const SelectionCount& count : plan.selections) text += to_string(count) + "\n";
+  for (const std::string& remark : plan.remarks) text += remark + "\n";
+  text += "\n";
   Table table({{"part"}, {"bytes", Align::right}, {"ns per step", Align::right}, {"what"}, {"why"}});
   for (const PlanItem& item : plan.items)
     table.add_row({std::string(name(item.part)), fmt::format("{}", item.bytes), time_text(item.ns, item.ns_below),
@@ -97,6 +101,8 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                                 {"darts", plan.counts.darts}}},
                               {"bytes", plan.bytes()},
                               {"ns_per_step", plan.ns()}};
+  json["selections"] = to_json(plan.selections);
+  json["remarks"] = plan.remarks;
   json["plan"] = json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items) {
     json["plan"].push_back({{"part", name(item.part)},

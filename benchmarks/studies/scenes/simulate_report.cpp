@@ -7,16 +7,30 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/plain/counted.h"
+#include "core/scene/file/scene_materials.h"
 #include "core/scene/output/scene_output.h"
+#include "core/scene/run/body_in_words.h"
 #include "core/scene/run/scene_warnings.h"
 
 namespace dartboard {
 namespace {
 
 std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("{:.2e}", drift); }
+
+/// "springs", "neo-hookean elements, springs"
+std::string models_of(const SceneFile& scene, int dimension) {
+  std::string said;
+  for (std::size_t m = model_names.size(); m-- > 0;)
+    if (std::ranges::any_of(scene.tissues(), [&](const SceneFile::Tissue& tissue) {
+          return model_of(tissue, dimension) == static_cast<Model>(m);
+        }))
+      said += fmt::format("{}{}{}", said.empty() ? "" : ", ", model_names[m], m == 0 ? "" : " elements");
+  return said;
+}
 
 }  // namespace
 
@@ -58,13 +72,20 @@ Table summary_of(const SimulationReport& r) {
   return table;
 }
 
+std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words) {
+  std::string said = fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name),
+                                 simulation.body().map_name(), scene.integrator, scene.step, step_in_words,
+                                 models_of(scene, simulation.dimension()), in_words(simulation.body()));
+  for (const SelectionCount& count : simulation.selections()) said += to_string(count) + "\n";
+  return said + "\n";
+}
+
 std::string to_text(const SimulationReport& r) {
   std::string said;
   const auto say = [&said]<class... T>(fmt::format_string<T...> format, T&&... arguments) {
     said += fmt::format(format, std::forward<T>(arguments)...);
   };
-  say("{}\n{}, {}, h = {:.6g} s ({})\n\n{}\n", one_line(r.scene.name), r.simulation.body().map_name(),
-      r.scene.integrator, r.scene.step, r.step_in_words, to_text(summary_of(r)));
+  say("{}\n", to_text(summary_of(r)));
   if (r.settled) {
     say("{}\n", to_string(*r.settled));
     for (const std::string& omission : r.settled->omissions) say("  {}\n", omission);
@@ -110,6 +131,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
   nlohmann::ordered_json json{{"scene", r.scene.name},
                               {"map", r.simulation.body().map_name()},
                               {"integrator", r.scene.integrator},
+                              {"selections", to_json(r.simulation.selections())},
                               {"steps", r.simulation.steps_done()},
                               {"first", to_json(r.result.first, r.simulation.dimension())},
                               {"last", to_json(r.result.last, r.simulation.dimension())},
@@ -118,7 +140,9 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                               {"cpu_s", r.cpu_s},
                               {"mass_drift", r.mass_drift()},
                               {"jumps", to_json(r.simulation.jumps())}};
-  if (!r.expected.empty() || r.result.divergence) json["holds"] = r.holds();
+  const bool is_judged = !r.expected.empty() || r.result.divergence;
+  json["holds"] = is_judged ? nlohmann::ordered_json(r.holds()) : nlohmann::ordered_json();
+  json["divergence"] = nullptr;
   if (const auto& d = r.result.divergence)
     json["divergence"] = {{"step", d->step},
                           {"time", d->time},
@@ -127,7 +151,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                           {"taken_back", d->taken_back},
                           {"kept_step", r.kept_step()},
                           {"kept_time", r.result.last.time},
-                          {"value", fmt::format("{:.17g}", d->value)}};
+                          {"value", number(d->value)}};
   json["warnings"] = warnings_of(r.scene, r.simulation);
   json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();

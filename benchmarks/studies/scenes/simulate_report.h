@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmarks/harness/table.h"
@@ -43,7 +44,6 @@ struct SimulationReport {
     return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
-  std::string step_in_words{};                     // beside the step
   std::vector<std::string> told{};                 // the warnings that were told before the first step
   std::uint64_t steps_before = 0;                  // of a run that was continued: those that its times do not count
   std::optional<std::uint64_t> continues_after{};  // the step of the checkpoint left, of a run that is not over
@@ -52,6 +52,11 @@ struct SimulationReport {
 /// What there was at the start and at the end.
 Table summary_of(const SimulationReport& report);
 
+/// What is simulated and with which step, what the body is made of, and what each selection of the scene holds: the
+/// lines before a run.
+std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words);
+
+/// What came of it.
 std::string to_text(const SimulationReport& report);
 
 nlohmann::ordered_json to_json(const SimulationReport& report);

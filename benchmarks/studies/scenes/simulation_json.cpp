@@ -35,6 +35,17 @@ nlohmann::ordered_json to_json(const Diagnostics& d, int dimension) {
   return json;
 }
 
+nlohmann::ordered_json to_json(std::span<const SelectionCount> selections) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SelectionCount& count : selections)
+    json.push_back({{"path", count.path},
+                    {"of_what", count.of_what},
+                    {"selected", count.selected},
+                    {"all", count.all},
+                    {"just_outside", count.just_outside}});
+  return json;
+}
+
 nlohmann::ordered_json to_json(const EventJumps& jumps) {
   return {{"events", jumps.events},
           {"mass", jumps.mass},

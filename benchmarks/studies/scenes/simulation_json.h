@@ -2,9 +2,11 @@
 // What a simulation says of itself, as JSON.
 
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/run/event_jumps.h"
+#include "core/scene/survey/selection_counts.h"
 
 namespace dartboard {
 
@@ -12,5 +14,6 @@ namespace dartboard {
 /// "largest_tension". JSON has no infinity: a number that is not finite is left null.
 nlohmann::ordered_json to_json(const Diagnostics& diagnostics, int dimension);
 nlohmann::ordered_json to_json(const EventJumps& jumps);
+nlohmann::ordered_json to_json(std::span<const SelectionCount> selections);
 
 }  // namespace dartboard

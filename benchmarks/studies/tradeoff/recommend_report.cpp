@@ -119,7 +119,7 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
       one_line(r.scene), r.error, f.vertices, f.springs, f.events, f.omega_low, f.omega_high, f.damping_ratio, f.phase,
       1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
-    if (!c.usable()) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
+    if (!c.usable() && !c.untried) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   if (const auto untried = r.untried(); !untried.empty())
     text += fmt::format(
         "{} of {} methods were not tried for want of time, and another run may pick one of them (--budget SECONDS "

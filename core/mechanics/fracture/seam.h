@@ -34,7 +34,10 @@ class FaceSet {
 /// A cell is on the side where the mean of its vertices' positions is now; on the plane, which is as thick as
 /// border_thickness() of these positions, counts as in front of it (where the normal points). Every path from cell to
 /// cell between the sides crosses such a face, so dissociating all of them separates the body completely. The normal
-/// need not be a unit vector. throws  InputError if a number is not finite or the normal is zero cost    O(darts)
+/// need not be a unit vector.
+///
+/// throws  InputError if a number is not finite or the normal is zero
+/// cost    O(darts)
 template <class Map>
 std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);

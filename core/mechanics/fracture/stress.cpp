@@ -21,10 +21,14 @@ namespace {
 // The iterative solver: the closed form loses half the digits where two eigenvalues are close.
 using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
 
-// The lower triangle suffices until the sum is complete.
+// The lower triangle suffices until the sum is complete; the growth of the volume is summed in the upper corner.
 void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
   for (int j = 0; j < 3; ++j)
     for (int i = j; i < 3; ++i) sum(i, j) += term(i, j);
+}
+void add_lower(Eigen::Matrix3d& sum, const Virial& virial) {
+  add_lower(sum, virial.tensor);
+  sum(0, 2) += virial.growth;
 }
 
 using CellNumbers = boost::container::small_vector<std::uint32_t, 64>;
@@ -84,7 +88,9 @@ void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uin
   }
 }
 
-void finish(Eigen::Matrix3d& sum, double volume) {
+void finish(Eigen::Matrix3d& sum, double rest_volume) {
+  const double now = rest_volume + sum(0, 2), least = least_volume * rest_volume;
+  const double volume = now > least ? now : least;
   for (int j = 0; j < 3; ++j)
     for (int i = j; i < 3; ++i) sum(j, i) = sum(i, j) = sum(i, j) / volume;
 }
@@ -125,7 +131,7 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
   }
   for (const ForceTerm* term : terms)
     for (std::size_t piece = 0; piece < term->size(); ++piece) {
-      const Eigen::Matrix3d virial = term->virial(position, piece);
+      const Virial virial = term->virial(position, piece);
       for (const std::uint32_t i : term->nodes(piece)) add_lower(stress[i], virial);
     }
   for (std::size_t k = 0; k < stress.size(); ++k) finish(stress[k], volumes[k]);

@@ -30,6 +30,10 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
   return virial;
 }
 
+/// Of what it was at rest, the volume at a vertex counts as this at least: cells that are squeezed flat or turned
+/// inside out have no stress of Cauchy's.
+inline constexpr double least_volume = 0.01;
+
 /// The stress at vertex k [Pa] (of a surface [N/m]), symmetric, tension positive:
 ///
 ///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T)
@@ -38,10 +42,11 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
 /// or a fourth of their area. Springs within the cells around it add what they have over the number of the cell's
 /// vertices.
 ///
-/// V is the rest volume (area) of the vertex, its share of each cell as eq. (1) has it. So the sum of V sigma over all
-/// vertices is the virial of all springs, and a uniform stress is the same at every vertex of a regular lattice.
-/// Springs are found by walking the edges around the vertex, and summed by edge number, so that the order of the walk
-/// leaves no trace in the bits.
+/// V is the volume (area) of the vertex, its share of each cell as eq. (1) has it: of elements as it is now, so that
+/// sigma is their mean Cauchy stress; of cells of springs as it was at rest, so that sigma is their virial per volume
+/// at rest. The sum of V sigma over all vertices is the virial of the body, and a uniform stress is the same at every
+/// vertex of a regular lattice. Springs are found by walking the edges around the vertex, and summed by edge number, so
+/// that the order of the walk leaves no trace in the bits.
 template <class Map>
 Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k);
 

@@ -22,6 +22,8 @@ struct LoadedMesh {
   std::string format;  // as read: "Gmsh MSH 2.2"
   std::vector<std::string> notices;
   std::vector<std::uint32_t> place_of_point;  // of each point of the file in `mesh`; empty where none is dropped
+  std::vector<std::uint32_t>
+      file_number;  // of each point of `mesh`: its number in the file; empty where that is its own
   std::vector<CellTags> tags = {};
   static constexpr std::uint32_t dropped = 0xFFFFFFFF;  // a point of no cell has none
 };

@@ -52,15 +52,15 @@ Box add_box(Mesh& mesh, const char* who, std::array<int, 3> n, double spacing, c
 }
 
 /// The cube cut around the diagonal from corner 0 to corner 7: a tetrahedron for each order in which three steps along
-/// the three axes lead from one to the other.
-void add_kuhn_cube(Mesh& mesh, const Corners& corner) {
+/// the three axes lead from one to the other. Of a cube whose corners come `mirrored` all six turn the other way.
+void add_kuhn_cube(Mesh& mesh, const Corners& corner, bool mirrored = false) {
   for (const std::uint32_t a : {1u, 2u, 4u})
     for (const std::uint32_t b : {1u, 2u, 4u}) {
       if (a == b) continue;
       // x, y, z and its rotations turn to the right; the other three orders are mirrored
       const bool right_handed = b == (a == 4 ? 1 : 2 * a);
       const std::uint32_t p = corner[a], q = corner[a | b];
-      if (right_handed)
+      if (right_handed != mirrored)
         add(mesh, CellKind::tetrahedron, corner[0], p, q, corner[7]);
       else
         add(mesh, CellKind::tetrahedron, corner[0], q, p, corner[7]);
@@ -94,14 +94,15 @@ void jitter_points(Mesh& mesh, const std::vector<bool>& movable, double reach, s
   }
 }
 
-}  // namespace
-
-Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {
+/// `add_cube(x, y, z, corners)` adds six tetrahedra.
+template <class AddCube>
+Mesh tetrahedron_box(const char* who, std::array<int, 3> n, double spacing, double jitter, std::uint64_t seed,
+                     AddCube&& add_cube) {
   Mesh mesh;
-  const Box box = add_box(mesh, "kuhn_box", {nx, ny, nz}, spacing, Eigen::Vector3d::Zero(), CellKind::tetrahedron, 6);
+  const Box box = add_box(mesh, who, n, spacing, Eigen::Vector3d::Zero(), CellKind::tetrahedron, 6);
   if (!(jitter >= 0.0 && std::isfinite(jitter * spacing)))
-    throw InputError(fmt::format("kuhn_box: jitter = {}, expected a finite number >= 0", jitter));
-  box.for_each_cube([&](auto, auto, auto, const Corners& corner) { add_kuhn_cube(mesh, corner); });
+    throw InputError(fmt::format("{}: jitter = {}, expected a finite number >= 0", who, jitter));
+  box.for_each_cube([&](auto x, auto y, auto z, const Corners& corner) { add_cube(mesh, x, y, z, corner); });
   if (jitter > 0.0) {
     std::vector<bool> inside(mesh.points.size());
     for (std::uint32_t z = 1; z < box.nz; ++z)
@@ -110,6 +111,24 @@ Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64
     jitter_points(mesh, inside, jitter * spacing, seed);
   }
   return mesh;
+}
+
+}  // namespace
+
+Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {
+  return tetrahedron_box(
+      "kuhn_box", {nx, ny, nz}, spacing, jitter, seed,
+      [](Mesh& mesh, auto, auto, auto, const Corners& corner) { add_kuhn_cube(mesh, corner); });
+}
+
+Mesh mirrored_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {
+  return tetrahedron_box("mirrored_box", {nx, ny, nz}, spacing, jitter, seed,
+                         [](Mesh& mesh, std::uint32_t x, std::uint32_t y, std::uint32_t z, const Corners& corner) {
+                           const std::uint32_t flips = (x & 1u) | (y & 1u) << 1 | (z & 1u) << 2;
+                           Corners from{};
+                           for (std::uint32_t k = 0; k < 8; ++k) from[k] = corner[k ^ flips];
+                           add_kuhn_cube(mesh, from, (x + y + z) % 2 == 1);
+                         });
 }
 
 Mesh hexahedron_box(int nx, int ny, int nz, double spacing) {

@@ -32,7 +32,9 @@ struct ContactForecast {
 /// it falls from its highest place onto the highest of the obstacle (of a half-space, along gravity to its surface), or
 /// for as long as the run lasts. The mass behind each part of the surface is the largest density times the height of
 /// the body: along the normal of a half-space, else along gravity or, without any, its longest side; of a surface it is
-/// the density. An edge or a corner that comes first comes deeper. cost    O(vertices) for each obstacle
+/// the density. An edge or a corner that comes first comes deeper.
+///
+/// cost  O(vertices) for each obstacle
 std::vector<ContactForecast> forecast_contacts(const SceneFile& scene, const Problem& problem);
 
 /// What can be said of the bodies that touch by one key of the scene: of the two that come deepest.

@@ -11,13 +11,13 @@
 
 namespace dartboard {
 
-/// The cells of a body where they are now. Points are its vertices by number: the parts of a dissociated vertex are two
-/// points.
+/// The cells of a body where they are now. Points are its vertices: the parts of a dissociated vertex are two points.
 struct Frame {
   double time = 0.0;  // [s]
   Mesh mesh;
   std::vector<Eigen::Vector3d> velocity;  // [m/s] by point
   std::vector<double> mass;               // [kg] by point
+  std::vector<std::int64_t> mesh_point;   // by point: its number in the file of the mesh, or -1: refinement made it
   std::vector<std::uint32_t> mesh_cell;   // by cell: its number in the mesh that the body came from
   std::vector<std::uint32_t> component;   // by cell
   std::vector<std::uint8_t> material;     // by cell: its number; of a body of several

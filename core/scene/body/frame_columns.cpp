@@ -1,14 +1,50 @@
 #include "core/scene/body/frame_columns.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace dartboard {
 namespace {
 
+/// A column in another order: place k gets what was in place order[k].
+template <class T>
+void reorder(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
+  if (column.empty()) return;
+  std::vector<T> ordered;
+  ordered.reserve(column.size());
+  for (const std::uint32_t k : order) ordered.push_back(column[k]);
+  column = std::move(ordered);
+}
+
 double or_infinity(double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); }
 
 }  // namespace
+
+void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
+  if (!number.empty())
+    for (std::int64_t& p : frame.mesh_point)
+      if (p >= 0) p = number[static_cast<std::size_t>(p)];
+  const auto rank = [](std::int64_t p) { return static_cast<std::uint64_t>(p); };  // -1 comes last
+  if (std::ranges::is_sorted(frame.mesh_point, {}, rank)) return;
+  std::vector<std::uint32_t> order(frame.mesh_point.size()), place(order.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return rank(frame.mesh_point[k]); });
+  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  const auto reorder_all = [&order](auto&... columns) { (reorder(columns, order), ...); };
+  reorder_all(frame.mesh.points, frame.velocity, frame.mass, frame.mesh_point, frame.held,
+              frame.largest_principal_stress, frame.largest_stress_magnitude, frame.von_mises_stress,
+              frame.displacement, frame.contact_force, frame.contact_depth);
+  for (std::uint32_t& node : frame.mesh.nodes) node = place[node];
+  for (auto* lines : {&frame.links, &frame.springs})
+    for (auto& [a, b] : *lines) {
+      a = place[a];
+      b = place[b];
+    }
+}
 
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
                   const RestVolumes& volumes) {
@@ -19,6 +55,7 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
   frame.mesh.points = x;
   frame.velocity = vertices.velocity;
   frame.mass = vertices.mass;
+  for (const std::uint32_t p : vertices.point) frame.mesh_point.push_back(p == no_point ? -1 : std::int64_t{p});
   const bool is_chain = !frame.links.empty();
   if (fields.displacement)
     for (std::size_t k = 0; k < x.size(); ++k) frame.displacement.push_back(x[k] - vertices.rest[k]);

@@ -13,6 +13,10 @@
 
 namespace dartboard {
 
+/// Number the points by the file of the mesh, where `number` has one for each of its points, and put them into the
+/// order of these numbers: parts of a vertex one after another, vertices that refinement made last.
+void put_in_order(Frame& frame, std::span<const std::uint32_t> number);
+
 /// Fill what a frame has of the vertices and springs of a system: places, velocities and masses always, stress,
 /// displacement and strain where `fields` asks for them; who holds vertices is known to the run alone.
 ///

@@ -63,6 +63,7 @@ class ReadyFaces : public ReadyEvent {
       }
     }
   }
+  std::optional<std::size_t> facets() const override { return found_.size(); }
   std::size_t apply() override {
     const Map& map = on_.body().map;
     std::vector<Dart> live;  // a face of a removed cell is on the boundary already: nothing to separate
@@ -97,16 +98,19 @@ class ReadyPlane : public ReadyEvent {
  public:
   ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane, const std::optional<CutRegion>& within)
       : on_(on), plane_(plane), within_(within) {}
-  std::size_t apply() override {
-    std::vector<Dart> seam = seam_on(on_, plane_);
-    if (within_) {
-      const double thickness = border_thickness(on_.body().vertices.position);
-      std::erase_if(seam, [&](Dart d) { return !contains(*within_, facet_centre(on_.body(), d), thickness); });
-    }
-    return follow_dissociation(on_, dissociate_all(on_.body().map, seam));
-  }
+  std::optional<std::size_t> facets() const override { return seam().size(); }
+  std::size_t apply() override { return follow_dissociation(on_, dissociate_all(on_.body().map, seam())); }
 
  private:
+  std::vector<Dart> seam() const {
+    std::vector<Dart> all = seam_on(on_, plane_);
+    if (within_) {
+      const double thickness = border_thickness(on_.body().vertices.position);
+      std::erase_if(all, [&](Dart d) { return !contains(*within_, facet_centre(on_.body(), d), thickness); });
+    }
+    return all;
+  }
+
   BodyOnMap<Map>& on_;
   PlaneSelection plane_;
   std::optional<CutRegion> within_;
@@ -116,13 +120,13 @@ template <class Map>
 class ReadyBlade : public ReadyEvent {
  public:
   ReadyBlade(BodyOnMap<Map>& on, const BladeSweep& blade) : on_(on), blade_(blade) {}
-  std::size_t apply() override {
-    return follow_dissociation(on_,
-                               dissociate_all(on_.body().map, facets_on_sweep(on_.body(), blade_.path, blade_.depth)));
-  }
+  std::optional<std::size_t> facets() const override { return seam().size(); }
+  std::size_t apply() override { return follow_dissociation(on_, dissociate_all(on_.body().map, seam())); }
   std::size_t bytes() const override { return bytes_of(blade_.path); }
 
  private:
+  std::vector<Dart> seam() const { return facets_on_sweep(on_.body(), blade_.path, blade_.depth); }
+
   BodyOnMap<Map>& on_;
   BladeSweep blade_;
 };

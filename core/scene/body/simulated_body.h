@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ class ReadyEvent {
   /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
   /// throws   StressError if a stress is not finite
   virtual std::size_t apply() = 0;
+  /// Of a cut: how many faces between cells (of a surface, edges between faces) it would take now.
+  virtual std::optional<std::size_t> facets() const { return std::nullopt; }
   /// What it has changed about itself when it was applied, written or read: a stream of random numbers.
   virtual void state(Archive&) {}
   /// Memory that it keeps (core/scene/body/memory.h).

@@ -124,6 +124,16 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   }
 }
 
+std::vector<std::uint32_t> file_numbers(const LoadedMesh& loaded, const TouchingCells& touching) {
+  if (loaded.place_of_point.empty()) return {};
+  std::vector<std::uint32_t> number(loaded.mesh.points.size());
+  for (std::uint32_t k = static_cast<std::uint32_t>(loaded.place_of_point.size()); k-- > 0;)  // of several the first
+    if (loaded.place_of_point[k] != LoadedMesh::dropped) number[loaded.place_of_point[k]] = k;
+  const std::size_t kept = number.size() - touching.copied.size();
+  for (std::size_t k = 0; k < touching.copied.size(); ++k) number[kept + k] = number[touching.copied[k]];
+  return number;
+}
+
 std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
   const auto& file = std::get<std::filesystem::path>(body.mesh);
   LoadedMesh loaded = read_mesh(file);
@@ -139,6 +149,7 @@ std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
       throw IoError(fmt::format("{}: {}; expected none, or \"touching\": \"split\"", file.string(), notice));
     loaded.notices.push_back(notice);
   }
+  loaded.file_number = file_numbers(loaded, touching);
   return {std::move(loaded), std::move(touching)};
 }
 
@@ -172,6 +183,11 @@ void load_bodies(SceneFile& scene, BodyList& bodies) {
 }
 
 }  // namespace
+
+std::span<const std::uint32_t> file_numbers(const SceneFile& scene) {
+  if (!scene.body.loaded) return {};
+  return scene.body.loaded->file_number;
+}
 
 void load_mesh(SceneFile& scene) {
   if (auto* bodies = std::get_if<BodyList>(&scene.body.mesh)) return load_bodies(scene, *bodies);

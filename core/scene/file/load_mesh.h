@@ -1,6 +1,9 @@
 #pragma once
 // The mesh file of a scene, read once, and the points of the scene by the numbers that the body has them by.
 
+#include <cstdint>
+#include <span>
+
 #include "core/meshes/mesh_io.h"
 #include "core/scene/file/scene_file.h"
 
@@ -20,5 +23,8 @@ LoadedMesh read_body_mesh(const BodySource& body);
 /// throws  InputError "FILE: /fixed/0/ids/1: ..." for a number that is no point of the file, or one of no cell, and for
 ///         any in a scene of several bodies; as resolve_tags
 void load_mesh(SceneFile& scene);
+
+/// Of each point of the mesh of a scene, its number in the mesh file; empty where that is its own, as in generated meshes.
+std::span<const std::uint32_t> file_numbers(const SceneFile& scene);
 
 }  // namespace dartboard

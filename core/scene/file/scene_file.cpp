@@ -110,6 +110,8 @@ class Reader {
                            .displacement = has_field("displacement"),
                            .springs = has_field("springs"),
                            .contact = has_field("contact")};
+    if (scene.output.fields.springs && !has_springs(scene))
+      fail("/output/fields", "has \"springs\", and the body is made of elements", "fields without it");
     if (scene.output.fields.contact && !scene.has_contact())
       fail("/output/fields", "has \"contact\" beside no /contact", "obstacles or bodies that touch, or no such field");
     for (std::size_t k = 0; k < output.at("probes").size(); ++k)
@@ -213,7 +215,8 @@ class Reader {
     const Json& generate = json.at("generate");
     if (generate.contains("box")) {
       const Json& box = generate.at("box");
-      source.mesh = BoxMesh{box.at("cells"), box.at("spacing"), box.at("kind"), box.at("jitter"), box.at("seed")};
+      source.mesh = BoxMesh{box.at("cells"),  box.at("spacing"), box.at("kind"),
+                            box.at("jitter"), box.at("seed"),    box.at("pattern")};
       // six tetrahedra to a cube; of mixed cells at most as many darts as seven pyramids have (mixed_box)
       const std::uint64_t most = box.at("kind") == "tetrahedra"  ? most_tetrahedra / 6
                                  : box.at("kind") == "hexahedra" ? most_darts(3) / darts_of(CellKind::hexahedron)
@@ -221,6 +224,8 @@ class Reader {
       require_room(box.at("cells"), path + "/generate/box/cells", most);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail(path + "/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
+      if (box.at("kind") != "tetrahedra" && box.at("pattern") == "kuhn")
+        fail(path + "/generate/box/pattern", "is \"kuhn\"", "a box of tetrahedra with it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};
@@ -428,6 +433,9 @@ class Reader {
     SceneEvent event;
     event.path = path;
     const bool by_stress = json.contains("tear_where_stressed");
+    if (json.contains("refine") && json.at("refine").contains("bracing") && !has_springs(scene))
+      fail(path + "/refine/bracing", "is " + shown(json.at("refine").at("bracing")),
+           "none, as the body is made of elements, which have no springs");
     if (json.contains("at")) {
       event.from = event.until = json.at("at");
     } else {
@@ -460,6 +468,27 @@ class Reader {
     return sweep;
   }
 
+  PolygonSelection polygon(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d> corners,
+                           const std::string& path) const {
+    Eigen::Vector3d twice_area(0, 0, 0);
+    double around = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Eigen::Vector3d &here = corners[k], &next = corners[(k + 1) % corners.size()];
+      twice_area += (here - corners[0]).cross(next - corners[0]);
+      around += (next - here).norm();
+    }
+    constexpr double flat = 1e-9;
+    if (!(std::abs(twice_area.dot(along)) > flat * around * around))
+      fail(path, "has no area as seen along the plane's normal", "corners that enclose one");
+    return {along, std::move(corners)};
+  }
+
+  static bool has_springs(const SceneFile& scene) {
+    return scene.diagonals != Diagonals::none ||
+           std::ranges::any_of(scene.tissues(),
+                               [](const SceneFile::Tissue& tissue) { return tissue.material.model == Model::springs; });
+  }
+
   Action action(const Json& json, const std::string& path) const {
     if (json.contains("release"))
       return Release{region<VertexSelection>(json.at("release"), path + "/release").value()};
@@ -474,7 +503,7 @@ class Reader {
       if (faces.contains("within")) {
         const Json& within = faces.at("within");
         if (within.contains("polygon"))
-          cut.within = PolygonSelection{seam.normal, points(within.at("polygon"))};
+          cut.within = polygon(seam.normal, points(within.at("polygon")), path + "/dissociate/within/polygon");
         else
           cut.within = region<CutRegion>(within, path + "/dissociate/within");
       }
@@ -489,7 +518,7 @@ class Reader {
     if (json.contains("refine")) {
       const Json& refine = json.at("refine");
       return Refine{cells(refine.at("cells"), path + "/refine/cells"), refine.at("at") == "centre",
-                    refine.at("bracing")};
+                    refine.value("bracing", 0.5)};
     }
     const Json& stress = json.at("tear_where_stressed");
     TearWhereStressed tear{stress.at("threshold"), {}, {}};

@@ -32,6 +32,7 @@ struct BoxMesh {
   std::string kind;  // tetrahedra, hexahedra, mixed
   double jitter;
   std::uint64_t seed;
+  std::string pattern = "mirrored";  // of tetrahedra: mirrored, kuhn
 };
 struct SheetMesh {
   std::array<int, 2> cells;

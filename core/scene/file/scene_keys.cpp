@@ -132,6 +132,9 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "edge of a cube"},
       {.shape = box_mesh, .name = "kind", .type = choice, .choices = {"tetrahedra", "hexahedra", "mixed"},
        .standard = "\"tetrahedra\"", .help = "six tetrahedra per cube, one hexahedron, or all kinds of cell"},
+      {.shape = box_mesh, .name = "pattern", .type = choice, .choices = {"mirrored", "kuhn"},
+       .standard = "\"mirrored\"",
+       .help = "how cubes are cut into tetrahedra: each as the mirror image of its neighbours, which for even counts gives the body no direction, or all alike, around their diagonals along (1, 1, 1), which gives it that one"},
       {.shape = box_mesh, .name = "jitter", .type = real, .range = {0.0, 0.5}, .standard = "0",
        .help = "random moves of the inner points, in spacings; for tetrahedra only"},
       {.shape = box_mesh, .name = "seed", .type = integer, .range = exact_integer, .standard = "0",
@@ -380,7 +383,8 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = tear, .name = "direction", .type = point, .required = true,
        .help = "of the stress: the fan starts with the face whose normal is nearest to it"},
       {.shape = stress, .name = "threshold", .type = real, .unit = "Pa", .range = positive, .required = true,
-       .help = "the largest principal stress that holds"},
+       .help = "the largest principal stress that holds: of elements Cauchy's, per area as it is now; of springs their virial "
+               "per volume at rest"},
       {.shape = stress, .name = "plane", .type = object, .of = plane,
        .help = "only along this seam: the faces between cells whose centroids are on different sides of it at rest"},
       {.shape = stress, .name = "most_per_step", .type = integer, .range = count_from_1,
@@ -390,8 +394,9 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = refine, .name = "at", .type = choice, .choices = {"longest edge", "centre"},
        .standard = "\"longest edge\"",
        .help = "where each gets a vertex; in an edge, all tetrahedra around it are subdivided, and no other cell may have it"},
-      {.shape = refine, .name = "bracing", .type = real, .range = not_negative, .standard = "0.5",
-       .help = "stiffness of the springs from the vertex to those across, over the material's"},
+      {.shape = refine, .name = "bracing", .type = real, .range = not_negative,
+       .help = "stiffness of the springs from the vertex to those across, over the material's [0.5]; of elements none, as they "
+               "have no springs"},
 
       // ---- output and expectations
       {.shape = output, .name = "frames_every", .type = real, .unit = "s", .range = positive,
@@ -403,7 +408,8 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
                "which vertices are free (0), fixed (1) or driven (2). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
-               "one is not finite; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
+               "one is not finite: of elements Cauchy's, per area (length) as it is now, of springs their virial per volume "
+               "(area) at rest; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
                "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
                "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
                "inside [m]"},

@@ -22,7 +22,8 @@ Mesh generate(const BoxMesh& box) {
   const auto [nx, ny, nz] = box.cells;
   if (box.kind == "hexahedra") return hexahedron_box(nx, ny, nz, box.spacing);
   if (box.kind == "mixed") return mixed_box(nx, ny, nz, box.spacing);
-  return kuhn_box(nx, ny, nz, box.spacing, box.jitter, box.seed);
+  if (box.pattern == "kuhn") return kuhn_box(nx, ny, nz, box.spacing, box.jitter, box.seed);
+  return mirrored_box(nx, ny, nz, box.spacing, box.jitter, box.seed);
 }
 Mesh generate(const SheetMesh& sheet) {
   const auto [nx, ny] = sheet.cells;

@@ -12,6 +12,8 @@
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/run/driven_vertices.h"
+#include "core/scene/survey/bending_stiffness.h"
+#include "core/scene/survey/mesh_direction.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/stable_step.h"
@@ -53,6 +55,10 @@ class Planner {
     plan_.steps = step_of_time(scene.duration, scene.step);
     plan_.events = forecast_events(scene, problem.mesh, plan_.counts);
     plan_.mean = mean_sizes(scene, problem.mesh, plan_.counts);
+    selections();
+    for (const StiffBody& body : find_stiff_bodies(scene, problem)) plan_.remarks.push_back(to_string(body));
+    if (const std::string direction = direction_in_words(scene, problem.mesh); !direction.empty())
+      plan_.remarks.push_back(direction);
   }
 
   ScenePlan plan() {
@@ -78,6 +84,19 @@ class Planner {
     plan_.items.push_back({.part = part, .what = std::move(what), .why = std::move(why)});
   }
   void leave_out(std::string what, std::string why) { plan_.left_out.push_back({std::move(what), std::move(why)}); }
+
+  void selections() {
+    plan_.selections = count_selections(scene_, problem_.mesh);
+    for (const SelectionCount& count : plan_.selections)
+      if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
+    for (std::size_t k = 0; k < scene_.events.size(); ++k)
+      if (std::holds_alternative<Dissociate>(scene_.events[k].action))
+        plan_.selections.push_back(
+            {.path = scene_.events[k].path + "/dissociate",
+             .of_what = problem_.mesh.dimension() == 3 ? "faces between cells" : "edges between faces",
+             .selected = static_cast<std::size_t>(plan_.events[k].operations),
+             .all = plan_.counts.cells_of_facet.size()});
+  }
 
   void map() {
     const MeshTally& n = plan_.counts;

@@ -12,6 +12,7 @@
 #include "core/scene/body/needs.h"
 #include "core/scene/plan/mesh_tally.h"
 #include "core/scene/plan/system_arrays.h"
+#include "core/scene/survey/selection_counts.h"
 
 namespace dartboard {
 
@@ -66,7 +67,9 @@ struct ScenePlan {
   std::optional<ContactPlan> contact;
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
-  MemoryReport unplanned;  // parts with bytes that no item names: none, if the plan is right
+  std::vector<SelectionCount> selections;  // cuts among them, last
+  std::vector<std::string> remarks;        // what the mesh and the selections do that one may not have meant
+  MemoryReport unplanned;                  // parts with bytes that no item names: none, if the plan is right
 
   std::size_t bytes() const;
   double ns() const;

@@ -34,7 +34,7 @@ class Checkpoint {
   /// throws  IoError if it cannot be read, is of another kind or format, is cut short, or has been changed
   explicit Checkpoint(const std::filesystem::path& file);
 
-  /// The scene as it was run.
+  /// The scene as it was run, or for longer where that is all that its file says now.
   ///
   /// throws  InputError if the file of the scene says something else now, or its mesh is another; IoError if its mesh
   ///         cannot be read. A scene file that is gone is not needed
@@ -63,6 +63,8 @@ class Checkpoint {
     }
   };
   static std::uint64_t hash_of_mesh(const SceneFile& scene);
+  bool says_the_same(const std::string& text) const;
+  bool lasts_longer(const std::string& text) const;
 
   std::filesystem::path file_;
   std::unique_ptr<std::string> bytes_;  // `archive_` looks at them

@@ -24,6 +24,10 @@ struct Span {
 
 }  // namespace
 
+std::string vertex_in_words(std::uint32_t number) {
+  return number == no_point ? "a vertex that refinement made" : fmt::format("vertex {}", number);
+}
+
 std::string mass_in_words(double kg) {
   if (kg >= 1000.0) return fmt::format("{:.3g} tonnes", kg / 1000.0);
   if (kg >= 1.0 || kg == 0.0) return fmt::format("{:.3g} kg", kg);

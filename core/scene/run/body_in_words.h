@@ -1,6 +1,7 @@
 #pragma once
 // A body in figures that a person can check against what was meant.
 
+#include <cstdint>
 #include <string>
 
 #include "core/scene/body/simulated_body.h"
@@ -10,6 +11,9 @@ namespace dartboard {
 /// "6 m along x, 1 m along y, 1 m along z; 36.6 tonnes; edges of 0.5 to 0.87 m; springs of 64 to 384 N/m", as it is
 /// now.
 std::string in_words(const SimulatedBody& body);
+
+/// "vertex 12", by its number in the file of the mesh; "a vertex that refinement made" of no_point.
+std::string vertex_in_words(std::uint32_t number);
 
 /// "36.6 tonnes", "2.5 kg", "40 g"
 std::string mass_in_words(double kg);

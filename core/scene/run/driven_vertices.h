@@ -38,6 +38,11 @@ class DrivenVertices {
   /// Vertices of the mesh that some drive moves.
   std::size_t size() const { return now_.size(); }
   std::size_t bytes() const;
+  /// As EventClock::extend.
+  void extend() {
+    for (Drive& drive : drives_)
+      if (drive.turn) drive.turn->extend();
+  }
   /// Where the drives are; which vertices they move, and how, is in the scene.
   template <class Archive>
   void state(Archive& archive) {

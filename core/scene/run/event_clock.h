@@ -31,20 +31,25 @@ class EventClock {
   /// On from a time between two boundaries: to the next time, which is the boundary itself where it happens at all.
   void advance_from_between() {
     if (every_) return advance();
-    if (next_ > step_until(until_, step_)) next_ = never;
     time_ = static_cast<double>(next_) * step_;
+    if (next_ > step_until(until_, step_)) next_ = never;
   }
   /// To the boundary after `next`.
   void advance() {
     if (!every_) {
-      next_ = next_ < step_until(until_, step_) ? next_ + 1 : never;
-      time_ = static_cast<double>(next_) * step_;
+      time_ = static_cast<double>(++next_) * step_;
+      if (next_ > step_until(until_, step_)) next_ = never;
       return;
     }
     // a product, not a sum, so that no rounding gathers
     const double time = from_ + static_cast<double>(++count_) * *every_;
     next_ = time > until_ && !is_rounding_of_end(time) ? never : step_of_time(time, step_);
     time_ = time;
+  }
+
+  /// Go on where `until` has become later, as in a run that is continued for longer.
+  void extend() {
+    if (next_ == never && (time_ <= until_ || is_rounding_of_end(time_))) next_ = step_of_time(time_, step_);
   }
 
   /// Where it is; its times are those of the scene.

@@ -56,8 +56,8 @@ std::string free_shapes_of(const std::map<CellKind, std::size_t>& counts, Diagon
   if (cells.empty()) return "";
   return fmt::format(
       "{} alone carry springs, so some cells can change their shape without a force ({}): the body may shear "
-      "and fall like a chain; take /diagonals \"faces\" where that matters, or tetrahedra (/body/generate/box/kind, or "
-      "another mesh)",
+      "and fall like a chain; where that matters take elements (/material/young and /material/poisson), /diagonals "
+      "\"faces\", or tetrahedra (/body/generate/box/kind, or another mesh)",
       diagonals == Diagonals::none ? "edges of cells" : "edges of cells and diagonals through their volumes", cells);
 }
 

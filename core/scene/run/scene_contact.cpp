@@ -10,6 +10,7 @@
 
 #include "core/plain/bytes.h"
 #include "core/plain/counted.h"
+#include "core/scene/run/body_in_words.h"
 
 namespace dartboard {
 namespace {
@@ -18,7 +19,8 @@ using Eigen::Vector3d;
 
 /// "vertex 5", "the middle of the face of vertices 1, 2 and 3"
 std::string place_in_words(std::span<const std::uint32_t> nodes) {
-  if (nodes.size() == 1) return fmt::format("vertex {}", nodes[0]);
+  if (nodes.size() == 1) return vertex_in_words(nodes[0]);
+  if (std::ranges::find(nodes, no_point) != nodes.end()) return "the middle of a face that refinement made";
   return fmt::format("the middle of the face of vertices {} and {}", fmt::join(nodes.first(nodes.size() - 1), ", "),
                      nodes.back());
 }

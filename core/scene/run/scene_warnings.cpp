@@ -38,8 +38,13 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
   std::vector<std::string> obstacles, bodies;
   for (const BodySource& one : scene.bodies()) bodies.push_back(one.path);
   for (const SceneObstacle& one : scene.obstacles) obstacles.push_back(one.path);
-  for (const ContactWarning& warning : simulation.contact_warnings())
+  for (ContactWarning warning : simulation.contact_warnings()) {
+    for (std::uint32_t& vertex : warning.nodes) vertex = simulation.file_number(vertex);
     said.push_back(to_string(warning, obstacles, bodies));
+  }
+  for (const StiffBody& body : simulation.stiff_bodies()) said.push_back(to_string(body));
+  for (const SelectionCount& count : simulation.selections())
+    if (count.just_outside > 0) said.push_back(near_miss(count));
   const std::string shapes = free_shapes_of(simulation.cells_of_springs(), scene.diagonals);
   if (!shapes.empty()) said.push_back(shapes);
   // an event that was due at the start may have its time yet
@@ -54,8 +59,13 @@ std::string step_in_words(const Simulation& simulation, const SceneFile& scene) 
     return fmt::format("motions faster than {:.3g} Hz are not resolved",
                        1.0 / (2.0 * std::numbers::pi * simulation.step()));
   const double longest = simulation.step_limit().stable;
-  return std::isfinite(longest) ? fmt::format("{:.2g} of the longest stable step", simulation.step() / longest)
-                                : "every step is stable";
+  if (!std::isfinite(longest)) return "every step is stable";
+  const std::uint64_t parts = simulation.step_warning() ? simulation.step_warning()->parts : 1;
+  const double share = simulation.step() / static_cast<double>(parts) / longest;
+  // to as many digits as tell it from the longest
+  const std::string digits = std::abs(share - 1.0) < 0.05 ? fmt::format("{:.4g}", share) : fmt::format("{:.2g}", share);
+  return parts > 1 ? fmt::format("taken in {} parts, each {} of the longest stable step", parts, digits)
+                   : fmt::format("{} of the longest stable step", digits);
 }
 
 }  // namespace dartboard

@@ -10,8 +10,11 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/counted.h"
 #include "core/plain/error.h"
+#include "core/scene/body/frame_columns.h"
 #include "core/scene/file/beyond_numbers.h"
+#include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
+#include "core/scene/run/body_in_words.h"
 #include "core/time/integrators.h"
 #include "core/time/solve/stop_request.h"
 #include "core/time/system/energy.h"
@@ -77,8 +80,8 @@ std::string to_string(const Divergence& d) {
   if (d.predicted)
     return fmt::format("stopped before step {}, t = {:.6g} s: {}; at most {:.6g} s is stable", d.step, d.time,
                        d.quantity, d.value);
-  return fmt::format("diverged at step {}, t = {:.6g} s: {} of vertex {} is {:.6g}", d.step, d.time, d.quantity,
-                     d.vertex, d.value);
+  return fmt::format("diverged at step {}, t = {:.6g} s: {} of {} is {:.6g}", d.step, d.time, d.quantity,
+                     vertex_in_words(d.vertex), d.value);
 }
 
 Simulation::Simulation(const SceneFile& scene)
@@ -90,6 +93,8 @@ Simulation::Simulation(const SceneFile& scene)
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
+  const std::span<const std::uint32_t> numbers = file_numbers(scene);
+  file_number_.assign(numbers.begin(), numbers.end());
   const CellMaterials materials = problem.cell_materials();
   for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
     if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];
@@ -116,11 +121,15 @@ Simulation::Simulation(const SceneFile& scene)
       expected_share_ = std::max(largest_share(expected), largest_share(expected_touches));
     }
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
-    for (const SceneEvent& event : scene.events)
+    selections_ = count_selections(scene, problem.mesh);
+    stiff_bodies_ = find_stiff_bodies(scene, problem);
+    for (const SceneEvent& event : scene.events) {
       events_.push_back({body_->make_ready(event), EventClock(event.from, event.until, event.every, step_),
                          changes_topology(event.action) && !std::holds_alternative<Remove>(event.action) &&
                              !std::holds_alternative<Refine>(event.action),
                          event.path});
+      count_cut(event, problem.mesh);
+    }
     happen();
     drive();
     if (contact_) contact_->start(body_->vertices().position, expected, expected_touches, step_);
@@ -136,6 +145,19 @@ Simulation::Simulation(const SceneFile& scene)
   look_before_run();
   start_ = detector_.start(body_->system(), body_->motion(), step_);
   if (!start_.ok()) throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
+}
+
+void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh) {
+  const std::optional<std::size_t> facets = events_.back().event->facets();
+  if (!facets) return;
+  std::size_t facets_of_cells = 0;
+  for (const CellKind kind : mesh.kinds)
+    facets_of_cells += dimension_ == 3 ? faces_of(kind).size() : static_cast<std::size_t>(node_count(kind));
+  const CellCounts counts = body_->counts();
+  selections_.push_back({.path = event.path + "/dissociate",
+                         .of_what = dimension_ == 3 ? "faces between cells" : "edges between faces",
+                         .selected = *facets,
+                         .all = facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges)});
 }
 
 Simulation::~Simulation() = default;
@@ -240,10 +262,14 @@ void Simulation::look_before_run() {
     return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision ||
            w.quantity == step_times_frequency;
   });
+  for (StepResult& warning : warnings_)
+    if (warning.witness == Witness::vertex) warning.number = file_number(warning.number);
 }
 
 void Simulation::look_at_coordinates() {
-  if (!coarse_) coarse_ = find_coarse_coordinate(body_->system(), body_->vertices().position);
+  if (coarse_) return;
+  coarse_ = find_coarse_coordinate(body_->system(), body_->vertices().position);
+  if (coarse_) coarse_->vertex = file_number(coarse_->vertex);
 }
 
 // A step that cannot be divided is refused too.
@@ -387,7 +413,14 @@ std::optional<Divergence> Simulation::diverged() const {
 }
 
 Divergence Simulation::failure(std::string quantity, std::uint32_t vertex, double value) const {
-  return {.step = done_, .time = time(), .quantity = std::move(quantity), .vertex = vertex, .value = value};
+  return {
+      .step = done_, .time = time(), .quantity = std::move(quantity), .vertex = file_number(vertex), .value = value};
+}
+
+std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
+  const std::span<const std::uint32_t> point = body_->vertices().point;
+  if (vertex >= point.size() || point[vertex] == no_point) return no_point;
+  return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
 Diagnostics Simulation::diagnostics() const {
@@ -438,11 +471,13 @@ ProbeRow Simulation::probes() const {
 Frame Simulation::frame(const FrameFields& fields) const {
   Frame frame = body_->frame(fields);
   frame.time = time();
-  if (!fields.held) return frame;
-  const VertexColumns& v = body_->vertices();
-  frame.held.assign(v.size(), 0);
-  for (std::size_t k = 0; k < v.fixed.size(); ++k)
-    if (v.fixed[k]) frame.held[k] = driven_.moves(v.point[k]) ? 2 : 1;
+  if (fields.held) {
+    const VertexColumns& v = body_->vertices();
+    frame.held.assign(v.size(), 0);
+    for (std::size_t k = 0; k < v.fixed.size(); ++k)
+      if (v.fixed[k]) frame.held[k] = driven_.moves(v.point[k]) ? 2 : 1;
+  }
+  put_in_order(frame, file_number_);
   return frame;
 }
 

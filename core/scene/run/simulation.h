@@ -20,6 +20,8 @@
 #include "core/scene/run/event_jumps.h"
 #include "core/scene/run/probes.h"
 #include "core/scene/run/scene_contact.h"
+#include "core/scene/survey/bending_stiffness.h"
+#include "core/scene/survey/selection_counts.h"
 #include "core/time/method/integrator.h"
 #include "core/time/system/coordinate_precision.h"
 #include "core/time/watch/divergence.h"
@@ -29,10 +31,10 @@ namespace dartboard {
 
 /// Why a run had to stop: the motion is no longer one, or the scene refuses its step.
 struct Divergence {
-  std::uint64_t step = 0;  // the one that failed
-  double time = 0.0;       // [s] at its end
-  std::string quantity;    // "position", "speed", "stress", or what the integrator reports
-  std::uint32_t vertex = 0;
+  std::uint64_t step = 0;    // the one that failed
+  double time = 0.0;         // [s] at its end
+  std::string quantity;      // "position", "speed", "stress", or what the integrator reports
+  std::uint32_t vertex = 0;  // its number in the file of the mesh, or no_point
   double value = 0.0;
   bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
   std::uint64_t taken_back = 0;  // steps that the body has gone back by
@@ -104,6 +106,15 @@ class Simulation {
   /// runs, and no warning.
   std::span<const StepResult> warnings() const { return warnings_; }
 
+  /// What each selection of the scene held at rest, before the first event; cuts come last.
+  std::span<const SelectionCount> selections() const { return selections_; }
+  /// Bodies of elements that are expected to bend much less than they should.
+  std::span<const StiffBody> stiff_bodies() const { return stiff_bodies_; }
+
+  /// The number that a vertex of the body has in the file of the mesh, in a generated one the number of its point;
+  /// parts of one vertex share it. `no_point` of a vertex that refinement made.
+  std::uint32_t file_number(std::uint32_t vertex) const;
+
   const SimulatedBody& body() const { return *body_; }
   /// Of the cells: 3, 2 of a surface, 0 of a chain.
   int dimension() const { return dimension_; }
@@ -115,7 +126,7 @@ class Simulation {
   /// The paths of the events that have been due and never changed anything.
   std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
-  /// With the fields that the scene asks for, or with others.
+  /// With the fields that the scene asks for, or with others; its points in the order of the mesh's file.
   /// pre  displacement is asked for only where the scene does
   Frame frame() const { return frame(fields_); }
   Frame frame(const FrameFields& fields) const;
@@ -149,6 +160,7 @@ class Simulation {
     bool was_due = false;
     std::size_t operations = 0;
   };
+  void count_cut(const SceneEvent& event, const Mesh& mesh);
   StepResult integrate(double from, double duration);
   StepResult step_with_contact(double from, double duration);
   StepResult step_through_events();
@@ -198,6 +210,9 @@ class Simulation {
   std::uint64_t watched_ = 0;  // steps that the detector has seen
   int dimension_ = 0;
   std::map<CellKind, std::size_t> cells_of_springs_;
+  std::vector<std::uint32_t> file_number_;  // of each point of the mesh, where that is another
+  std::vector<SelectionCount> selections_;
+  std::vector<StiffBody> stiff_bodies_;
 };
 
 }  // namespace dartboard

@@ -36,6 +36,8 @@ void Simulation::state(Archive& archive) {
   archive(has_start);
   if (!archive.reads()) return;
   if (done_ > step_count_) archive.fail("there are more steps than the run has");
+  for (Scheduled& scheduled : events_) scheduled.clock.extend();
+  driven_.extend();
   const VertexColumns& v = body_->vertices();
   const SpringSystem system = body_->system();
   if (v.position.size() != v.size() || v.velocity.size() != v.size() || v.inverse_mass.size() != v.size() ||

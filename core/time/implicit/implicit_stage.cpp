@@ -250,6 +250,14 @@ bool ImplicitStage::search(const Problem& p, std::span<Vector3d> w, WorkCounters
       return true;
     }
   }
+  if (has_potential) {  // where rounding is all that the energy changes by, the residual decides
+    for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = w[i] + direction_[i];
+    set_residual(p, trial_, work);
+    if (residual_norm(p) <= (1.0 - armijo) * norm || excess() <= 1.0) {
+      std::copy(trial_.begin(), trial_.end(), w.begin());
+      return true;
+    }
+  }
   residual_ = start;
   return false;
 }

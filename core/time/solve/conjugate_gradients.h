@@ -25,7 +25,9 @@ struct ConjugateGradientsResult {
 /// Conjugate gradients for a positive definite A that need not be formed.
 ///
 /// An indefinite A is not seen for certain: it is reported as soon as a diagonal block, or a direction p with p'Ap <=
-/// 0, shows it. Then x is the iterate before. source  Hestenes, Stiefel 1952
+/// 0, shows it. Then x is the iterate before.
+///
+/// source  Hestenes, Stiefel 1952
 class ConjugateGradients {
  public:
   /// Solve A x = b from the x that is given. The residual is computed again from x at the end.

@@ -31,12 +31,13 @@ double energy_of_rounding(const SpringSystem& system, Motion motion, double plac
   return sum;
 }
 
-// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; gravity and
-// what pulls set vertices going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers
-// have no energy, but must be finite: zero times one that is not is not a number.
+// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; what moves by
+// less than half a unit of its place in a step stands still, and has not fallen; gravity and what pulls set vertices
+// going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no energy, but must
+// be finite: zero times one that is not is not a number.
 double small_energy(const SpringSystem& system, Motion motion, double h) {
   constexpr double place = 16 * std::numeric_limits<double>::epsilon();
-  double elastic = 0.0, mass = 0.0, driven = 0.0, pulled = 0.0;
+  double elastic = 0.0, mass = 0.0, driven = 0.0, pulled = 0.0, standing = 0.0;
   for (std::size_t s = 0; s < system.springs.size(); ++s) {
     const auto [i, j] = system.ends[s];
     const double moved = place * (motion.x[i].norm() + motion.x[j].norm() + system.springs[s].rest_length);
@@ -45,12 +46,15 @@ double small_energy(const SpringSystem& system, Motion motion, double h) {
   if (!system.terms.empty()) elastic += energy_of_rounding(system, motion, place);
   for (std::size_t i = 0; i < motion.x.size(); ++i) {
     mass += system.mass[i] + 0.0 * system.viscosity[i];
+    const double lost =
+        std::numeric_limits<double>::epsilon() / 2 * motion.x[i].lpNorm<Eigen::Infinity>() / h;  // [m/s]
+    standing += system.mass[i] * lost * lost;
     if (system.fixed[i]) driven = std::max(driven, motion.v[i].squaredNorm());
     if (!system.pull.empty()) pulled += system.mass[i] * system.pull[i].squaredNorm();
   }
   // |g + p|^2 <= 2 |g|^2 + 2 |p|^2
   const double falling = system.pull.empty() ? system.gravity.squaredNorm() : 2.0 * system.gravity.squaredNorm();
-  return elastic / 2 + mass * (h * h * falling + 2.0 * driven) + 2.0 * h * h * pulled;
+  return (elastic + standing) / 2 + mass * (h * h * falling + 2.0 * driven) + 2.0 * h * h * pulled;
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ class DivergenceDetector {
   StepResult start(const SpringSystem& system, Motion motion, double h);
 
   /// The system has changed between two steps. Of the energy available, what was dissipated is no longer there, and
-  /// what cannot be explained is not added: a run with a change after every step is watched like any other. cost     a
-  /// force evaluation
+  /// what cannot be explained is not added: a run with a change after every step is watched like any other.
+  ///
+  /// cost  a force evaluation
   StepResult system_changed(const SpringSystem& system, Motion motion);
 
   /// Since the last step, work has been done on the body that is in no force here [J]: by obstacles that move.

@@ -25,7 +25,9 @@ struct Preflight {
 /// are not positive, and squares that would overflow. Warned of are steps that are unstable (as `limits` say) or lost
 /// in the rounding of most positions (unless the scheme is compensated), springs of zero length, coordinates rounded by
 /// more than 1e-6 of a spring, denormal numbers, and frequencies that a stable step does not resolve. One warning of
-/// each kind. cost  O(springs + vertices)
+/// each kind.
+///
+/// cost  O(springs + vertices)
 Preflight check_before_run(const SpringSystem& system, Motion motion, const Scheme& scheme, double h,
                            const StableStep& limits, const Horizon& horizon = {});
 

@@ -17,7 +17,9 @@ namespace dartboard {
 
 /// What Gershgorin's bound says: `upper` is `any_state`, `lower` is 0, and nothing is known of directions. Where a step
 /// is stable by that, there is nothing to look at more closely. Of force terms, whose stiffness grows with what they
-/// are deformed by, it knows nothing: no step is stable by it. cost  a third of a force evaluation
+/// are deformed by, it knows nothing: no step is stable by it.
+///
+/// cost  a third of a force evaluation
 StableStep quick_stable_step(const SpringSystem& system);
 
 /// An estimate that is kept from step to step.

@@ -13,11 +13,11 @@
 namespace dartboard {
 namespace {
 
-BodyPanel panel_of(Mesh mesh) {
-  BodyPanel panel;
-  panel.frame.mesh = std::move(mesh);
-  panel.frame.component.assign(panel.frame.mesh.cell_count(), 0);
-  for (std::uint32_t k = 0; k < panel.frame.mesh.points.size(); ++k) panel.point.push_back(k);
+Frame panel_of(Mesh mesh) {
+  Frame panel;
+  panel.mesh = std::move(mesh);
+  panel.component.assign(panel.mesh.cell_count(), 0);
+  for (std::uint32_t k = 0; k < panel.mesh.points.size(); ++k) panel.mesh_point.push_back(k);
   return panel;
 }
 
@@ -29,32 +29,32 @@ std::set<std::uint32_t> colours(const std::vector<DrawnFacet>& facets) {
 
 // a cube of six tetrahedra: two triangles on each side, and three sides towards the viewer
 TEST(BodyPicture, ShowsTheBoundaryTowardsTheViewerOnly) {
-  const BodyPanel panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
+  const Frame panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
   EXPECT_EQ(drawn_facets(panel, panel).size(), 6u);
 }
 
 TEST(BodyPicture, DrawsTheFarthestFacetFirst) {
-  const BodyPanel panel = panel_of(kuhn_box(2, 2, 2, 1.0, 0.0, 0));
+  const Frame panel = panel_of(kuhn_box(2, 2, 2, 1.0, 0.0, 0));
   const auto facets = drawn_facets(panel, panel);
   EXPECT_TRUE(std::is_sorted(facets.begin(), facets.end(),
                              [](const DrawnFacet& a, const DrawnFacet& b) { return a.depth < b.depth; }));
 }
 
 TEST(BodyPicture, GivesAComponentOfItsOwnAnotherColour) {
-  BodyPanel panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
+  Frame panel = panel_of(kuhn_box(1, 1, 1, 1.0, 0.0, 0));
   const auto one = colours(drawn_facets(panel, panel));
-  panel.frame.component.assign(panel.frame.component.size(), 1);
+  panel.component.assign(panel.component.size(), 1);
   for (const std::uint32_t colour : colours(drawn_facets(panel, panel))) EXPECT_FALSE(one.contains(colour));
 }
 
 // Of a box of two cubes the one in front is taken away: the side it had hidden shows, in the colour of what was inside.
 TEST(BodyPicture, ShowsWhatWasInsideInAColourOfItsOwn) {
-  const BodyPanel first = panel_of(hexahedron_box(1, 2, 1, 1.0));
-  BodyPanel later = first;
+  const Frame first = panel_of(hexahedron_box(1, 2, 1, 1.0));
+  Frame later = first;
   Mesh fewer;
-  fewer.points = first.frame.mesh.points;
-  fewer.add_cell(CellKind::hexahedron, first.frame.mesh.cell(1));
-  later.frame.mesh = fewer;
+  fewer.points = first.mesh.points;
+  fewer.add_cell(CellKind::hexahedron, first.mesh.cell(1));
+  later.mesh = fewer;
   const auto facets = drawn_facets(later, first);
   ASSERT_EQ(facets.size(), 3u);
   EXPECT_EQ(std::count_if(facets.begin(), facets.end(),
@@ -63,17 +63,17 @@ TEST(BodyPicture, ShowsWhatWasInsideInAColourOfItsOwn) {
 }
 
 TEST(BodyPicture, OfAChainShowsItsLinksAsLines) {
-  BodyPanel panel;
-  panel.frame.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}};
-  panel.frame.links = {{0, 1}, {1, 2}};
-  panel.point = {0, 1, 2};
+  Frame panel;
+  panel.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}};
+  panel.links = {{0, 1}, {1, 2}};
+  panel.mesh_point = {0, 1, 2};
   const auto lines = drawn_facets(panel, panel);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].corners.size(), 2u);
 }
 
 TEST(BodyPicture, OfASurfaceShowsEveryPolygon) {
-  const BodyPanel panel = panel_of(triangle_sheet(3, 2, 1.0));
+  const Frame panel = panel_of(triangle_sheet(3, 2, 1.0));
   EXPECT_EQ(drawn_facets(panel, panel).size(), 12u);
 }
 
@@ -84,14 +84,14 @@ using Eigen::Vector3d;
 
 /// Where the picture has the ends of three links of 1 m along x, y and z, as columns.
 Eigen::Matrix<double, 2, 3> view() {
-  BodyPanel axes;
-  axes.frame.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  axes.frame.links = {{0, 1}, {0, 2}, {0, 3}};
-  axes.point = {0, 1, 2, 3};
+  Frame axes;
+  axes.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  axes.links = {{0, 1}, {0, 2}, {0, 3}};
+  axes.mesh_point = {0, 1, 2, 3};
   Eigen::Matrix<double, 2, 3> columns;
   for (int axis = 0; axis < 3; ++axis) {
-    BodyPanel one = axes;
-    one.frame.links = {axes.frame.links[static_cast<std::size_t>(axis)]};
+    Frame one = axes;
+    one.links = {axes.links[static_cast<std::size_t>(axis)]};
     const auto corners = drawn_facets(one, one).at(0).corners;
     columns.col(axis) = corners[1] - corners[0];
   }
@@ -121,7 +121,7 @@ TEST(BodyPicture, PutsEveryCornerWhereTheViewPutsItsVertex) {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
   mesh.add_cell(CellKind::tetrahedron, std::array<std::uint32_t, 4>{0, 1, 2, 3});
-  const BodyPanel panel = panel_of(mesh);
+  const Frame panel = panel_of(mesh);
   const auto facets = drawn_facets(panel, panel);
   // of its faces, those on y = 0 and across the corner look towards the viewer; the others towards -x and -z
   ASSERT_EQ(facets.size(), 2u);
@@ -147,9 +147,9 @@ std::uint32_t red(std::uint32_t colour) { return colour >> 16; }
 std::uint32_t sum_of_channels(std::uint32_t c) { return (c >> 16) + ((c >> 8) & 0xff) + (c & 0xff); }
 
 TEST(BodyPicture, GivesSevenComponentsSevenColoursAndThenBeginsAnew) {
-  BodyPanel panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  Frame panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
   const auto of = [&panel](std::uint32_t component) {
-    panel.frame.component = {component};
+    panel.component = {component};
     return colours(drawn_facets(panel, panel));
   };
   std::set<std::uint32_t> all;
@@ -160,11 +160,11 @@ TEST(BodyPicture, GivesSevenComponentsSevenColoursAndThenBeginsAnew) {
 }
 
 TEST(BodyPicture, GivesEachFacetTheColourOfItsOwnCell) {
-  BodyPanel panel = panel_of(hexahedron_box(2, 1, 1, 1.0));
-  panel.frame.component = {0, 1};
-  BodyPanel blue = panel, ochre = panel;
-  blue.frame.component = {0, 0};
-  ochre.frame.component = {1, 1};
+  Frame panel = panel_of(hexahedron_box(2, 1, 1, 1.0));
+  panel.component = {0, 1};
+  Frame blue = panel, ochre = panel;
+  blue.component = {0, 0};
+  ochre.component = {1, 1};
   const auto facets = drawn_facets(panel, panel), at_left = drawn_facets(blue, blue),
              at_right = drawn_facets(ochre, ochre);
   ASSERT_EQ(facets.size(), 5u);
@@ -178,7 +178,7 @@ TEST(BodyPicture, GivesEachFacetTheColourOfItsOwnCell) {
 }
 
 TEST(BodyPicture, LightsTheTopMost) {
-  const BodyPanel panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  const Frame panel = panel_of(hexahedron_box(1, 1, 1, 1.0));
   auto facets = drawn_facets(panel, panel);
   std::ranges::sort(facets, {}, [](const DrawnFacet& f) {
     double y = 0.0;
@@ -191,19 +191,19 @@ TEST(BodyPicture, LightsTheTopMost) {
 
 // A new vertex has no place in the mesh: its facets are not known to have been inside.
 TEST(BodyPicture, DoesNotTakeWhatRefinementMadeForWhatWasInside) {
-  const BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0));
-  BodyPanel refined = first;
-  refined.point.assign(refined.point.size(), 0xffffffff);
+  const Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  Frame refined = first;
+  refined.mesh_point.assign(refined.mesh_point.size(), -1);
   for (const DrawnFacet& f : drawn_facets(refined, first)) EXPECT_LT(red(f.colour), f.colour & 0xff);  // blue
 }
 
 // Two opposite corners of a cube exchange their numbers, as removals make vertices do: its sides are its sides still.
 TEST(BodyPicture, KnowsFacetsByThePointsOfTheMeshWhateverTheirNumbersAre) {
-  const BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0));
-  BodyPanel renumbered = first;
-  Mesh& mesh = renumbered.frame.mesh;
+  const Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0));
+  Frame renumbered = first;
+  Mesh& mesh = renumbered.mesh;
   std::swap(mesh.points[0], mesh.points[7]);
-  std::swap(renumbered.point[0], renumbered.point[7]);
+  std::swap(renumbered.mesh_point[0], renumbered.mesh_point[7]);
   for (std::uint32_t& k : mesh.nodes) k = k == 0 ? 7 : k == 7 ? 0 : k;
   EXPECT_EQ(colours(drawn_facets(renumbered, first)), colours(drawn_facets(first, first)));
 }
@@ -231,9 +231,9 @@ std::vector<std::vector<Vector2d>> polygons(const std::string& data) {
 }
 
 TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
-  BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
-  second.frame.time = 0.5;
-  for (Vector3d& x : second.frame.mesh.points) x.z() += 0.25;
+  Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
+  second.time = 0.5;
+  for (Vector3d& x : second.mesh.points) x.z() += 0.25;
   ASSERT_EQ(draw_bodies(std::vector{first, second}, "t", folder_, "two"), "");
   const auto drawn = polygons(text("two.dat"));
   ASSERT_EQ(drawn.size(), 2u * 3u * 2u);  // two panels, three sides, rim and inner part
@@ -258,10 +258,10 @@ TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
 }
 
 TEST_F(BodyPictureFiles, HaveARectangleAroundEachLink) {
-  BodyPanel panel;
-  panel.frame.mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 0, -1}};
-  panel.frame.links = {{0, 1}, {1, 2}};
-  panel.point = {0, 1, 2};
+  Frame panel;
+  panel.mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 0, -1}};
+  panel.links = {{0, 1}, {1, 2}};
+  panel.mesh_point = {0, 1, 2};
   ASSERT_EQ(draw_bodies(std::vector{panel}, "t", folder_, "links"), "");
   const auto drawn = polygons(text("links.dat"));
   const auto links = drawn_facets(panel, panel);
@@ -281,8 +281,8 @@ TEST_F(BodyPictureFiles, HaveARectangleAroundEachLink) {
 }
 
 TEST_F(BodyPictureFiles, HaveABodyThatFliesFarInTheMiddleOfItsPanel) {
-  BodyPanel first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
-  for (Vector3d& x : second.frame.mesh.points) x.x() += 100;
+  Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0)), second = first;
+  for (Vector3d& x : second.mesh.points) x.x() += 100;
   ASSERT_EQ(draw_bodies(std::vector{first, second}, "t", folder_, "two"), "");
   const auto drawn = polygons(text("two.dat"));
   ASSERT_EQ(drawn.size(), 12u);
@@ -291,24 +291,24 @@ TEST_F(BodyPictureFiles, HaveABodyThatFliesFarInTheMiddleOfItsPanel) {
 }
 
 TEST(Upright, TurnsWhatIsUpToZAndKeepsLengths) {
-  BodyPanel panel;
-  panel.frame.mesh.points = {{0, 0, 0}, {0, 3, 0}, {1, 0, 0}, {0, 0, 2}};
-  const std::vector<BodyPanel> turned = upright(std::span(&panel, 1), {0, 9.81, 0});
-  const auto& x = turned.at(0).frame.mesh.points;
+  Frame panel;
+  panel.mesh.points = {{0, 0, 0}, {0, 3, 0}, {1, 0, 0}, {0, 0, 2}};
+  const std::vector<Frame> turned = upright(std::span(&panel, 1), {0, 9.81, 0});
+  const auto& x = turned.at(0).mesh.points;
   // a rotation of numbers of size 3: a few roundings
   EXPECT_LT((x[1] - Eigen::Vector3d(0, 0, 3)).norm(), 1e-14);
   for (std::size_t a = 0; a < x.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      EXPECT_NEAR((x[a] - x[b]).norm(), (panel.frame.mesh.points[a] - panel.frame.mesh.points[b]).norm(), 1e-14);
+      EXPECT_NEAR((x[a] - x[b]).norm(), (panel.mesh.points[a] - panel.mesh.points[b]).norm(), 1e-14);
   // no mirror image
   EXPECT_NEAR((x[2] - x[0]).cross(x[1] - x[0]).dot(x[3] - x[0]), 6.0, 1e-13);
 }
 
 TEST(Upright, LeavesWhatIsUprightOrHasNoUp) {
-  BodyPanel panel;
-  panel.frame.mesh.points = {{0.1, 0.2, 0.3}};
+  Frame panel;
+  panel.mesh.points = {{0.1, 0.2, 0.3}};
   for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 9.81), Eigen::Vector3d(0, 0, 0)})
-    EXPECT_EQ(upright(std::span(&panel, 1), up).at(0).frame.mesh.points, panel.frame.mesh.points);
+    EXPECT_EQ(upright(std::span(&panel, 1), up).at(0).mesh.points, panel.mesh.points);
 }
 
 }  // namespace

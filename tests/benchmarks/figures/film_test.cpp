@@ -61,8 +61,8 @@ TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
 TEST(Film, ShowsTheBodyAsAPictureDoes) {
   Simulation simulation(moving::parse(moving_box()));
   const Film film(simulation, 1, {1, 0, 0});
-  const BodyPanel panel{simulation.frame({}), simulation.body().vertices().point};
-  const BodyPanel turned = upright(std::span(&panel, 1), {1, 0, 0})[0];
+  const Frame panel = simulation.frame({});
+  const Frame turned = upright(std::span(&panel, 1), {1, 0, 0})[0];
   const auto drawn = drawn_facets(turned, turned);
   ASSERT_EQ(film.frames()[0].facets.size(), drawn.size());
   for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_EQ(film.frames()[0].facets[k].corners, drawn[k].corners);
@@ -119,6 +119,7 @@ TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
   const Film film = film_of(scene, 4);
   ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
   EXPECT_EQ(read_gif(text("film.gif")).pictures, 5);
+  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");  // which leaves its script
   const std::string script = text("film.gnuplot");
   std::size_t empty = 0;
   for (auto at = script.find("nothing left"); at != std::string::npos; at = script.find("nothing left", at + 1))
@@ -128,13 +129,20 @@ TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
 
 TEST_F(FilmFiles, ShowEachFrameFromItsOwnData) {
   const Film film = film_of(moving_box(), 3);
-  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");
   const std::string script = text("film.gnuplot");
   std::size_t at = 0;
   for (const char* plotted : {"film.dat' index 0 ", "film.dat' index 1 ", "film.dat' index 2 ", "film.dat' index 3 "}) {
     at = script.find(plotted, at);
     EXPECT_NE(at, std::string::npos) << plotted;
   }
+}
+
+TEST_F(FilmFiles, AreOneFileOnceTheyAreDrawn) {
+  const Film film = film_of(moving_box(), 3);
+  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename(), "film.gif");
 }
 
 TEST_F(FilmFiles, AreNotDrawnWithoutGnuplotAndTheReasonIsTold) {

@@ -96,7 +96,7 @@ TEST(Judge, LetsNothingFallShortThatIsOpenAndSaysSo) {
   judge(claim, Met::no);
   EXPECT_EQ(claim.verdict, Verdict::falls_short);
   judge(claim, Met::open);
-  EXPECT_EQ(claim.verdict, Verdict::not_tested);
+  EXPECT_EQ(claim.verdict, Verdict::undecided);
   EXPECT_NE(claim.reason.find("cannot tell"), std::string::npos) << claim.reason;
 }
 
@@ -110,6 +110,8 @@ TEST(Claims, AreToldInWords) {
   claims[2].id = "fan";
   EXPECT_EQ(in_words(claims),
             "2 claims hold; 1 of the paper's does not carry over to this machine (ladder); 1 was not tested (fan).");
+  claims[3].verdict = Verdict::undecided;
+  EXPECT_NE(in_words(claims).find("; 1 is undecided (arrays); 1 was not tested (fan)."), std::string::npos);
   claims[3].verdict = Verdict::falls_short;
   claims[2].verdict = Verdict::falls_short;
   EXPECT_EQ(

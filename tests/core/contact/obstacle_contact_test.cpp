@@ -320,7 +320,7 @@ TEST(ObstacleContact, HasThePiecesOfItsSamplesWhetherTheyTouchOrNot) {
   EXPECT_EQ(visited, term.size());
   EXPECT_GT(stiff, 10u);
   EXPECT_LT(stiff, visited);
-  EXPECT_TRUE(term.virial(cloud.x, 0).isZero(0.0));
+  EXPECT_TRUE(term.virial(cloud.x, 0).tensor.isZero(0.0));
 }
 
 TEST(ObstacleContact, NeedsALawForEachObstacle) {

@@ -44,10 +44,10 @@ TEST(Tetrahedra, AreInEquilibriumInsideABodyOfUniformStrain) {
     Matrix3d sum = Matrix3d::Zero();
     double volume = 0.0;
     for (std::size_t c = 0; c < body.term->size(); ++c) {
-      sum += 4.0 * body.term->virial(body.x, c);
+      sum += 4.0 * body.term->virial(body.x, c).tensor;
       volume += body.cell_mass[c] / body.material.density;
     }
-    const Matrix3d one = 4.0 * body.term->virial(body.x, 0) / (body.cell_mass[0] / body.material.density);
+    const Matrix3d one = 4.0 * body.term->virial(body.x, 0).tensor / (body.cell_mass[0] / body.material.density);
     EXPECT_LE((sum / volume - one).norm(), 1e-13 * one.norm());
   }
 }

@@ -185,5 +185,26 @@ TEST(RungeKutta4, MayTakeBodiesOfAnySizeInTurn) {
   EXPECT_EQ(large.state_hash(), alone.state_hash());
 }
 
+// It would move them like dust: a walk meets no force but that of springs along edges.
+TEST(RungeKutta4, RefusesABodyWithForcesThatItDoesNotKnow) {
+  const auto refused = [](Mesh mesh, const Material& material, auto map) {
+    Problem problem = without_losses(std::move(mesh));
+    problem.material = material;
+    auto body = build_body<decltype(map), every>(problem);
+    try {
+      run(body, 1e-3, 1);
+    } catch (const InputError&) {
+      return true;
+    }
+    return false;
+  };
+  const Material springs, elements{.young = 1e5, .poisson = 0.3, .model = Model::stvk};
+  EXPECT_FALSE(refused(kuhn_box(1, 1, 1, 0.1), springs, TetMap()));
+  EXPECT_TRUE(refused(kuhn_box(1, 1, 1, 0.1), elements, TetMap()));
+  EXPECT_TRUE(refused(hexahedron_box(1, 1, 1, 0.1), elements, Map3()));
+  EXPECT_TRUE(refused(triangle_sheet(1, 1, 0.1), elements, Map2()));
+  EXPECT_TRUE(refused(quad_sheet(1, 1, 0.1), elements, Map2()));
+}
+
 }  // namespace
 }  // namespace dartboard

@@ -193,6 +193,33 @@ TEST(KuhnBox, RepeatsForASeedAndDiffersForAnother) {
   EXPECT_NE(hash_of(kuhn_box(4, 4, 4, 0.1, 0.2, 1)), hash_of(kuhn_box(4, 4, 4, 0.1, 0.2, 2)));
 }
 
+TEST(MirroredBox, HasTheCountsOfItsCubesAndFillsThem) {
+  const std::size_t a = 3 * 5 * 6 + 4 * 4 * 6 + 4 * 5 * 5, q = 3 * 4 * 6 + 3 * 5 * 5 + 4 * 4 * 5, c = 3 * 4 * 5;
+  const Expected e{{4 * 5 * 6, a + q + c, 2 * q + 6 * c, 6 * c}, 1, 1, 4 * (3 * 4 + 4 * 5 + 3 * 5)};
+  expect_tetrahedra(mirrored_box(3, 4, 5, 0.5), e);  // face to face for odd counts too
+  expect_tetrahedra(mirrored_box(3, 4, 5, 0.5, 0.3, 7), e);
+  const Mesh unit = mirrored_box(3, 2, 2, 1.0);
+  for (std::size_t k = 0; k < unit.cell_count(); ++k) EXPECT_EQ(signed_measure(unit, k), 1.0 / 6.0);
+}
+
+TEST(MirroredBox, IsItsOwnMirrorImageAcrossEveryPlaneBetweenCubes) {
+  const Mesh mesh = mirrored_box(2, 2, 2, 1.0);
+  const auto cells = [&mesh](int axis) {
+    std::set<std::set<std::array<double, 3>>> all;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+      std::set<std::array<double, 3>> corners;
+      for (const std::uint32_t p : mesh.cell(c)) {
+        std::array<double, 3> x{mesh.points[p].x(), mesh.points[p].y(), mesh.points[p].z()};
+        if (axis >= 0) x[static_cast<std::size_t>(axis)] = 2.0 - x[static_cast<std::size_t>(axis)];
+        corners.insert(x);
+      }
+      all.insert(corners);
+    }
+    return all;
+  };
+  for (const int axis : {0, 1, 2}) EXPECT_EQ(cells(axis), cells(-1)) << axis;
+}
+
 TEST(HexahedronBox, HasTheCountsOfItsCubes) {
   const std::size_t a = 3 * 5 * 6 + 4 * 4 * 6 + 4 * 5 * 5, q = 3 * 4 * 6 + 3 * 5 * 5 + 4 * 4 * 5, c = 3 * 4 * 5;
   expect<Map3>(hexahedron_box(3, 4, 5, 0.5), {{4 * 5 * 6, a, q, c}, 1, 1, 2 * (3 * 4 + 4 * 5 + 3 * 5)});

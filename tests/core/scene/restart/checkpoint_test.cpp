@@ -39,6 +39,11 @@ class CheckpointTest : public FolderTest {
     scene["body"] = {{"mesh", "box.mesh"}};
     return scene.dump();
   }
+  std::string changed(const char* key, const Json& value) const {
+    Json scene = Json::parse(scene_on_mesh());
+    scene[key] = value;
+    return scene.dump();
+  }
   void write_mesh_file(double spacing) const { write_medit(folder_ / "box.mesh", kuhn_box(2, 2, 2, spacing)); }
 
   std::string complaint() const {
@@ -165,7 +170,14 @@ TEST_F(CheckpointTest, OfASceneThatHasChangedSinceIsRefused) {
   write_mesh_file(0.125);
   write("scene.json", scene_on_mesh());
   leave(read_scene(folder_ / "scene.json"));
-  write("scene.json", scene_on_mesh() + "\n");
+  write("scene.json", scene_on_mesh() + "\n");  // says the same
+  EXPECT_EQ(complaint(), "accepted");
+  write("scene.json", changed("duration", 9.0));  // and for longer
+  EXPECT_EQ(complaint(), "accepted");
+  EXPECT_EQ(Checkpoint(file()).scene().duration, 9.0);
+  write("scene.json", changed("duration", 1e-3));
+  EXPECT_NE(complaint(), "accepted");
+  write("scene.json", changed("name", "another"));
   EXPECT_NE(after_here(complaint()).find("InputError scene.json: has changed since the run in"), std::string::npos)
       << complaint();
   // but not one that is gone: the checkpoint has a copy

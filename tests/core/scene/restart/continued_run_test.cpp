@@ -256,6 +256,30 @@ TEST(Checkpoints, AreNotLeftWithoutTheKey) {
   EXPECT_EQ(checkpoints_of(Json::object(), 4), Steps{});
 }
 
+// Events that last to the end of the run last to its new end.
+TEST(ContinuedRun, ForLongerIsThatOfALongerRun) {
+  Json longer = recorded_scene(with_events(moving_box(), R"([
+    {"every": 0.002, "from": 0.001, "remove": {"random": {"count": 2, "seed": 5}}},
+    {"every": 0.0001, "from": 0.001, "remove": {"random": {"count": 1, "seed": 6}}},
+    {"tear_where_stressed": {"threshold": 30}}])"));
+  longer["driven"] = Json::parse(
+      R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}, "velocity": [1, 0, 0], "reverse_every": 0.002}])");
+  longer["output"]["checkpoint"] = 0.003;
+  const RecordedRun whole_run = whole(parse(longer));
+  for (const double duration : {0.004, 0.005}) {
+    Json shorter = longer;
+    shorter["duration"] = duration;
+    const SceneFile scene = parse(shorter);
+    Simulation first(scene);
+    first.watch_events(true);
+    Record record;
+    run_scene(first, scene.output, record);
+    const RecordedRun rest = continued(parse(longer), std::move(record));
+    EXPECT_EQ(rest.simulation->body().state_hash(), whole_run.simulation->body().state_hash()) << duration;
+    EXPECT_EQ(rest.simulation->operations(), whole_run.simulation->operations()) << duration;
+  }
+}
+
 TEST(ContinuedRun, FromACheckpointOfTheKeyIsTheSame) {
   Json json = recorded_scene(with_events(moving_box(), eventful));
   json["output"]["checkpoint"] = 0.003;

@@ -46,6 +46,26 @@ TEST(ElementScene, IsNeoHookeanUnlessItSaysOtherwise) {
   EXPECT_EQ(parse(springs).material.stiffness, 64.0);
 }
 
+// F = I + L / 2, det F = 1.11653: the largest eigenvalue of P F' / det F, by numpy.
+TEST(ElementScene, HasCauchysStressInAUniformStrain) {
+  const std::pair<const char*, double> expected[] = {
+      {"neo-hookean", 16497.0}, {"corotational", 16929.0}, {"stvk", 20757.0}};
+  for (const char* kind : {"tetrahedra", "hexahedra", "mixed"})
+    for (const auto& [model, stress] : expected) {
+      Json scene = in_cells(of_elements(model), kind);
+      if (kind != std::string("tetrahedra")) scene["body"]["generate"]["box"].erase("pattern");
+      scene["material"]["young"] = 1e5;
+      scene.erase("initial_velocity");
+      scene["driven"] = Json::parse(R"([{"box": {"min": [-1, -1, -1], "max": [1, 1, 1]},
+        "velocity": {"linear": [[0.2, 0.1, 0], [0.05, -0.1, 0.1], [0, 0.2, 0.15]]}}])");
+      scene["step"] = 0.0625;
+      scene["duration"] = 0.5;
+      Simulation simulation(parse(scene));
+      run(simulation);
+      EXPECT_NEAR(simulation.body().largest_stress(), stress, 1.0) << kind << " " << model;
+    }
+}
+
 TEST(ElementScene, NamesTheKeyOfAMaterialThatIsNone) {
   const auto with = [](const char* key, const Json& value) {
     Json scene = of_elements();

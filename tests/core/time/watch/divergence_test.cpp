@@ -185,6 +185,18 @@ TEST(Divergence, IsNotTheRoundingOfABodyAtRestFarAway) {
   }
 }
 
+// At a height of 5e6 m a body that has fallen by less than an ulp has lost no gravitational energy yet.
+TEST(Divergence, IsNotTheFallOfABodyWhoseHeightIsKnownToNoMoreThanThat) {
+  for (const double offset : {5e6, 1e9, 1e12}) {
+    SpringArrays body = spring_grid(2, 2, 2);
+    for (Eigen::Vector3d& p : body.x) p.z() += offset;
+    body.gravity = {0, 0, -9.81};
+    DivergenceDetector detector;
+    const auto integrator = make_integrator("verlet");
+    EXPECT_TRUE(run(body, *integrator, 1e-6, 500, detector).result.ok()) << offset;
+  }
+}
+
 TEST(Divergence, IsFoundWhenTheSystemChangesAfterEveryStep) {
   SpringArrays body = moving_grid();
   DivergenceDetector detector;

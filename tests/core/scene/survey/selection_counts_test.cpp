@@ -1,0 +1,84 @@
+#include "core/scene/survey/selection_counts.h"
+
+#include <gtest/gtest.h>
+
+#include "core/scene/file/scene_problem.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+using Lines = std::vector<std::string>;
+
+/// 11 x 2 x 2 vertices, 60 cells: with a selection of each kind.
+Json bar() {
+  Json json = moving_box();
+  json["body"] = Json::parse(R"({"generate": {"box": {"cells": [10, 1, 1], "spacing": 0.1}}})");
+  return json;
+}
+Lines lines(const Json& json) {
+  const SceneFile scene = parse(json);
+  Lines said;
+  for (const SelectionCount& count : count_selections(scene, make_mesh(scene))) said.push_back(to_string(count));
+  return said;
+}
+
+TEST(SelectionCounts, SayHowManyVerticesEachKeyHolds) {
+  Json json = bar();
+  json["fixed"] = Json::parse(R"([{"plane": {"point": [0.3, 0, 0], "normal": [-1, 0, 0]}}, {"ids": [10, 3, 3]}])");
+  json["driven"] =
+      Json::parse(R"([{"box": {"min": [1, 0, 0], "max": [1, 1, 0]}, "velocity": {"constant": [1, 0, 0]}}])");
+  json["forces"] = Json::parse(R"([{"sphere": {"centre": [0.5, 0, 0], "radius": 0.1}, "force": [0, 0, 1]}])");
+  EXPECT_EQ(lines(json), (Lines{"/fixed/0: 16 of 44 vertices", "/fixed/1: 2 of 44 vertices",
+                                "/driven/0: 2 of 44 vertices", "/forces/0: 5 of 44 vertices"}));
+}
+
+TEST(SelectionCounts, SayHowManyCellsRegionsAndEventsHold) {
+  Json json = bar();
+  json["regions"] = Json::parse(R"([{"cells": {"box": {"min": [0, 0, 0], "max": [0.2, 1, 1]}},
+                                     "material": {"density": 1, "stiffness": 1}}])");
+  json["events"] = Json::parse(R"([
+    {"at": 0, "remove": {"random": {"count": 7}}},
+    {"at": 0, "remove": {"random": {"count": 100}}},
+    {"at": 0, "refine": {"cells": {"ids": [5, 4, 5]}}},
+    {"at": 0, "release": {"sphere": {"centre": [0, 0, 0], "radius": 0.1}}}])");
+  EXPECT_EQ(lines(json), (Lines{"/regions/0/cells: 12 of 60 cells", "/events/0/remove: 7 of 60 cells",
+                                "/events/1/remove: 60 of 60 cells", "/events/2/refine/cells: 2 of 60 cells",
+                                "/events/3/release: 4 of 44 vertices"}));
+}
+
+TEST(SelectionCounts, OfCutsAreTheFacesThatTheBodyFindsAtRest) {
+  Json json = bar();
+  json["events"] = Json::parse(R"([
+    {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}}},
+    {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]},
+                                 "within": {"box": {"min": [0, 0, 0], "max": [1, 0.04, 1]}}}}])");
+  const Simulation simulation(parse(json));
+  Lines said;
+  for (const SelectionCount& count : simulation.selections()) said.push_back(to_string(count));
+  // inside each cube 6 faces between its six tetrahedra, between two cubes 2
+  EXPECT_EQ(said, (Lines{"/events/0/dissociate: 2 of 78 faces between cells",
+                         "/events/1/dissociate: 1 of 78 faces between cells"}));
+}
+
+// The diagonal is 1.0099..., so borders are 1.01e-9 thick.
+TEST(SelectionCounts, NameALayerThatABorderMissesByLessThanTenThicknesses) {
+  const auto missed = [](double x) {
+    Json json = bar();
+    json["fixed"] = Json::array({{{"plane", {{"point", {x, 0, 0}}, {"normal", {-1, 0, 0}}}}}});
+    const SceneFile scene = parse(json);
+    return count_selections(scene, make_mesh(scene)).at(0);
+  };
+  EXPECT_EQ(missed(0.3 - 0.9e-9).just_outside, 0u);  // on the border
+  EXPECT_EQ(missed(0.3 - 0.9e-9).selected, 16u);
+  EXPECT_EQ(missed(0.3 - 9e-9).just_outside, 4u);
+  EXPECT_EQ(missed(0.3 - 9e-9).selected, 12u);
+  EXPECT_EQ(missed(0.3 - 11e-9).just_outside, 0u);
+  EXPECT_EQ(near_miss(missed(0.3 - 9e-9)),
+            "/fixed/0: 4 lie just outside, less than 1e-08 m from the border, and are not selected");
+  EXPECT_EQ(near_miss(missed(0.3)), "");
+}
+
+}  // namespace
+}  // namespace dartboard
