@@ -12,6 +12,7 @@
 #include "core/meshes/gmsh/gmsh.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/file_text.h"
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
 #include "core/meshes/vtk/vtk_formats.h"
 
@@ -29,17 +30,43 @@ std::string known_extensions() {
   return known;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 std::optional<MeshFormat> format_of(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   for (const MeshFormatInfo& info : mesh_formats())
     if (std::ranges::find(info.extensions, extension) != info.extensions.end()) return info.format;
   return std::nullopt;
+}
+
+/// The format of VTK that a text is in, whatever the extension of its file says; nothing where that cannot be told.
+std::optional<MeshFormat> vtk_format_of(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  constexpr std::string_view legacy = "# vtk DataFile";
+  if (same_letters(text.substr(0, legacy.size()), legacy)) return MeshFormat::vtk_legacy;
+  if (!text.starts_with("<")) return std::nullopt;
+  const std::size_t root = text.find("<VTKFile");
+  if (root == text.npos) return std::nullopt;
+  const std::string_view tag = text.substr(root, text.find('>', root) - root);
+  for (const auto& [type, format] : {std::pair{"\"PolyData\"", MeshFormat::vtp},
+                                     {"'PolyData'", MeshFormat::vtp},
+                                     {"\"PUnstructuredGrid\"", MeshFormat::pvtu},
+                                     {"'PUnstructuredGrid'", MeshFormat::pvtu}})
+    if (tag.find(type) != tag.npos) return format;
+  return MeshFormat::vtu;  // whose reader says what else it is
+}
+
+/// Of the formats of VTK the one that the text is in: files are given the extension of another.
+MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& builder) {
+  const bool is_vtk = format == MeshFormat::vtk_legacy || format == MeshFormat::vtu || format == MeshFormat::vtp ||
+                      format == MeshFormat::pvtu;
+  const auto found = is_vtk ? vtk_format_of(text) : std::nullopt;
+  if (!found || *found == format) return format;
+  const auto info = [](MeshFormat wanted) -> const MeshFormatInfo& {
+    return *std::ranges::find(mesh_formats(), wanted, &MeshFormatInfo::format);
+  };
+  builder.add_notice(fmt::format("the text is in the format {} ({}) and was read so, not as {} ({})", info(*found).name,
+                                 info(*found).extensions[0], info(format).name, info(format).extensions[0]));
+  return *found;
 }
 
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
@@ -85,7 +112,7 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
   MeshBuilder builder(name, name);
   if (text.find_first_not_of(" \t\r\n\v\f") == text.npos) fail_at(name, 1, "the file is empty", "a mesh");
   std::string exact;
-  switch (format) {
+  switch (true_format(text, format, builder)) {
     case MeshFormat::medit: exact = read_medit(text, builder); break;
     case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
     case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
