@@ -9,6 +9,7 @@
 #include "core/meshes/formats/mesh_builder.h"
 #include "core/meshes/formats/mesh_check.h"
 #include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/formats/weld_points.h"
 #include "core/meshes/gmsh/gmsh.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/file_text.h"
@@ -71,29 +72,30 @@ MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& bu
 
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
 
-LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text) {
+LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text, const MeshReading& reading) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   const bool ends_with_line = text.empty() || text.back() == '\n';
   LoadedMesh loaded = builder.finish(std::move(format), std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1)));
-  check_and_repair(loaded, builder.cell_file(), builder.cell_lines());
+  if (reading.weld) weld_points(loaded, *reading.weld, builder.cell_file(), builder.cell_lines());
+  check_and_repair(loaded, builder.cell_file(), builder.cell_lines(), reading.keep_crossed);
   return loaded;
 }
 
-LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path) {
+LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path, const MeshReading& reading) {
   const std::string node_text = file_text(node_path, "the TetGen points that belong to the .ele file");
   const std::string ele_text = file_text(ele_path, "the TetGen cells that belong to the .node file");
   TextScanner node(node_text, node_path.string(), '#');
   TextScanner ele(ele_text, ele_path.string(), '#');
   MeshBuilder builder(node.file(), ele.file());
   std::string format = read_tetgen(node, ele, builder);
-  return finish(builder, std::move(format), ele_text);
+  return finish(builder, std::move(format), ele_text, reading);
 }
 
 }  // namespace
 
-LoadedMesh read_mesh(const fs::path& path) {
+LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
   if (!is_there(path) && is_there(with(path, ".node")))
-    return read_tetgen_files(with(path, ".node"), with(path, ".ele"));
+    return read_tetgen_files(with(path, ".node"), with(path, ".ele"), reading);
   const auto format = format_of(path);
   const bool is_file = is_there(path) && !is_folder(path);
   if (is_file && !format)
@@ -101,15 +103,16 @@ LoadedMesh read_mesh(const fs::path& path) {
             known_extensions());
   if (is_file && format == MeshFormat::tetgen) {
     const fs::path stem = fs::path(path).replace_extension();
-    return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"))
-                                                       : read_tetgen_files(with(stem, ".node"), path);
+    return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"), reading)
+                                                       : read_tetgen_files(with(stem, ".node"), path, reading);
   }
   const std::string text = file_text(path, fmt::format("a mesh file: {}", known_extensions()));
-  return parse_mesh(text, *format, path.string());
+  return parse_mesh(text, *format, path.string(), reading);
 }
 
-LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name) {
+LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, const MeshReading& reading) {
   MeshBuilder builder(name, name);
+  builder.set_weld(reading.weld.value_or(0.0));
   if (text.find_first_not_of(" \t\r\n\v\f") == text.npos) fail_at(name, 1, "the file is empty", "a mesh");
   std::string exact;
   switch (true_format(text, format, builder)) {
@@ -129,7 +132,7 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
       break;
     }
   }
-  return finish(builder, std::move(exact), text);
+  return finish(builder, std::move(exact), text, reading);
 }
 
 }  // namespace dartboard

@@ -29,6 +29,10 @@ class MeshBuilder {
   /// What is added from here on comes from another file, which errors of it name.
   void read_from(const std::string& file) { point_file_ = cell_file_ = file; }
 
+  /// The distance at which points will be welded after reading; 0 for none.
+  void set_weld(double distance) { weld_ = distance; }
+  double weld() const { return weld_; }
+
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
@@ -76,6 +80,7 @@ class MeshBuilder {
   bool is_left_out(std::size_t cell) const { return cell < left_out_.size() && left_out_[cell]; }
 
   std::string point_file_, cell_file_;
+  double weld_ = 0.0;
   std::vector<std::uint64_t> point_numbers_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> point_lines_;

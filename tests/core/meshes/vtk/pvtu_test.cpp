@@ -98,7 +98,7 @@ TEST_F(Pvtu, RefusesPointsThatAreNearlyEqual) {
   EXPECT_EQ(refused(),
             (folder_ / "all.pvtu").string() +
                 ": point 0 of 'b.vtu' is 2.22e-16 from point 1 of 'a.vtu'; expected the same three numbers, so "
-                "that they are one point, or more than 1.73e-06");
+                "that they are one point, or more than 1.73e-06, or a distance to weld them at");
   write_pieces(folder_, vtu_piece(first_points), vtu_piece("1.0000017 0 0 0 1 0 0 0 1 1 1 1"));
   expect_part(refused(), "is 1.7e-06 from");
   write_pieces(folder_, vtu_piece(first_points), vtu_piece("1.0000018 0 0 0 1 0 0 0 1 1 1 1"));
