@@ -14,7 +14,7 @@ constexpr Names<2> medit{".mesh", ".meshb"}, tetgen{".node", ".ele"};
 
 constexpr MeshFormatInfo table[] = {
     {MeshFormat::medit, "Medit", medit,
-     "versions 1 to 4, ASCII and, of either byte order, binary; references; P2 cells by their corners",
+     "versions 0 to 4, ASCII and, of either byte order, binary; references; P2 cells by their corners",
      "version 2, ASCII, 17 digits"},
     {MeshFormat::tetgen, "TetGen", tetgen, "ASCII; regions; 6- and 10-node cells by their corners", ""},
     {MeshFormat::gmsh, "Gmsh", gmsh,
@@ -33,8 +33,10 @@ constexpr MeshFormatInfo table[] = {
      "pieces in .vtu files; points of two pieces that are equal number for number are one, nearly equal ones are "
      "refused; ghost cells are left out",
      ""},
-    {MeshFormat::stl, "STL", stl, "ASCII and binary; equal corners are one point; solids", ""},
-    {MeshFormat::obj, "OBJ", obj, "triangles and quadrilaterals; groups and materials", ""},
+    {MeshFormat::stl, "STL", stl,
+     "ASCII and binary; equal corners are one point; facets with two equal corners are left out; solids", ""},
+    {MeshFormat::obj, "OBJ", obj,
+     "triangles and quadrilaterals; points of two or three coordinates; groups and materials", ""},
     {MeshFormat::ply, "PLY", ply, "ASCII and binary of either byte order; triangles and quadrilaterals", ""},
     {MeshFormat::off, "OFF", off, "ASCII and BINARY; triangles and quadrilaterals; also COFF, NOFF, CNOFF and STOFF",
      ""},

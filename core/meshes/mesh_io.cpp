@@ -9,9 +9,11 @@
 #include "core/meshes/formats/mesh_builder.h"
 #include "core/meshes/formats/mesh_check.h"
 #include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/formats/weld_points.h"
 #include "core/meshes/gmsh/gmsh.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/file_text.h"
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
 #include "core/meshes/vtk/vtk_formats.h"
 
@@ -29,12 +31,6 @@ std::string known_extensions() {
   return known;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 std::optional<MeshFormat> format_of(const fs::path& path) {
   const std::string extension = lower(path.extension().string());
   for (const MeshFormatInfo& info : mesh_formats())
@@ -42,31 +38,64 @@ std::optional<MeshFormat> format_of(const fs::path& path) {
   return std::nullopt;
 }
 
+/// The format of VTK that a text is in, whatever the extension of its file says; nothing where that cannot be told.
+std::optional<MeshFormat> vtk_format_of(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  constexpr std::string_view legacy = "# vtk DataFile";
+  if (same_letters(text.substr(0, legacy.size()), legacy)) return MeshFormat::vtk_legacy;
+  if (!text.starts_with("<")) return std::nullopt;
+  const std::size_t root = text.find("<VTKFile");
+  if (root == text.npos) return std::nullopt;
+  const std::string_view tag = text.substr(root, text.find('>', root) - root);
+  for (const auto& [type, format] : {std::pair{"\"PolyData\"", MeshFormat::vtp},
+                                     {"'PolyData'", MeshFormat::vtp},
+                                     {"\"PUnstructuredGrid\"", MeshFormat::pvtu},
+                                     {"'PUnstructuredGrid'", MeshFormat::pvtu}})
+    if (tag.find(type) != tag.npos) return format;
+  return MeshFormat::vtu;  // whose reader says what else it is
+}
+
+/// Of the formats of VTK the one that the text is in: files are given the extension of another.
+MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& builder) {
+  const bool is_vtk = format == MeshFormat::vtk_legacy || format == MeshFormat::vtu || format == MeshFormat::vtp ||
+                      format == MeshFormat::pvtu;
+  const auto found = is_vtk ? vtk_format_of(text) : std::nullopt;
+  if (!found || *found == format) return format;
+  const auto info = [](MeshFormat wanted) -> const MeshFormatInfo& {
+    return *std::ranges::find(mesh_formats(), wanted, &MeshFormatInfo::format);
+  };
+  builder.add_notice(fmt::format("the text is in the format {} ({}) and was read so, not as {} ({})", info(*found).name,
+                                 info(*found).extensions[0], info(format).name, info(format).extensions[0]));
+  return *found;
+}
+
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
 
-LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text) {
+LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text, const MeshReading& reading) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   const bool ends_with_line = text.empty() || text.back() == '\n';
   LoadedMesh loaded = builder.finish(std::move(format), std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1)));
-  check_and_repair(loaded, builder.cell_file(), builder.cell_lines());
+  if (reading.weld) weld_points(loaded, *reading.weld, builder.cell_file(), builder.cell_lines());
+  check_and_repair(loaded, builder.cell_file(), builder.cell_lines(), reading.keep_crossed);
   return loaded;
 }
 
-LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path) {
+LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path, const MeshReading& reading) {
   const std::string node_text = file_text(node_path, "the TetGen points that belong to the .ele file");
   const std::string ele_text = file_text(ele_path, "the TetGen cells that belong to the .node file");
   TextScanner node(node_text, node_path.string(), '#');
   TextScanner ele(ele_text, ele_path.string(), '#');
   MeshBuilder builder(node.file(), ele.file());
   std::string format = read_tetgen(node, ele, builder);
-  return finish(builder, std::move(format), ele_text);
+  return finish(builder, std::move(format), ele_text, reading);
 }
 
 }  // namespace
 
-LoadedMesh read_mesh(const fs::path& path) {
+LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
   if (!is_there(path) && is_there(with(path, ".node")))
-    return read_tetgen_files(with(path, ".node"), with(path, ".ele"));
+    return read_tetgen_files(with(path, ".node"), with(path, ".ele"), reading);
   const auto format = format_of(path);
   const bool is_file = is_there(path) && !is_folder(path);
   if (is_file && !format)
@@ -74,18 +103,19 @@ LoadedMesh read_mesh(const fs::path& path) {
             known_extensions());
   if (is_file && format == MeshFormat::tetgen) {
     const fs::path stem = fs::path(path).replace_extension();
-    return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"))
-                                                       : read_tetgen_files(with(stem, ".node"), path);
+    return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"), reading)
+                                                       : read_tetgen_files(with(stem, ".node"), path, reading);
   }
   const std::string text = file_text(path, fmt::format("a mesh file: {}", known_extensions()));
-  return parse_mesh(text, *format, path.string());
+  return parse_mesh(text, *format, path.string(), reading);
 }
 
-LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name) {
+LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, const MeshReading& reading) {
   MeshBuilder builder(name, name);
+  builder.set_weld(reading.weld.value_or(0.0));
   if (text.find_first_not_of(" \t\r\n\v\f") == text.npos) fail_at(name, 1, "the file is empty", "a mesh");
   std::string exact;
-  switch (format) {
+  switch (true_format(text, format, builder)) {
     case MeshFormat::medit: exact = read_medit(text, builder); break;
     case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
     case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
@@ -102,7 +132,7 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
       break;
     }
   }
-  return finish(builder, std::move(exact), text);
+  return finish(builder, std::move(exact), text, reading);
 }
 
 }  // namespace dartboard

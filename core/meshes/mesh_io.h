@@ -30,12 +30,14 @@ std::span<const MeshFormatInfo> mesh_formats();
 /// skipped, points of no cell are dropped, and inverted volumes are reordered, each with a notice. Cells are numbered
 /// from 0 in the order of the file.
 ///
-/// throws  IoError when the file cannot be read, is malformed, or is not a mesh by the rules of check_and_repair
-LoadedMesh read_mesh(const std::filesystem::path& path);
+/// throws  IoError when the file cannot be read, is malformed, or is not a mesh by the rules of check_and_repair;
+///         InputError as weld_points
+LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
 /// the .ele file; the pieces of a .pvtu are files, looked for from the folder of `name`.
-LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name);
+LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name,
+                      const MeshReading& reading = {});
 
 /// Write a mesh as Medit ASCII with 17 significant digits, so that reading it gives the same bits.
 ///

@@ -109,6 +109,26 @@ TEST(MeshInfo, OfAFaceSharedByThreeTetrahedraIsRefused) {
   EXPECT_NE(answer.out.find("share"), std::string::npos) << answer.out;
 }
 
+TEST(MeshInfo, OfCrossedCellsSaysWhichAndExitsWithOne) {
+  const TemporaryFile file("crossed.obj", "v 0 0 0\nv 2.5 0 0\nv 0 3 0\nv 2 2.6 0\nf 1 2 3 4\n");
+  const Answer answer = run("mesh info --json " + file.path.string(), "");
+  EXPECT_EQ(answer.status, 1);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("valid"), false);
+  EXPECT_EQ(json.at("crossed_cells"), nlohmann::json::parse(R"({"count": 1, "voxel_order": 1, "first": [0]})"));
+  EXPECT_EQ(json.at("violation").get<std::string>().find("1 cell is crossed"), 0u);
+}
+
+TEST(MeshInfo, WeldsWhereItIsAskedTo) {
+  const TemporaryFile file("seam.obj", "v 0 0\nv 1 0\nv 0 1\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3\nf 4 5 6\n");
+  const auto components = [&file](const std::string& more) {
+    return nlohmann::json::parse(run("mesh info --json " + file.path.string() + more, "").out).at("components");
+  };
+  EXPECT_EQ(components(""), 2);
+  EXPECT_EQ(components(" --weld 1e-6"), 1);
+  EXPECT_EQ(run("mesh info --weld 3 " + file.path.string()).status, 2);
+}
+
 TEST(MeshInfo, ListsRegionsWithTheirNamesAndHowManyCellsTheyHave) {
   const TemporaryFile file("regions.msh",
                            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 5 \"soft\"\n$EndPhysicalNames\n"

@@ -64,6 +64,10 @@ nlohmann::ordered_json json_of(const std::optional<OfCell>& figure, const char* 
   return {{unit, figure->value}, {"cell", figure->cell}};
 }
 
+Cells first_ten(const Cells& cells) {
+  return {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(cells.size(), 10))};
+}
+
 /// Size, edges, worst cells and boundary of the mesh with a point for each vertex of its map.
 void add_facts(nlohmann::ordered_json& json, const MeshFacts& facts, int dimension) {
   const auto point = [](const Eigen::Vector3d& x) { return nlohmann::ordered_json{x.x(), x.y(), x.z()}; };
@@ -74,11 +78,15 @@ void add_facts(nlohmann::ordered_json& json, const MeshFacts& facts, int dimensi
   json["smallest_angle"] = json_of(facts.smallest_angle, "degrees");
   json["largest_angle"] = json_of(facts.largest_angle, "degrees");
   if (facts.least_radius_ratio) json["least_radius_ratio"] = json_of(facts.least_radius_ratio, "ratio");
-  const auto shown = std::min<std::size_t>(facts.flat.size(), 10);
-  json["flat_cells"] = {{"count", facts.flat.size()},
-                        {"first", Cells(facts.flat.begin(), facts.flat.begin() + static_cast<std::ptrdiff_t>(shown))}};
+  json["flat_cells"] = {{"count", facts.flat.size()}, {"first", first_ten(facts.flat)}};
   json["boundary_parts"] = facts.boundary_parts;
   if (facts.genus) json["genus"] = *facts.genus;
+}
+
+/// What a body cannot be made of; empty for a mesh that it can.
+std::string violation_of(const LoadedMesh& loaded, const MapSummary& s) {
+  if (!loaded.crossed.any()) return s.violation;
+  return fmt::format("{}; expected {}", loaded.crossed.found(), loaded.crossed.remedy());
 }
 
 nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded, const MapSummary& s,
@@ -96,10 +104,14 @@ nlohmann::ordered_json to_json(const std::string& file, const LoadedMesh& loaded
   json[s.dimension == 3 ? "boundary_faces" : "boundary_edges"] = s.boundary_facets;
   json["euler"] = s.euler;
   add_facts(json, facts, s.dimension);
+  const CrossedCells& crossed = loaded.crossed;
+  json["crossed_cells"] = {
+      {"count", crossed.cells.size()}, {"voxel_order", crossed.voxel_order}, {"first", first_ten(crossed.cells)}};
   json["touching"] = {{"points", touching.points.size()}, {"edges", touching.edges.size()}};
   json["orientable"] = s.orientable;
-  json["valid"] = s.violation.empty();
-  if (!s.violation.empty()) json["violation"] = s.violation;
+  const std::string violation = violation_of(loaded, s);
+  json["valid"] = violation.empty();
+  if (!violation.empty()) json["violation"] = violation;
   json["hash"] = hash;
   json["regions"] = regions_of(loaded);
   json["notices"] = loaded.notices;
@@ -166,6 +178,7 @@ std::string known_extensions() {
 void add_mesh(CLI::App& app, Outcome& outcome) {
   struct Options {
     std::string file, out;
+    std::optional<double> weld;
     bool json = false, formats = false;
   };
   auto options = std::make_shared<Options>();
@@ -177,6 +190,8 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
       "info", "Build the map of a mesh: its cells, size, edges, worst cells, boundary and regions.");
   info->add_option("FILE", options->file, known_extensions())->required();
   info->add_option("--out", options->out, "folder for a picture of it, new or empty [nothing is drawn]");
+  info->add_option("--weld", options->weld,
+                   "make points one that are at most this far apart, in the units of the file [none]");
   info->add_flag("--json", options->json, "print JSON");
   verb->callback([options, verb] {
     if (options->formats && verb->get_subcommands().empty()) return tell_formats(options->json);
@@ -185,7 +200,7 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
   });
   info->callback([options, &outcome] {
     if (options->formats) return;  // refused by the verb
-    LoadedMesh loaded = read_mesh(options->file);
+    LoadedMesh loaded = read_mesh(options->file, {.weld = options->weld, .keep_crossed = true});
     const std::string hash = hash_of(loaded.mesh);
     const TouchingCells touching = split_touching_points(loaded.mesh);
     if (touching.any()) loaded.notices.push_back(to_string(touching, loaded.place_of_point));
@@ -213,7 +228,8 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
       tell_info(json);
       for (const std::string& notice : loaded.notices) tell(stderr, "notice: {}\n", notice);
     }
-    if (outcome.exit_code != exit_io) outcome.exit_code = summary.violation.empty() ? exit_agrees : exit_disagrees;
+    if (outcome.exit_code != exit_io)
+      outcome.exit_code = violation_of(loaded, summary).empty() ? exit_agrees : exit_disagrees;
   });
 }
 

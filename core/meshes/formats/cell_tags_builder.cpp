@@ -22,6 +22,8 @@ void CellTagsBuilder::set(std::size_t column, std::size_t cell, std::int64_t val
   values[cell] = value;
 }
 
+std::int64_t CellTagsBuilder::value(std::size_t column, std::size_t cell) const { return columns_[column].value(cell); }
+
 void CellTagsBuilder::name_value(std::size_t column, int dimension, std::int64_t value, std::string name) {
   columns_[column].names.insert_or_assign({dimension, value}, std::move(name));
 }
@@ -35,7 +37,7 @@ std::vector<CellTags> CellTagsBuilder::finish(std::span<const std::uint32_t> cel
     tags.values.reserve(cells.size());
     std::int64_t beyond = 0;
     for (const std::uint32_t cell : cells) {
-      const std::int64_t value = cell < column.values.size() ? column.values[cell] : 0;
+      const std::int64_t value = column.value(cell);
       if (value < Limits::min() || value > Limits::max()) beyond = value;
       tags.values.push_back(static_cast<std::int32_t>(value));
     }

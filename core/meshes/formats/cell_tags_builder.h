@@ -20,6 +20,7 @@ class CellTagsBuilder {
   /// nothing else is dropped.
   std::size_t column(std::string_view name, bool zero_is_none);
   void set(std::size_t column, std::size_t cell, std::int64_t value);
+  std::int64_t value(std::size_t column, std::size_t cell) const;
   /// What a value is called for cells of a dimension.
   void name_value(std::size_t column, int dimension, std::int64_t value, std::string name);
 
@@ -34,6 +35,8 @@ class CellTagsBuilder {
     bool zero_is_none;
     std::vector<std::int64_t> values = {};
     std::map<std::pair<int, std::int64_t>, std::string> names = {};
+
+    std::int64_t value(std::size_t cell) const { return cell < values.size() ? values[cell] : 0; }
   };
 
   std::vector<Column> columns_;

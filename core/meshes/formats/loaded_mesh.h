@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/meshes/formats/crossed_cells.h"
 #include "core/plain/mesh.h"
 
 namespace dartboard {
@@ -16,16 +18,28 @@ struct CellTags {
   std::map<std::int32_t, std::string> names;  // of the values that the file has a name for
 };
 
+/// What is done with a mesh on its way in.
+struct MeshReading {
+  std::optional<double> weld{};  // [units of the file] points at most so far apart become one
+  bool keep_crossed = false;     // cells that cross themselves are listed, and not refused
+};
+
 /// A checked mesh of one dimension, and in plain sentences whatever was skipped, dropped or repaired on the way.
 struct LoadedMesh {
   Mesh mesh;
   std::string format;  // as read: "Gmsh MSH 2.2"
   std::vector<std::string> notices;
-  std::vector<std::uint32_t> place_of_point;  // of each point of the file in `mesh`; empty where none is dropped
-  std::vector<std::uint32_t>
-      file_number;  // of each point of `mesh`: its number in the file; empty where that is its own
+  std::vector<std::uint32_t> place_of_point;  // of each point of the file in `mesh`; empty where all are as they were
   std::vector<CellTags> tags = {};
+  std::vector<std::uint32_t> copied = {};  // of each point after those of the file: the one in whose place it is
+  CrossedCells crossed = {};               // where MeshReading keeps them
   static constexpr std::uint32_t dropped = 0xFFFFFFFF;  // a point of no cell has none
+
+  /// The number in the file, counted from 0, of a point of `mesh`; of points made one the first, of one split off
+  /// another that of the other.
+  std::size_t number_in_file(std::uint32_t point) const;
+  /// Those of all points of `mesh`; empty where each is the point's own.
+  std::vector<std::uint32_t> numbers_in_file() const;
 };
 
 }  // namespace dartboard

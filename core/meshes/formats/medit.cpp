@@ -1,62 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 #include "core/meshes/formats/medit_sections.h"
+#include "core/meshes/formats/medit_skipped.h"
 #include "core/meshes/formats/mesh_formats.h"
 
 namespace dartboard {
 namespace {
-
-// nothing in them changes the mesh
-constexpr std::string_view ignored_sections[] = {
-    "Corners",
-    "Ridges",
-    "RequiredVertices",
-    "RequiredEdges",
-    "RequiredTriangles",
-    "RequiredQuadrilaterals",
-    "Normals",
-    "NormalAtVertices",
-    "NormalAtTriangleVertices",
-    "NormalAtQuadrilateralVertices",
-    "Tangents",
-    "TangentAtVertices",
-    "TangentAtEdges",
-    "EdgesP2",
-    "EdgesP2Ordering",
-    "TrianglesP2Ordering",
-    "QuadrilateralsQ2Ordering",
-    "TetrahedraP2Ordering",
-    "PyramidsP2Ordering",
-    "PrismsP2Ordering",
-    "HexahedraQ2Ordering",
-    "SubDomainFromMesh",
-    "SubDomainFromGeom",
-    "AngleOfCornerBound",
-    "BoundingBox",
-    "Geometry",
-    "Identifier",
-    "Iterations",
-    "Time",
-    "SolAtVertices",
-    "SolAtEdges",
-    "SolAtTriangles",
-    "SolAtQuadrilaterals",
-    "SolAtTetrahedra",
-    "SolAtPyramids",
-    "SolAtPrisms",
-    "SolAtHexahedra",
-    "VertexOnGeometricVertex",
-    "VertexOnGeometricEdge",
-};
-
-bool is_ignored(std::string_view keyword) {
-  for (std::string_view ignored : ignored_sections)
-    if (keyword == ignored) return true;
-  return false;
-}
 
 void read_vertices(TextScanner& scan, int dimension, MeshBuilder& builder) {
   const std::uint64_t count = scan.count("the number of vertices");
@@ -86,14 +40,6 @@ void read_cells(TextScanner& scan, const MeditSection& section, MeshBuilder& bui
   }
 }
 
-bool starts_a_word(std::string_view token) {
-  return !token.empty() && ((token[0] >= 'A' && token[0] <= 'Z') || (token[0] >= 'a' && token[0] <= 'z'));
-}
-
-void skip_section(TextScanner& scan) {
-  while (!scan.at_end() && !starts_a_word(scan.peek())) scan.token("the rest of a section");
-}
-
 /// The binary variant begins with the number 1, in either order of its four bytes.
 bool is_binary(std::string_view text) {
   using namespace std::string_view_literals;
@@ -107,15 +53,19 @@ std::string read_medit(std::string_view text, MeshBuilder& builder) {
   TextScanner scan(text, builder.cell_file(), '#');
   scan.keyword("MeshVersionFormatted");
   const std::uint64_t version = scan.count("the version of the format");
-  if (version < 1 || version > 4) scan.fail(fmt::format("version {}", version), "version 1, 2, 3 or 4");
+  if (version > 4) scan.fail(fmt::format("version {}", version), "version 0, 1, 2, 3 or 4");
   scan.keyword("Dimension");
   const std::uint64_t dimension = scan.count("the dimension");
   if (dimension != 2 && dimension != 3) scan.fail(fmt::format("dimension {}", dimension), "dimension 2 or 3");
 
   bool has_vertices = false;
-  // without End a file may have lost its last sections, and a solid would pass for its surface
+  std::vector<std::string_view> skipped;
   for (;;) {
-    const std::string_view keyword = scan.token("a section, or the word End after the last one");
+    if (scan.at_end()) {
+      builder.add_notice("the file ends without the word End: whether further sections were cut off cannot be known");
+      break;
+    }
+    const std::string_view keyword = scan.token("a section");
     if (keyword == "End") break;
     if (keyword == "Vertices") {
       if (has_vertices) scan.fail("found Vertices again", "one section of vertices");
@@ -127,13 +77,16 @@ std::string read_medit(std::string_view text, MeshBuilder& builder) {
       const std::uint64_t count = scan.count("the number of edges");
       for (std::uint64_t i = 0; i < 3 * count; ++i) scan.integer("a vertex or the reference of an edge");
       builder.skip(1, count);
-    } else if (is_ignored(keyword)) {
-      skip_section(scan);
+    } else if (skip_medit_section(scan, keyword, {dimension, builder.point_count()})) {
+      if (std::ranges::find(skipped, keyword) == skipped.end()) skipped.push_back(keyword);
     } else {
       scan.fail(fmt::format("{} is not a section of a mesh", in_quotes(keyword)),
                 "Vertices, Triangles, Quadrilaterals, Tetrahedra, Pyramids, Prisms, Hexahedra, Edges or End");
     }
   }
+  if (!skipped.empty())
+    builder.add_notice(fmt::format("skipped the section{} {}: no cells are in {}", skipped.size() == 1 ? "" : "s",
+                                   fmt::join(skipped, ", "), skipped.size() == 1 ? "it" : "them"));
   return fmt::format("Medit {}", version);
 }
 

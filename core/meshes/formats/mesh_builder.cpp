@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/meshes/text/text_scanner.h"
@@ -48,15 +50,47 @@ void MeshBuilder::add_cell(CellKind kind, std::span<const std::uint64_t> corners
   all_cell_lines_.push_back(narrow_line(line));
 }
 
+void MeshBuilder::leave_out(std::size_t cell) {
+  if (left_out_.size() <= cell) left_out_.resize(cell + 1, false);
+  if (!left_out_[cell]) ++left_out_count_;
+  left_out_[cell] = true;
+}
+
+std::size_t MeshBuilder::leave_out_further_groups(std::size_t tags) {
+  using Key = std::tuple<CellKind, std::array<std::uint64_t, 8>, std::size_t>;  // kind, ascending points, place
+  std::vector<Key> keys;
+  keys.reserve(kinds_.size());
+  auto point = cell_points_.begin();
+  for (std::size_t c = 0; c < kinds_.size(); ++c) {
+    Key key{kinds_[c], {}, c};
+    auto& points = std::get<1>(key);
+    std::copy_n(point, node_count(kinds_[c]), points.begin());
+    std::ranges::sort(points);
+    point += node_count(kinds_[c]);
+    keys.push_back(key);
+  }
+  std::ranges::sort(keys);
+  const std::size_t before = left_out_count_;
+  std::set<std::int64_t> groups;  // of the cells with these points
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto& [kind, points, c] = keys[k];
+    const bool is_first = k == 0 || std::get<0>(keys[k - 1]) != kind || std::get<1>(keys[k - 1]) != points;
+    if (is_first) groups.clear();
+    if (groups.insert(tags_.value(tags, c)).second && !is_first) leave_out(c);
+  }
+  return left_out_count_ - before;
+}
+
 double MeshBuilder::shortest_edge() const {
   double shortest = std::numeric_limits<double>::infinity();
   std::size_t first = 0;
-  for (const CellKind kind : kinds_) {
+  for (std::size_t c = 0; c < kinds_.size(); ++c) {
+    const CellKind kind = kinds_[c];
     const auto point = [&](int k) -> const Eigen::Vector3d& {
       return points_[cell_points_[first + static_cast<std::size_t>(k)]];
     };
     for (const auto& face : faces_of(kind))
-      for (std::size_t k = 0; k < face.size(); ++k)
+      for (std::size_t k = 0; k < face.size() && !is_left_out(c); ++k)
         shortest = std::min(shortest, (point(face[(k + 1) % face.size()]) - point(face[k])).norm());
     first += static_cast<std::size_t>(node_count(kind));
   }
@@ -113,7 +147,7 @@ std::uint32_t MeshBuilder::find_point(std::uint64_t number, std::span<const std:
 std::map<std::string_view, std::size_t> MeshBuilder::count_elements(auto&& is_counted) const {
   std::map<std::string_view, std::size_t> counts;
   for (std::size_t c = 0; c < kinds_.size(); ++c)
-    if (elements_[c] != 0 && is_counted(kinds_[c])) ++counts[element_names_[elements_[c]]];
+    if (elements_[c] != 0 && !is_left_out(c) && is_counted(kinds_[c])) ++counts[element_names_[elements_[c]]];
   return counts;
 }
 
@@ -121,7 +155,8 @@ std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {
   const auto is_skipped = [&](CellKind kind) { return dartboard::dimension(kind) < dimension; };
   std::array<std::size_t, 2> polygons{};  // triangles, quadrilaterals
   for (std::size_t c = 0; c < kinds_.size(); ++c)
-    if (elements_[c] == 0 && is_skipped(kinds_[c])) ++polygons[kinds_[c] == CellKind::triangle ? 0 : 1];
+    if (elements_[c] == 0 && !is_left_out(c) && is_skipped(kinds_[c]))
+      ++polygons[kinds_[c] == CellKind::triangle ? 0 : 1];
   std::vector<std::string> parts;
   if (polygons[0] != 0) parts.push_back(counted(polygons[0], name(CellKind::triangle)));
   if (polygons[1] != 0) parts.push_back(counted(polygons[1], name(CellKind::quadrilateral)));
@@ -144,12 +179,13 @@ std::string MeshBuilder::straightened_notice(int dimension) const {
 
 LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   int dimension = 0;
-  for (CellKind kind : kinds_) dimension = std::max(dimension, dartboard::dimension(kind));
+  for (std::size_t c = 0; c < kinds_.size(); ++c)
+    if (!is_left_out(c)) dimension = std::max(dimension, dartboard::dimension(kinds_[c]));
   if (dimension == 0)
     fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
   CountsByKind counts{};
-  for (CellKind kind : kinds_)
-    if (dartboard::dimension(kind) == dimension) ++counts[static_cast<std::size_t>(kind)];
+  for (std::size_t c = 0; c < kinds_.size(); ++c)
+    if (dartboard::dimension(kinds_[c]) == dimension && !is_left_out(c)) ++counts[static_cast<std::size_t>(kinds_[c])];
   if (const std::string beyond = beyond_a_map(counts); !beyond.empty())
     fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
   const auto by_number = number_points();
@@ -162,7 +198,7 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   for (std::size_t c = 0; c < kinds_.size(); ++c) {
     const auto numbers = std::span(cell_points_).subspan(first, static_cast<std::size_t>(node_count(kinds_[c])));
     first += numbers.size();
-    if (dartboard::dimension(kinds_[c]) != dimension) continue;
+    if (dartboard::dimension(kinds_[c]) != dimension || is_left_out(c)) continue;
     cell.clear();
     for (std::uint64_t number : numbers) {
       const std::uint32_t point = find_point(number, by_number);

@@ -29,6 +29,10 @@ class MeshBuilder {
   /// What is added from here on comes from another file, which errors of it name.
   void read_from(const std::string& file) { point_file_ = cell_file_ = file; }
 
+  /// The distance at which points will be welded after reading; 0 for none.
+  void set_weld(double distance) { weld_ = distance; }
+  double weld() const { return weld_; }
+
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
@@ -36,7 +40,8 @@ class MeshBuilder {
   void add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line, std::string_view element = {});
   std::size_t cell_count() const { return kinds_.size(); }
   std::span<const Eigen::Vector3d> points() const { return points_; }
-  /// The least distance of two points that an edge of a cell joins; infinite without cells.
+  /// The least distance of two points that an edge of a cell joins; infinite without cells. Cells that are left out do
+  /// not count.
   ///
   /// pre  points are numbered from 0, and every cell has only such
   double shortest_edge() const;
@@ -45,6 +50,14 @@ class MeshBuilder {
   ///
   /// pre  as for shortest_edge
   void join_points(std::span<const std::uint32_t> same);
+  /// Take a cell that was added out of the mesh again.
+  void leave_out(std::size_t cell);
+  std::size_t left_out_count() const { return left_out_count_; }
+  /// Leave out each cell that has the kind and the points of an earlier one and, of the column `tags`, another number
+  /// than all of these: it is the same cell in a further group.
+  ///
+  /// returns  how many were left out
+  std::size_t leave_out_further_groups(std::size_t tags);
   /// Count elements of dimension 0 or 1, which no body is made of.
   void skip(int dimension, std::uint64_t count = 1) { skipped_.at(static_cast<std::size_t>(dimension)) += count; }
   void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }
@@ -64,8 +77,10 @@ class MeshBuilder {
   std::string skipped_notice(int dimension, std::size_t kept) const;
   std::string straightened_notice(int dimension) const;
   std::map<std::string_view, std::size_t> count_elements(auto&& is_counted) const;
+  bool is_left_out(std::size_t cell) const { return cell < left_out_.size() && left_out_[cell]; }
 
   std::string point_file_, cell_file_;
+  double weld_ = 0.0;
   std::vector<std::uint64_t> point_numbers_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> point_lines_;
@@ -74,6 +89,8 @@ class MeshBuilder {
   std::vector<std::string> element_names_{""};  // of higher order
   std::vector<std::uint64_t> cell_points_;      // back to back
   std::vector<std::uint32_t> all_cell_lines_, cell_lines_;
+  std::vector<bool> left_out_;  // as far as one is
+  std::size_t left_out_count_ = 0;
   std::array<std::uint64_t, 2> skipped_{};  // points, edges
   std::vector<std::string> notices_;
   CellTagsBuilder tags_;

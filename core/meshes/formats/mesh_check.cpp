@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <vector>
 
+#include "core/meshes/formats/weld_points.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
@@ -17,12 +17,14 @@ namespace {
 
 /// A mesh under examination, and how to talk about its cells.
 struct Examined {
+  LoadedMesh& loaded;
   Mesh& mesh;
   const std::string& file;
   std::span<const std::uint32_t> lines;
 
   std::size_t line(std::size_t c) const { return c < lines.size() ? lines[c] : 0; }
   std::string cell(std::size_t c) const { return fmt::format("cell {} ({})", c, name(mesh.kinds[c])); }
+  std::size_t point(std::uint32_t p) const { return loaded.number_in_file(p); }
   [[noreturn]] void fail(std::size_t c, const std::string& found, std::string_view expected) const {
     fail_at(file, line(c), cell(c) + " " + found, expected);
   }
@@ -44,9 +46,9 @@ void check_layout(const Examined& e) {
 }
 
 void check_points(const Examined& e) {
-  for (std::size_t p = 0; p < e.mesh.points.size(); ++p)
+  for (std::uint32_t p = 0; p < e.mesh.points.size(); ++p)
     if (!e.mesh.points[p].allFinite())
-      fail_at(e.file, 0, fmt::format("point {} has a coordinate that is not finite", p), "finite coordinates");
+      fail_at(e.file, 0, fmt::format("point {} has a coordinate that is not finite", e.point(p)), "finite coordinates");
 }
 
 void check_nodes(const Examined& e) {
@@ -57,7 +59,7 @@ void check_nodes(const Examined& e) {
         e.fail(c, fmt::format("has the point {}", nodes[k]), fmt::format("less than {}", e.mesh.points.size()));
       if (std::find(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(k), nodes[k]) !=
           nodes.begin() + static_cast<std::ptrdiff_t>(k))
-        e.fail(c, fmt::format("has the point {} twice", nodes[k]), "different points at its nodes");
+        e.fail(c, fmt::format("has the point {} twice", e.point(nodes[k])), "different points at its nodes");
     }
   }
 }
@@ -103,8 +105,9 @@ template <std::size_t N>
 void refuse_third(const Examined& e, std::vector<Key<N>>& keys, std::string_view part, std::string_view whole) {
   const auto at = find_repeated(keys, 3);
   if (at == keys.end()) return;
-  std::vector<std::uint32_t> points(at->points.begin(), at->points.end());
-  std::erase(points, std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::size_t> points;
+  for (const std::uint32_t p : at->points)
+    if (p != std::numeric_limits<std::uint32_t>::max()) points.push_back(e.point(p));
   e.fail((at + 2)->cell,
          fmt::format("shares the {} of points {} with {} and {}", part, fmt::join(points, ", "), e.cell(at->cell),
                      e.cell((at + 1)->cell)),
@@ -192,9 +195,10 @@ double solid_measure(const Examined& e, std::size_t c) {
   return measure;
 }
 
-void repair_orientation(Examined& e, std::vector<std::string>& notices) {
+void check_measures(Examined& e) {
   std::size_t inverted = 0, first = 0;
   for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
+    if (std::ranges::binary_search(e.loaded.crossed.cells, c)) continue;
     if (solid_measure(e, c) > 0.0) continue;
     mirror(e.mesh, c);
     if (const double measure = signed_measure(e.mesh, c); !(measure > 0.0))
@@ -203,42 +207,31 @@ void repair_orientation(Examined& e, std::vector<std::string>& notices) {
   }
   if (inverted == 0) return;
   const std::string place = e.line(first) == 0 ? "" : fmt::format(" in line {}", e.line(first));
-  notices.push_back(fmt::format("reordered the nodes of {} inverted cell{}, the first of them {}{}", inverted,
-                                inverted == 1 ? "" : "s", e.cell(first), place));
+  e.loaded.notices.push_back(fmt::format("reordered the nodes of {} inverted cell{}, the first of them {}{}", inverted,
+                                         inverted == 1 ? "" : "s", e.cell(first), place));
 }
 
-void note_coinciding_points(const Mesh& mesh, std::vector<std::string>& notices) {
-  std::vector<std::uint32_t> order(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto xyz = [&](std::uint32_t p) { return std::array{mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]}; };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return xyz(a) < xyz(b); });
-  std::size_t coinciding = 0;
-  std::uint32_t a = 0, b = 0;
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    if (xyz(order[k]) != xyz(order[k - 1])) continue;
-    if (coinciding++ == 0) a = order[k - 1], b = order[k];
-  }
-  if (coinciding != 0)
-    notices.push_back(fmt::format("{} point{} with another one, as in a torn body; for example points {} and {}",
-                                  coinciding, coinciding == 1 ? " coincides" : "s coincide", a, b));
+/// Volumes that cross themselves are as much right-handed as left-handed: they stay as they are.
+void check_crossed(const Examined& e, bool keep_crossed) {
+  CrossedCells crossed = find_crossed_cells(e.mesh);
+  if (!crossed.any()) return;
+  if (!keep_crossed) fail_at(e.file, e.line(crossed.cells.front()), crossed.found(), crossed.remedy());
+  e.loaded.crossed = std::move(crossed);
 }
 
 }  // namespace
 
-void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines) {
-  Examined e{loaded.mesh, file, cell_lines};
+void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines,
+                      bool keep_crossed) {
+  Examined e{loaded, loaded.mesh, file, cell_lines};
   check_layout(e);
   check_points(e);
   check_nodes(e);
   check_repeated_cells(e);
-  if (loaded.mesh.dimension() == 3) {
-    check_faces(e);
-    repair_orientation(e, loaded.notices);
-  } else {
-    check_edges(e);
-    for (std::size_t c = 0; c < loaded.mesh.cell_count(); ++c) solid_measure(e, c);
-  }
-  note_coinciding_points(loaded.mesh, loaded.notices);
+  loaded.mesh.dimension() == 3 ? check_faces(e) : check_edges(e);
+  check_crossed(e, keep_crossed);
+  check_measures(e);
+  if (std::string notice = open_seams(loaded); !notice.empty()) loaded.notices.push_back(std::move(notice));
 }
 
 }  // namespace dartboard

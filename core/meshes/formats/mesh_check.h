@@ -13,12 +13,13 @@ namespace dartboard {
 ///
 /// Refused: no cell; polygons mixed with volumes; an index out of range; a coordinate that is not finite; a node twice
 /// in a cell; two cells of the same nodes; a face of more than two volumes or, for a surface, an edge of more than
-/// two polygons; a cell without volume (or area). Noted: how many cells were reordered, and how many points coincide
-/// with another, as they do in a torn body.
+/// two polygons; a cell that crosses itself, unless `keep_crossed`; a cell without volume (or area). Noted: how many
+/// cells were reordered, and how many points coincide with another, or almost, as they do in a torn body.
 ///
 /// `cell_lines` holds the line of each cell in `file`, or nothing.
 ///
-/// throws  IoError; cells are named by their index, from 0
-void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines = {});
+/// throws  IoError; cells are named by their index, points by their number in the file, both from 0
+void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines = {},
+                      bool keep_crossed = false);
 
 }  // namespace dartboard

@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include "core/meshes/gmsh/gmsh_reader.h"
+#include "core/meshes/text/letter_case.h"
 #include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
-}
 
 std::string end_of(std::string_view section) { return fmt::format("$END{}", upper(section.substr(1))); }
 
@@ -119,6 +113,11 @@ std::string read_gmsh(std::string_view text, MeshBuilder& builder) {
       scan.fail(fmt::format("found {}", in_quotes(found)), "a section, such as $MeshFormat, $Nodes or $NOD");
     read_section(r, std::string(found));
   }
+  // version 4 names the groups of an entity, others list an element once for each of its groups
+  if (r.version == GmshVersion::v1 || r.version == GmshVersion::v2)
+    if (const std::size_t again = builder.leave_out_further_groups(r.group_column); again != 0)
+      builder.add_notice(fmt::format("{} listed again in a further physical group: only the first is kept",
+                                     again == 1 ? "1 element is" : fmt::format("{} elements are", again)));
   if (r.further_groups != 0)
     builder.add_notice(
         fmt::format("{} in more than one physical group: only the first is kept",

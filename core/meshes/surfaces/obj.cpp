@@ -6,6 +6,7 @@
 
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/text_scanner.h"
+#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
@@ -38,6 +39,7 @@ struct Reader {
   MeshBuilder& builder;
   Names groups{builder, "group"}, materials{builder, "material"};
   std::vector<std::uint64_t> corners = {};
+  std::size_t in_the_plane = 0;  // points of two coordinates
 };
 
 /// The first of the numbers of a corner, as in 7/2/3; negative ones count from the last point backwards.
@@ -70,9 +72,13 @@ void read_face(Reader& r, std::size_t line) {
 void read_line(Reader& r, std::string_view keyword) {
   const std::size_t line = r.scan.line();
   if (keyword == "v") {
-    Eigen::Vector3d x;
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
     const std::uint64_t number = r.builder.point_count() + 1;
-    for (int k = 0; k < 3; ++k) x[k] = r.scan.real({"a coordinate of point", number});
+    for (int k = 0; k < 3; ++k) {
+      const bool more = more_of_it(r.scan);
+      if (k == 2 && !more) ++r.in_the_plane;
+      if (k < 2 || more) x[k] = r.scan.real({"a coordinate of point", number});
+    }
     r.builder.add_point(number, x, line);
     while (more_of_it(r.scan)) r.scan.token("a weight or colour");
   } else if (keyword == "f" || keyword == "fo") {
@@ -108,6 +114,8 @@ std::string read_obj(std::string_view text, MeshBuilder& builder) {
                 "v, f, g, o or another keyword of an OBJ file of polygons");
     read_line(r, keyword);
   }
+  if (r.in_the_plane != 0)
+    builder.add_notice(fmt::format("put {} of two coordinates in the plane z = 0", counted(r.in_the_plane, "point")));
   return "OBJ";
 }
 

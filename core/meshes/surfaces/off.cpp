@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/meshes/bytes/file_numbers.h"
 #include "core/meshes/surfaces/surface_formats.h"
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
@@ -19,11 +21,34 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{"OFF", 0}, {"COFF", 4}, {"NOFF", 3}, {"CNOFF", 7}, {"STOFF", 2}};
 
-Kind read_kind(TextScanner& scan) {
-  const std::string_view word = scan.token("the word OFF");
+/// The word may be in small letters, have the first number close behind it, or be missing before a number.
+std::uint64_t read_further(TextScanner& scan) {
+  const std::string word = upper(scan.peek());
+  const std::size_t letters = std::min(word.find_first_of("0123456789"), word.size());
+  if (letters == 0 && !word.empty()) return 0;
   for (const Kind& kind : kinds)
-    if (kind.word == word) return kind;
-  scan.fail(fmt::format("found {}", in_quotes(word)), "the word OFF, COFF, NOFF, CNOFF or STOFF");
+    if (kind.word == word.substr(0, letters)) {
+      scan.bytes(letters, "the word OFF");
+      return kind.further;
+    }
+  const std::string_view found = scan.token("the word OFF");
+  scan.fail(fmt::format("found {}", in_quotes(found)), "the word OFF, COFF, NOFF, CNOFF or STOFF");
+}
+
+struct Counts {
+  std::uint64_t points, polygons;
+};
+
+/// Two or three numbers; some writers leave out that of the edges, which is not used.
+Counts read_counts(TextScanner& scan, FileNumbers& numbers) {
+  Counts counts{};
+  counts.points = numbers.count(Scalar::int32, "the number of points");
+  const bool is_one_line = !numbers.is_binary() && scan.more_on_line();
+  counts.polygons = numbers.count(Scalar::int32, "the number of polygons");
+  if (!is_one_line || scan.more_on_line()) numbers.count(Scalar::int32, "the number of edges");
+  if (is_one_line && scan.more_on_line())
+    scan.fail(fmt::format("{} follows the numbers", in_quotes(scan.peek())), "those of points, polygons and edges");
+  return counts;
 }
 
 /// As text the numbers that follow end with the line.
@@ -42,23 +67,21 @@ void skip_properties(TextScanner& scan, FileNumbers& numbers, std::optional<std:
 std::string read_off(std::string_view text, MeshBuilder& builder) {
   TextScanner scan(text, builder.cell_file(), '#');
   FileNumbers numbers(scan);
-  const Kind kind = read_kind(scan);
-  if (scan.more_on_line() && scan.peek() == "BINARY") {
+  const std::uint64_t further = read_further(scan);
+  if (scan.more_on_line() && same_letters(scan.peek(), "BINARY")) {
     scan.token("BINARY");
     numbers.set_binary(true);
     numbers.begin();
   }
   const auto count = [&numbers](Wanted wanted) { return numbers.count(Scalar::int32, wanted); };
-  const std::uint64_t points = count("the number of points");
-  const std::uint64_t cells = count("the number of polygons");
-  count("the number of edges");
+  const auto [points, cells] = read_counts(scan, numbers);
 
   builder.reserve_points(numbers.plausible(points, 12, 6));
   for (std::uint64_t i = 0; i < points; ++i) {
     Eigen::Vector3d x;
     for (int k = 0; k < 3; ++k) x[k] = numbers.real(Scalar::float32, {"a coordinate of point", i});
     builder.add_point(i, x, numbers.line());
-    skip_properties(scan, numbers, kind.further, "a property of a point");
+    skip_properties(scan, numbers, further, "a property of a point");
   }
   std::vector<std::uint64_t> corners;
   for (std::uint64_t c = 0; c < cells; ++c) {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/meshes/text/letter_case.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -22,9 +23,19 @@ std::string_view without_plus(std::string_view token) {
   return token;
 }
 
+// Fortran marks the exponent of a double by a D: 1.0D+00
+std::string_view with_e(std::string_view digits, std::string& copy) {
+  const auto d = digits.find_first_of("dD");
+  if (d == digits.npos || d == 0 || !(digits[d - 1] == '.' || (digits[d - 1] >= '0' && digits[d - 1] <= '9')))
+    return digits;
+  copy = digits;
+  copy[d] = 'e';
+  return copy;
+}
+
 // from_chars reports "out of range" both for 1e999 and for 1e-999
 bool is_tiny(std::string_view number) {
-  const auto e = number.find_first_of("eE");
+  const auto e = number.find_first_of("eEdD");
   return e != number.npos && e + 1 < number.size() && number[e + 1] == '-';
 }
 
@@ -120,7 +131,8 @@ std::string_view TextScanner::rest_of_line() {
 
 double TextScanner::real(Wanted wanted) {
   const std::string_view found = token(wanted);
-  const std::string_view digits = without_plus(found);
+  std::string copy;
+  const std::string_view digits = with_e(without_plus(found), copy);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = end == digits.data() + digits.size();
@@ -150,10 +162,22 @@ std::uint64_t TextScanner::count(Wanted wanted) {
   return static_cast<std::uint64_t>(value);
 }
 
-void TextScanner::keyword(std::string_view word) {
+std::string_view TextScanner::quoted_or_line(Wanted wanted) {
+  if (at_end()) fail("the text ends here", wanted.text());
+  token_line_ = line_;
+  if (text_[at_] != '"') return rest_of_line();
+  const std::size_t end = text_.find_first_of("\"\n", at_ + 1);
+  if (end == text_.npos || text_[end] == '\n') fail("a text in quotes has no end in its line", "a quote after it");
+  const std::string_view found = text_.substr(at_ + 1, end - at_ - 1);
+  at_ = end + 1;
+  return found;
+}
+
+void TextScanner::keyword(std::string_view word, LetterCase letters) {
   const std::string wanted = fmt::format("the word {}", word);
   const std::string_view found = token(wanted.c_str());
-  if (found != word) fail(fmt::format("found {}", in_quotes(found)), wanted);
+  if (letters == LetterCase::any ? !same_letters(found, word) : found != word)
+    fail(fmt::format("found {}", in_quotes(found)), wanted);
 }
 
 void TextScanner::line_end() {

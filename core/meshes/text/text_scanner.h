@@ -30,6 +30,9 @@ struct Wanted {
   std::string text() const;
 };
 
+/// Whether words may be in capitals, in small letters, or a mixture.
+enum class LetterCase { as_given, any };
+
 /// A text as a sequence of tokens separated by white space; a comment runs from `comment` to the end of its line.
 /// Views that it returns point into the text, which must outlive them.
 ///
@@ -52,13 +55,16 @@ class TextScanner {
   std::string_view token(Wanted wanted);
   /// The rest of the current line, without its end and the white space around it; then moves to the next line.
   std::string_view rest_of_line();
-  /// A finite number. One that is too small for a double is zero; one that is too large is an error.
+  /// A text in double quotes, without them, which ends in its line; without quotes the rest of the line.
+  std::string_view quoted_or_line(Wanted wanted);
+  /// A finite number; the letter of its exponent is E, or Fortran's D. One that is too small for a double is zero; one
+  /// that is too large is an error.
   double real(Wanted wanted);
   std::int64_t integer(Wanted wanted);
   /// A number of things, or the number of a thing: an integer that is not negative.
   std::uint64_t count(Wanted wanted);
-  /// Exactly this word.
-  void keyword(std::string_view word);
+  /// This word.
+  void keyword(std::string_view word, LetterCase letters = LetterCase::as_given);
 
   /// The end of the line that the last token stands on, after which bytes begin that are no text.
   void line_end();

@@ -36,16 +36,14 @@ std::string read_pvtu(std::string_view text, MeshBuilder& builder) {
   const VtkXml file = read_vtk_xml(text, name, "PUnstructuredGrid");
   std::set<fs::path> known;
   std::vector<PieceFile> pieces;
-  std::size_t copies = 0;
   for (const std::size_t number : file.pieces()) {
     const fs::path path = file_of_piece(file, file.elements[number], known);
     builder.read_from(path.string());
     pieces.push_back({.name = path.filename().string(), .first_point = builder.point_count()});
-    copies += add_vtu(file_text(path, "a piece of a .pvtu file"), GhostCells::left_out, builder);
+    add_vtu(file_text(path, "a piece of a .pvtu file"), builder);
   }
   builder.read_from(name);
-  if (copies != 0)
-    builder.add_notice(fmt::format("left out {}: copies of cells of other pieces", counted(copies, "ghost cell")));
+  note_ghost_cells(builder);
   if (const std::size_t joined = join_pieces(pieces, name, builder); joined != 0)
     builder.add_notice(fmt::format("joined {} with equal points of other pieces, of {}", counted(joined, "point"),
                                    counted(pieces.size(), "piece")));

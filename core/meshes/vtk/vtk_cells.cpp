@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/meshes/text/text_scanner.h"
+#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
@@ -120,9 +121,24 @@ void add_vtk_cell(MeshBuilder& builder, std::int64_t type, std::span<const std::
 }
 
 void VtkCellPlaces::tag(MeshBuilder& builder, std::string_view name, std::span<const std::int64_t> values) const {
+  // bits of vtkGhostType; before version 7 VTK counted layers of copies
+  constexpr std::int64_t duplicate_cell = 1, hidden_cell = 32;
+  const bool are_bits = name == "vtkGhostType", are_layers = name == "vtkGhostLevels";
+  if (are_bits || are_layers) {
+    for (std::size_t c = 0; c < count(); ++c)
+      for (std::size_t cell = next_[c]; cell < next_[c + 1]; ++cell)
+        if (are_layers ? values[c] > 0 : (values[c] & (duplicate_cell | hidden_cell)) != 0) builder.leave_out(cell);
+    return;
+  }
   const std::size_t column = builder.tags().column(name, false);
   for (std::size_t c = 0; c < count(); ++c)
     for (std::size_t cell = next_[c]; cell < next_[c + 1]; ++cell) builder.tags().set(column, cell, values[c]);
+}
+
+void note_ghost_cells(MeshBuilder& builder) {
+  if (const std::size_t count = builder.left_out_count(); count != 0)
+    builder.add_notice(
+        fmt::format("left out {}: copies of cells of other pieces, or hidden ones", counted(count, "ghost cell")));
 }
 
 }  // namespace dartboard

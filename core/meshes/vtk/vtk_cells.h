@@ -34,7 +34,8 @@ class VtkCellPlaces {
   /// Call before each cell and after the last.
   void mark(const MeshBuilder& builder) { next_.push_back(builder.cell_count()); }
   std::size_t count() const { return next_.empty() ? 0 : next_.size() - 1; }
-  /// Give every cell its number in the column of a name.
+  /// Give every cell its number in the column of a name. VTK marks cells in a column of a name of its own: those that
+  /// are copies of cells of another piece, or hidden, are left out.
   ///
   /// pre  values.size() == count()
   void tag(MeshBuilder& builder, std::string_view name, std::span<const std::int64_t> values) const;
@@ -42,5 +43,8 @@ class VtkCellPlaces {
  private:
   std::vector<std::size_t> next_;
 };
+
+/// Say in a notice how many cells were left out.
+void note_ghost_cells(MeshBuilder& builder);
 
 }  // namespace dartboard

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/vtk/vtk_cells.h"
 #include "core/meshes/vtk/vtk_formats.h"
 #include "core/meshes/vtk/vtk_legacy_cells.h"
@@ -54,17 +55,18 @@ struct Header {
 Header read_header(TextScanner& scan, FileNumbers& numbers) {
   const std::string_view first = scan.rest_of_line();
   constexpr std::string_view magic = "# vtk DataFile Version ";
-  if (!first.starts_with(magic)) scan.fail(fmt::format("found {}", in_quotes(first)), "'# vtk DataFile Version x.y'");
+  if (!same_letters(first.substr(0, magic.size()), magic))
+    scan.fail(fmt::format("found {}", in_quotes(first)), "'# vtk DataFile Version x.y'");
   const std::string version(first.substr(magic.size()));
   if (version.empty() || version[0] < '1' || version[0] > '5' || (version.size() > 1 && version[1] != '.'))
     scan.fail(fmt::format("version {}", in_quotes(version)), "version 1.0 to 5.1");
   scan.rest_of_line();  // the title, which may be anything
-  const std::string_view encoding = scan.token("the word ASCII or BINARY");
+  const std::string encoding = upper(scan.token("the word ASCII or BINARY"));
   if (encoding == "BINARY") numbers.set_binary(true);
   if (encoding != "ASCII" && encoding != "BINARY")
     scan.fail(fmt::format("found {}", in_quotes(encoding)), "the word ASCII or BINARY");
-  scan.keyword("DATASET");
-  const std::string_view dataset = scan.token("the kind of data set");
+  scan.keyword("DATASET", LetterCase::any);
+  const std::string dataset = upper(scan.token("the kind of data set"));
   if (dataset != "UNSTRUCTURED_GRID" && dataset != "POLYDATA")
     scan.fail(fmt::format("found the data set {}", in_quotes(dataset)), "UNSTRUCTURED_GRID or POLYDATA");
   return {.version = version, .is_grid = dataset == "UNSTRUCTURED_GRID"};
@@ -87,7 +89,7 @@ void read_grid(TextScanner& scan, FileNumbers& numbers, bool has_offsets, VtkCel
   VtkLegacyCells cells;
   bool has_points = false, has_types = false;
   while (!(has_points && has_types)) {
-    const std::string_view keyword = scan.token("POINTS, CELLS and CELL_TYPES");
+    const std::string keyword = upper(scan.token("POINTS, CELLS and CELL_TYPES"));
     if (keyword == "POINTS") has_points = true;
     if (keyword == "CELLS") {
       cells.read(scan, numbers, keyword, has_offsets);
@@ -115,8 +117,8 @@ void read_polygons(TextScanner& scan, FileNumbers& numbers, bool has_offsets, Vt
                       {"LINES", vtk_poly_line},
                       {"POLYGONS", vtk_polygon},
                       {"TRIANGLE_STRIPS", vtk_triangle_strip}};
-  while (!scan.at_end() && scan.peek() != "CELL_DATA" && scan.peek() != "POINT_DATA") {
-    const std::string_view keyword = scan.token("a list");
+  while (!scan.at_end() && !same_letters(scan.peek(), "CELL_DATA") && !same_letters(scan.peek(), "POINT_DATA")) {
+    const std::string keyword = upper(scan.token("a list"));
     const auto list = std::ranges::find(lists, keyword, &PolyList::keyword);
     if (list != std::end(lists))
       list->cells.read(scan, numbers, keyword, has_offsets);
@@ -138,6 +140,7 @@ std::string read_vtk_legacy(std::string_view text, MeshBuilder& builder) {
   VtkCellPlaces places;
   (header.is_grid ? read_grid : read_polygons)(scan, numbers, header.has_offsets(), places, builder);
   read_vtk_legacy_data(scan, numbers, places, builder);
+  note_ghost_cells(builder);
   return fmt::format("legacy VTK {}{}{}", header.version, header.is_grid ? "" : " polygons",
                      numbers.is_binary() ? " binary" : "");
 }

@@ -29,7 +29,7 @@ void read_lists(FileNumbers& numbers, std::uint64_t count, std::uint64_t size, V
 /// Version 5: where each cell starts and, at last, ends; then the points of all cells.
 void read_offsets(TextScanner& scan, FileNumbers& numbers, std::uint64_t count, std::uint64_t size,
                   VtkLegacyCells& cells) {
-  scan.keyword("OFFSETS");
+  scan.keyword("OFFSETS", LetterCase::any);
   const Scalar offset_type = read_vtk_legacy_type(scan, "the type of the offsets");
   numbers.begin();
   cells.start.clear();
@@ -46,7 +46,7 @@ void read_offsets(TextScanner& scan, FileNumbers& numbers, std::uint64_t count, 
     numbers.fail(fmt::format("the last offset is {}", cells.start.back()),
                  fmt::format("{}, the length of CONNECTIVITY", size));
 
-  scan.keyword("CONNECTIVITY");
+  scan.keyword("CONNECTIVITY", LetterCase::any);
   const Scalar type = read_vtk_legacy_type(scan, "the type of the connectivity");
   numbers.begin();
   cells.all_points.reserve(numbers.plausible(size, size_of(type), 2));

@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/vtk/vtk_legacy_types.h"
 
 namespace dartboard {
 namespace {
 
-constexpr std::string_view keywords[] = {"POINTS",        "CELLS",       "CELL_TYPES", "METADATA",        "FIELD",
-                                         "VERTICES",      "LINES",       "POLYGONS",   "TRIANGLE_STRIPS", "POINT_DATA",
-                                         "CELL_DATA",     "SCALARS",     "VECTORS",    "NORMALS",         "TENSORS",
-                                         "COLOR_SCALARS", "LOOKUP_TABLE"};
+constexpr std::string_view keywords[] = {
+    "POINTS",  "CELLS",    "CELL_TYPES",      "METADATA",      "FIELD",        "VERTICES",
+    "LINES",   "POLYGONS", "TRIANGLE_STRIPS", "POINT_DATA",    "CELL_DATA",    "SCALARS",
+    "VECTORS", "NORMALS",  "TENSORS",         "COLOR_SCALARS", "LOOKUP_TABLE", "TEXTURE_COORDINATES"};
 
-bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != std::end(keywords); }
+bool is_keyword(std::string_view word) { return std::ranges::find(keywords, upper(word)) != std::end(keywords); }
 
 /// Data of POINT_DATA or CELL_DATA, one tuple for each of `count` things.
 struct Data {
@@ -43,19 +44,22 @@ void read_values(Data& d, std::string_view name, Scalar type, std::uint64_t comp
   d.places.tag(d.builder, name, values);
 }
 
-/// How many components a line still names; one where it names none.
-std::uint64_t read_components(TextScanner& scan) {
-  const std::uint64_t components = scan.more_on_line() ? scan.count("the number of components") : 1;
+std::uint64_t checked_components(const TextScanner& scan, std::uint64_t components) {
   constexpr std::uint64_t most = 1u << 20;  // far beyond any: 9 make a tensor
   if (components > most) scan.fail(fmt::format("{} components", components), fmt::format("at most {}", most));
   return components;
+}
+
+/// How many components a line still names; one where it names none.
+std::uint64_t read_components(TextScanner& scan) {
+  return scan.more_on_line() ? checked_components(scan, scan.count("the number of components")) : 1;
 }
 
 void read_field(Data& d) {
   d.scan.token("the name of a field");
   const std::uint64_t arrays = d.scan.count("the number of arrays");
   for (std::uint64_t k = 0; k < arrays; ++k) {
-    if (!d.scan.at_end() && d.scan.peek() == "METADATA") {
+    if (!d.scan.at_end() && same_letters(d.scan.peek(), "METADATA")) {
       d.scan.token("METADATA");
       skip_vtk_metadata(d.scan);
     }
@@ -74,22 +78,37 @@ void read_field(Data& d) {
   }
 }
 
+/// Colours are bytes in a binary file and numbers from 0 to 1 in a text, with no type that says so.
+void skip_colours(Data& d, std::uint64_t components, std::uint64_t tuples) {
+  d.numbers.begin();
+  for (std::uint64_t k = 0; k < components; ++k) d.numbers.skip(Scalar::uint8, tuples, "a colour");
+}
+
 /// One attribute, whose keyword was read; false when it is none that is known.
 bool read_attribute(Data& d, std::string_view keyword) {
   if (keyword == "FIELD") {
     read_field(d);
     return true;
   }
+  if (keyword == "LOOKUP_TABLE" || keyword == "COLOR_SCALARS") {
+    d.scan.token("the name of colours");
+    const std::uint64_t number = d.scan.count("the number of colours, or of their components");
+    keyword == "LOOKUP_TABLE" ? skip_colours(d, 4, number)
+                              : skip_colours(d, checked_components(d.scan, number), d.count);
+    return true;
+  }
   const bool is_vector = keyword == "VECTORS" || keyword == "NORMALS";
   const bool is_index = keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS";
-  if (keyword != "SCALARS" && keyword != "TENSORS" && !is_vector && !is_index) return false;
+  const bool is_texture = keyword == "TEXTURE_COORDINATES", is_tensor = keyword == "TENSORS" || keyword == "TENSORS6";
+  if (keyword != "SCALARS" && !is_tensor && !is_texture && !is_vector && !is_index) return false;
   const std::string name(d.scan.token("the name of data"));
+  std::uint64_t components = is_vector ? 3 : keyword == "TENSORS" ? 9 : is_tensor ? 6 : 1;
+  if (is_texture) components = checked_components(d.scan, d.scan.count("the number of texture coordinates"));
   const auto type = vtk_legacy_type(d.scan.token("the type of data"));
   if (!type) return false;
-  std::uint64_t components = is_vector ? 3 : keyword == "TENSORS" ? 9 : 1;
   if (keyword == "SCALARS") {
     components = read_components(d.scan);
-    if (d.scan.peek() == "LOOKUP_TABLE") {
+    if (same_letters(d.scan.peek(), "LOOKUP_TABLE")) {
       d.scan.token("LOOKUP_TABLE");
       d.scan.token("the name of a lookup table");
     }
@@ -118,7 +137,7 @@ void skip_vtk_field(TextScanner& scan, FileNumbers& numbers) {
 void read_vtk_legacy_data(TextScanner& scan, FileNumbers& numbers, const VtkCellPlaces& places, MeshBuilder& builder) {
   Data d{scan, numbers, places, builder};
   while (!scan.at_end()) {
-    const std::string keyword(scan.token("data"));
+    const std::string keyword = upper(scan.token("data"));
     if (keyword == "METADATA") {
       skip_vtk_metadata(scan);
     } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {

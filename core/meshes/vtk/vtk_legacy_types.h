@@ -9,7 +9,8 @@
 
 namespace dartboard {
 
-/// Nothing for types that are no numbers of whole bytes: bits, strings, variants.
+/// The type of a name, in capitals or small letters; nothing for types that are no numbers of whole bytes: bits,
+/// strings, variants.
 std::optional<Scalar> vtk_legacy_type(std::string_view name);
 
 /// The type that is named next.

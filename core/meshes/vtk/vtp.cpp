@@ -47,6 +47,7 @@ std::string read_vtp(std::string_view text, MeshBuilder& builder) {
     const VtkPiece piece = find_vtk_piece(file, number, names);
     add_cells(file, number, piece, add_vtk_points(file, piece, builder), builder);
   }
+  note_ghost_cells(builder);
   return "VTP";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -124,21 +125,12 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   }
 }
 
-std::vector<std::uint32_t> file_numbers(const LoadedMesh& loaded, const TouchingCells& touching) {
-  if (loaded.place_of_point.empty()) return {};
-  std::vector<std::uint32_t> number(loaded.mesh.points.size());
-  for (std::uint32_t k = static_cast<std::uint32_t>(loaded.place_of_point.size()); k-- > 0;)  // of several the first
-    if (loaded.place_of_point[k] != LoadedMesh::dropped) number[loaded.place_of_point[k]] = k;
-  const std::size_t kept = number.size() - touching.copied.size();
-  for (std::size_t k = 0; k < touching.copied.size(); ++k) number[kept + k] = number[touching.copied[k]];
-  return number;
-}
-
 std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
   const auto& file = std::get<std::filesystem::path>(body.mesh);
-  LoadedMesh loaded = read_mesh(file);
+  LoadedMesh loaded = read_mesh(file, {.weld = body.weld});
   const std::size_t points = loaded.mesh.points.size();
   TouchingCells touching = split_touching_points(loaded.mesh);
+  loaded.copied = touching.copied;
   if (touching.any()) {
     if (loaded.place_of_point.empty()) {
       loaded.place_of_point.resize(points);
@@ -146,10 +138,9 @@ std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
     }
     const std::string notice = to_string(touching, loaded.place_of_point);
     if (!body.split_touching)
-      throw IoError(fmt::format("{}: {}; expected none, or \"touching\": \"split\"", file.string(), notice));
+      throw InputError(fmt::format("{}: {}; expected none, or \"touching\": \"split\"", file.string(), notice));
     loaded.notices.push_back(notice);
   }
-  loaded.file_number = file_numbers(loaded, touching);
   return {std::move(loaded), std::move(touching)};
 }
 
@@ -158,6 +149,17 @@ std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
 LoadedMesh read_body_mesh(const BodySource& body) { return read_and_split(body).first; }
 
 namespace {
+
+/// Nothing for a mesh that is refused: whoever makes the body meets the reason again, and says which key asked for it.
+std::optional<std::pair<LoadedMesh, TouchingCells>> read_or_nothing(const BodySource& body) {
+  try {
+    return read_and_split(body);
+  } catch (const IoError&) {
+    return std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
 
 /// Which body a number counts in is not said; what is told by place is clear.
 void require_no_point_numbers(SceneFile& scene) {
@@ -173,34 +175,33 @@ void load_bodies(SceneFile& scene, BodyList& bodies) {
   require_no_point_numbers(scene);
   for (BodySource& body : bodies.all) {
     if (!std::holds_alternative<std::filesystem::path>(body.mesh)) continue;
-    try {
-      body.loaded = std::make_shared<LoadedMesh>(read_body_mesh(body));
-    } catch (const IoError&) {
-      return;
-    }
+    auto read = read_or_nothing(body);
+    if (!read) return;
+    body.loaded = std::make_shared<LoadedMesh>(std::move(read->first));
   }
   resolve_tags(scene);
 }
 
 }  // namespace
 
-std::span<const std::uint32_t> file_numbers(const SceneFile& scene) {
-  if (!scene.body.loaded) return {};
-  return scene.body.loaded->file_number;
-}
-
 void load_mesh(SceneFile& scene) {
   if (auto* bodies = std::get_if<BodyList>(&scene.body.mesh)) return load_bodies(scene, *bodies);
   if (!std::holds_alternative<std::filesystem::path>(scene.body.mesh)) return resolve_tags(scene);
-  try {
-    auto [loaded, touching] = read_and_split(scene.body);
-    if (!loaded.place_of_point.empty()) renumber(scene, loaded.place_of_point);
-    if (const Places places(loaded, touching); places.any()) name_all_vertices(scene, places);
-    scene.body.loaded = std::make_shared<LoadedMesh>(std::move(loaded));
-    resolve_tags(scene);
-  } catch (const IoError&) {
-    return;
-  }
+  auto read = read_or_nothing(scene.body);
+  if (!read) return;
+  auto& [loaded, touching] = *read;
+  if (!loaded.place_of_point.empty()) renumber(scene, loaded.place_of_point);
+  if (const Places places(loaded, touching); places.any()) name_all_vertices(scene, places);
+  scene.body.loaded = std::make_shared<LoadedMesh>(std::move(loaded));
+  resolve_tags(scene);
+}
+
+std::size_t number_in_file(const SceneFile& scene, std::uint32_t point) {
+  return scene.body.loaded ? scene.body.loaded->number_in_file(point) : point;
+}
+
+std::vector<std::uint32_t> numbers_in_file(const SceneFile& scene) {
+  return scene.body.loaded ? scene.body.loaded->numbers_in_file() : std::vector<std::uint32_t>{};
 }
 
 }  // namespace dartboard

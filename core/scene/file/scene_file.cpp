@@ -208,10 +208,12 @@ class Reader {
     BodySource source{
         {}, json.at("scale"), point(json.at("translate")), json.at("touching") == "split", rotation(json, path)};
     source.path = path;
+    if (json.contains("weld")) source.weld = json.at("weld").get<double>();
     if (json.contains("mesh")) {
       source.mesh = folder_ / json.at("mesh").get<std::string>();
       return source;
     }
+    if (source.weld) fail(path + "/weld", "is given for a mesh that is generated", "'mesh', or no 'weld'");
     const Json& generate = json.at("generate");
     if (generate.contains("box")) {
       const Json& box = generate.at("box");

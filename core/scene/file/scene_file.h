@@ -84,6 +84,7 @@ struct BodySource {
   std::string path = "/body";
   std::optional<Material> material{};
   std::optional<InitialVelocity> velocity{};
+  std::optional<double> weld{};  // [units of the file] points of the mesh file that are at most so far apart are one
 };
 
 /// Cells that are made of something else than the body around them.

@@ -119,6 +119,10 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "what is done where cells of a mesh file touch in a point or an edge without sharing a face: nothing holds "
                "them together there, and a point becomes as many vertices as it has groups of cells; or the scene is "
                "refused"},
+      {.shape = body, .name = "weld", .type = real, .range = positive,
+       .help = "points of a mesh file that are at most this far apart, in its units, before scaling, become one: the seam "
+               "between them is closed; each of their numbers stands for it. Refused where two corners of a cell would "
+               "be one"},
       {.shape = generate, .name = "box", .type = object, .of = box_mesh, .help = "a box with a corner at the origin"},
       {.shape = generate, .name = "sheet", .type = object, .of = sheet_mesh,
        .help = "a rectangle in the plane z = 0 with a corner at the origin"},

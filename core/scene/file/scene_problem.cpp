@@ -51,8 +51,8 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
     if (release == nullptr) continue;
     for (const std::uint32_t p : select_points(release->vertices, points, event.path + "/release"))
       if (std::ranges::find(driven, p) != driven.end())
-        throw InputError(
-            fmt::format("{}/release: selects point {}, which /driven moves; expected fixed ones alone", event.path, p));
+        throw InputError(fmt::format("{}/release: selects point {}, which /driven moves; expected fixed ones alone",
+                                     event.path, number_in_file(scene, p)));
   }
 }
 

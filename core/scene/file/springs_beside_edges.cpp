@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/plain/error.h"
+#include "core/scene/file/load_mesh.h"
 
 namespace dartboard {
 namespace {
@@ -57,7 +58,7 @@ void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
       if (!is_first && !(tilt <= largest_tilt))
         fail(scene, "/bending/rigidity",
              fmt::format("{}, and the surface is bent by {:.3g} at the edge of points {} and {} at rest", found, tilt,
-                         at->first.first, at->first.second),
+                         number_in_file(scene, at->first.first), number_in_file(scene, at->first.second)),
              "a flat sheet");
     }
   }

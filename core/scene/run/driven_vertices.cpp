@@ -4,6 +4,7 @@
 
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
+#include "core/scene/file/load_mesh.h"
 #include "core/scene/file/step_times.h"
 
 namespace dartboard {
@@ -41,13 +42,14 @@ void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen
     for (const std::uint32_t p : drives_[d].points) {
       if (fixed[p])
         throw InputError(fmt::format("{}: drives point {}, and /fixed holds it still; expected one of them",
-                                     scene.driven[d].path, p));
+                                     scene.driven[d].path, number_in_file(scene, p)));
       for (const std::size_t other : met[p])
         if (drives_[d].first < drives_[other].last && drives_[other].first < drives_[d].last)
           throw InputError(fmt::format(
               "{}: drives point {} from {:.6g} to {:.6g} s, and {} from {:.6g} to {:.6g} s; expected one at a time",
-              scene.driven[d].path, p, scene.driven[d].from, scene.driven[d].until.value_or(scene.duration),
-              scene.driven[other].path, scene.driven[other].from, scene.driven[other].until.value_or(scene.duration)));
+              scene.driven[d].path, number_in_file(scene, p), scene.driven[d].from,
+              scene.driven[d].until.value_or(scene.duration), scene.driven[other].path, scene.driven[other].from,
+              scene.driven[other].until.value_or(scene.duration)));
       met[p].push_back(d);
     }
 }

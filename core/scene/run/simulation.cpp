@@ -93,8 +93,7 @@ Simulation::Simulation(const SceneFile& scene)
       unstable_step_(scene.unstable_step) {
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.dimension();
-  const std::span<const std::uint32_t> numbers = file_numbers(scene);
-  file_number_.assign(numbers.begin(), numbers.end());
+  file_number_ = numbers_in_file(scene);
   const CellMaterials materials = problem.cell_materials();
   for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
     if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];

@@ -18,6 +18,7 @@
 #include "tests/support/meshes/meshb_samples.h"
 #include "tests/support/meshes/pvtu_samples.h"
 #include "tests/support/meshes/vtk_polygon_samples.h"
+#include "tests/support/meshes/writer_samples.h"
 
 #ifndef DARTBOARD_FUZZ_ROUNDS
 #define DARTBOARD_FUZZ_ROUNDS 1
@@ -64,7 +65,16 @@ std::vector<Sample> all_samples(const std::filesystem::path& folder) {
                           {std::string(vtp_ascii), MeshFormat::vtp},
                           {std::string(vtk_polygons), MeshFormat::vtk_legacy},
                           {vtk_polygons_binary(false), MeshFormat::vtk_legacy},
-                          {vtk_polygons_binary(true), MeshFormat::vtk_legacy}};
+                          {vtk_polygons_binary(true), MeshFormat::vtk_legacy},
+                          {std::string(medit_of_mmg), MeshFormat::medit},
+                          {std::string(medit_of_bamg), MeshFormat::medit},
+                          {std::string(gmsh2_of_groups), MeshFormat::gmsh},
+                          {std::string(vtk_of_freefem), MeshFormat::vtk_legacy},
+                          {std::string(vtk_in_small_letters), MeshFormat::vtk_legacy},
+                          {std::string(off_of_one_line), MeshFormat::off},
+                          {std::string(stl_in_capitals), MeshFormat::stl},
+                          {std::string(obj_in_the_plane), MeshFormat::obj},
+                          {std::string(vtu_with_ghosts), MeshFormat::vtk_legacy}};
   for (const int version : {1, 2, 3, 4}) all.push_back({meshb(version, version == 3), MeshFormat::medit});
   write_pieces(folder);
   all.push_back({pvtu((folder / "a.vtu").string(), (folder / "b.vtu").string()), MeshFormat::pvtu});
@@ -136,6 +146,8 @@ class Mutator {
                                            "-9223372036854775808",
                                            "6148914691236517206",
                                            "1e999",
+                                           "1D0",
+                                           "1.0D-999",
                                            "-1e999",
                                            "1e-999",
                                            "1e300",
@@ -188,6 +200,16 @@ bool is_well_formed(const std::string& message) {
   return message.starts_with("file:") && message.find("; expected ") != message.npos;
 }
 
+/// Welding, and keeping crossed cells, end in a mesh or in a reason too.
+void read_otherwise(const std::string& text, MeshFormat format) {
+  try {
+    parse_mesh(text, format, "file", {.weld = 0.25, .keep_crossed = true});
+  } catch (const IoError&) {
+  } catch (const InputError& error) {
+    ASSERT_TRUE(is_well_formed(error.what())) << error.what();
+  }
+}
+
 class MeshFuzz : public FolderTest {};
 
 TEST_F(MeshFuzz, EveryMutationIsReadSoundlyOrRefusedWithAReason) {
@@ -197,6 +219,7 @@ TEST_F(MeshFuzz, EveryMutationIsReadSoundlyOrRefusedWithAReason) {
     ASSERT_EQ(flaw(parse_mesh(sample.text, sample.format, "file").mesh), "");
     for (std::size_t k = 0; k < mutations_per_sample; ++k, ++seed) {
       const std::string text = Mutator(seed).mutate(sample.text);
+      read_otherwise(text, sample.format);
       try {
         const LoadedMesh loaded = parse_mesh(text, sample.format, "file");
         ASSERT_EQ(flaw(loaded.mesh), "") << "seed " << seed << "\n" << text;

@@ -156,9 +156,10 @@ TEST(MeshCheck, NotesPointsThatCoincideAsInATornBody) {
   points[7] = points[1];
   LoadedMesh loaded = mesh_of(points, {{CellKind::tetrahedron, {0, 1, 3, 4}}});
   check_and_repair(loaded, "file");
-  EXPECT_EQ(
-      loaded.notices,
-      (std::vector<std::string>{"1 point coincides with another one, as in a torn body; for example points 1 and 7"}));
+  EXPECT_EQ(loaded.notices,
+            (std::vector<std::string>{
+                "1 point coincides with another one, as in a torn body; for example points 1 and 7; --weld "
+                "2e-06, or \"weld\": 2e-06 in the body of a scene, would join them"}));
 }
 
 }  // namespace

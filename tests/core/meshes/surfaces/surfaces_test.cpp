@@ -59,10 +59,6 @@ TEST(Stl, RefusesAFileThatEndsWithinASolid) {
               "the text ends here; expected facet or");
 }
 
-TEST(Stl, RefusesAFacetThatIsALine) {
-  expect_part(refusal(with(stl_text, "vertex 1 0 0", "vertex 1 1 0"), MeshFormat::stl), "has the point 1 twice");
-}
-
 // ---- OBJ
 
 TEST(Obj, CountsCornersFromTheFirstPointOrBackFromTheLast) {

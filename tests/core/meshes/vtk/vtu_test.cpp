@@ -34,8 +34,8 @@ TEST(Vtu, PutsPiecesOneAfterTheOther) {
 }
 
 TEST(Vtu, RefusesAnotherKindOfFile) {
-  expect_part(refused(with(vtu_ascii, "\"UnstructuredGrid\"", "\"PolyData\"")),
-              "file:3: found <'VTKFile'> of type 'PolyData'");
+  expect_part(refused(with(vtu_ascii, "\"UnstructuredGrid\"", "\"ImageData\"")),
+              "file:3: found <'VTKFile'> of type 'ImageData'");
   expect_part(refused("not xml at all"), "file:1: this is not XML: syntax error");
 }
 

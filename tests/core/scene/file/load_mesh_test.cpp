@@ -61,6 +61,17 @@ TEST(PointNumbers, OfPointsThatBelongToNoCellAreRefused) {
   }
 }
 
+TEST(PointNumbers, AreThoseOfTheFileInMessages) {
+  const Folder folder(R"("fixed": [{"ids": [4]}], "driven": [{"ids": [4], "velocity": [0, 0, 1]}])");
+  try {
+    Simulation simulation(folder.scene());
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("drives point 4, and /fixed holds it still"), std::string::npos)
+        << error.what();
+  }
+}
+
 /// Two tetrahedra that touch at point 0, the second with the corner of its right angle there.
 struct TouchingFolder {
   fs::path path = fs::temp_directory_path() / (std::to_string(getpid()) + "-touching");
@@ -98,7 +109,8 @@ TEST(TouchingScene, IsRefusedWhereItAsksForThat) {
   try {
     Simulation simulation(folder.scene());
     FAIL() << "no error";
-  } catch (const IoError& error) {
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("/body/mesh: "), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("two.mesh: cells touch at 1 point"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("expected none, or \"touching\": \"split\""), std::string::npos);
   }
@@ -129,6 +141,89 @@ TEST(TouchingScene, DoesNotTakeTheNumberOfASplitPointForOneOfTheFile) {
     EXPECT_NE(std::string(error.what()).find("/fixed/0/ids/0: is 7; expected a point of the mesh, less than 7"),
               std::string::npos)
         << error.what();
+  }
+}
+
+// ---- seams
+
+/// Two cubes, 1e-9 apart, after a point of no cell: points 2, 4, 6 and 8 of the first are met by 9, 11, 13 and 15.
+struct SeamFolder {
+  fs::path path = fs::temp_directory_path() / (std::to_string(getpid()) + "-seam");
+  explicit SeamFolder(const std::string& body, const std::string& keys = "") {
+    fs::create_directories(path);
+    std::ofstream mesh(path / "two.mesh");
+    mesh << "MeshVersionFormatted 2\nDimension 3\nVertices\n17\n9 9 9 0\n";
+    for (const char* x : {"0 1", "1.000000001 2"})
+      for (const char* yz : {" 0 0 0\n", " 1 0 0\n", " 0 1 0\n", " 1 1 0\n"}) {
+        const std::string low_high = x;
+        mesh << low_high.substr(0, low_high.find(' ')) << yz << low_high.substr(low_high.find(' ') + 1) << yz;
+      }
+    mesh << "Hexahedra\n2\n2 3 5 4 6 7 9 8 0\n10 11 13 12 14 15 17 16 0\nEnd\n";
+    std::ofstream(path / "scene.json") << R"({"name": "x", "body": {)" << body
+                                       << R"(}, "step": 0.001, "duration": 0.01)" << keys << "}";
+  }
+  ~SeamFolder() { fs::remove_all(path); }
+  SceneFile scene() const { return read_scene(path / "scene.json"); }
+  std::string refused() const {
+    try {
+      Simulation simulation(scene());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return "";
+  }
+};
+
+TEST(SeamScene, IsOpenUnlessItAsksForWelding) {
+  EXPECT_EQ(Simulation(SeamFolder(R"("mesh": "two.mesh")").scene()).body().counts().components, 2u);
+  const CellCounts counts = Simulation(SeamFolder(R"("mesh": "two.mesh", "weld": 1e-6)").scene()).body().counts();
+  EXPECT_EQ(counts.components, 1u);
+  EXPECT_EQ(counts.vertices, 12u);
+}
+
+TEST(SeamScene, IsWeldedInTheUnitsOfTheFile) {
+  EXPECT_EQ(
+      Simulation(SeamFolder(R"("mesh": "two.mesh", "weld": 1e-6, "scale": 1e-6)").scene()).body().counts().components,
+      1u);
+  EXPECT_EQ(
+      Simulation(SeamFolder(R"("mesh": "two.mesh", "weld": 1e-12, "scale": 1e-6)").scene()).body().counts().components,
+      2u);
+}
+
+TEST(SeamScene, KnowsWeldedPointsByEachOfTheirNumbers) {
+  const SeamFolder folder(R"("mesh": "two.mesh", "weld": 1e-6)",
+                          R"(, "fixed": [{"ids": [1, 9, 10]}], "output": {"probes": [{"name": "p", "vertex": 15},
+                             {"name": "q", "vertex": 16}]})");
+  const SceneFile scene = folder.scene();
+  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0)).ids, (std::vector<std::uint32_t>{0, 1, 8}));
+  const Simulation simulation(scene);
+  EXPECT_EQ(simulation.probes().probes.at(0)->position, Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(simulation.probes().probes.at(1)->position, Eigen::Vector3d(2, 1, 1));
+}
+
+TEST(SeamScene, IsRefusedWhereACellWouldLoseACorner) {
+  const std::string said = SeamFolder(R"("mesh": "two.mesh", "weld": 1.5)").refused();
+  EXPECT_NE(said.find("/body/mesh: "), std::string::npos) << said;
+  EXPECT_NE(said.find("two.mesh:25: cell 1 (hexahedron) would lose a corner"), std::string::npos) << said;
+}
+
+TEST(SeamScene, HasAMeshFile) {
+  const std::string said =
+      SeamFolder(R"("generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}, "weld": 1)").refused();
+  EXPECT_NE(said.find("/body/weld: is given for a mesh that is generated"), std::string::npos) << said;
+}
+
+// ---- cells that cross themselves
+
+TEST(CrossedScene, IsRefusedWithSpringsAsWithElements) {
+  const SeamFolder folder(R"("mesh": "voxel.obj")");
+  std::ofstream(folder.path / "voxel.obj") << "v 0 0 0\nv 2.5 0 0\nv 0 3 0\nv 2 2.6 0\nf 1 2 3 4\n";
+  try {
+    Simulation simulation(folder.scene());
+    FAIL() << "no error";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("voxel.obj:5: 1 cell is crossed"), std::string::npos) << error.what();
   }
 }
 

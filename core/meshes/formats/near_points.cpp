@@ -1,0 +1,90 @@
+#include "core/meshes/formats/near_points.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+namespace dartboard {
+namespace {
+
+/// Boxes of a grid that is wider than the distance looked for, so that most points are in few of them. Their numbers
+/// are whole, and doubles, as some are beyond all integers.
+using Box = std::array<double, 3>;
+struct BoxHash {
+  std::size_t operator()(const Box& box) const {
+    std::uint64_t hash = 0;
+    for (const double k : box) hash = (hash ^ std::bit_cast<std::uint64_t>(k + 0.0)) * 0x9E3779B97F4A7C15u;
+    return static_cast<std::size_t>(hash ^ hash >> 32);
+  }
+};
+
+double width_of_boxes(std::span<const Eigen::Vector3d> points, double near, double spacing) {
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& x : points) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  const double wide = spacing > 0.0 ? spacing : 1e-7 * farthest;
+  const double width = near > 0.0 ? std::min(64.0 * near, std::max(4.0 * near, wide)) : wide;
+  // so that numbers of boxes are finite
+  return std::max({width, 1e-290 * farthest, std::numeric_limits<double>::min()});
+}
+
+}  // namespace
+
+void for_near_points(std::span<const Eigen::Vector3d> points, double near, double spacing,
+                     const std::function<void(std::uint32_t, std::uint32_t, double)>& found) {
+  const double width = width_of_boxes(points, near, spacing);
+  std::unordered_map<Box, std::vector<std::uint32_t>, BoxHash> boxes;
+  for (std::uint32_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3d& at = points[k];
+    // a point is in its own box alone, and looks into the one or two along each axis that its neighbours can be in
+    const auto box_of = [width](const Eigen::Vector3d& x) {
+      return Box{std::floor(x.x() / width), std::floor(x.y() / width), std::floor(x.z() / width)};
+    };
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(near);
+    const Box ends[] = {box_of(at - margin), box_of(at + margin)};
+    for (int corner = 0; corner < 8; ++corner) {
+      Box box{};
+      bool is_new = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool is_high = (corner >> axis & 1) != 0;
+        box[axis] = ends[is_high][axis];
+        is_new = is_new && !(is_high && ends[0][axis] == ends[1][axis]);
+      }
+      const auto there = is_new ? boxes.find(box) : boxes.end();
+      if (there == boxes.end()) continue;
+      for (const std::uint32_t other : there->second)
+        if (const double distance = (at - points[other]).norm(); distance <= near) found(other, k, distance);
+    }
+    boxes[box_of(at)].push_back(k);
+  }
+}
+
+double seam_distance(std::span<const Eigen::Vector3d> points, double shortest_edge) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& x : points) box.extend(x);
+  const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  const double near = std::min(1e-6 * size, 1e-3 * shortest_edge);
+  return std::isfinite(near) ? near : 0.0;
+}
+
+CellEdge shortest_edge(const Mesh& mesh) {
+  CellEdge shortest{std::numeric_limits<double>::infinity(), 0, 0, 0};
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const auto nodes = mesh.cell(c);
+    for (const auto& face : faces_of(mesh.kinds[c]))
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        const std::uint32_t a = nodes[static_cast<std::size_t>(face[k])],
+                            b = nodes[static_cast<std::size_t>(face[(k + 1) % face.size()])];
+        if (a == b) continue;
+        if (const double length = (mesh.points[b] - mesh.points[a]).norm(); length < shortest.length)
+          shortest = {length, c, a, b};
+      }
+  }
+  return shortest;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,128 @@
+// Cells whose corners do not go round their faces. Which cells elements refuse, a test of elements holds against this.
+
+#include "core/meshes/formats/crossed_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "core/meshes/generators/mesh_generators.h"
+#include "tests/support/meshes/mesh_samples.h"
+
+namespace dartboard {
+namespace {
+
+using namespace samples;
+using Nodes = std::vector<std::uint32_t>;
+
+const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
+CrossedCells of_cell(CellKind kind, const Nodes& nodes, const std::vector<Eigen::Vector3d>& points = cube) {
+  Mesh mesh;
+  mesh.points = points;
+  mesh.add_cell(kind, nodes);
+  return find_crossed_cells(mesh);
+}
+
+constexpr std::string_view voxels = R"(MeshVersionFormatted 2 Dimension 3 Vertices 12
+0 0 0 0
+1.1 0 0 0
+0 1 0.1 0
+1 1 0 0
+0 0 1 0
+1 0 1.1 0
+0 1 1 0
+1 1.1 1 0
+0 0 2 0
+1 0 2 0
+0 1 2 0
+1 1 2 0
+Hexahedra 2
+1 2 4 3 5 6 8 7 0
+5 6 7 8 9 10 11 12 0
+End
+)";
+
+TEST(CrossedCells, AreThoseOfEveryKindInVoxelOrder) {
+  for (const auto& [kind, nodes, swap] :
+       {std::tuple{CellKind::hexahedron, Nodes{0, 1, 3, 2, 4, 5, 7, 6},
+                   "swap the third and fourth, and the seventh and eighth points"},
+        {CellKind::hexahedron, Nodes{0, 1, 3, 2, 4, 5, 6, 7},
+         "swap the third and fourth points of each such cell, or give it VTK's type"},
+        {CellKind::hexahedron, Nodes{0, 1, 2, 3, 4, 5, 7, 6}, "swap the seventh and eighth points"},
+        {CellKind::pyramid, Nodes{0, 1, 3, 2, 4}, "swap the third and fourth points"},
+        {CellKind::prism, Nodes{0, 1, 3, 4, 7, 5}, "swap the fifth and sixth points"},
+        {CellKind::quadrilateral, Nodes{0, 1, 3, 2}, "swap the third and fourth"}}) {
+    const CrossedCells crossed = of_cell(kind, nodes);
+    EXPECT_EQ(crossed.cells, (Nodes{0})) << name(kind);
+    EXPECT_EQ(crossed.voxel_order, 1u) << name(kind);
+    EXPECT_EQ(crossed.found(),
+              "1 cell is crossed, with corners that do not go round its faces: cell 0; it looks like "
+              "voxel order");
+    expect_part(crossed.remedy(), std::string("corners in the order of Gmsh and VTK: ") + swap);
+  }
+}
+
+TEST(CrossedCells, AreNotThoseOfEitherHand) {
+  for (const auto& [kind, nodes] : {std::pair{CellKind::hexahedron, Nodes{4, 5, 6, 7, 0, 1, 2, 3}},
+                                    {CellKind::hexahedron, Nodes{0, 1, 2, 3, 4, 5, 6, 7}},
+                                    {CellKind::pyramid, Nodes{0, 3, 2, 1, 6}},
+                                    {CellKind::prism, Nodes{0, 3, 1, 4, 7, 5}},
+                                    {CellKind::tetrahedron, Nodes{0, 3, 1, 4}},
+                                    {CellKind::quadrilateral, Nodes{3, 2, 1, 0}}})
+    EXPECT_FALSE(of_cell(kind, nodes).any()) << name(kind);
+  for (const Mesh& mesh : {mixed_box(2, 2, 2, 1.0), hexahedron_box(2, 1, 1, 1e-6), quad_sheet(3, 2, 1e6)})
+    EXPECT_FALSE(find_crossed_cells(mesh).any());
+}
+
+// A corner in the middle of the edge between its neighbours, and beyond it: an arrow.
+TEST(CrossedCells, AreNotQuadrilateralsWithOneCornerThatTurnsBack) {
+  for (const double at : {0.5, 0.3}) {
+    const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {at, at, 0}, {0, 1, 0}};
+    EXPECT_FALSE(of_cell(CellKind::quadrilateral, {0, 1, 2, 3}, points).any()) << at;
+  }
+}
+
+TEST(CrossedCells, AreNotHexahedraWithAnEdgeThatIsFlatAtItsEnd) {
+  auto points = cube;
+  points[6] = {0.5, 0.5, 1};  // in the middle of its neighbours: the Jacobian there is zero
+  EXPECT_FALSE(of_cell(CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}, points).any());
+}
+
+TEST(CrossedCells, OfEqualLobesHaveNoMeasureAndAreCrossedAllTheSame) {
+  for (const auto& [kind, nodes] :
+       {std::pair{CellKind::quadrilateral, Nodes{0, 1, 3, 2}}, {CellKind::hexahedron, Nodes{0, 1, 3, 2, 4, 5, 7, 6}}}) {
+    LoadedMesh loaded = parse_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3 4\n", MeshFormat::obj, "file",
+                                   {.weld = {}, .keep_crossed = true});
+    EXPECT_EQ(loaded.crossed.cells, (Nodes{0}));
+    EXPECT_TRUE(of_cell(kind, nodes).any());
+  }
+}
+
+TEST(CrossedCells, WithoutVolumeAreFlatAndNotCrossed) {
+  auto points = cube;
+  for (auto& x : points) x.z() = 0;
+  EXPECT_FALSE(of_cell(CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}, points).any());
+}
+
+TEST(CrossedCells, AreRefusedWithTheLineOfTheFirstAndTheNumbersOfAll) {
+  expect_part(refusal(voxels, MeshFormat::medit),
+              "file:16: 1 cell is crossed, with corners that do not go round its faces: cell 1; it looks like voxel "
+              "order; expected corners in the order of Gmsh and VTK: swap the third and fourth, and the seventh");
+  const auto both = with(voxels, "1 2 4 3 5 6 8 7", "1 2 3 4 5 6 7 8");
+  expect_part(
+      refusal(both, MeshFormat::medit),
+      "file:15: 2 cells are crossed, with corners that do not go round their faces: cells 0, 1; they look like");
+}
+
+TEST(CrossedCells, AreListedWhereTheyAreKept) {
+  const LoadedMesh loaded = parse_mesh(voxels, MeshFormat::medit, "file", {.weld = {}, .keep_crossed = true});
+  EXPECT_EQ(loaded.mesh.cell_count(), 2u);
+  EXPECT_EQ(loaded.crossed.cells, (Nodes{1}));
+  EXPECT_EQ(loaded.crossed.voxel_order, 1u);
+}
+
+}  // namespace
+}  // namespace dartboard
