@@ -14,8 +14,6 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 8>;
 
-const double near_end = 0.5 + 0.5 / std::sqrt(3.0), far_end = 1.0 - near_end;  // shares of the ends at a Gauss point
-
 Corners corners_of(const Mesh& mesh, std::size_t c) {
   Corners x{};
   for (std::size_t k = 0; k < mesh.cell(c).size(); ++k) x[k] = mesh.points[mesh.cell(c)[k]];
@@ -67,6 +65,7 @@ double size_of_cell(const Corners& x, std::size_t corners) {
 Signs signs_of_volume(CellKind kind, const Corners& corners) {
   const double size = size_of_cell(corners, static_cast<std::size_t>(node_count(kind)));
   const double rounding = 1e-14 * size * size * size;
+  const double near_end = 0.5 + 0.5 / std::sqrt(3.0), far_end = 1.0 - near_end;  // shares at a Gauss point
   Signs signs;
   Corners x = corners;
   if (kind == CellKind::pyramid) x[5] = x[6] = x[7] = x[4];  // one side drawn together

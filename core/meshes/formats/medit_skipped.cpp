@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "core/meshes/text/letter_case.h"
+
 namespace dartboard {
 namespace {
 
@@ -127,7 +129,9 @@ bool is_of_a_family(std::string_view keyword) {
 }
 
 bool starts_a_word(std::string_view token) {
-  return !token.empty() && ((token[0] >= 'A' && token[0] <= 'Z') || (token[0] >= 'a' && token[0] <= 'z'));
+  const bool begins_with_a_letter =
+      !token.empty() && ((token[0] >= 'A' && token[0] <= 'Z') || (token[0] >= 'a' && token[0] <= 'z'));
+  return begins_with_a_letter && !same_letters(token, "nan") && !same_letters(token, "inf");
 }
 
 void skip_numbers(TextScanner& scan, std::uint64_t lines, std::uint64_t width, const std::string& wanted) {

@@ -228,8 +228,8 @@ void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<con
   check_points(e);
   check_nodes(e);
   check_repeated_cells(e);
+  check_crossed(e, keep_crossed);  // before faces: those of crossed cells are not what they should be
   loaded.mesh.dimension() == 3 ? check_faces(e) : check_edges(e);
-  check_crossed(e, keep_crossed);
   check_measures(e);
   if (std::string notice = open_seams(loaded); !notice.empty()) loaded.notices.push_back(std::move(notice));
 }

@@ -115,7 +115,7 @@ bool is_binary(std::string_view text) {
 }  // namespace
 
 std::string read_stl(std::string_view text, MeshBuilder& builder) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");  // blanks, and a byte order mark
   const bool begins_as_text = begin != text.npos && same_letters(text.substr(begin, 5), "solid");
   return is_binary(text) || !begins_as_text ? read_binary(text, builder) : read_text(text, builder);
 }

@@ -60,6 +60,10 @@ TEST(MeditSkipped, NormalsInThePlaneHaveTwoNumbers) {
   expect_square(medit_mesh(std::string(medit_of_bamg) + "Normals 1 0 1 Tangents 1 1 0 End"));
 }
 
+TEST(MeditSkipped, SolutionsMayHaveValuesThatAreNoNumbers) {
+  expect_two_tetrahedra(medit_mesh(with(medit, "End", "SolAtVertices 5 1 1 1 nan -nan inf 0.5 End")));
+}
+
 TEST(MeditSkipped, TextsEndWithTheirQuoteOrTheirLine) {
   for (const char* text :
        {"Identifier \"a b\" ", "Identifier a b\n", "Geometry \"\" ", "Comments 2\nEnd of\n\"a b\"\n"})
@@ -163,6 +167,7 @@ TEST(StlText, MayBeInCapitals) {
   expect_square(loaded);
   EXPECT_EQ(loaded.format, "STL");
   EXPECT_EQ(loaded.tags.at(0).values, (std::vector<std::int32_t>{1, 1}));
+  expect_square(parse_mesh("\xEF\xBB\xBF" + std::string(stl_in_capitals), MeshFormat::stl, "file"));
 }
 
 TEST(StlFacets, WithTwoEqualCornersAreLeftOut) {
