@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -12,6 +13,7 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/scene/body/simulated_body.h"
+#include "core/scene/file/scene_problem.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard {
@@ -140,6 +142,52 @@ TEST(HeldVertices, AreFreeOnceTheyAreLetGo) {
 TEST(HeldVertices, AreNoneOfABodyThatIsFree) {
   const Frame f = Simulation(showing(moving_box(), R"(["held"])")).frame();
   EXPECT_EQ(f.held, std::vector<std::uint8_t>(27, 0));
+}
+
+// ---- numbers and order
+
+TEST(FramePoints, AreThoseOfTheMeshInItsOrderUntilSomethingComesApart) {
+  const SceneFile scene = parse(with_events(
+      moving_box(), R"([{"at": 0.002, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}])"));
+  const Mesh mesh = make_mesh(scene);
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.frame().mesh.points, mesh.points);
+  for (int n = 0; n < 2; ++n) ASSERT_FALSE(simulation.advance());
+  const Frame f = simulation.frame();
+  ASSERT_EQ(f.mesh_point.size(), 27u + 9u);
+  EXPECT_TRUE(std::ranges::is_sorted(f.mesh_point));
+  for (std::size_t k = 0; k < f.mesh_point.size(); ++k) {
+    const double x = mesh.points[static_cast<std::size_t>(f.mesh_point[k])].x();
+    EXPECT_EQ(std::ranges::count(f.mesh_point, f.mesh_point[k]), x == 0.125 ? 2 : 1) << k;
+  }
+}
+
+// Everything that has a row for each point goes along, and cells and lines name the points where they are then.
+TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
+  Frame f;
+  f.mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  f.mesh.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{0, 1, 3});
+  f.mesh_point = {1, -1, 0, 1};  // the second was put in by refinement, the first and the last are parts of one
+  f.links = {{0, 2}};
+  f.springs = {{3, 1}};
+  for (std::vector<double>* column :
+       {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
+    *column = {0, 1, 2, 3};
+  f.held = {0, 1, 2, 3};
+  for (auto* column : {&f.velocity, &f.displacement, &f.contact_force}) *column = f.mesh.points;
+  const std::vector<std::uint32_t> number{7, 5};
+  put_in_order(f, number);
+  EXPECT_EQ(f.mesh_point, (std::vector<std::int64_t>{5, 5, 7, -1}));
+  const std::vector<double> order{0, 3, 2, 1};
+  EXPECT_EQ(f.held, (std::vector<std::uint8_t>{0, 3, 2, 1}));
+  for (const std::vector<double>* column :
+       {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
+    EXPECT_EQ(*column, order);
+  for (const auto* column : {&f.mesh.points, &f.velocity, &f.displacement, &f.contact_force})
+    for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ((*column)[k].x(), order[k]);
+  EXPECT_EQ(f.mesh.nodes, (std::vector<std::uint32_t>{0, 3, 1}));
+  EXPECT_EQ(f.links[0], (std::array<std::uint32_t, 2>{0, 2}));
+  EXPECT_EQ(f.springs[0], (std::array<std::uint32_t, 2>{1, 3}));
 }
 
 // ---- stress
