@@ -12,8 +12,8 @@
 namespace dartboard {
 
 /// A target of ours, or what the paper says of maps and bodies, holds or falls short. What the paper says of the times
-/// of its machine holds here too or does not carry over: that is a finding, and no failure. Each may be undecided, where
-/// what was measured leaves it open, or not tested, for a reason.
+/// of its machine holds here too or does not carry over: that is a finding, and no failure. Each may be undecided,
+/// where what was measured leaves it open, or not tested, for a reason.
 enum class Verdict { holds, falls_short, does_not_carry_over, undecided, not_tested };
 
 /// "holds", "falls short", "does not carry over", "undecided", "not tested".

@@ -60,8 +60,8 @@ void Progress::print(std::string_view detail) {
   // the first step may prepare what the others use, so they are timed by themselves
   const std::string left =
       done_ < 2 ? "" : time_left(done_ - 1, total_ - 1, 1e-9 * static_cast<double>(now - first_ns_));
-  const std::string counted = total_ > 0 ? fmt::format("{}/{}{}", done_, total_, left)
-                                         : fmt::format("{} done in {:.0f} s", done_, elapsed_s);
+  const std::string counted =
+      total_ > 0 ? fmt::format("{}/{}{}", done_, total_, left) : fmt::format("{} done in {:.0f} s", done_, elapsed_s);
   std::string line = terminal_text(fmt::format("{}: {}{}{}", label_, counted, detail.empty() ? "" : "  ", detail));
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);

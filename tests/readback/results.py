@@ -91,12 +91,6 @@ def fnv1a(words, fold):
     return value
 
 
-def state_hash(frame):
-    """Of a frame's positions and velocities, in words of 8 bytes, folded (core/topology/storage/hash.h)."""
-    words = np.concatenate([np.ascontiguousarray(c, dtype="<f8").view("<u8").ravel() for c in (frame.x, frame.v)])
-    return "%016x" % fnv1a((int(w) for w in words), lambda value: value ^ value >> 32)
-
-
 def file_hash(path):
     """Of a file's bytes, as it is defined."""
     with open(path, "rb") as file:

@@ -34,9 +34,10 @@ struct Recommendation {
 ///
 /// 1. features of the scene, and of this machine;
 /// 2. explicit methods, those first that are cheapest as a rule: three to five pilots with h, h/2 and h/4, ... until
-///    their order shows, from the largest stable step on (`pilot_prefix`); those are left out of which even the largest stable step costs more than what
-///    was found before. On stiff scenes they would use up the time for pilots: they leave a part of it, and implicit
-///    methods that the law (4.) gives far less than what the first of them takes come before the second;
+///    their order shows, from the largest stable step on (`pilot_prefix`); those are left out of which even the largest
+///    stable step costs more than what was found before. On stiff scenes they would use up the time for pilots: they
+///    leave a part of it, and implicit methods that the law (4.) gives far less than what the first of them takes come
+///    before the second;
 /// 3. methods that choose their steps, where they might win: pilots with three or four tolerances;
 /// 4. implicit methods by the break-even law: steps that the motion needs at their order, times the cost of a step;
 ///    only those that might beat the cheapest explicit one get pilots;

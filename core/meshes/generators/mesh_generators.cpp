@@ -116,9 +116,8 @@ Mesh tetrahedron_box(const char* who, std::array<int, 3> n, double spacing, doub
 }  // namespace
 
 Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {
-  return tetrahedron_box(
-      "kuhn_box", {nx, ny, nz}, spacing, jitter, seed,
-      [](Mesh& mesh, auto, auto, auto, const Corners& corner) { add_kuhn_cube(mesh, corner); });
+  return tetrahedron_box("kuhn_box", {nx, ny, nz}, spacing, jitter, seed,
+                         [](Mesh& mesh, auto, auto, auto, const Corners& corner) { add_kuhn_cube(mesh, corner); });
 }
 
 Mesh mirrored_box(int nx, int ny, int nz, double spacing, double jitter, std::uint64_t seed) {

@@ -226,8 +226,6 @@ class Reader {
       require_room(box.at("cells"), path + "/generate/box/cells", most);
       if (box.at("kind") != "tetrahedra" && box.at("jitter").get<double>() != 0.0)
         fail(path + "/generate/box/jitter", "is " + shown(box.at("jitter")), "0: only boxes of tetrahedra can have it");
-      if (box.at("kind") != "tetrahedra" && box.at("pattern") == "kuhn")
-        fail(path + "/generate/box/pattern", "is \"kuhn\"", "a box of tetrahedra with it");
     } else if (generate.contains("sheet")) {
       const Json& sheet = generate.at("sheet");
       source.mesh = SheetMesh{sheet.at("cells"), sheet.at("spacing"), sheet.at("kind")};

@@ -74,8 +74,8 @@ bool has_columns_of_its_size(const Frame& frame) {
   const bool is_chain = !frame.links.empty();
   const auto is = [](std::size_t size, bool asked, std::size_t expected) { return size == (asked ? expected : 0); };
   const bool has_stress = fields.stress && !is_chain;
-  return frame.velocity.size() == points && frame.mesh_point.size() == points && frame.mass.size() == points &&
-         frame.mesh_cell.size() == cells && frame.component.size() == cells &&
+  return frame.velocity.size() == points && (frame.mesh_point.empty() || frame.mesh_point.size() == points) &&
+         frame.mass.size() == points && frame.mesh_cell.size() == cells && frame.component.size() == cells &&
          (frame.material.empty() || frame.material.size() == cells) && is(frame.held.size(), fields.held, points) &&
          is(frame.largest_principal_stress.size(), has_stress, points) &&
          is(frame.largest_stress_magnitude.size(), has_stress, points) &&
@@ -141,7 +141,7 @@ std::string to_vtu(const Frame& frame) {
   out += "      </Cells>\n      <PointData Vectors=\"velocity\" Scalars=\"mass\">\n";
   append_array(out, "velocity", frame.velocity);
   append_array(out, "mass", frame.mass);
-  append_array(out, "mesh_point", frame.mesh_point);
+  if (!frame.mesh_point.empty()) append_array(out, "mesh_point", frame.mesh_point);
   const FrameFields& fields = frame.fields;
   const bool is_chain = !frame.links.empty();
   if (fields.held) append_array(out, "held", frame.held);

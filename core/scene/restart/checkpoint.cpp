@@ -116,9 +116,10 @@ SceneFile Checkpoint::scene() const {
   std::error_code error;
   const std::string now = fs::is_regular_file(path, error) ? contents_of(path, "a scene") : origin_.text;
   if (!says_the_same(now) && !lasts_longer(now))
-    throw InputError(fmt::format("{}: has changed since the run in {} began; expected it as it was, or with a longer "
-                                 "'duration' and nothing else changed: restore it, or start a new run with --out",
-                                 path.string(), file_.parent_path().string()));
+    throw InputError(
+        fmt::format("{}: has changed since the run in {} began; expected it as it was, or with a longer "
+                    "'duration' and nothing else changed: restore it, or start a new run with --out",
+                    path.string(), file_.parent_path().string()));
   SceneFile scene = parse_scene(lasts_longer(now) ? now : origin_.text, path.string(), folder);
   load_mesh(scene);
   reseed(scene, origin_.added_seed);

@@ -38,7 +38,8 @@ double mass_unaccounted_for(double start, double removed, double end);
 /// Run to the end, to `most_steps`, until the watcher interrupts it or a StopRequest (stop_request.h) a step, or until
 /// the motion diverges. The first state is always handed out, and the last; after a divergence the last good one.
 ///
-/// Checkpoints are where the plan has them, and then at the end too; and where the run is interrupted, unless a stop has
+/// Checkpoints are where the plan has them, and then at the end too; and where the run is interrupted, unless a stop
+/// has
 /// cost a step its factor (Simulation::undo_stopped_step). One that is continued, with a simulation that was loaded,
 /// goes on after the progress of that checkpoint.
 RunResult run_scene(Simulation& simulation, const OutputPlan& plan, RunWatcher& watcher,

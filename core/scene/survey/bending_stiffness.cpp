@@ -15,7 +15,9 @@
 namespace dartboard {
 namespace {
 
-constexpr double worth_a_warning = 1.25;  // times too stiff
+constexpr double worth_a_warning = 1.25;       // times too stiff
+constexpr double slender = 3.0;                // a body so many times as long as it is thin bends, a block does not
+constexpr double nearly_incompressible = 0.4;  // and above this any change of shape is too stiff
 
 CellPattern pattern_of(CellKind kind, bool mirrored) {
   switch (kind) {
@@ -29,6 +31,7 @@ CellPattern pattern_of(CellKind kind, bool mirrored) {
 /// Cells by the size of what they would be part of in a box.
 struct Size {
   double extent;  // [m] the smallest of a block with the cells' principal moments
+  double length;  // [m] the largest
   double cube;    // [m] the edge of the cube that a cell is cut from, in the mean
 };
 Size size_of(const Mesh& mesh, std::size_t first, std::size_t end) {
@@ -52,8 +55,9 @@ Size size_of(const Mesh& mesh, std::size_t first, std::size_t end) {
     corners /= static_cast<double>(mesh.cell(c).size()) * (mesh.kinds[c] == CellKind::tetrahedron ? 5.0 : 3.0);
     moments += std::abs(signed_measure(mesh, c)) * ((centre - mean) * (centre - mean).transpose() + corners);
   }
-  const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments / volume).eigenvalues()[0];
-  return {std::sqrt(12.0 * std::max(0.0, least)), std::cbrt(volume / cubes)};
+  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments / volume).eigenvalues();
+  const auto extent = [](double moment) { return std::sqrt(12.0 * std::max(0.0, moment)); };
+  return {extent(principal[0]), extent(principal[2]), std::cbrt(volume / cubes)};
 }
 
 }  // namespace
@@ -65,16 +69,19 @@ std::string_view name(CellPattern pattern) {
 }
 
 double bending_stiffness(CellPattern pattern, double poisson, double across) {
-  // 1 + shear / n^2 + volume / n * (lambda / mu)^power: bending that linear elements follow by shear, and a change of
-  // volume that each resists with lambda
+  // bending that linear elements follow by shear, and a change of volume that each resists with lambda
   struct Fit {
-    double shear, volume, power;
+    double shear, volume, power, thin;
   };
-  constexpr std::array<Fit, 5> fits{
-      {{1.6, 0.56, 0.7}, {2.7, 0.03, 0.4}, {0.5, 0.067, 0.866}, {0.2, 0.36, 0.3}, {0.3, 0.13, 0.5}}};
+  constexpr std::array<Fit, 5> fits{{{1.6, 0.45, 0.7, 1.0},
+                                     {2.8, 0.02, 0.1, 0.0},
+                                     {0.6, 0.09, 0.83, 0.0},
+                                     {0.1, 0.25, 0.34, 0.0},
+                                     {0.2, 0.05, 0.5, 8.0}}};
   const Fit& fit = fits[static_cast<std::size_t>(pattern)];
   const double lambda_over_mu = 2.0 * poisson / (1.0 - 2.0 * poisson);
-  return 1.0 + fit.shear / (across * across) + fit.volume / across * std::pow(lambda_over_mu, fit.power);
+  const double in_each = 1.0 / across + fit.thin / (across * across);
+  return 1.0 + fit.shear / (across * across) + fit.volume * in_each * std::pow(lambda_over_mu, fit.power);
 }
 
 std::string to_string(const StiffBody& body) {
@@ -119,7 +126,8 @@ std::vector<StiffBody> find_stiff_bodies(const SceneFile& scene, const Problem& 
     }
     if (!(volume > 0.0)) continue;
     worst.stiffness = stiffness / volume;
-    if (worst.stiffness >= worth_a_warning) found.push_back(worst);
+    const bool bends = size.length >= slender * size.extent;
+    if (worst.stiffness >= worth_a_warning && (bends || worst.poisson > nearly_incompressible)) found.push_back(worst);
   }
   return found;
 }

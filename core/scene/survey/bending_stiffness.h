@@ -17,8 +17,8 @@ std::string_view name(CellPattern pattern);
 
 /// The stiffness of a beam of such cells in bending, over the right one.
 ///
-/// A fit to cantilevers of 4 and 8 cells across, Poisson's ratio 0.3 to 0.4999 (tests/core/scene/survey/values.h):
-/// deflections are within 0.06 of theirs, and the stiffness within a third.
+/// A fit to cantilevers of 2 to 8 cells across and Poisson's ratios from 0.3 to 0.4999
+/// (tests/core/scene/survey/bending_stiffness_test.cpp): deflections are within 0.06 of theirs.
 /// pre  0 <= poisson < 0.5, across >= 1
 double bending_stiffness(CellPattern pattern, double poisson, double across);
 
@@ -34,7 +34,8 @@ struct StiffBody {
 /// bending ..., take ..."
 std::string to_string(const StiffBody& body);
 
-/// The bodies whose elements are expected to be stiffer by a quarter or more.
+/// The bodies whose elements are expected to be stiffer by a quarter or more, and that are slender or have a Poisson's
+/// ratio above 0.4.
 ///
 /// "Across" is the smallest extent of a block with the body's principal moments, over the edge of the cube that a cell
 /// is a part of. It is coarse where a body is thin in one place and thick in another.

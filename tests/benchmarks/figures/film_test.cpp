@@ -141,8 +141,7 @@ TEST_F(FilmFiles, ShowEachFrameFromItsOwnData) {
 TEST_F(FilmFiles, AreOneFileOnceTheyAreDrawn) {
   const Film film = film_of(moving_box(), 3);
   ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
-    EXPECT_EQ(entry.path().filename(), "film.gif");
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) EXPECT_EQ(entry.path().filename(), "film.gif");
 }
 
 TEST_F(FilmFiles, AreNotDrawnWithoutGnuplotAndTheReasonIsTold) {

@@ -9,7 +9,8 @@ namespace dartboard {
 namespace {
 
 struct Parts {
-  std::string body = R"({"generate": {"box": {"cells": [4, 4, 24], "spacing": 0.01, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
+  std::string body =
+      R"({"generate": {"box": {"cells": [4, 4, 24], "spacing": 0.01, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
   std::string material = R"({"density": 1100, "young": 2e5, "poisson": 0.3, "viscosity": 0})";
   std::string fixed = R"([{"plane": {"point": [0, 0, 3.2399], "normal": [0, 0, 1]}}])";
   std::string more{};
@@ -76,7 +77,8 @@ TEST(BarOfScene, RefusesWhatIsNoBarHeldAtOneEnd) {
   EXPECT_NE(refusal(soft).find("bar.json: /material/young: is missing"), std::string::npos);
   pulled.more = R"("driven": [{"plane": {"point": [0, 0, 3], "normal": [0, 0, -1]}, "velocity": [0, 0, 1]}],)";
   EXPECT_NE(refusal(pulled).find("bar.json: /driven: moves vertices"), std::string::npos);
-  cube.body = R"({"generate": {"box": {"cells": [4, 4, 4], "spacing": 0.06, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
+  cube.body =
+      R"({"generate": {"box": {"cells": [4, 4, 4], "spacing": 0.06, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
   EXPECT_NE(refusal(cube).find("bar.json: /body/generate/box/cells: make a box of 1 x 1 x 1"), std::string::npos);
   mixed.more = R"("regions": [{"cells": {"ids": [0]}, "material": {"young": 3e5}}],)";
   EXPECT_EQ(refusal(mixed), "bar.json: /regions/0/material: is one material of several; expected a bar of one");

@@ -210,10 +210,10 @@ TEST(ExtremesRounding, HoldsOfARandomWalk) {
 // Two standard errors on either side have to be within 0.4 .. 0.6, or without.
 TEST(ExtremesRounding, IsNotJudgedByAnExponentThatTheStartsDoNotSettle) {
   for (const auto& [exponent, error, verdict] : {std::tuple(0.45, 0.02, Verdict::holds),
-                                                 {0.45, 0.03, Verdict::not_tested},
-                                                 {0.55, 0.03, Verdict::not_tested},
-                                                 {0.35, 0.03, Verdict::not_tested},
-                                                 {0.65, 0.03, Verdict::not_tested},
+                                                 {0.45, 0.03, Verdict::undecided},
+                                                 {0.55, 0.03, Verdict::undecided},
+                                                 {0.35, 0.03, Verdict::undecided},
+                                                 {0.65, 0.03, Verdict::undecided},
                                                  {0.35, 0.02, Verdict::falls_short},
                                                  {0.65, 0.02, Verdict::falls_short},
                                                  {0.5, nan, Verdict::falls_short}}) {

@@ -35,11 +35,11 @@ TEST(RealTime, DoesNotCarryOverWhereItTakesMore) {
   const Claim claim = answer_real_time(rounds(150.0), false);  // 1660
   EXPECT_EQ(claim.verdict, Verdict::does_not_carry_over);
   EXPECT_EQ(exit_code(std::span(&claim, 1)), 1);
-  EXPECT_EQ(answer_real_time(rounds(150.0), true).verdict, Verdict::not_tested);
+  EXPECT_EQ(answer_real_time(rounds(150.0), true).verdict, Verdict::undecided);
 }
 
 TEST(RealTime, IsOpenWhereTheIntervalLiesOnBothSides) {
-  EXPECT_EQ(answer_real_time(rounds(120.0, 0.1), false).verdict, Verdict::not_tested);
+  EXPECT_EQ(answer_real_time(rounds(120.0, 0.1), false).verdict, Verdict::undecided);
 }
 
 TEST(RealTime, IsMeasuredOnBodiesThatGrowUntilAFrameTakesTooLong) {

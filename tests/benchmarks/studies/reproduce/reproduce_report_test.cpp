@@ -37,7 +37,7 @@ TEST(PaperClaims, ThatAreNotMetFallShortOfBodiesAndDoNotCarryOverOfTimes) {
     const Claim met = answered(row.id, Met::yes, "", ""), missed = answered(row.id, Met::no, "", ""),
                 open = answered(row.id, Met::open, "", "");
     EXPECT_EQ(met.verdict, Verdict::holds) << row.id;
-    EXPECT_EQ(open.verdict, Verdict::not_tested) << row.id;
+    EXPECT_EQ(open.verdict, Verdict::undecided) << row.id;
     EXPECT_FALSE(open.reason.empty()) << row.id;
     EXPECT_EQ(missed.reason, row.does_not_carry_over) << row.id;
     EXPECT_EQ(missed.verdict, row.about == About::bodies ? Verdict::falls_short : Verdict::does_not_carry_over)
@@ -253,7 +253,7 @@ TEST(ReproduceTimes, ThatAreOthersDoNotCarryOver) {
 TEST(ReproduceTimes, FallOnBothSidesOfABoundWithoutAVerdict) {
   // 1.12 (1 +- 0.05): the median misses 1.10 and the interval reaches it
   const auto claims = answer_time(timed(12.0, 12.0, 8.0, 8.0, 1.12, 1.0, 0.02));
-  EXPECT_EQ(one(claims, "arrays-overhead").verdict, Verdict::not_tested);
+  EXPECT_EQ(one(claims, "arrays-overhead").verdict, Verdict::undecided);
   EXPECT_EQ(exit_code(answer_time(timed(12.0, 12.0, 8.0, 8.0, 1.3, 1.0, 0.02))), 1);
 }
 
@@ -273,7 +273,7 @@ TEST(ReproduceTimes, OfAQuickRunContradictNothingThatIsKnown) {
   ReproduceResults results = timed(11.3, 3.0, 8.5, 0.09, 1.3, 1.0, 0.02);
   results.quick = true;
   const auto claims = answer_time(results);
-  EXPECT_EQ(one(claims, "arrays-overhead").verdict, Verdict::not_tested);
+  EXPECT_EQ(one(claims, "arrays-overhead").verdict, Verdict::undecided);
   EXPECT_NE(one(claims, "arrays-overhead").reason.find("--quick"), std::string::npos);
   EXPECT_EQ(one(claims, "coverage-slower").verdict, Verdict::holds);
   EXPECT_EQ(one(claims, "paper-ladder").verdict, Verdict::does_not_carry_over);

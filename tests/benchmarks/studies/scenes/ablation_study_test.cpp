@@ -45,11 +45,11 @@ TEST(Ablation, DoesNotJudgeBesideABaselineThatIsTheSlowerOne) {
     return verdict_on_time({median, {low, high, 0.98, true}});
   };
   EXPECT_EQ(verdict(1.003, 0.999, 1.005), Verdict::holds);
-  EXPECT_EQ(verdict(1.003, 0.999, 1.006), Verdict::not_tested);
+  EXPECT_EQ(verdict(1.003, 0.999, 1.006), Verdict::undecided);
   EXPECT_EQ(verdict(0.998, 0.99, 1.001), Verdict::holds);
-  EXPECT_EQ(verdict(1.006, 1.003, 1.01), Verdict::not_tested);
+  EXPECT_EQ(verdict(1.006, 1.003, 1.01), Verdict::undecided);
   EXPECT_EQ(verdict(1.008, 1.0051, 1.01), Verdict::falls_short);
-  EXPECT_EQ(verdict(0.924, 0.916, 0.942), Verdict::not_tested);
+  EXPECT_EQ(verdict(0.924, 0.916, 0.942), Verdict::undecided);
 }
 
 TEST(Ablation, CountsTheBytesOfWhatABareSceneDoesNotAskFor) {

@@ -35,6 +35,8 @@ ScenePlan plan() {
   p.items = {{.part = Part::map, .what = "alphas", .why = "/events", .bytes = 100, .ns = 40.0},
              {.part = Part::marks, .what = "stamps", .why = "/output", .bytes = 20, .ns_below = 7.0}};
   p.left_out = {{"viscosity", "there is none"}};
+  p.selections = {{.path = "/fixed/0", .of_what = "vertices", .selected = 3, .all = 11, .just_outside = 1}};
+  p.remarks = {"the mesh leans"};
   return p;
 }
 
@@ -46,7 +48,7 @@ ScenePlan with_unplanned_springs() {
 
 const std::string heading =
     "box\ngeneral 3-g-map; 11 vertices, 12 edges, 13 faces, 14 cells, 15 darts; 16 steps of "
-    "0.125 s\n\n";
+    "0.125 s\n/fixed/0: 3 of 11 vertices\nthe mesh leans\n\n";
 
 std::string left_out_table() {
   Table table({{"left out"}, {"because"}});
@@ -166,6 +168,8 @@ TEST(ExplainJson, HoldsTheFiguresOfBodiesThatTouch) {
 Json expected() {
   return Json::parse(R"({"scene": "box", "map": "general 3-g-map", "integrator": "rk4", "steps": 16,
     "counts": {"vertices": 11, "edges": 12, "faces": 13, "cells": 14, "darts": 15}, "bytes": 120, "ns_per_step": 40.0,
+    "selections": [{"path": "/fixed/0", "of_what": "vertices", "selected": 3, "all": 11, "just_outside": 1}],
+    "remarks": ["the mesh leans"],
     "left_out": [{"what": "viscosity", "why": "there is none"}],
     "plan": [{"part": "map", "what": "alphas", "why": "/events", "bytes": 100, "ns_per_step": 40.0},
       {"part": "marks", "what": "stamps", "why": "/output", "bytes": 20, "ns_per_step": 0.0,

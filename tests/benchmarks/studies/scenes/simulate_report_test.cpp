@@ -146,7 +146,7 @@ TEST_F(SimulateReport, OfADivergenceSaysWhatIsKept) {
   expect_words(r, "\nThe motion " + to_string(*result_.divergence) +
                       ". The state of step 1, t = 0.75 s is kept, and what was written until then.\n");
   nlohmann::ordered_json json = to_json(r).at("divergence");
-  EXPECT_EQ(std::stod(json.at("value").get<std::string>()), 1e30);
+  EXPECT_EQ(json.at("value"), 1e30);
   json.erase("value");
   EXPECT_EQ(json, nlohmann::ordered_json::parse(R"({"step": 3, "time": 0.003, "quantity": "energy", "vertex": 7,
     "taken_back": 2, "kept_step": 1, "kept_time": 0.75})"));
@@ -158,8 +158,8 @@ TEST_F(SimulateReport, InJsonHasEveryFigure) {
   r.unjudged = "cut short";
   result_.interrupted = true;
   nlohmann::ordered_json expected = nlohmann::ordered_json::parse(R"({"scene": "box", "map": "", "integrator": "",
-    "steps": 3, "first": {}, "last": {}, "hash": "", "wall_s": 1.5, "cpu_s": 0.75, "mass_drift": 0.0,
-    "jumps": {}, "holds": false, "warnings": [], "idle_events": [],
+    "selections": [], "steps": 3, "first": {}, "last": {}, "hash": "", "wall_s": 1.5, "cpu_s": 0.75, "mass_drift": 0.0,
+    "jumps": {}, "holds": false, "divergence": null, "warnings": [], "idle_events": [],
     "expected": [{"what": "vertices", "expected": "27", "actual": "28", "holds": false},
       {"what": "cells", "expected": "48", "actual": "48", "holds": true}],
     "unjudged": "cut short", "interrupted": true, "folder": "out"})");
@@ -176,7 +176,7 @@ TEST_F(SimulateReport, InJsonHasEveryFigure) {
 TEST_F(SimulateReport, InJsonHoldsNothingWhereNothingWasExpected) {
   SimulationReport r = report();
   r.expected.clear();
-  EXPECT_FALSE(to_json(r).contains("holds"));
+  EXPECT_TRUE(to_json(r).at("holds").is_null());
   diverge();
   EXPECT_EQ(to_json(r).at("holds"), false);
 }

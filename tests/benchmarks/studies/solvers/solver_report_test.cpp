@@ -150,7 +150,7 @@ TEST(SolverClaims, DoNotJudgeTheLawWhereWhatEnclosesTheCrossoverDoesNotTell) {
   const auto untold_with = [](const std::function<void(Crossover&)>& spoil) {
     SolverResults r = good_results();
     spoil(r.crossovers[0]);
-    return ids_of(claims_of(r), Verdict::not_tested);
+    return ids_of(claims_of(r), Verdict::undecided);
   };
   EXPECT_EQ(untold_with([](Crossover& c) { c.predicted_phase = 1235.0; }), Ids{});
   EXPECT_EQ(untold_with([](Crossover& c) { c.predicted_phase = 1245.0; }), Ids{"break-even-law"});
@@ -186,7 +186,7 @@ TEST(SolverClaims, AreNotDecidedByMedians) {
     spoil(r);
     return find_claim(claims_of(r), id).verdict;
   };
-  const auto untold = Verdict::not_tested;
+  const auto untold = Verdict::undecided;
   EXPECT_EQ(verdict_with([](auto& r) { r.updates[0] = uneven(update(512, 4.0), "follows, AMD", 2.0); }, "update-512"),
             untold);
   EXPECT_EQ(verdict_with([](auto& r) { r.updates[0] = uneven(update(512, 5.1), "follows, AMD", 0.5); }, "update-512"),

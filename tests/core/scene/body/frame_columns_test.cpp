@@ -291,7 +291,7 @@ TEST(Displacement, IsFromWhereAVertexWasAtRestAfterCutsAndRefinementsToo) {
     // ten steps, each some 20 roundings of places and velocities below 1
     EXPECT_LE((f.displacement[k] - expected).norm(), 256 * u) << k;
     EXPECT_GT(f.displacement[k].norm(),
-              v.point[k] == 13 ? -1.0 : 1e-5);  // but for the one in the middle, all have moved
+              f.mesh_point[k] == 13 ? -1.0 : 1e-5);  // but for the one in the middle, all have moved
   }
 }
 

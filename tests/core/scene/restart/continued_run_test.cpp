@@ -30,8 +30,10 @@ Json with_body(Json scene, const char* generate) {
 }
 
 /// After every step but the last.
-void expect_same_wherever_interrupted(const Json& json) {
-  const SceneFile scene = parse(recorded_scene(json));
+void expect_same_wherever_interrupted(const Json& json, bool of_elements = false) {
+  Json recorded = recorded_scene(json);
+  if (of_elements) recorded["output"]["fields"] = {"held", "stress", "displacement"};  // there are no springs
+  const SceneFile scene = parse(recorded);
   const RecordedRun one = whole(scene);
   for (std::uint64_t n = 1; n < one.simulation->step_count(); ++n) {
     SCOPED_TRACE("interrupted after " + std::to_string(n));
@@ -60,7 +62,7 @@ TEST(ContinuedRun, OfABodyOfElementsIsTheSame) {
       scene["material"] = Json::parse(R"({"density": 768, "young": 2e4, "poisson": 0.3})");
       if (damped) scene["material"]["damping"] = Json::parse(R"({"ratio": 0.05, "frequency": 4})");
       scene["integrator"] = integrator;
-      expect_same_wherever_interrupted(scene);
+      expect_same_wherever_interrupted(scene, true);
     }
 }
 

@@ -37,7 +37,7 @@ TEST(LastGoodState, IsTheLastFrame) {
   ASSERT_GT(kept, 0.0);
   ASSERT_EQ(keeper.frames.size(), 2u);
   EXPECT_EQ(keeper.frames[1].time, kept);
-  EXPECT_EQ(keeper.frames[1].mesh.points, simulation.body().vertices().position);
+  EXPECT_EQ(keeper.frames[1].mesh.points, simulation.frame().mesh.points);
   EXPECT_EQ(keeper.times_of_diagnostics, (std::vector<double>{0.0, kept}));
   EXPECT_EQ(result.last.time, kept);
   EXPECT_EQ(simulation.time(), kept);

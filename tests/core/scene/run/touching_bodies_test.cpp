@@ -26,8 +26,8 @@ constexpr double g = 9.81;
 /// A cube of 0.1 m and 1 kg, and one of 0.08 m and 0.512 kg, a millimetre above its middle.
 Json small_on_large() {
   return Json::parse(R"({"name": "two cubes", "step": 0.0002, "duration": 0.05, "integrator": "verlet",
-    "bodies": [{"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.05}}},
-               {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.04}}, "translate": [0.01, 0.012, 0.101]}],
+    "bodies": [{"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.05, "pattern": "kuhn"}}},
+               {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.04, "pattern": "kuhn"}}, "translate": [0.01, 0.012, 0.101]}],
     "material": {"density": 1000, "young": 200000, "damping": 0, "viscosity": 0},
     "contact": {"pressure": 4000, "depth": 0.002, "bodies": "others"}})");
 }
