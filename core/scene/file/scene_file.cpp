@@ -470,15 +470,14 @@ class Reader {
 
   PolygonSelection polygon(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d> corners,
                            const std::string& path) const {
-    Eigen::Vector3d twice_area(0, 0, 0);
-    double around = 0.0;
+    double twice_area = 0.0, around = 0.0;  // the largest of a triangle with the first corner
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Eigen::Vector3d &here = corners[k], &next = corners[(k + 1) % corners.size()];
-      twice_area += (here - corners[0]).cross(next - corners[0]);
+      twice_area = std::max(twice_area, std::abs((here - corners[0]).cross(next - corners[0]).dot(along)));
       around += (next - here).norm();
     }
     constexpr double flat = 1e-9;
-    if (!(std::abs(twice_area.dot(along)) > flat * around * around))
+    if (!(twice_area > flat * around * around))
       fail(path, "has no area as seen along the plane's normal", "corners that enclose one");
     return {along, std::move(corners)};
   }

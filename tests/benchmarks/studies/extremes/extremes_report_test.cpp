@@ -47,6 +47,15 @@ TEST(ExtremesMatrix, HoldsWhereEveryRunIsRightOrSaysSo) {
   EXPECT_TRUE(forbidden_cells(results).empty());
 }
 
+TEST(ExtremesMatrix, DoesNotJudgeTheJudgesOfNoRun) {
+  ExtremeCell diagnosed = cell(ExtremeOutcome::diagnosed);
+  diagnosed.judged_by = JudgedBy::diagnosis;
+  const auto claims = claims_of(matrix({diagnosed}));
+  const auto judged = std::ranges::find(claims, "runs-are-judged", &Claim::id);
+  EXPECT_EQ(judged->verdict, Verdict::not_tested);
+  EXPECT_EQ(judged->reason, "no run ended without a diagnosis");
+}
+
 TEST(ExtremesMatrix, CountsSilentRunsAndCrashes) {
   for (const ExtremeOutcome outcome : {ExtremeOutcome::silent, ExtremeOutcome::crash}) {
     const auto results = matrix({cell(ExtremeOutcome::ok), cell(outcome), cell(ExtremeOutcome::ok)});

@@ -33,6 +33,14 @@ TEST(JudgesReport, HoldsWhereNineteenOfTwentyWrongIntegratorsAreSeen) {
   EXPECT_EQ(exit_code(claims_of(results(18))), 1);
 }
 
+TEST(JudgesReport, DoesNotTestAJudgeWhereBeingWrongChangedNothing) {
+  JudgesResults nothing = results(0);
+  for (JudgeTrial& trial : nothing.trials) trial.same = trial.right;
+  const Claim claim = claims_of(nothing)[0];
+  EXPECT_EQ(claim.verdict, Verdict::not_tested);
+  EXPECT_FALSE(claim.reason.empty());
+}
+
 TEST(JudgesReport, FallsShortWhereASoundStepIsBeyondItsBoundOrABoundIsLoose) {
   const auto verdict = [](double share) {
     JudgesResults r = results(20);
