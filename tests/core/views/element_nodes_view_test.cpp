@@ -368,8 +368,8 @@ TEST(SolidsOnAMap, HaveTheStressOfTheirLawAtEveryVertex) {
 TEST(SolidsOnAMap, HaveAFiniteStressWhenTheyAreSqueezedFlat) {
   const Mesh mesh = mixed_box(2, 2, 2, 0.1);
   SolidElements elements(mesh, Model::stvk);
-  auto& [body, view, term] = elements;
-  const ForceTerm* terms[] = {term.get()};
+  AdaptedBody<Map3>& body = elements.body;
+  const ForceTerm* terms[] = {elements.term.get()};
   const auto largest = [&](double squeezed) {
     for (std::size_t k = 0; k < body.vertices.size(); ++k)
       body.vertices.position[k] = mesh.points[body.vertices.point[k]].cwiseProduct(Eigen::Vector3d(1.1, 1, squeezed));

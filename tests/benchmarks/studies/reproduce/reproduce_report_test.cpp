@@ -2,6 +2,7 @@
 
 #include "benchmarks/studies/reproduce/reproduce_report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

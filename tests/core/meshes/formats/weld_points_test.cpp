@@ -2,6 +2,7 @@
 
 #include "core/meshes/formats/weld_points.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/meshes/generators/mesh_generators.h"
