@@ -1,5 +1,6 @@
 #include "core/elements/solids.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 

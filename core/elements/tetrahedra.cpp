@@ -1,5 +1,7 @@
 #include "core/elements/tetrahedra.h"
 
+#include <Eigen/LU>
+
 #include "core/elements/force_size.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
