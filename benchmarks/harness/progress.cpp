@@ -47,6 +47,10 @@ void Progress::advance(std::string_view detail) {
   print(detail);
 }
 
+void Progress::show(std::string_view detail) {
+  if (!quiet_) print(detail);
+}
+
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
   if (done == 0 || done >= total || elapsed_s < 0.5) return "";
   const double left_s = elapsed_s * static_cast<double>(total - done) / static_cast<double>(done);

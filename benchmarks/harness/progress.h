@@ -20,6 +20,8 @@ class Progress {
 
   /// One more step is done; `detail` says in a few words which.
   void advance(std::string_view detail = "");
+  /// Print at once how many are done, and what is being done.
+  void show(std::string_view detail);
 
  private:
   void print(std::string_view detail);

@@ -9,43 +9,65 @@ namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
-using Mobility = std::span<const double>;
-using Fixed = std::span<const std::uint8_t>;
+using InverseMass = std::span<const double>;
+using Fixed = const HeldVertices&;
 
 // Sweeps over contacts that share vertices in one step, the next step going on from there; and the change of a force,
 // relative to what it has at most, that ends them.
 constexpr int most_sweeps = 4;
 constexpr double settled = 1e-12;
 
-double mobility_of(std::uint32_t i, Mobility inverse_mass, Fixed fixed) {
-  return !fixed.empty() && fixed[i] != 0 ? 0.0 : inverse_mass[i];
+double mobility_of(std::uint32_t i, InverseMass inverse_mass, Fixed fixed) {
+  return fixed.is_still(i) ? 0.0 : inverse_mass[i];
 }
 
-/// What a force at the sample accelerates its place by [1/kg]: each node has 1/n of it, and 1/n of the place.
-double mobility_of(const SkinSample& sample, Mobility inverse_mass, Fixed fixed) {
+/// What a force accelerates a vertex by [1/kg], along its own direction.
+double mobility_along(std::uint32_t i, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
+  const double all = mobility_of(i, inverse_mass, fixed);
+  const HeldAxes held = fixed.axes(i);
+  return held == 0 ? all : all * free_part(held, unit).squaredNorm();
+}
+
+/// What a force at the sample accelerates its place by [1/kg]: each node has 1/n of it, and 1/n of the place. Without a
+/// direction, where no axis is held.
+double mobility_of(const SkinSample& sample, InverseMass inverse_mass, Fixed fixed) {
   double sum = 0.0;
   for (const std::uint32_t i : sample.corners()) sum += mobility_of(i, inverse_mass, fixed);
   return sum / static_cast<double>(sample.count * sample.count);
 }
+double mobility_along(const SkinSample& sample, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
+  double sum = 0.0;
+  for (const std::uint32_t i : sample.corners()) sum += mobility_along(i, unit, inverse_mass, fixed);
+  return sum / static_cast<double>(sample.count * sample.count);
+}
 
 /// A force or an impulse at the sample, over the masses of its nodes.
-void push(const SkinSample& sample, const Vector3d& impulse, Mobility inverse_mass, Fixed fixed,
+void push(const SkinSample& sample, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
           std::span<Vector3d> v) {
   const Vector3d share = impulse / static_cast<double>(sample.count);
-  for (const std::uint32_t i : sample.corners()) v[i] += mobility_of(i, inverse_mass, fixed) * share;
+  for (const std::uint32_t i : sample.corners())
+    v[i] += free_part(fixed.axes(i), mobility_of(i, inverse_mass, fixed) * share);
 }
 
 /// The same between two bodies.
-double mobility_of(const ContactSite& site, Mobility inverse_mass, Fixed fixed) {
+double mobility_of(const ContactSite& site, InverseMass inverse_mass, Fixed fixed) {
   double sum = 0.0;
   for (std::size_t k = 0; k < site.count; ++k)
     sum += site.weights[k] * site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed);
   return sum;
 }
-
-void push(const ContactSite& site, const Vector3d& impulse, Mobility inverse_mass, Fixed fixed, std::span<Vector3d> v) {
+double mobility_along(const ContactSite& site, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
+  double sum = 0.0;
   for (std::size_t k = 0; k < site.count; ++k)
-    v[site.nodes[k]] += (site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed)) * impulse;
+    sum += site.weights[k] * site.weights[k] * mobility_along(site.nodes[k], unit, inverse_mass, fixed);
+  return sum;
+}
+
+void push(const ContactSite& site, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
+          std::span<Vector3d> v) {
+  for (std::size_t k = 0; k < site.count; ++k)
+    v[site.nodes[k]] += free_part(fixed.axes(site.nodes[k]),
+                                  (site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed)) * impulse);
 }
 
 /// What stands behind a contact and is stopped by it [kg].
@@ -87,7 +109,7 @@ bool ContactImpulses::has_friction() const {
   return (obstacles_ != nullptr && obstacles_->has_friction()) || (bodies_ != nullptr && bodies_->has_friction());
 }
 
-bool ContactImpulses::begin(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+bool ContactImpulses::begin(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                             std::span<Vector3d> v, const Accelerations& accelerations) {
   losses_at_begin_ = losses_;
   bool changed = place_at(time, x);
@@ -96,7 +118,7 @@ bool ContactImpulses::begin(double time, double h, Mobility inverse_mass, Fixed 
   return set_friction(time, h, inverse_mass, fixed, x, v, accelerations) || changed;
 }
 
-bool ContactImpulses::end(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                           std::span<Vector3d> v) {
   bool changed = false;
   if (obstacles_ != nullptr) {
@@ -138,7 +160,7 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   return work.sizes > 0.0;  // what moves elsewhere changes no force
 }
 
-bool ContactImpulses::damp(double time, double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+bool ContactImpulses::damp(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                            std::span<Vector3d> v) {
   const bool samples =
                  obstacles_ != nullptr && obstacles_->has_damping() && damp_samples(time, h, inverse_mass, fixed, x, v),
@@ -146,7 +168,7 @@ bool ContactImpulses::damp(double time, double h, Mobility inverse_mass, Fixed f
   return samples || bodies;
 }
 
-bool ContactImpulses::damp_samples(double time, double h, Mobility inverse_mass, Fixed fixed,
+bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                    std::span<const Vector3d> x, std::span<Vector3d> v) {
   bool changed = false;
   Penetration in;
@@ -154,7 +176,7 @@ bool ContactImpulses::damp_samples(double time, double h, Mobility inverse_mass,
     const Vector3d y = ObstacleContact::place_of(s, x);
     for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
       if (damping_ratio_[o] == 0.0 || !obstacles_->find_penetration(o, y, in)) continue;
-      const double mobility = mobility_of(s, inverse_mass, fixed);
+      const double mobility = mobility_along(s, in.normal, inverse_mass, fixed);
       if (mobility == 0.0) continue;
       const ContactLaw& law = obstacles_->laws()[o];
       const double speed_of_obstacle = obstacles_->obstacles()[o].velocity_at(time).dot(in.normal),
@@ -176,14 +198,14 @@ bool ContactImpulses::damp_samples(double time, double h, Mobility inverse_mass,
   return changed;
 }
 
-bool ContactImpulses::damp_bodies(double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+bool ContactImpulses::damp_bodies(double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                                   std::span<Vector3d> v) {
   bool changed = false;
   for (const BodyTouch& t : bodies_->touching({x})) {
     const double ratio = damping_ratio_of_bodies_[t.law];
     if (ratio == 0.0) continue;
     const ContactSite site = bodies_->normal_site(t);
-    const double mobility = mobility_of(site, inverse_mass, fixed);
+    const double mobility = mobility_along(site, t.normal, inverse_mass, fixed);
     if (mobility == 0.0) continue;
     const ContactLaw& law = bodies_->laws()[t.law];
     const double speed = site.difference(v).dot(t.normal), mass = mass_behind(law, t.area, mobility),
@@ -202,7 +224,7 @@ bool ContactImpulses::damp_bodies(double h, Mobility inverse_mass, Fixed fixed, 
   return changed;
 }
 
-void ContactImpulses::find_rubbing_samples(double time, double h, Mobility inverse_mass, Fixed fixed,
+void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                            std::span<const Vector3d> x, std::span<const Vector3d> v) {
   Penetration in;
   auto old = before_.begin();
@@ -227,7 +249,7 @@ void ContactImpulses::find_rubbing_samples(double time, double h, Mobility inver
   }
 }
 
-void ContactImpulses::find_rubbing_bodies(double h, Mobility inverse_mass, Fixed fixed, std::span<const Vector3d> x,
+void ContactImpulses::find_rubbing_bodies(double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                                           std::span<const Vector3d> v) {
   depth_.clear();
   for (const BodyTouch& t : bodies_->touching({x})) depth_.emplace_back(t.sample, t.depth);
@@ -252,7 +274,7 @@ void ContactImpulses::find_rubbing_bodies(double h, Mobility inverse_mass, Fixed
   }
 }
 
-bool ContactImpulses::set_friction(double time, double h, Mobility inverse_mass, Fixed fixed,
+bool ContactImpulses::set_friction(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                    std::span<const Vector3d> x, std::span<const Vector3d> v,
                                    const Accelerations& accelerations) {
   if (!has_friction()) return false;

@@ -2,6 +2,8 @@
 // What contact takes from a body around each step: speed lost in a bounce, and friction.
 
 #include <Eigen/Core>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -10,6 +12,7 @@
 
 #include "core/contact/body_contact.h"
 #include "core/contact/obstacle_contact.h"
+#include "core/plain/held_axes.h"
 
 namespace dartboard {
 
@@ -24,6 +27,24 @@ struct ContactLosses {
   void state(Archive& archive) {
     archive(damped, rubbed, supplied);
   }
+};
+
+/// Vertices that do not follow forces: 1 where one is fixed or driven, and the axes along which others are held. A
+/// column may be empty; valid as long as both are.
+class HeldVertices {
+ public:
+  HeldVertices() = default;
+  template <class Column>
+  requires std::convertible_to<const Column&, std::span<const std::uint8_t>> HeldVertices(
+      const Column& fixed, std::span<const HeldAxes> axes = {})
+      : fixed_(fixed), axes_(axes) {}
+
+  bool is_still(std::size_t i) const { return !fixed_.empty() && fixed_[i] != 0; }
+  HeldAxes axes(std::size_t i) const { return axes_.empty() ? HeldAxes{0} : axes_[i]; }
+
+ private:
+  std::span<const std::uint8_t> fixed_;
+  std::span<const HeldAxes> axes_;
 };
 
 /// What is done around each step of any integrator. Let contact be the term that the step sees:
@@ -67,11 +88,11 @@ class ContactImpulses {
 
   /// Before a step from `time` [s] of length h [s]. True if what the integrator may remember does no longer hold:
   /// velocities, obstacles or friction forces have changed. `end` or `take_back` comes next.
-  /// units   inverse_mass [1/kg] by vertex; fixed: 1 where held or driven, or empty: these have no mobility
-  bool begin(double time, double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  /// units   inverse_mass [1/kg] by vertex
+  bool begin(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
              std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v, const Accelerations& accelerations);
   /// After it, at `time` + h.
-  bool end(double time, double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  bool end(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
 
   /// In place of `end`, where the step was not taken: the sums and what friction begins from are as before `begin`.
@@ -89,18 +110,17 @@ class ContactImpulses {
 
  private:
   bool has_friction() const;
-  bool damp(double time, double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  bool damp(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
             std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_samples(double time, double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  bool damp_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                     std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_bodies(double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  bool damp_bodies(double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                    std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  void find_rubbing_samples(double time, double h, std::span<const double> inverse_mass,
-                            std::span<const std::uint8_t> fixed, std::span<const Eigen::Vector3d> x,
-                            std::span<const Eigen::Vector3d> v);
-  void find_rubbing_bodies(double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  void find_rubbing_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+                            std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
+  void find_rubbing_bodies(double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                            std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
-  bool set_friction(double time, double h, std::span<const double> inverse_mass, std::span<const std::uint8_t> fixed,
+  bool set_friction(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                     std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v,
                     const Accelerations& accelerations);
   bool place_at(double time, std::span<const Eigen::Vector3d> x);

@@ -162,7 +162,7 @@ class StrainDamping final : public TermDamping {
     }
   }
 
-  void decay(std::span<const Vector3d> x, double h, std::span<const double> mobility, bool backwards,
+  void decay(std::span<const Vector3d> x, double h, const Mobility& mobility, bool backwards,
              std::span<Vector3d> v) const override {
     const std::size_t count = points_.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -171,17 +171,24 @@ class StrainDamping final : public TermDamping {
       if (m.time == 0.0) continue;
       const auto n = points_.nodes(piece);
       std::array<double, 8> mobile;
+      std::array<HeldAxes, 8> held;
       std::array<Vector3d, 8> speed;
+      bool any_held = false;
       for (std::size_t a = 0; a < n.size(); ++a) {
         mobile[a] = mobility[n[a]];
         speed[a] = v[n[a]];
+        held[a] = mobility.held_axes(n[a]);
+        any_held = any_held || held[a] != 0;
       }
       Gradients g;
       const std::size_t points = points_.points(piece);
       for (std::size_t j = 0; j < points; ++j) {
         const double volume = points_.place(piece, backwards ? points - 1 - j : j, m, g);
-        decay_at(gradient(x, n, g), g, n, (h * m.time * volume) * 2.0 * m.mu,
-                 (h * m.time * volume) * (2.0 * m.mu + 3.0 * m.lambda), mobile, backwards, speed);
+        const Matrix3d f = gradient(x, n, g);
+        const double shape = (h * m.time * volume) * 2.0 * m.mu,
+                     bulk = (h * m.time * volume) * (2.0 * m.mu + 3.0 * m.lambda);
+        any_held ? decay_at<true>(f, g, n, shape, bulk, mobile, held, backwards, speed)
+                 : decay_at<false>(f, g, n, shape, bulk, mobile, held, backwards, speed);
       }
       for (std::size_t a = 0; a < n.size(); ++a)
         if (mobile[a] != 0.0) v[n[a]] = speed[a];
@@ -244,10 +251,15 @@ class StrainDamping final : public TermDamping {
 
   // Each of the six strains N is a damper of its own: its rate is sum_a b_a . v_a with b_a = F N g_a, which no rigid
   // motion has, and its force is along b. Alone it decays by exp(-c sum_a |b_a|^2 / m_a), c = h time V times 2 mu, or
-  // 2 mu + 3 lambda of the volume.
-  template <class SomeNodes>
+  // 2 mu + 3 lambda of the volume. Of b_a a corner that is held along axes has what is across them.
+  template <bool any_held, class SomeNodes>
   static void decay_at(const Matrix3d& f, const Gradients& g, const SomeNodes& n, double shape, double volume,
-                       const std::array<double, 8>& mobility, bool backwards, std::array<Vector3d, 8>& v) {
+                       const std::array<double, 8>& mobility, const std::array<HeldAxes, 8>& held, bool backwards,
+                       std::array<Vector3d, 8>& v) {
+    const auto free = [&held](std::size_t a, const Vector3d& arm) -> Vector3d {
+      if constexpr (any_held) return free_part(held[a], arm);
+      return arm;
+    };
     std::array<std::array<Vector3d, 6>, 8> b;
     for (std::size_t a = 1; a < n.size(); ++a) b[a] = arms(f, g[a]);
     for (std::size_t k = 0; k < 6; ++k) {
@@ -257,13 +269,13 @@ class StrainDamping final : public TermDamping {
       for (std::size_t a = 1; a < n.size(); ++a) {
         first -= b[a][strain];
         rate += b[a][strain].dot(v[a] - v[0]);
-        mobile += mobility[a] * b[a][strain].squaredNorm();
+        mobile += mobility[a] * free(a, b[a][strain]).squaredNorm();
       }
-      mobile += mobility[0] * first.squaredNorm();
+      mobile += mobility[0] * free(0, first).squaredNorm();
       if (mobile == 0.0) continue;
       const double impulse = one_minus_exp_of_minus((strain == 0 ? volume : shape) * mobile) / mobile * rate;
-      v[0] -= (mobility[0] * impulse) * first;
-      for (std::size_t a = 1; a < n.size(); ++a) v[a] -= (mobility[a] * impulse) * b[a][strain];
+      v[0] -= (mobility[0] * impulse) * free(0, first);
+      for (std::size_t a = 1; a < n.size(); ++a) v[a] -= (mobility[a] * impulse) * free(a, b[a][strain]);
     }
   }
 

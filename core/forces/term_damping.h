@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/forces/force_term.h"
+#include "core/forces/mobility.h"
 
 namespace dartboard {
 
@@ -43,8 +44,7 @@ class TermDamping {
   /// Let v decay for h at positions that stand still: part after part of each piece, in the order of their numbers or
   /// backwards, each as if it were alone; none gains energy from that, whatever h > 0.
   ///
-  /// units   mobility: inverse masses [1/kg], zero where fixed
-  virtual void decay(std::span<const Eigen::Vector3d> x, double h, std::span<const double> mobility, bool backwards,
+  virtual void decay(std::span<const Eigen::Vector3d> x, double h, const Mobility& mobility, bool backwards,
                      std::span<Eigen::Vector3d> v) const = 0;
 };
 

@@ -14,6 +14,19 @@
 #include "core/topology/storage/hash.h"
 
 namespace dartboard {
+
+void VertexColumns::hold(std::span<const HeldPoint> points) {
+  held_axes.clear();
+  if (points.empty()) return;
+  held_axes.assign(size(), 0);
+  for (std::size_t k = 0; k < size(); ++k) {
+    const auto held = std::ranges::lower_bound(points, point[k], {}, &HeldPoint::point);
+    if (held == points.end() || held->point != point[k]) continue;
+    held_axes[k] = held->axes;
+    velocity[k] = free_part(held->axes, velocity[k]);
+  }
+}
+
 namespace {
 
 void require(bool ok, const char* what, double value, const char* expected) {
@@ -70,8 +83,11 @@ void require_sane(const Problem& problem) {
   const std::size_t points = problem.mesh.points.size();
   for (std::size_t p = 0; p < points; ++p)
     if (!problem.mesh.points[p].allFinite()) throw InputError(fmt::format("point {} is not finite", p));
-  for (const std::uint32_t p : problem.fixed)
+  const auto require_point = [points](std::uint32_t p) {
     if (p >= points) throw InputError(fmt::format("fixed point {} does not exist, expected less than {}", p, points));
+  };
+  for (const std::uint32_t p : problem.fixed) require_point(p);
+  for (const HeldPoint& held : problem.held_axes) require_point(held.point);
   if (!problem.initial_velocity.empty() && problem.initial_velocity.size() != points)
     throw InputError(fmt::format("{} initial velocities for {} points", problem.initial_velocity.size(), points));
   for (const auto& v : problem.initial_velocity)
@@ -211,6 +227,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     body.vertices.fixed[k] = fixed[body.vertices.point[k]];
     if (body.vertices.fixed[k]) body.vertices.velocity[k].setZero();
   }
+  body.vertices.hold(problem.held_axes);
 
   for_each_cell<1>(map, [&](Edge e) {
     const double length = (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
@@ -337,6 +354,7 @@ void MassSpringBody<Map, held>::set_state(const PointState& s) {
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     vertices.position[k] = s.x[vertices.point[k]];
     vertices.velocity[k] = vertices.fixed[k] ? Eigen::Vector3d(0, 0, 0) : s.v[vertices.point[k]];
+    if (!vertices.held_axes.empty()) vertices.velocity[k] = free_part(vertices.held_axes[k], vertices.velocity[k]);
   }
 }
 

@@ -31,6 +31,7 @@ struct VertexColumns {
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
   std::vector<Eigen::Vector3d> force;     // [N] sum of the springs; zero between steps
   std::vector<std::uint8_t> fixed;        // 1: held still
+  std::vector<HeldAxes> held_axes;        // of those that move along the others; left out where there are none
   std::vector<std::uint32_t>
       point;  // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
   std::vector<Eigen::Vector3d> rest;  // [m] where it was at rest; left out until keep_rest
@@ -44,6 +45,10 @@ struct VertexColumns {
   /// pre  the body is at rest where its mesh has it
   void keep_rest() { rest = position; }
 
+  /// Hold the vertices of these points along their axes from now on, and nothing else; velocities lose what is along
+  /// them.
+  void hold(std::span<const HeldPoint> points);
+
   /// Every column but the darts, which are the cells themselves.
   static constexpr auto embedded() {
     using V = VertexColumns;
@@ -54,6 +59,7 @@ struct VertexColumns {
                       EmbeddedColumn{"velocity", &V::velocity, Adapts::duplicated},
                       EmbeddedColumn{"force", &V::force, Adapts::duplicated},
                       EmbeddedColumn{"fixed", &V::fixed, Adapts::duplicated},
+                      EmbeddedColumn{"held axes", &V::held_axes, Adapts::duplicated},
                       EmbeddedColumn{"point", &V::point, Adapts::duplicated},
                       EmbeddedColumn{"place at rest", &V::rest, Adapts::duplicated},
                       EmbeddedColumn{"pull", &V::pull, Adapts::duplicated}};

@@ -76,14 +76,15 @@ class Refinement {
     VertexColumns& v = body_.vertices;
     vertex_ = static_cast<std::uint32_t>(v.size());
     Eigen::Vector3d position(0, 0, 0), velocity(0, 0, 0), rest(0, 0, 0);
-    bool fixed = !v.fixed.empty();  // left out: none is
+    HeldAxes held = all_axes;  // along those that all its corners are
     for (std::size_t n = 0; n < 4; ++n)
       if (is_of_cell(0, n)) {
         const std::uint32_t k = old_[0].vertices[n];
         position += v.position[k];
         velocity += v.velocity[k];
         if (!v.rest.empty()) rest += v.rest[k];
-        fixed = fixed && v.fixed[k];
+        const bool fixed = !v.fixed.empty() && v.fixed[k] != 0;
+        held &= fixed ? all_axes : v.held_axes.empty() ? HeldAxes{0} : v.held_axes[k];
       }
     add_element(v, VertexColumns::embedded(), vertex_);
     v.position.back() = position / count();
@@ -91,7 +92,8 @@ class Refinement {
     if (!v.force.empty()) v.force.back().setZero();
     if (!v.pull.empty()) v.pull.back().setZero();
     if (!v.rest.empty()) v.rest.back() = rest / count();
-    if (!v.fixed.empty()) v.fixed.back() = fixed;
+    if (!v.fixed.empty()) v.fixed.back() = held == all_axes ? 1 : 0;
+    if (!v.held_axes.empty()) v.held_axes.back() = held == all_axes ? HeldAxes{0} : held;
     v.point.back() = no_point;
     v.dart.push_back(s_.vertex());
   }

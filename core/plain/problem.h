@@ -6,10 +6,18 @@
 #include <vector>
 
 #include "core/plain/cell_materials.h"
+#include "core/plain/held_axes.h"
 #include "core/plain/material.h"
 #include "core/plain/mesh.h"
 
 namespace dartboard {
+
+/// A point that is held along some axes.
+struct HeldPoint {
+  std::uint32_t point;
+  HeldAxes axes;
+  friend bool operator==(const HeldPoint&, const HeldPoint&) = default;
+};
 
 /// A body at rest in `mesh`, with initial velocities, some vertices held still.
 ///
@@ -22,6 +30,7 @@ namespace dartboard {
 ///     u_ij = (x_j - x_i) / |x_j - x_i|, and no force where the length is zero
 ///     f_i = sum over the edges ij of ( k_ij (|x_j - x_i| - L_ij) + c_ij (v_j - v_i).u_ij ) u_ij
 ///     a_i = (f_i - viscosity * m_i * v_i) / m_i + gravity,  and a_i = 0, v_i = 0 for the points in `fixed`
+///         and along the axes of those in `held_axes`, which move freely along the others
 ///
 /// The edges are the edges of the cells' faces (`faces_of`). In a body of several materials every cell contributes by
 /// its own, but for the viscosity, which is that of `material` for all.
@@ -34,6 +43,7 @@ struct Problem {
   std::vector<std::uint32_t> fixed;               // point numbers, ascending
   std::vector<Eigen::Vector3d> initial_velocity;  // [m/s] per point; empty for rest
   double h = 1e-3;                                // time step [s]
+  std::vector<HeldPoint> held_axes{};             // by ascending point, none of them fixed
 
   CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 };

@@ -367,7 +367,7 @@ TEST(CommandLine, SaysWhatEachSelectionOfASceneHolds) {
     const auto json = nlohmann::json::parse(run(verb + scene.path.string() + " --json", "2>/dev/null").out);
     EXPECT_EQ(json.at("selections").size(), 3u) << verb;
     EXPECT_EQ(json.at("selections")[0], nlohmann::json::parse(R"({"path": "/fixed/0", "of_what": "vertices",
-                                          "selected": 16, "all": 44, "just_outside": 0})"))
+                                          "selected": 16, "all": 44, "just_outside": 0, "along": "x, y and z"})"))
         << verb;
     EXPECT_EQ(json.at("selections")[1].at("just_outside"), 4) << verb;
     EXPECT_NE(json.at(verb == "explain " ? "remarks" : "warnings").dump().find("/fixed/1: 4 lie just outside"),

@@ -192,6 +192,8 @@ TradeoffScene scene_of_file(const SceneFile& file) {
   if (file.has_elements()) fail("/material/poisson", "asks for elements", "springs, to compare with references");
   if (!file.key_beside_edges().empty())
     fail(file.key_beside_edges(), "asks for springs that are no edges", "none, to compare with references");
+  if (file.holds_axes())
+    fail("/fixed", "holds vertices along some axes", "vertices held still, to compare with references");
   if (!file.driven.empty()) fail("/driven", "moves vertices", "none driven, to compare with references");
   if (!file.forces.empty()) fail("/forces", "pulls at vertices", "none applied, to compare with references");
   if (file.has_contact()) fail("/contact", "says what touches", "none, to compare with references");

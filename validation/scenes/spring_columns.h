@@ -25,8 +25,11 @@ struct SpringColumns {
   std::vector<Eigen::Vector3d> x, v;
   std::shared_ptr<const ElasticSolid> solid{};  // elements beside the springs
   std::vector<const ForceTerm*> terms{};        // of the solid
+  std::vector<HeldAxes> held_axes{};            // empty where none are held
 
-  SpringSystem system() const { return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity, {}, terms}; }
+  SpringSystem system() const {
+    return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity, {}, terms, held_axes};
+  }
   Motion motion() { return {x, v}; }
 
   std::uint32_t add_vertex(double m, const Eigen::Vector3d& position, const Eigen::Vector3d& velocity = {0, 0, 0},

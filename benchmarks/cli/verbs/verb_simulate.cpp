@@ -31,6 +31,7 @@
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/scene_warnings.h"
+#include "core/time/integrators.h"
 #include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
@@ -206,6 +207,9 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
+    // seconds to minutes, of which a log would say nothing
+    if (simulation.body().counts().vertices >= 10'000 && make_integrator(scene.integrator)->scheme().implicit)
+      progress.show("the first step, which factorises a matrix");
     Watcher watcher(scene, settled ? json_text(nlohmann::json(*settled)) : "", output ? &*output : nullptr,
                     album ? &*album : nullptr, film ? &*film : nullptr, progress, steps_per_report);
     const Interrupt interrupt;

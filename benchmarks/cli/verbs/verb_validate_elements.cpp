@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,7 +10,10 @@
 #include "benchmarks/cli/named_mesh.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/elements/calculix_study.h"
+#include "benchmarks/studies/elements/element_costs.h"
 #include "benchmarks/studies/elements/elements_study.h"
 #include "benchmarks/studies/elements/operated_study.h"
 #include "core/meshes/generators/mesh_generators.h"
@@ -29,9 +34,23 @@ OperatedPlan operated_plan(const std::vector<std::string>& meshes, std::size_t o
   return plan;
 }
 
+// A verb that help does not show.
+void add_measure_elements(CLI::App& app) {
+  auto plan = std::make_shared<ElementCostPlan>();
+  auto* verb =
+      app.add_subcommand("measure-elements", "Time elements in this process (used by validate elements).")->group("");
+  verb->add_option("--process", plan->process);
+  verb->add_option("--rounds", plan->rounds)->check(positive_number());
+  verb->add_option("--evaluations", plan->evaluations)->check(positive_number());
+  verb->add_option("--across", plan->across)->check(positive_number());
+  verb->callback([plan] {
+    measure_element_costs(*plan, [](const Sample& sample) { tell("{}\n", json_text(nlohmann::json(sample))); });
+  });
+}
+
 }  // namespace
 
-void add_validate_elements(CLI::App& validate, Outcome& outcome) {
+void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome) {
   struct Options : StudyOptions {
     ElementsPlan plan;
     std::optional<std::size_t> operations;
@@ -70,6 +89,7 @@ void add_validate_elements(CLI::App& validate, Outcome& outcome) {
         *options, {.label = "elements", .keeps_folder = false},
         [&](StudyLog& log) { return elements_study(options->plan, log); }, outcome);
   });
+  add_measure_elements(app);
 }
 
 }  // namespace dartboard

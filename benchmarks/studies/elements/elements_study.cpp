@@ -3,26 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmarks/harness/paired.h"
-#include "benchmarks/harness/statistics.h"
 #include "benchmarks/studies/elements/calculix_study.h"
 #include "benchmarks/studies/elements/newton_study.h"
 #include "core/plain/nan_maximum.h"
-#include "core/time/system/accelerations.h"
-#include "core/time/watch/stable_step.h"
-#include "core/topology/storage/hash.h"
 
 namespace dartboard {
 namespace {
 
 // Half the frequencies of a square beam are pairs: bending either way.
 double bending_of(const CantileverAnswers& a) { return 0.5 * (a.frequency[0] + a.frequency[1]); }
+
+constexpr std::array<std::pair<Model, CellKind>, 3> kinds{std::pair{Model::springs, CellKind::tetrahedron},
+                                                          std::pair{Model::neo_hookean, CellKind::tetrahedron},
+                                                          std::pair{Model::neo_hookean, CellKind::hexahedron}};
 
 std::string percent(double share) { return fmt::format("{:+.1f} %", 100.0 * share); }
 
@@ -33,64 +32,6 @@ struct Kind {
 constexpr Kind springs_on_edges{Model::springs, CellKind::tetrahedron};
 constexpr Kind tetrahedra{Model::neo_hookean, CellKind::tetrahedron},
     hexahedra{Model::neo_hookean, CellKind::hexahedron};
-
-std::string in_words(Model model, CellKind cells) {
-  if (model == Model::springs) return "springs";
-  return fmt::format("{} {}", name(model), cells == CellKind::hexahedron ? "hexahedra" : "tetrahedra");
-}
-
-/// A body that is bent a little, its forces taken over and over.
-struct Timed {
-  ModelCost cost;
-  std::unique_ptr<SimulatedBody> body;
-  std::vector<Eigen::Vector3d> a;
-  int evaluations = 1;
-
-  Timed(Model model, CellKind cells, int across, int times)
-      : cost{model, cells}, body(cantilever_body(model, across, 0.25, cells)), evaluations(times) {
-    for (Eigen::Vector3d& x : body->motion().x) x[2] += 0.05 * x[0] * x[0];
-    const SpringSystem system = body->system();
-    a.resize(system.vertex_count());
-    cost.pieces = system.springs.size();
-    for (const ForceTerm* term : system.terms) cost.pieces += term->size();
-    cost.frequency = StableStepEstimate().refresh(system, body->vertices().position).upper;
-  }
-  void run() {
-    const SpringSystem system = body->system();
-    for (int k = 0; k < evaluations; ++k)
-      accelerations(system, {}, body->vertices().position, body->vertices().velocity, a);
-  }
-  std::uint64_t hash() const {
-    Hash hash;
-    hash.add(a);
-    return hash.value();
-  }
-};
-
-std::vector<ModelCost> measure_costs(const ElementsPlan& plan, int across, StudyLog& log) {
-  std::vector<Timed> timed;
-  for (const auto& [model, cells] : {springs_on_edges, tetrahedra, Kind{Model::corotational, CellKind::tetrahedron},
-                                     Kind{Model::stvk, CellKind::tetrahedron}, hexahedra})
-    timed.emplace_back(model, cells, across, plan.quick ? 20 : 200);
-  std::vector<TimedTask> tasks;
-  for (Timed& t : timed)
-    tasks.push_back({in_words(t.cost.model, t.cost.cells), [] {}, [&t] { t.run(); }, [&t] { return t.hash(); }});
-  std::vector<std::vector<double>> ns(timed.size());
-  std::vector<Sample> samples;
-  run_rounds(tasks, {.rounds = plan.quick ? 4 : 40}, [&](const Sample& sample) {
-    log.sample(nlohmann::json(sample));
-    samples.push_back(sample);
-    for (std::size_t k = 0; k < timed.size(); ++k)
-      if (tasks[k].name == sample.task) ns[k].push_back(static_cast<double>(sample.cpu_ns) / timed[k].evaluations);
-  });
-  check_repeats(samples);
-  std::vector<ModelCost> costs;
-  for (std::size_t k = 0; k < timed.size(); ++k) {
-    timed[k].cost.ns = median(ns[k]);
-    costs.push_back(timed[k].cost);
-  }
-  return costs;
-}
 
 }  // namespace
 
@@ -178,20 +119,24 @@ Table costs_table(const ElementsResults& results) {
                {"springs or elements", Align::right},
                {"ns each", Align::right},
                {"highest frequency [1/s]", Align::right},
-               {"processor ms per simulated second", Align::right}});
+               {"processor ms per simulated second", Align::right},
+               {"over springs", Align::right}});
   for (const ModelCost& c : results.costs) {
     table.add_row({in_words(c.model, c.cells), fmt::format("{}", c.pieces),
                    fmt::format("{:.1f}", c.ns / static_cast<double>(std::max<std::size_t>(c.pieces, 1))),
-                   fmt::format("{:.0f}", c.frequency), fmt::format("{:.1f}", 1e3 * c.per_second())});
+                   fmt::format("{:.0f}", c.frequency), fmt::format("{:.1f}", 1e3 * c.per_second()),
+                   c.model == Model::springs ? "1" : to_string(c.over_springs)});
   }
   return table;
 }
 
 std::string in_words(const ElementsResults& results) {
-  const auto cost = [&](Model model, CellKind cells) {
+  const auto times_springs = [&](Model model, CellKind cells) {
     for (const ModelCost& c : results.costs)
-      if (c.model == model && c.cells == cells) return c.per_second();
-    return std::numeric_limits<double>::quiet_NaN();
+      if (c.model == model && c.cells == cells)
+        return fmt::format("{:.1f} ({:.1f} to {:.1f})", c.over_springs.median, c.over_springs.interval.low,
+                           c.over_springs.interval.high);
+    return std::string("?");
   };
   // at the first ratio, on the mesh whose cost was measured or the finest
   const auto errors = [&](bool springs, CellKind cells) {
@@ -205,14 +150,14 @@ std::string in_words(const ElementsResults& results) {
   const ModelErrors *springs = errors(true, CellKind::tetrahedron), *tets = errors(false, CellKind::tetrahedron),
                     *hexes = errors(false, CellKind::hexahedron);
   if (!springs || !tets || !hexes) return "";
-  const double unit = cost(Model::springs, CellKind::tetrahedron);
   return fmt::format(
       "On {} nodes springs miss the tip by {} and torsion by {}, tetrahedra by {} and {}, hexahedra by {} and {}. For the "
-      "same simulated time neo-hookean tetrahedra take {:.1f} times as long as springs, corotational ones {:.1f} times, "
-      "neo-hookean hexahedra {:.1f} times.",
+      "same simulated time neo-hookean tetrahedra take {} times as long as springs, corotational ones {} times, "
+      "neo-hookean hexahedra {} times.",
       springs->nodes, percent(springs->tip), percent(springs->torsion), percent(tets->tip), percent(tets->torsion),
-      percent(hexes->tip), percent(hexes->torsion), cost(Model::neo_hookean, CellKind::tetrahedron) / unit,
-      cost(Model::corotational, CellKind::tetrahedron) / unit, cost(Model::neo_hookean, CellKind::hexahedron) / unit);
+      percent(hexes->tip), percent(hexes->torsion), times_springs(Model::neo_hookean, CellKind::tetrahedron),
+      times_springs(Model::corotational, CellKind::tetrahedron),
+      times_springs(Model::neo_hookean, CellKind::hexahedron));
 }
 
 Report elements_study(const ElementsPlan& plan, StudyLog& log) {
@@ -229,13 +174,17 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
     log.advance(fmt::format("quadratic tetrahedra, {}", published.poisson));
   }
   for (const std::size_t k : {0u, 2u})
-    for (const auto& [model, cells] : {springs_on_edges, tetrahedra, hexahedra})  // near rest all laws are alike
+    for (const auto& [model, cells] : kinds)  // near rest all laws are alike
       for (const int across : meshes) {
         const auto& [published, truth] = results.references[k];
         results.errors.push_back(errors_of(model, cells, across, published.poisson, truth));
         log.advance(fmt::format("{}, {} across", in_words(model, cells), across));
       }
-  results.costs = measure_costs(plan, results.across, log);
+  results.costs = element_costs({.processes = plan.quick ? 3 : 6,
+                                 .rounds = plan.quick ? 4 : 20,
+                                 .evaluations = plan.quick ? 20 : 200,
+                                 .across = results.across},
+                                log);
   log.advance("cost");
 
   const std::vector<NewtonRun> newton = newton_runs(truth_across);
@@ -282,6 +231,7 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
                 {"across", results.across},
                 {"pieces", c.pieces},
                 {"ns", c.ns},
+                {"over_springs", c.over_springs.median},
                 {"frequency", c.frequency}});
   for (const ModelErrors& e : results.errors)
     log.sample({{"model", in_words(e.model, e.cells)},

@@ -7,6 +7,7 @@
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
+#include "benchmarks/studies/elements/element_costs.h"
 #include "validation/elements/cantilever.h"
 
 namespace dartboard {
@@ -28,16 +29,6 @@ struct ModelErrors {
   double tip, bending, torsion, axial;
 };
 ModelErrors errors_of(Model model, CellKind cells, int across, double poisson, const CantileverAnswers& truth);
-
-/// What a model's forces cost on one mesh.
-struct ModelCost {
-  Model model;
-  CellKind cells = CellKind::tetrahedron;
-  std::size_t pieces = 0;                                            // springs, or elements
-  double ns = 0.0;                                                   // of one evaluation of all forces, processor time
-  double frequency = 0.0;                                            // [1/s] the highest
-  double per_second() const { return 0.5 * frequency * ns * 1e-9; }  // evaluations at Verlet's limit, 2 over it
-};
 
 struct ElementsResults {
   int across = 4;                                                             // of the mesh on which costs are measured

@@ -42,7 +42,8 @@ nlohmann::ordered_json to_json(std::span<const SelectionCount> selections) {
                     {"of_what", count.of_what},
                     {"selected", count.selected},
                     {"all", count.all},
-                    {"just_outside", count.just_outside}});
+                    {"just_outside", count.just_outside},
+                    {"along", count.along}});
   return json;
 }
 

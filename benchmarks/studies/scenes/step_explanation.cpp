@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -32,25 +34,66 @@ SpringColumns columns_of(const SimulatedBody& body) {
   columns.viscosity.assign(system.viscosity.begin(), system.viscosity.end());
   columns.fixed.assign(system.fixed.begin(), system.fixed.end());
   columns.gravity = system.gravity;
+  columns.held_axes.assign(system.held_axes.begin(), system.held_axes.end());
+  columns.terms.assign(system.terms.begin(), system.terms.end());
   columns.x.assign(body.vertices().position.begin(), body.vertices().position.end());
   return columns;
 }
 
-std::vector<StepShare> largest_shares(const std::vector<double>& energy) {
+/// The numbers of the largest, in descending order.
+std::vector<std::uint32_t> largest(const std::vector<double>& energy) {
   std::vector<std::uint32_t> order(energy.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto count = std::min(shown, order.size());
   std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(count),
                             [&energy](auto a, auto b) { return energy[a] > energy[b]; });
-  const double sum = std::accumulate(energy.begin(), energy.end(), 0.0);
+  order.resize(count);
+  std::erase_if(order, [&energy](std::uint32_t k) { return !(energy[k] > 0.0); });
+  return order;
+}
+
+std::vector<StepShare> largest_shares(const std::vector<double>& energy, double sum) {
   std::vector<StepShare> shares;
-  for (std::size_t k = 0; k < count; ++k)
-    if (energy[order[k]] > 0.0) shares.push_back({order[k], energy[order[k]] / sum});
+  for (const std::uint32_t k : largest(energy)) shares.push_back({k, energy[k] / sum});
   return shares;
 }
 
-/// The springs and vertices that the fastest oscillation moves most.
-void find_shares(StepExplanation& e) {
+double sum_of(const std::vector<double>& energy) { return std::accumulate(energy.begin(), energy.end(), 0.0); }
+
+/// Of each piece of a force term twice the energy of a displacement.
+std::vector<double> energies(const ForceTerm& term, std::span<const Vector3d> x, std::span<const Vector3d> d) {
+  std::vector<double> energy;
+  term.for_each_tangent({x}, Compression::projected,
+                        [&energy, d](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+                          double sum = 0.0;
+                          for (std::size_t a = 0, k = 0; a < nodes.size(); ++a)
+                            for (std::size_t b = 0; b <= a; ++b, ++k)
+                              sum += (a == b ? 1.0 : 2.0) * d[nodes[a]].dot(blocks[k] * d[nodes[b]]);
+                          energy.push_back(sum);
+                        });
+  return energy;
+}
+
+/// Of a simplex its least altitude, else the least distance of two corners [m].
+double width_of(std::span<const Vector3d> corners) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, largest_face = 0.0;
+  for (std::size_t a = 0; a < corners.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const double length = (corners[a] - corners[b]).norm();
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+      for (std::size_t c = 0; c < b; ++c)
+        largest_face =
+            std::max(largest_face, (corners[b] - corners[a]).cross(corners[c] - corners[a]).norm());  // twice its area
+    }
+  if (corners.size() == 3) return largest_face / longest;
+  if (corners.size() != 4 || largest_face == 0.0) return shortest;
+  const Vector3d u = corners[1] - corners[0], v = corners[2] - corners[0], w = corners[3] - corners[0];
+  return std::abs(u.cross(v).dot(w)) / largest_face;
+}
+
+/// The springs, elements and vertices that the fastest oscillation moves most.
+void find_shares(StepExplanation& e, bool has_elements) {
   // power iterations for the shape: a tenth of a percent of omega_max is left after 100 of them,
   // and the shape converges at half that rate
   StableStepEstimate estimate;
@@ -62,19 +105,37 @@ void find_shares(StepExplanation& e) {
   std::vector<double> stretched(system.springs.size(), 0.0), moved(system.vertex_count(), 0.0);
   std::vector<SpringTangent> tangents;
   evaluate_tangents(system, e.body.x, Compression::projected, tangents);
-  const auto displacement = [&](std::uint32_t i) -> Vector3d { return shape[i] * std::sqrt(system.inverse_mass[i]); };
+  std::vector<Vector3d> displacement;
+  for (std::size_t i = 0; i < shape.size(); ++i) displacement.push_back(shape[i] * std::sqrt(system.inverse_mass[i]));
   for (std::size_t s = 0; s < stretched.size(); ++s) {
     const auto [i, j] = system.ends[s];
-    const Vector3d d = displacement(j) - displacement(i);
+    const Vector3d d = displacement[j] - displacement[i];
     stretched[s] = d.dot(tangents[s].stiffness() * d);
   }
+  double sum = sum_of(stretched);
+  std::vector<double> of_cells;
+  for (const ForceTerm* term : system.terms) {
+    const std::vector<double> energy = energies(*term, e.body.x, displacement);
+    sum += sum_of(energy);
+    if (has_elements && term == system.terms.front()) of_cells = energy;  // what else there is comes after elements
+  }
+  for (const std::uint32_t k : largest(of_cells)) {
+    CellStepShare cell{.number = k, .corners = {}, .share = of_cells[k] / sum};
+    std::vector<Vector3d> places;
+    for (const std::uint32_t i : system.terms.front()->nodes(k)) {
+      cell.corners.push_back(e.name(i));
+      places.push_back(e.body.x[i]);
+    }
+    cell.width = width_of(places);
+    e.cells.push_back(cell);
+  }
   for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = shape[i].squaredNorm();
-  e.springs = largest_shares(stretched);
-  e.vertices = largest_shares(moved);
+  e.springs = largest_shares(stretched, sum);
+  e.vertices = largest_shares(moved, sum_of(moved));
 }
 
 void find_remedies(StepExplanation& e, const Scheme& scheme, const Horizon& horizon) {
-  if (e.springs.empty()) return;
+  if (e.vertices.empty()) return;
   const auto remedy = [&](std::string what, auto&& change) {
     SpringColumns changed = e.body;
     change(changed);
@@ -92,18 +153,21 @@ void find_remedies(StepExplanation& e, const Scheme& scheme, const Horizon& hori
     c.mass[vertex] *= 2.0;
     c.inverse_mass[vertex] /= 2.0;
   };
-  remedy("halve the stiffness of the first spring", scale_springs(1, 0.5));
-  remedy("remove the first spring", scale_springs(1, 0.0));
-  remedy(fmt::format("halve the stiffness of the {} springs", e.springs.size()), scale_springs(shown, 0.5));
-  remedy(fmt::format("remove the {} springs", e.springs.size()), scale_springs(shown, 0.0));
+  if (!e.springs.empty()) {
+    remedy("halve the stiffness of the first spring", scale_springs(1, 0.5));
+    remedy("remove the first spring", scale_springs(1, 0.0));
+    remedy(fmt::format("halve the stiffness of the {} springs", e.springs.size()), scale_springs(shown, 0.5));
+    remedy(fmt::format("remove the {} springs", e.springs.size()), scale_springs(shown, 0.0));
+  }
   remedy("double the mass of the first vertex", [&](SpringColumns& c) { double_mass(c, e.vertices.front().number); });
   remedy(fmt::format("double the mass of the {} vertices", e.vertices.size()), [&](SpringColumns& c) {
     for (const StepShare& v : e.vertices) double_mass(c, v.number);
   });
   remedy("hold the first vertex", [&e](SpringColumns& c) { c.inverse_mass[e.vertices.front().number] = 0.0; });
-  remedy("halve all stiffnesses", [](SpringColumns& c) {
-    for (Spring& s : c.springs) s.stiffness /= 2.0;
-  });
+  if (e.body.terms.empty())
+    remedy("halve all stiffnesses", [](SpringColumns& c) {
+      for (Spring& s : c.springs) s.stiffness /= 2.0;
+    });
 }
 
 std::string step_text(double step) { return std::isfinite(step) ? fmt::format("{:.6g} s", step) : "any"; }
@@ -114,7 +178,7 @@ StepExplanation explain_step(SceneFile scene) {
   if (scene.has_contact())
     throw InputError(
         fmt::format("{}: /contact: stiffens a body where it touches, which no spring is to blame for; "
-                    "expected none, or 'dartboard explain', which tells the longest stable step",
+                    "expected none, or 'dartboard explain', which reports the longest stable step",
                     scene.file));
   scene.unstable_step = UnstableStep::warn;  // a step that the scene refuses is what is to be explained
   const Simulation simulation(scene);
@@ -126,9 +190,10 @@ StepExplanation explain_step(SceneFile scene) {
   e.limits = StableStepEstimate().refresh(system, e.body.x);
   e.limit = simulation.step_limit();
   e.quick = quick_stable_step(system).safe_step(integrator->scheme(), horizon);
-  if (!system.terms.empty()) return e;  // there is no spring to blame
-  find_shares(e);
+  for (std::uint32_t k = 0; k < system.vertex_count(); ++k) e.names.push_back(simulation.file_number(k));
+  find_shares(e, scene.has_elements());
   find_remedies(e, integrator->scheme(), horizon);
+  e.body.terms.clear();  // they end with the simulation
   return e;
 }
 
@@ -147,7 +212,8 @@ std::string to_text(const StepExplanation& e, const SceneFile& scene) {
       scene.step <= e.quick          ? "stable in any"
       : scene.step <= e.limit.stable ? "stable at the start"
                                      : "TOO LONG");
-  if (e.springs.empty()) return text;
+  if (e.vertices.empty()) return text;
+  text += "\nShares of the energy of the fastest oscillation:\n\n";
   Table springs({{"spring", Align::right},
                  {"between", Align::left},
                  {"stiffness [N/m]", Align::right},
@@ -155,16 +221,21 @@ std::string to_text(const StepExplanation& e, const SceneFile& scene) {
                  {"share", Align::right}});
   for (const StepShare& s : e.springs) {
     const auto [i, j] = e.body.ends[s.number];
-    springs.add_row({fmt::format("{}", s.number), fmt::format("{} and {}", i, j),
+    springs.add_row({fmt::format("{}", s.number), fmt::format("{} and {}", e.name(i), e.name(j)),
                      fmt::format("{:.4g}", e.body.springs[s.number].stiffness),
                      fmt::format("{:.4g}", (e.body.x[j] - e.body.x[i]).norm()),
                      fmt::format("{:.1f} %", 100 * s.share)});
   }
+  Table cells(
+      {{"cell", Align::right}, {"corners", Align::left}, {"least width [m]", Align::right}, {"share", Align::right}});
+  for (const CellStepShare& c : e.cells)
+    cells.add_row({fmt::format("{}", c.number), fmt::format("{}", fmt::join(c.corners, ", ")),
+                   fmt::format("{:.4g}", c.width), fmt::format("{:.1f} %", 100 * c.share)});
   Table vertices(
       {{"vertex", Align::right}, {"mass [kg]", Align::right}, {"at [m]", Align::left}, {"share", Align::right}});
   for (const StepShare& v : e.vertices) {
     const Vector3d& x = e.body.x[v.number];
-    vertices.add_row({fmt::format("{}", v.number), fmt::format("{:.4g}", e.body.mass[v.number]),
+    vertices.add_row({fmt::format("{}", e.name(v.number)), fmt::format("{:.4g}", e.body.mass[v.number]),
                       fmt::format("{:.4g}, {:.4g}, {:.4g}", x[0], x[1], x[2]), fmt::format("{:.1f} %", 100 * v.share)});
   }
   Table remedies({{"if one would", Align::left}, {"stable step", Align::right}, {"gain", Align::right}});
@@ -173,8 +244,9 @@ std::string to_text(const StepExplanation& e, const SceneFile& scene) {
                       std::isfinite(r.step) && e.limit.stable > 0.0
                           ? fmt::format("{:+.1f} %", 100 * (r.step / e.limit.stable - 1))
                           : ""});
-  return text + fmt::format("\nShares of the energy of the fastest oscillation:\n\n{}\n{}\n{}", to_text(springs),
-                            to_text(vertices), to_text(remedies));
+  for (const Table* table : {&springs, &cells})
+    if (!table->rows().empty()) text += to_text(*table) + "\n";
+  return text + to_text(vertices) + "\n" + to_text(remedies);
 }
 
 nlohmann::ordered_json to_json(const StepExplanation& e, const SceneFile& scene) {
@@ -191,14 +263,17 @@ nlohmann::ordered_json to_json(const StepExplanation& e, const SceneFile& scene)
                                 {"upper", number(e.limits.upper)},
                                 {"any_state", number(e.limits.any_state)}}},
                               {"damping_ratio", {{"lower", number(ratio.lower)}, {"upper", number(ratio.upper)}}}};
-  for (const char* list : {"springs", "vertices", "remedies"}) json[list] = nlohmann::ordered_json::array();
+  for (const char* list : {"springs", "cells", "vertices", "remedies"}) json[list] = nlohmann::ordered_json::array();
   for (const StepShare& s : e.springs)
     json["springs"].push_back({{"spring", s.number},
-                               {"ends", {e.body.ends[s.number][0], e.body.ends[s.number][1]}},
+                               {"ends", {e.name(e.body.ends[s.number][0]), e.name(e.body.ends[s.number][1])}},
                                {"stiffness", e.body.springs[s.number].stiffness},
                                {"share", s.share}});
+  for (const CellStepShare& c : e.cells)
+    json["cells"].push_back(
+        {{"cell", c.number}, {"corners", c.corners}, {"least_width", number(c.width)}, {"share", c.share}});
   for (const StepShare& v : e.vertices)
-    json["vertices"].push_back({{"vertex", v.number}, {"mass", e.body.mass[v.number]}, {"share", v.share}});
+    json["vertices"].push_back({{"vertex", e.name(v.number)}, {"mass", e.body.mass[v.number]}, {"share", v.share}});
   for (const StepRemedy& r : e.remedies)
     json["remedies"].push_back({{"what", r.what}, {"stable_step", number(r.step)}});
   return json;

@@ -18,6 +18,14 @@ struct StepShare {
   double share = 0.0;
 };
 
+/// An element, its share of that energy, and what it is like.
+struct CellStepShare {
+  std::uint32_t number = 0;
+  std::vector<std::uint32_t> corners;  // as `StepExplanation::name` has them
+  double width = 0.0;                  // [m] of a simplex its least altitude, else the least distance of two corners
+  double share = 0.0;
+};
+
 /// A change of the body, and the step [s] that it makes stable.
 struct StepRemedy {
   std::string what;
@@ -30,8 +38,12 @@ struct StepExplanation {
   double quick = 0.0;  // [s] stable in any state, by Gershgorin's bound
   // the largest first, at most five of each; none where nothing oscillates
   std::vector<StepShare> springs, vertices;
+  std::vector<CellStepShare> cells;  // of elements
   std::vector<StepRemedy> remedies;
-  SpringColumns body;  // at the start
+  SpringColumns body;                // at the start; its vertices and springs have numbers of their own
+  std::vector<std::uint32_t> names;  // of each vertex the number of its point in the file; empty: its own
+
+  std::uint32_t name(std::uint32_t vertex) const { return names.empty() ? vertex : names[vertex]; }
 };
 
 /// throws  InputError for a scene with contact; as the constructor of Simulation; a step that the scene refuses is explained like any other

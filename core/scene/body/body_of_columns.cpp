@@ -66,6 +66,7 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
     if (needs.viscosity) vertices_.viscosity.push_back(material.viscosity * vertices_.mass[p]);
     vertices_.point.push_back(p);
   }
+  vertices_.hold(problem.held_axes);
   if (needs.pull) vertices_.pull.assign(points.size(), Eigen::Vector3d(0, 0, 0));
 }
 
@@ -182,7 +183,7 @@ MemoryReport BodyOfColumns::memory() const {
   const bool of_elements = !solid_shape_.empty() || !membrane_shape_.empty();
   MemoryReport report{{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
                       {Part::viscosity, bytes_of(vertices_.viscosity)},
-                      {Part::fixed, bytes_of(vertices_.fixed)},
+                      {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
                       {Part::rest, bytes_of(vertices_.rest)},
                       {Part::pull, bytes_of(vertices_.pull)},
                       {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
@@ -211,7 +212,8 @@ SpringSystem BodyOfColumns::system() const {
           .fixed = vertices_.fixed,
           .gravity = gravity_,
           .pull = vertices_.pull,
-          .terms = terms_};
+          .terms = terms_,
+          .held_axes = vertices_.held_axes};
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {

@@ -145,6 +145,7 @@ class BodyOnMap final : public SimulatedBody {
                         .gravity = body_.surroundings.gravity,
                         .pull = v.pull};
     system.terms = terms_;
+    system.held_axes = v.held_axes;
     if (!body_.cell_materials().has_springs()) {
       system.ends = {};
       system.springs = {};
@@ -245,7 +246,7 @@ class BodyOnMap final : public SimulatedBody {
                                                (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
                         {Part::vertices, bytes_of_vertices(v)},
                         {Part::viscosity, bytes_of(v.viscosity)},
-                        {Part::fixed, bytes_of(v.fixed)},
+                        {Part::fixed, bytes_of(v.fixed, v.held_axes)},
                         {Part::rest, bytes_of(v.rest)},
                         {Part::pull, bytes_of(v.pull)},
                         {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},

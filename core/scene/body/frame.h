@@ -25,7 +25,7 @@ struct Frame {
   std::vector<std::array<std::uint32_t, 2>> links;
 
   FrameFields fields;              // which of these there are; others are empty
-  std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven
+  std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven, 3 held along some axes
   // [Pa] (of a surface [N/m]) by point of a body with cells; infinite where a stress is not finite
   std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
   std::vector<double> tension;                        // [N] of a chain, by link; negative where it is pressed together

@@ -45,7 +45,7 @@ std::size_t bytes_of_vertices(const VertexColumns& vertices) {
   std::size_t bytes = 0;
   for_each_column(vertices, VertexColumns::embedded(),
                   [&bytes](const auto& column, const auto&) { bytes += bytes_of(column); });
-  return bytes - bytes_of(vertices.viscosity, vertices.fixed, vertices.rest, vertices.pull);
+  return bytes - bytes_of(vertices.viscosity, vertices.fixed, vertices.held_axes, vertices.rest, vertices.pull);
 }
 
 }  // namespace dartboard

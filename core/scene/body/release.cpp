@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
@@ -12,7 +13,8 @@ namespace dartboard {
 ReadyRelease::ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path)
     : vertices_(vertices) {
   for (const std::uint32_t k : select_points(release.vertices, vertices.position, path))
-    if (!vertices.fixed.empty() && vertices.fixed[k]) points_.push_back(vertices.point[k]);
+    if ((!vertices.fixed.empty() && vertices.fixed[k]) || (!vertices.held_axes.empty() && vertices.held_axes[k]))
+      points_.push_back(vertices.point[k]);
   if (points_.empty())
     throw InputError(fmt::format("{}: selects no vertex that is fixed; expected at least one", path));
   std::ranges::sort(points_);
@@ -22,9 +24,12 @@ ReadyRelease::ReadyRelease(VertexColumns& vertices, const Release& release, cons
 std::size_t ReadyRelease::apply() {
   std::size_t count = 0;
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
-    if (!vertices_.fixed[k] || !std::ranges::binary_search(points_, vertices_.point[k])) continue;
-    vertices_.fixed[k] = 0;
-    ++count;
+    if (!std::ranges::binary_search(points_, vertices_.point[k])) continue;
+    const auto let_go = [k](std::vector<std::uint8_t>& column) {
+      return !column.empty() && std::exchange(column[k], std::uint8_t{0}) != 0;
+    };
+    const bool still = let_go(vertices_.fixed), along_axes = let_go(vertices_.held_axes);
+    count += still || along_axes;
   }
   return count;
 }

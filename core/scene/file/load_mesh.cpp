@@ -26,7 +26,8 @@ void visit_ids(VertexSelection& selection, const std::string& path, const Visit&
 
 /// Every number of a point in the scene, with the path of its key.
 void visit_points(SceneFile& scene, const Visit& visit) {
-  for (std::size_t k = 0; k < scene.fixed.size(); ++k) visit_ids(scene.fixed[k], fmt::format("/fixed/{}", k), visit);
+  for (std::size_t k = 0; k < scene.fixed.size(); ++k)
+    visit_ids(scene.fixed[k].vertices, fmt::format("/fixed/{}", k), visit);
   for (SceneDrive& drive : scene.driven) visit_ids(drive.vertices, drive.path, visit);
   for (SceneForce& force : scene.forces) visit_ids(force.vertices, force.path, visit);
   for (Probe& probe : scene.probes)
@@ -114,7 +115,7 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   const auto all_of = [&places](VertexSelection& selection) {
     if (auto* by_id = std::get_if<IdSelection>(&selection)) places.add_all(by_id->ids);
   };
-  for (VertexSelection& selection : scene.fixed) all_of(selection);
+  for (HeldSelection& held : scene.fixed) all_of(held.vertices);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
   for (SceneForce& force : scene.forces) all_of(force.vertices);
   for (SceneEvent& event : scene.events) {

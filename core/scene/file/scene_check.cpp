@@ -74,7 +74,7 @@ class Checker {
   }
 
   Json choices(const SceneKey& key, const Json& value, const std::string& path) const {
-    const Json words = each(key, value, path, 0, many, [&](const Json& word, const std::string& at) {
+    const Json words = each(key, value, path, key.least_size, many, [&](const Json& word, const std::string& at) {
       require_choice(key, word, at);
       return word;
     });

@@ -75,7 +75,7 @@ class Reader {
     scene.gravity = point(json.at("gravity"));
     scene.initial_velocity = velocity(json.at("initial_velocity"));
     for (std::size_t k = 0; k < json.at("fixed").size(); ++k)
-      scene.fixed.push_back(region<VertexSelection>(json.at("fixed")[k], fmt::format("/fixed/{}", k)).value());
+      scene.fixed.push_back(hold(json.at("fixed")[k], fmt::format("/fixed/{}", k)));
     for (std::size_t k = 0; k < json.at("driven").size(); ++k)
       scene.driven.push_back(drive(json.at("driven")[k], fmt::format("/driven/{}", k), scene));
     for (std::size_t k = 0; k < json.at("forces").size(); ++k)
@@ -291,6 +291,13 @@ class Reader {
       return TagSelection{tag.at("of"), tag.at("value").get<std::int32_t>()};
     }
     return RandomSelection{json.at("random").at("count"), json.at("random").at("seed")};
+  }
+
+  HeldSelection hold(const Json& json, const std::string& path) const {
+    HeldSelection hold{region<VertexSelection>(json, path).value(), 0};
+    for (const Json& axis : json.at("axes"))
+      hold.axes |= axis == "x" ? HeldAxes{1} : axis == "y" ? HeldAxes{2} : HeldAxes{4};
+    return hold;
   }
 
   SceneDrive drive(const Json& json, const std::string& path, const SceneFile& scene) const {
@@ -564,6 +571,9 @@ class Reader {
       fail(scene.touches.front().path,
            "stands beside the integrator \"energy-momentum\", whose forces are not there where depths have kinks",
            "another integrator, or obstacles alone");
+    if (scene.accuracy && scene.holds_axes())
+      fail("/accuracy", "is given where /fixed has 'axes', which the codes it compares with do not know",
+           "'step' in its place");
     if (scene.accuracy && scene.tissues().size() > 1)
       fail("/accuracy",
            fmt::format("stands beside {}: the codes it compares with know one material", scene.tissues()[1].path),
@@ -695,6 +705,10 @@ std::vector<SceneFile::Tissue> SceneFile::tissues() const {
 
 bool SceneFile::has_elements() const {
   return std::ranges::any_of(tissues(), [](const Tissue& tissue) { return tissue.material.model != Model::springs; });
+}
+
+bool SceneFile::holds_axes() const {
+  return std::ranges::any_of(fixed, [](const HeldSelection& held) { return held.axes != all_axes; });
 }
 
 bool changes_topology(const Action& action) { return !std::holds_alternative<Release>(action); }

@@ -230,7 +230,7 @@ struct SceneFile {
   Bending bending;
   Eigen::Vector3d gravity;
   InitialVelocity initial_velocity;
-  std::vector<VertexSelection> fixed;
+  std::vector<HeldSelection> fixed;
   std::vector<SceneDrive> driven;
   std::vector<SceneForce> forces;
   std::vector<SceneObstacle> obstacles;  // without any, and without touches, there is no contact
@@ -254,6 +254,7 @@ struct SceneFile {
   std::uint64_t added_seed = 0;  // by `reseed`
 
   bool has_elements() const;  // somewhere
+  bool holds_axes() const;    // of some vertices, and not all three
   bool has_contact() const { return !obstacles.empty() || !touches.empty(); }
   /// Has it springs or bending that no edge stands for, which references know nothing of? Their key, or nothing.
   std::string_view key_beside_edges() const {

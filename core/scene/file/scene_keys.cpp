@@ -63,8 +63,8 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
        .standard = "[0, 0, 0]", .help = "velocity at the start, one for all vertices or linear in their place; not above "
                                         "that of light"},
-      {.shape = scene, .name = "fixed", .type = objects, .of = vertex_selection, .standard = "[]",
-       .help = "vertices held still, by where they are at rest: those in any of the selections"},
+      {.shape = scene, .name = "fixed", .type = objects, .of = held, .standard = "[]",
+       .help = "vertices held still or along some axes, by where they are at rest: those in any of the selections"},
       {.shape = scene, .name = "driven", .type = objects, .of = driven, .standard = "[]",
        .help = "vertices that are moved along, whatever acts on them"},
       {.shape = scene, .name = "forces", .type = objects, .of = force, .standard = "[]",
@@ -217,6 +217,18 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
       {.shape = vertex_selection, .name = "around", .type = object, .of = around,
        .help = "the vertices near a path, or near what a blade sweeps"},
+      {.shape = held, .name = "ids", .type = integers, .range = number,
+       .help = "these points of the mesh, counted from 0 in the order of the file"},
+      {.shape = held, .name = "box", .type = object, .of = box, .help = "the vertices in a box"},
+      {.shape = held, .name = "plane", .type = object, .of = plane,
+       .help = "the vertices on a plane or on the side that its normal points to"},
+      {.shape = held, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
+      {.shape = held, .name = "around", .type = object, .of = around,
+       .help = "the vertices near a path, or near what a blade sweeps"},
+      {.shape = held, .name = "axes", .type = choices, .least_size = 1, .choices = {"x", "y", "z"},
+       .standard = "[\"x\", \"y\", \"z\"]",
+       .help = "along which they are held; along the others they move freely. [\"x\"] makes a symmetry plane across x, "
+               "[\"y\", \"z\"] a rail along x. What several selections hold adds up"},
       {.shape = driven, .name = "ids", .type = integers, .range = number,
        .help = "these points of the mesh, counted from 0 in the order of the file"},
       {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
@@ -360,7 +372,7 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "tear wherever the stress is too large"},
       {.shape = event, .name = "refine", .type = object, .of = refine, .help = "subdivide tetrahedra"},
       {.shape = event, .name = "release", .type = object, .of = vertex_selection,
-       .help = "let go of fixed vertices, by where they are at rest"},
+       .help = "let go of fixed vertices, by where they are at rest; of those held along some axes too"},
       {.shape = dissociate, .name = "points", .type = integer_lists, .range = number,
        .help = "faces, each by three of its points in the mesh, counted from 0 in the order of the file; in a surface "
                "edges, each by its two ends"},
@@ -410,7 +422,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs", "contact"},
        .standard = "[\"held\", \"stress\"]",
        .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
-               "which vertices are free (0), fixed (1) or driven (2). 'stress': of each vertex the largest principal "
+               "which vertices are free (0), fixed (1), driven (2) or held along some axes (3). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
                "one is not finite: of elements Cauchy's, per area (length) as it is now, of springs their virial per volume "
                "(area) at rest; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
@@ -527,6 +539,7 @@ std::span<const ShapeHelp> scene_shapes() {
        "which may shorten the stable step of explicit integrators other than 'verlet'."},
       {Shape::velocity, "velocity", "v(x) = constant + linear (x - centre)"},
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
+      {Shape::held, "held", "Some of the vertices, and the axes along which they are held."},
       {Shape::driven, "driven",
        "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are never "
        "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
@@ -598,6 +611,7 @@ std::span<const SceneRule> scene_rules() {
       {needs_object, Shape::tissue, {"poisson", "damping"}},
       {exactly_one, Shape::bending, {"rigidity", "second_neighbours"}},
       {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
+      {exactly_one, Shape::held, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::force, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::force, {"force", "pressure"}},
@@ -633,7 +647,9 @@ std::string expectation(const SceneKey& key) {
   switch (key.type) {
     case ValueType::text: return "a text";
     case ValueType::choice: return "one of " + quoted_list(key.choices, ", ");
-    case ValueType::choices: return "a list of words, none twice, out of " + quoted_list(key.choices, ", ");
+    case ValueType::choices:
+      return fmt::format("a list of words, {}none twice, out of {}", key.least_size > 0 ? "at least one, " : "",
+                         quoted_list(key.choices, ", "));
     case ValueType::integer: return "an integer" + range + unit;
     case ValueType::integers: return "a list of integers" + range + ", at least one";
     case ValueType::real: return "a number" + range + unit;

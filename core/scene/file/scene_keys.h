@@ -27,6 +27,7 @@ enum class Shape {
   damping,
   velocity,
   vertex_selection,
+  held,
   driven,
   force,
   contact,
@@ -93,7 +94,7 @@ struct SceneKey {
   Shape of{};                          // of an object
   std::string_view unit{};             // empty for none
   Range range{};                       // of every number in the value
-  std::size_t least_size = 0;          // of a list of points
+  std::size_t least_size = 0;          // of a list of points or words
   std::vector<std::string> choices{};  // of a choice or choices
   bool required = false;
   std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none

@@ -131,7 +131,13 @@ Problem make_problem(const SceneFile& scene) {
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
   try {
-    problem.fixed = select_points(scene.fixed, problem.mesh.points);
+    const std::vector<HeldAxes> held = held_axes_of(scene.fixed, problem.mesh.points);
+    for (std::uint32_t p = 0; p < held.size(); ++p) {
+      if (held[p] == all_axes)
+        problem.fixed.push_back(p);
+      else if (held[p] != 0)
+        problem.held_axes.push_back({p, held[p]});
+    }
     for (const SceneDrive& drive : scene.driven) {
       const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
       for (const std::uint32_t p : driven)

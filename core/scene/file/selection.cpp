@@ -155,16 +155,16 @@ std::vector<std::uint32_t> cells_in(const CellSelection& selection, std::span<co
   return cells;
 }
 
-std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
-                                         std::span<const Eigen::Vector3d> points, std::string_view path) {
-  std::vector<bool> chosen(points.size(), false);
+std::vector<HeldAxes> held_axes_of(std::span<const HeldSelection> selections, std::span<const Eigen::Vector3d> points,
+                                   std::string_view path) {
+  std::vector<HeldAxes> held(points.size(), 0);
   for (std::size_t s = 0; s < selections.size(); ++s) {
     const std::string at = fmt::format("{}/{}", path, s);
-    const auto selected = select_points(selections[s], points, at);
+    const auto selected = select_points(selections[s].vertices, points, at);
     require_some(selected, at, points);
-    for (const std::uint32_t p : selected) chosen[p] = true;
+    for (const std::uint32_t p : selected) held[p] |= selections[s].axes;
   }
-  return numbers_of(chosen);
+  return held;
 }
 
 }  // namespace dartboard

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/plain/held_axes.h"
+
 namespace dartboard {
 
 /// Points or cells of the mesh, by number.
@@ -57,6 +59,11 @@ struct RandomSelection {
 /// Where a cut reaches.
 using CutRegion = std::variant<BoxSelection, SphereSelection, AroundSelection, PolygonSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection>;
+/// Vertices that are held: still, or along some axes.
+struct HeldSelection {
+  VertexSelection vertices;
+  HeldAxes axes = all_axes;
+};
 using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
                                    RandomSelection, TagSelection>;
 
@@ -74,11 +81,11 @@ bool contains(const CutRegion& region, const Eigen::Vector3d& x, double thicknes
 /// throws  InputError "PATH/ids/1: ..." for an id that is no point
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
                                          std::string_view path);
-/// The same for those in any of the selections in the list at `path`.
+/// The axes along which each of the points is held by the selections in the list at `path`.
 ///
 /// throws  InputError as above, and for a selection of no point
-std::vector<std::uint32_t> select_points(std::span<const VertexSelection> selections,
-                                         std::span<const Eigen::Vector3d> points, std::string_view path = "/fixed");
+std::vector<HeldAxes> held_axes_of(std::span<const HeldSelection> selections, std::span<const Eigen::Vector3d> points,
+                                   std::string_view path = "/fixed");
 
 /// The numbers of those centroids that are in a region, ascending; none for what names cells otherwise.
 std::vector<std::uint32_t> cells_in(const CellSelection& selection, std::span<const Eigen::Vector3d> centroids,

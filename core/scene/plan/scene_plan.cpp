@@ -139,8 +139,11 @@ class Planner {
       add(Part::viscosity, "drag by vertex, zero", "changes of the map follow it; " + viscosity);
     if (!plan_.needs.body.viscosity)
       leave_out(on_map ? "term of viscosity" : "column and term of viscosity", viscosity);
-    if (plan_.needs.body.fixed)
-      add(Part::fixed, fmt::format("{} of {} vertices are held still or driven", problem_.fixed.size(), n.vertices),
+    const std::size_t along_axes = problem_.held_axes.size();
+    if (plan_.needs.body.fixed || along_axes > 0)
+      add(Part::fixed,
+          fmt::format("{} of {} vertices are held still or driven", problem_.fixed.size(), n.vertices) +
+              (along_axes > 0 ? fmt::format(", {} along some axes", along_axes) : ""),
           fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()));
     else
       leave_out("column and term of fixed vertices",

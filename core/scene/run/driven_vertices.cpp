@@ -35,14 +35,14 @@ DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Ve
 }
 
 void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const {
-  std::vector<bool> fixed(rest.size(), false);
-  for (const std::uint32_t p : select_points(scene.fixed, rest, "/fixed")) fixed[p] = true;
+  const std::vector<HeldAxes> held = held_axes_of(scene.fixed, rest);
   std::vector<std::vector<std::size_t>> met(rest.size());  // the drives of each point
   for (std::size_t d = 0; d < drives_.size(); ++d)
     for (const std::uint32_t p : drives_[d].points) {
-      if (fixed[p])
-        throw InputError(fmt::format("{}: drives point {}, and /fixed holds it still; expected one of them",
-                                     scene.driven[d].path, number_in_file(scene, p)));
+      if (held[p] != 0)
+        throw InputError(fmt::format("{}: drives point {}, and /fixed holds it{}; expected one of them",
+                                     scene.driven[d].path, number_in_file(scene, p),
+                                     held[p] == all_axes ? " still" : ""));
       for (const std::size_t other : met[p])
         if (drives_[d].first < drives_[other].last && drives_[other].first < drives_[d].last)
           throw InputError(fmt::format(

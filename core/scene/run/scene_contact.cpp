@@ -29,9 +29,7 @@ std::vector<std::uint32_t> nodes_of(const SkinSample& sample) {
   return {sample.corners().begin(), sample.corners().end()};
 }
 
-std::span<const std::uint8_t> fixed_of(const SpringSystem& system) {
-  return {system.fixed.data(), system.fixed.empty() ? 0 : system.vertex_count()};
-}
+HeldVertices held_in(const SpringSystem& system) { return {system.fixed.span(), system.held_axes.span()}; }
 
 }  // namespace
 
@@ -149,11 +147,11 @@ bool SceneContact::begin(double time, double h, const SpringSystem& system, Moti
   if (undoes_) kept_v_.assign(motion.v.begin(), motion.v.end());
   const auto accelerate = [&system, this](std::span<const Vector3d> x, std::span<const Vector3d> v,
                                           std::span<Vector3d> a) { accelerations(system, terms_, x, v, a); };
-  return impulses_.begin(time, h, system.inverse_mass, fixed_of(system), motion.x, motion.v, accelerate);
+  return impulses_.begin(time, h, system.inverse_mass, held_in(system), motion.x, motion.v, accelerate);
 }
 
 bool SceneContact::end(double time, double h, const SpringSystem& system, Motion motion) {
-  const bool changed = impulses_.end(time, h, system.inverse_mass, fixed_of(system), motion.x, motion.v);
+  const bool changed = impulses_.end(time, h, system.inverse_mass, held_in(system), motion.x, motion.v);
   if (obstacles_ != nullptr) {
     if (!has_told(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
     if (!has_told(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);

@@ -473,6 +473,8 @@ Frame Simulation::frame(const FrameFields& fields) const {
   if (fields.held) {
     const VertexColumns& v = body_->vertices();
     frame.held.assign(v.size(), 0);
+    for (std::size_t k = 0; k < v.held_axes.size(); ++k)
+      if (v.held_axes[k] != 0) frame.held[k] = 3;
     for (std::size_t k = 0; k < v.fixed.size(); ++k)
       if (v.fixed[k]) frame.held[k] = driven_.moves(v.point[k]) ? 2 : 1;
   }

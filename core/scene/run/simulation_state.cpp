@@ -42,7 +42,7 @@ void Simulation::state(Archive& archive) {
   const SpringSystem system = body_->system();
   if (v.position.size() != v.size() || v.velocity.size() != v.size() || v.inverse_mass.size() != v.size() ||
       v.point.size() != v.size() || (!v.pull.empty() && v.pull.size() != v.size()) ||
-      system.ends.size() != system.springs.size())
+      (!v.held_axes.empty() && v.held_axes.size() != v.size()) || system.ends.size() != system.springs.size())
     archive.fail("columns of the body are not as long as each other");
   for (const SpringEnds& ends : system.ends)
     if (ends[0] >= v.size() || ends[1] >= v.size()) archive.fail("a spring ends at no vertex");

@@ -19,6 +19,10 @@ class Counter {
   explicit Counter(const Mesh& mesh)
       : mesh_(mesh), thickness_(border_thickness(mesh.points)), near_(10.0 * thickness_) {}
 
+  void held(const std::string& path, const HeldSelection& held) {
+    vertices(path, held.vertices);
+    counts.back().along = name(held.axes);
+  }
   void vertices(const std::string& path, const VertexSelection& selection) {
     if (std::holds_alternative<IdSelection>(selection))
       add(path, "vertices", select_points(selection, mesh_.points, path).size(), mesh_.points.size());
@@ -68,12 +72,14 @@ class Counter {
 }  // namespace
 
 std::string to_string(const SelectionCount& count) {
-  return fmt::format("{}: {} of {} {}", count.path, count.selected, count.all, count.of_what);
+  const bool some_axes = !count.along.empty() && count.along != name(all_axes);
+  return fmt::format("{}: {} of {} {}{}{}", count.path, count.selected, count.all, count.of_what,
+                     some_axes ? ", along " : "", some_axes ? count.along : "");
 }
 
 std::vector<SelectionCount> count_selections(const SceneFile& scene, const Mesh& mesh) {
   Counter counter(mesh);
-  for (std::size_t k = 0; k < scene.fixed.size(); ++k) counter.vertices(fmt::format("/fixed/{}", k), scene.fixed[k]);
+  for (std::size_t k = 0; k < scene.fixed.size(); ++k) counter.held(fmt::format("/fixed/{}", k), scene.fixed[k]);
   for (const SceneDrive& drive : scene.driven) counter.vertices(drive.path, drive.vertices);
   for (const SceneForce& force : scene.forces) counter.vertices(force.path, force.vertices);
   for (const SceneRegion& region : scene.regions) counter.cells(region.path + "/cells", region.cells);

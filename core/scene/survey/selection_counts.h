@@ -18,6 +18,7 @@ struct SelectionCount {
   std::size_t selected = 0, all = 0;  // `all` could be selected
   std::size_t just_outside = 0;       // not selected, and nearer to its border than `near`
   double near = 0.0;                  // [m] ten times the thickness of borders
+  std::string_view along{};  // "x", "y and z": the axes along which vertices are held; empty where they are not
 };
 /// "/fixed/0: 16 of 44 vertices"
 std::string to_string(const SelectionCount& count);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/forces/mobility.h"
 #include "core/forces/term_damping.h"
 
 namespace dartboard {
@@ -66,6 +67,7 @@ void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::s
   if (terms.viscosity)
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += system.viscosity[i] * v[i];
   for (std::size_t i = 0; i < result.size(); ++i) result[i] *= system.inverse_mass[i];
+  free_along_axes(system, result);
   if (!terms.fixed) return;
   for (std::size_t i = 0; i < result.size(); ++i)
     if (system.fixed[i]) result[i].setZero();
@@ -99,11 +101,31 @@ auto FrozenDamping::relaxation(const SpringSystem& system, std::span<Vector3d> v
   };
 }
 
+// The same where vertices are held along axes: what they follow of an impulse depends on its direction.
+auto FrozenDamping::relaxation_along_axes(const SpringSystem& system, double h, std::span<Vector3d> v) const {
+  return [this, &system, h, v, mobility = Mobility(mobility_, system.held_axes.span())](std::size_t s) {
+    const auto [i, j] = system.ends[s];
+    const double both = mobility.along(i, along_[s]) + mobility.along(j, along_[s]);
+    if (both == 0.0) return;
+    const double lost = one_minus_exp_of_minus(system.springs[s].damping * both * h);
+    const Vector3d given = (lost / both * (v[j] - v[i]).dot(along_[s])) * along_[s];
+    v[i] += mobility.velocity_of(i, given);
+    v[j] -= mobility.velocity_of(j, given);
+  };
+}
+
+void FrozenDamping::relax_springs(const SpringSystem& system, double h, bool in_reverse, std::span<Vector3d> v) const {
+  const auto sweep = [this, in_reverse](const auto& relax) {
+    in_reverse ? backwards(impulse_.size(), relax) : forwards(impulse_.size(), relax);
+  };
+  system.held_axes.empty() ? sweep(relaxation(system, v)) : sweep(relaxation_along_axes(system, h, v));
+}
+
 void FrozenDamping::relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Vector3d> v) const {
   const std::size_t count = system.terms.size();
   for (std::size_t k = 0; k < count; ++k)
     if (const TermDamping* damping = system.terms[backwards ? count - 1 - k : k]->damping(); damping != nullptr)
-      damping->decay(at_, h, mobility_, backwards, v);
+      damping->decay(at_, h, {mobility_, system.held_axes.span()}, backwards, v);
 }
 
 void FrozenDamping::slow_down(std::span<Vector3d> v) const {
@@ -113,19 +135,19 @@ void FrozenDamping::slow_down(std::span<Vector3d> v) const {
 void FrozenDamping::decay_symmetric(const SpringSystem& system, const Terms& terms, double h, std::span<Vector3d> v) {
   prepare_flow(system, terms, h / 2);
   slow_down(v);
-  forwards(impulse_.size(), relaxation(system, v));
+  relax_springs(system, h / 2, false, v);
   if (terms.damping) {
     relax_terms(system, h / 2, false, v);
     relax_terms(system, h / 2, true, v);
   }
-  backwards(impulse_.size(), relaxation(system, v));
+  relax_springs(system, h / 2, true, v);
   slow_down(v);
 }
 
 void FrozenDamping::decay_once(const SpringSystem& system, const Terms& terms, double h, std::span<Vector3d> v) {
   prepare_flow(system, terms, h);
   slow_down(v);
-  forwards(impulse_.size(), relaxation(system, v));
+  relax_springs(system, h, false, v);
   if (terms.damping) relax_terms(system, h, false, v);
 }
 

@@ -25,7 +25,7 @@ class FrozenDamping {
   /// Take the directions of the springs from x, and keep x for force terms that are damped.
   void freeze(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> x);
 
-  /// result = B v [m/s^2], zero where fixed.
+  /// result = B v [m/s^2], zero where fixed, and along held axes.
   void apply(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> v,
              std::span<Eigen::Vector3d> result) const;
 
@@ -41,6 +41,8 @@ class FrozenDamping {
  private:
   void prepare_flow(const SpringSystem& system, const Terms& terms, double h);
   auto relaxation(const SpringSystem& system, std::span<Eigen::Vector3d> v) const;
+  auto relaxation_along_axes(const SpringSystem& system, double h, std::span<Eigen::Vector3d> v) const;
+  void relax_springs(const SpringSystem& system, double h, bool in_reverse, std::span<Eigen::Vector3d> v) const;
   void slow_down(std::span<Eigen::Vector3d> v) const;
   void relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Eigen::Vector3d> v) const;
 

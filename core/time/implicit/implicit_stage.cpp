@@ -86,6 +86,7 @@ void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, 
       residual_[i] = s.mass[i] * (w[i] - p.vh[i]) + p.tau * inner;
     }
   }
+  free_along_axes(s, residual_);
 }
 
 // What the residual may be at each vertex: by the tolerance, and by rounding. A length vector is wrong by an ulp of
@@ -267,6 +268,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
   const Problem p{system, xh, vh, tau, force};
   for (std::size_t i = 0; i < w.size(); ++i)
     if (system.fixed[i]) w[i] = vh[i];
+  free_along_axes(system, w);
   direction_.resize(w.size());
   const auto of_springs = [&p, &w](Compression compression, std::vector<SpringTangent>& result) {
     result.resize(p.system.springs.size());
@@ -300,6 +302,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
         trial_.resize(w.size());
         for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = -residual_[i];
         status = solver_.solve(trial_, direction_, Accuracy::iteration, work);
+        free_along_axes(system, direction_);  // a factor of one coordinate knows of no axes
       }
       if (status == SolveStatus::ok && search(p, w, work)) break;
       if (now <= 1.0) return {};

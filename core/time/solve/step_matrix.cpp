@@ -43,6 +43,26 @@ void StepMatrix::set_inertia(const SpringSystem& system) {
     fixed_[i] = system.fixed[i];
     inertia_[i] = fixed_[i] ? 1.0 : system.mass[i] + tau_ * system.viscosity[i];
   }
+  held_axes_.assign(system.held_axes.begin(), system.held_axes.end());
+}
+
+// A block without the rows of what is held at vertex i, and the columns at j.
+Matrix3d StepMatrix::free_block(std::size_t i, std::size_t j, Matrix3d block) const {
+  for (int c = 0; c < 3; ++c) {
+    if (holds(held_axes_[i], c)) block.row(c).setZero();
+    if (holds(held_axes_[j], c)) block.col(c).setZero();
+  }
+  return block;
+}
+
+// Velocities along held axes are given: on the diagonal, what they are multiplied by is the inertia.
+void StepMatrix::hold_axes() {
+  for (std::size_t i = 0; i < held_axes_.size(); ++i) {
+    if (held_axes_[i] == 0) continue;
+    diagonal_[i] = free_block(i, i, diagonal_[i]);
+    for (int c = 0; c < 3; ++c)
+      if (holds(held_axes_[i], c)) diagonal_[i](c, c) = inertia_[i];
+  }
 }
 
 void StepMatrix::sum_diagonal() {
@@ -72,12 +92,14 @@ void StepMatrix::evaluate(const SpringSystem& system, std::span<const SpringTang
     sources_[e] = {system.springs[e].stiffness, system.springs[e].damping};
   }
   sum_diagonal();
+  hold_axes();
 }
 
 void StepMatrix::evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau,
                           const NodePattern& pattern, const TermTangents& terms) {
   evaluate(system, tangents, tau);
   sum_terms(system, pattern, terms);
+  hold_axes();
 }
 
 void StepMatrix::sum_terms(const SpringSystem& system, const NodePattern& pattern, const TermTangents& tangents) {
@@ -107,7 +129,7 @@ void StepMatrix::add_stiffness_of_terms(std::span<const Vector3d> x, std::span<V
   if (terms_.diagonal.empty()) return;
   std::vector<Vector3d> product(x.size());
   terms_.multiply(x, product);
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += product[i] / (tau_ * tau_);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += free_at(i, product[i]) / (tau_ * tau_);
 }
 
 void StepMatrix::multiply(std::span<const Vector3d> x, std::span<Vector3d> y) const {
@@ -127,6 +149,7 @@ void StepMatrix::multiply(std::span<const Vector3d> x, std::span<Vector3d> y) co
   }
   if (!terms_.diagonal.empty()) terms_.add_product(x, y);
   if (!dampers_.diagonal.empty()) dampers_.add_product(x, y);
+  for (std::size_t i = 0; i < held_axes_.size(); ++i) y[i] = free_at(i, y[i]);
 }
 
 void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const {
@@ -141,6 +164,10 @@ void StepMatrix::assemble(const NodePattern& pattern, BlockMatrix& matrix) const
   }
   for (std::size_t k = 0; k < terms_.below.size(); ++k) matrix.below[k] += terms_.below[k];
   for (std::size_t k = 0; k < dampers_.below.size(); ++k) matrix.below[k] += dampers_.below[k];
+  if (held_axes_.empty()) return;
+  for (std::size_t j = 0; j < held_axes_.size(); ++j)
+    for (std::uint32_t k = pattern.column_start[j]; k < pattern.column_start[j + 1]; ++k)
+      matrix.below[k] = free_block(pattern.row[k], j, matrix.below[k]);
 }
 
 std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::span<const SpringTangent> tangents,

@@ -21,7 +21,8 @@ struct RankOneTerm {
   double weight;
 };
 
-/// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whatever they would couple eliminated.
+/// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whatever they would couple eliminated;
+/// along held axes, with the inertia on the diagonal.
 ///
 /// C holds the damping of the springs and of the force terms, and the ambient viscosity.
 class StepMatrix {
@@ -37,13 +38,13 @@ class StepMatrix {
 
   std::size_t node_count() const { return inertia_.size(); }
   std::size_t bytes() const {
-    return bytes_of(inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_) + terms_.bytes() +
+    return bytes_of(inertia_, fixed_, held_axes_, blocks_, sources_, diagonal_, links_, anchors_) + terms_.bytes() +
            dampers_.bytes();
   }
   /// Without the damping of force terms: a matrix that has them is never followed, but made anew.
   template <class Archive>
   void state(Archive& archive) {
-    archive(tau_, inertia_, fixed_, blocks_, sources_, diagonal_, links_, anchors_, terms_);
+    archive(tau_, inertia_, fixed_, held_axes_, blocks_, sources_, diagonal_, links_, anchors_, terms_);
   }
   double tau() const { return tau_; }
   const Eigen::Matrix3d& diagonal_block(std::size_t i) const { return diagonal_[i]; }
@@ -51,6 +52,7 @@ class StepMatrix {
   std::span<const double> inertia() const { return inertia_; }
 
   /// y = A x, from the springs: five numbers and two ends each, where entries would take nine.
+  /// pre  x is zero along held axes
   void multiply(std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y) const;
 
   /// y += K x with the stiffness of the force terms alone, fixed vertices being still.
@@ -61,7 +63,8 @@ class StepMatrix {
   void assemble(const NodePattern& pattern, BlockMatrix& matrix) const;
 
   /// Follow a topological change while keeping what was evaluated for springs that are the same as before: the terms
-  /// that lead from this matrix to the one returned in its place. Of springs alone: pre  there are no force terms
+  /// that lead from this matrix to the one returned in its place. Of springs alone: pre  there are no force terms, and
+  /// no vertex is held along axes
   ///
   /// Springs and vertices are matched by number; those that changed are evaluated at `tangents`. A vertex whose number
   /// is beyond the old ones starts from `spare` times the identity.
@@ -89,13 +92,19 @@ class StepMatrix {
   Block block_of(const SpringSystem& system, std::size_t e, const SpringTangent& tangent) const;
   void set_inertia(const SpringSystem& system);
   void sum_diagonal();
+  void hold_axes();
+  Eigen::Vector3d free_at(std::size_t i, const Eigen::Vector3d& v) const {
+    return held_axes_.empty() ? v : free_part(held_axes_[i], v);
+  }
+  Eigen::Matrix3d free_block(std::size_t i, std::size_t j, Eigen::Matrix3d block) const;
   void sum_terms(const SpringSystem& system, const NodePattern& pattern, const TermTangents& tangents);
 
   double tau_ = 0.0;
   std::vector<double> inertia_;
   std::vector<std::uint8_t> fixed_;
-  std::vector<Block> blocks_;    // by spring
-  std::vector<Source> sources_;  // by spring
+  std::vector<HeldAxes> held_axes_;  // nothing without
+  std::vector<Block> blocks_;        // by spring
+  std::vector<Source> sources_;      // by spring
   std::vector<Eigen::Matrix3d> diagonal_;
   std::vector<std::uint32_t> links_;    // springs between two free vertices
   std::vector<std::uint32_t> anchors_;  // springs between a free and a fixed vertex

@@ -95,7 +95,8 @@ SolveStatus StepSolver::prepare(const SpringSystem& system, const TangentsAt& ta
   if (changed_ && system.terms.empty()) pattern_ = node_pattern_of(system);
   ready_ = false;
   std::vector<RankOneTerm> terms;
-  const bool follow = usable && system.terms.empty();  // what elements change by is of rank nine each
+  // what elements change by is of rank nine each; and changes at held axes have different directions at both ends
+  const bool follow = usable && system.terms.empty() && system.held_axes.empty();
   if (follow) {
     terms = factored_.follow(system, tangents_, cholesky_.spare_diagonal());
   } else {

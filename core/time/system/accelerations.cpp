@@ -82,6 +82,7 @@ void accelerations(const SpringSystem& system, const Terms& terms, std::span<con
   }
   terms.viscosity ? divide_by_mass<true>(system, v, a) : divide_by_mass<false>(system, v, a);
   for (std::size_t i = 0; i < system.pull.size(); ++i) a[i] += system.pull[i];
+  free_along_axes(system, a);
   if (!terms.fixed) return;
   const std::uint8_t* const fixed = system.fixed.data();
   for (std::size_t i = 0; i < a.size(); ++i)

@@ -21,7 +21,7 @@ Terms terms_of(const SpringSystem& system);
 bool has_damped_terms(const SpringSystem& system);
 
 /// Accelerations [m/s^2] of all vertices at x, v: springs, force terms, gravity and what `terms` says; zero where
-/// fixed.
+/// fixed, and along held axes.
 ///
 /// Leaving damping and viscosity out of the terms gives the conservative part. Springs are added in the order of their
 /// numbers with the operations of `spring_force` and `acceleration` (core/walks/spring_forces.h): the same bits.

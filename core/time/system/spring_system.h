@@ -8,6 +8,7 @@
 
 #include "core/forces/force_term.h"
 #include "core/forces/springs.h"
+#include "core/plain/held_axes.h"
 
 namespace dartboard {
 
@@ -22,6 +23,7 @@ class OptionalColumn {
 
   bool empty() const { return column_.empty(); }
   T operator[](std::size_t i) const { return column_.empty() ? T{} : column_[i]; }
+  std::span<const T> span() const { return column_; }
   /// Null where it is left out.
   const T* data() const { return column_.data(); }
   auto begin() const { return column_.begin(); }
@@ -46,9 +48,17 @@ struct SpringSystem {
   Eigen::Vector3d gravity{0, 0, 0};         // [m/s^2]
   std::span<const Eigen::Vector3d> pull{};  // [m/s^2] of each vertex, beside gravity; empty where nothing pulls
   ForceTerms terms{};                       // beside the springs
+  OptionalColumn<HeldAxes> held_axes{};     // of vertices that keep their velocity along some axes; 0 where fixed
 
   std::size_t vertex_count() const { return mass.size(); }
 };
+
+/// Take out of a column by vertex what is along held axes.
+inline void free_along_axes(const SpringSystem& system, std::span<Eigen::Vector3d> column) {
+  if (system.held_axes.empty()) return;
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (const HeldAxes held = system.held_axes[i]; held != 0) column[i] = free_part(held, column[i]);
+}
 
 /// Positions [m] and velocities [m/s] by vertex number: what an integrator advances, in place.
 struct Motion {

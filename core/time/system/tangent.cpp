@@ -34,6 +34,7 @@ void multiply_stiffness(const SpringSystem& system, std::span<const SpringTangen
   }
   for (std::size_t i = 0; i < y.size(); ++i)
     if (system.fixed[i]) y[i].setZero();
+  free_along_axes(system, y);
 }
 
 }  // namespace dartboard

@@ -37,7 +37,7 @@ SpringTangent tangent_of(const Spring& spring, const Eigen::Vector3d& dx, Compre
 void evaluate_tangents(const SpringSystem& system, std::span<const Eigen::Vector3d> x, Compression compression,
                        std::vector<SpringTangent>& tangents);
 
-/// y = K x; zero at fixed vertices, whatever acts on them.
+/// y = K x; zero at fixed vertices and along held axes, whatever acts there.
 void multiply_stiffness(const SpringSystem& system, std::span<const SpringTangent> tangents,
                         std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y);
 

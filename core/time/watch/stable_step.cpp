@@ -170,10 +170,12 @@ struct StableStepEstimate::Operator {
 
 void StableStepEstimate::multiply(const Operator& m, std::span<const Vector3d> in, std::span<Vector3d> out) {
   for (std::size_t i = 0; i < in.size(); ++i) scaled_[i] = scale_[i] * in[i];
+  free_along_axes(m.system, scaled_);
   multiply_stiffness(m.system, m.tangents, scaled_, out);
   if (m.terms) m.terms->add_product(scaled_, out);
   if (m.viscous)
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += m.system.viscosity[i] * scaled_[i];
+  free_along_axes(m.system, out);
   for (std::size_t i = 0; i < in.size(); ++i) out[i] *= scale_[i] / m.unit;
   ++multiplications_;
 }

@@ -146,6 +146,26 @@ TEST(ContactImpulses, LeaveFixedVerticesAlone) {
   }
 }
 
+// A vertex on a rail along x meets a slope of 45 degrees: an impulse along the normal gives it half of what a free one
+// gets along it, and nothing along z. The speed along the normal decays by that, and the account is even.
+TEST(ContactImpulses, LeaveAVertexOnItsRail) {
+  TouchingVertices body = one_vertex({-0.001, 0, 0}, {-2, 0, 0});
+  const std::vector<HeldAxes> rail{6};
+  Obstacle slope{HalfSpace{{0, 0, 0}, Vector3d(1, 0, 1).normalized()}};
+  ContactLaw law = contact_law(3, 0.5, 0.0);
+  law.mass_behind = mass / area;
+  ObstacleContact contact({law}, {slope}, body.samples);
+  ContactImpulses impulses(contact);
+  const double h = 1e-3, depth = 0.001 / std::sqrt(2.0), c = law.damping(law.damping_ratio(), area, mass, depth);
+  impulses.begin(0.0, h, body.inverse_mass, {body.fixed, rail}, body.x, body.v, {});
+  EXPECT_EQ(body.v[0][2], 0.0);
+  EXPECT_EQ(body.v[0][1], 0.0);
+  EXPECT_NEAR(body.v[0][0], -2 * std::exp(-c * (h / 2) * 0.5 / mass), 1e-14);
+  EXPECT_LT(body.v[0][0], -1.0);
+  EXPECT_GT(body.v[0][0], -1.999);
+  EXPECT_NEAR(impulses.losses().damped, 0.5 * mass * (4 - body.v[0].squaredNorm()), 1e-14);
+}
+
 // What an integrator remembers holds as long as nothing touches and nothing moves.
 TEST(ContactImpulses, TellWhetherAnythingHasChanged) {
   const auto none = [](std::span<const Vector3d>, std::span<const Vector3d>, std::span<Vector3d>) {

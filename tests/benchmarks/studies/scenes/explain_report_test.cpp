@@ -168,7 +168,7 @@ TEST(ExplainJson, HoldsTheFiguresOfBodiesThatTouch) {
 Json expected() {
   return Json::parse(R"({"scene": "box", "map": "general 3-g-map", "integrator": "rk4", "steps": 16,
     "counts": {"vertices": 11, "edges": 12, "faces": 13, "cells": 14, "darts": 15}, "bytes": 120, "ns_per_step": 40.0,
-    "selections": [{"path": "/fixed/0", "of_what": "vertices", "selected": 3, "all": 11, "just_outside": 1}],
+    "selections": [{"path": "/fixed/0", "of_what": "vertices", "selected": 3, "all": 11, "just_outside": 1, "along": ""}],
     "remarks": ["the mesh leans"],
     "left_out": [{"what": "viscosity", "why": "there is none"}],
     "plan": [{"part": "map", "what": "alphas", "why": "/events", "bytes": 100, "ns_per_step": 40.0},

@@ -109,6 +109,8 @@ StepExplanation distinct() {
   e.body.add_spring(0, 1, 70.0, 1.0);
   e.body.add_spring(1, 2, 80.0, 1.0);
   e.springs = {{1, 0.75}, {0, 0.25}};
+  e.cells = {{9, {20, 30, 10}, 0.75, 0.125}};
+  e.names = {10, 20, 30};
   e.vertices = {{2, 0.625}, {1, 0.375}};
   e.remedies = {{"cut it", 0.375}, {"cut all", Scheme::unlimited}};
   return e;
@@ -129,11 +131,13 @@ TEST(StepExplanationText, HasEveryFigureInItsPlace) {
                  {"stiffness [N/m]", Align::right},
                  {"length [m]", Align::right},
                  {"share", Align::right}});
-  springs.add_row({"1", "1 and 2", "80", "2", "75.0 %"});
-  springs.add_row({"0", "0 and 1", "70", "5", "25.0 %"});
+  springs.add_row({"1", "20 and 30", "80", "2", "75.0 %"});
+  springs.add_row({"0", "10 and 20", "70", "5", "25.0 %"});
+  Table cells({{"cell", Align::right}, {"corners"}, {"least width [m]", Align::right}, {"share", Align::right}});
+  cells.add_row({"9", "20, 30, 10", "0.75", "12.5 %"});
   Table vertices({{"vertex", Align::right}, {"mass [kg]", Align::right}, {"at [m]"}, {"share", Align::right}});
-  vertices.add_row({"2", "6", "1, 4, 8", "62.5 %"});
-  vertices.add_row({"1", "4", "1, 2, 8", "37.5 %"});
+  vertices.add_row({"30", "6", "1, 4, 8", "62.5 %"});
+  vertices.add_row({"20", "4", "1, 2, 8", "37.5 %"});
   Table remedies({{"if one would"}, {"stable step", Align::right}, {"gain", Align::right}});
   remedies.add_row({"cut it", "0.375 s", "+50.0 %"});
   remedies.add_row({"cut all", "any", ""});
@@ -143,7 +147,7 @@ TEST(StepExplanationText, HasEveryFigureInItsPlace) {
                 fmt::format("damping ratio there: {:.3g} to {:.3g}\n", ratio.lower, ratio.upper) +
                 "longest stable step in the state at the start: 0.25 s (certainly below 0.5 s), in any state at least "
                 "0.125 s; the scene's is stable in any\n\nShares of the energy of the fastest oscillation:\n\n" +
-                to_text(springs) + "\n" + to_text(vertices) + "\n" + to_text(remedies));
+                to_text(springs) + "\n" + to_text(cells) + "\n" + to_text(vertices) + "\n" + to_text(remedies));
 }
 
 TEST(StepExplanationText, CallsTheStepStableWhereItIs) {
@@ -161,7 +165,7 @@ TEST(StepExplanationText, CallsTheStepStableWhereItIs) {
 TEST(StepExplanationText, SaysNothingOfACertainLimitWhereThereIsNone) {
   StepExplanation e = distinct();
   e.limit.unstable = Scheme::unlimited;
-  e.springs.clear();
+  e.vertices.clear();
   const std::string text = to_text(e, scene_with(1.0));
   EXPECT_NE(text.find("at the start: 0.25 s, in any state"), std::string::npos) << text;
   EXPECT_EQ(text.find("Shares"), std::string::npos) << text;
@@ -173,13 +177,51 @@ TEST(StepExplanationJson, HoldsEveryFigure) {
   nlohmann::ordered_json expected = nlohmann::ordered_json::parse(R"({"scene": "box", "integrator": "rk4",
     "step": 0.0625, "stable": true, "stable_step": 0.25, "unstable_step": 0.5, "stable_step_quick": 0.125,
     "omega_max": {"lower": 10.0, "upper": 12.5, "any_state": 20.0}, "damping_ratio": {},
-    "springs": [{"spring": 1, "ends": [1, 2], "stiffness": 80.0, "share": 0.75},
-      {"spring": 0, "ends": [0, 1], "stiffness": 70.0, "share": 0.25}],
-    "vertices": [{"vertex": 2, "mass": 6.0, "share": 0.625}, {"vertex": 1, "mass": 4.0, "share": 0.375}],
+    "springs": [{"spring": 1, "ends": [20, 30], "stiffness": 80.0, "share": 0.75},
+      {"spring": 0, "ends": [10, 20], "stiffness": 70.0, "share": 0.25}],
+    "cells": [{"cell": 9, "corners": [20, 30, 10], "least_width": 0.75, "share": 0.125}],
+    "vertices": [{"vertex": 30, "mass": 6.0, "share": 0.625}, {"vertex": 20, "mass": 4.0, "share": 0.375}],
     "remedies": [{"what": "cut it", "stable_step": 0.375}, {"what": "cut all", "stable_step": null}]})");
   expected["damping_ratio"] = {{"lower", ratio.lower}, {"upper", ratio.upper}};
   EXPECT_EQ(to_json(e, scene_with(0.0625)), expected);
   EXPECT_EQ(to_json(e, scene_with(0.251)).at("stable"), false);
+}
+
+// Five cubes in a row, the middle one a thousand times as stiff as the others.
+TEST(StepExplanation, NamesTheElementThatTakesMostOfTheEnergyAndItsCornersAsTheMeshDoes) {
+  for (const char* kind : {"hexahedra", "tetrahedra"}) {
+    Json json = Json::parse(R"({"name": "bar", "duration": 1.0, "step": 1e-4, "integrator": "verlet",
+      "body": {"generate": {"box": {"cells": [5, 1, 1], "spacing": 0.1}}},
+      "material": {"density": 1000, "young": 1e4, "poisson": 0.3},
+      "regions": [{"cells": {"box": {"min": [0.2, 0, 0], "max": [0.3, 0.1, 0.1]}},
+                   "material": {"density": 1000, "young": 1e7, "poisson": 0.3}}]})");
+    json["body"]["generate"]["box"]["kind"] = kind;
+    const StepExplanation e = explain_step(parse(json));
+    ASSERT_FALSE(e.cells.empty()) << kind;
+    EXPECT_TRUE(e.springs.empty()) << kind;
+    double sum = 0.0;
+    for (const CellStepShare& cell : e.cells) {
+      sum += cell.share;
+      if (cell.share < 0.01) continue;
+      for (const std::uint32_t corner : cell.corners) EXPECT_TRUE(corner % 6 == 2 || corner % 6 == 3) << kind;
+    }
+    EXPECT_GT(sum, 0.9) << kind;  // of six tetrahedra five are named
+    EXPECT_LE(sum, 1.0 + 1e-12) << kind;
+    // each of the six tetrahedra of a cube has two sides of half the section along a diagonal: 3 V / A
+    EXPECT_NEAR(e.cells[0].width, kind == std::string("hexahedra") ? 0.1 : 0.1 / std::sqrt(2.0), 1e-9) << kind;
+    EXPECT_GT(remedy(e, "double the mass of the first vertex"), e.limit.stable) << kind;
+  }
+}
+
+// A vertex with a spring along each axis: the mode along the stiffest is gone where that axis is held.
+TEST(StepExplanation, KnowsOfHeldAxes) {
+  Json json = Json::parse(R"({"name": "chain", "duration": 10.0, "step": 1e-3, "integrator": "verlet",
+    "body": {"generate": {"chain": {"links": 2, "spacing": 0.5}}},
+    "fixed": [{"ids": [0, 2]}], "material": {"density": 2.0, "stiffness": 100.0}})");
+  const StepExplanation free = explain_step(parse(json));
+  EXPECT_EQ(free.vertices.size(), 1u);
+  json["fixed"].push_back({{"ids", {1}}, {"axes", {"x"}}});  // across the links nothing holds it
+  EXPECT_GT(explain_step(parse(json)).limit.stable, 1e3 * free.limit.stable);
 }
 
 TEST(StepExplanation, IsOfAStepThatTheSceneRefuses) {

@@ -37,7 +37,7 @@ TEST(PointNumbers, AreThoseOfTheFileInEveryKey) {
                  {"at": 0.005, "dissociate": {"points": [[1, 2, 5]]}}],
       "output": {"probes": [{"name": "p", "vertex": 4}]})");
   const SceneFile scene = folder.scene();
-  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0)).ids, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0).vertices).ids, (std::vector<std::uint32_t>{0, 3}));
   EXPECT_EQ(std::get<IdSelection>(scene.driven.at(0).vertices).ids, (std::vector<std::uint32_t>{2}));
   EXPECT_EQ(std::get<std::uint32_t>(std::get<Tear>(scene.events.at(0).action).vertex), 1u);
   EXPECT_EQ(std::get<0>(std::get<Dissociate>(scene.events.at(1).action).faces).at(0),
@@ -196,7 +196,7 @@ TEST(SeamScene, KnowsWeldedPointsByEachOfTheirNumbers) {
                           R"(, "fixed": [{"ids": [1, 9, 10]}], "output": {"probes": [{"name": "p", "vertex": 15},
                              {"name": "q", "vertex": 16}]})");
   const SceneFile scene = folder.scene();
-  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0)).ids, (std::vector<std::uint32_t>{0, 1, 8}));
+  EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0).vertices).ids, (std::vector<std::uint32_t>{0, 1, 8}));
   const Simulation simulation(scene);
   EXPECT_EQ(simulation.probes().probes.at(0)->position, Eigen::Vector3d(1, 1, 1));
   EXPECT_EQ(simulation.probes().probes.at(1)->position, Eigen::Vector3d(2, 1, 1));

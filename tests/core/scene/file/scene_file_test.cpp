@@ -191,7 +191,7 @@ TEST(SceneCheck, HintsOnlyAtWhatIsNear) {
 TEST(SceneFile, TakesARealThatIsAnIntegerForOne) {
   Json json = smallest();
   json["fixed"] = Json::parse(R"([{"ids": [1.0, 2e0]}])");
-  EXPECT_EQ(std::get<IdSelection>(parse(json).fixed.at(0)).ids, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(std::get<IdSelection>(parse(json).fixed.at(0).vertices).ids, (std::vector<std::uint32_t>{1, 2}));
 }
 
 TEST(SceneFile, TakesADirectionOfAnyLengthButZero) {
@@ -199,7 +199,7 @@ TEST(SceneFile, TakesADirectionOfAnyLengthButZero) {
   json["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}])");
   for (const double length : {1e-320, 1e-200, 1.0, 1e200, 1.7e308}) {
     json["fixed"][0]["plane"]["normal"][2] = length;
-    EXPECT_EQ(std::get<PlaneSelection>(parse(json).fixed.at(0)).normal, Eigen::Vector3d(0, 0, 1)) << length;
+    EXPECT_EQ(std::get<PlaneSelection>(parse(json).fixed.at(0).vertices).normal, Eigen::Vector3d(0, 0, 1)) << length;
   }
 }
 

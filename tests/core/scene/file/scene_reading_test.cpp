@@ -108,14 +108,14 @@ TEST(SceneReading, OfVerticesHeldAndDriven) {
   const SceneFile fixed = with("fixed", R"([{"ids": [1, 2]}, {"box": {"min": [1, 2, 3], "max": [4, 5, 6]}},
       {"plane": {"point": [1, 2, 3], "normal": [0, -4, 0]}}, {"sphere": {"centre": [1, 2, 3], "radius": 4}},
       {"around": {"path": [[1, 2, 3], [4, 5, 6]], "depth": [7, 8, 9], "distance": 0.5}}])");
-  EXPECT_EQ(std::get<IdSelection>(fixed.fixed[0]).ids, (std::vector<std::uint32_t>{1, 2}));
-  EXPECT_EQ(std::get<BoxSelection>(fixed.fixed[1]).min, Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<BoxSelection>(fixed.fixed[1]).max, Vector3d(4, 5, 6));
-  EXPECT_EQ(std::get<PlaneSelection>(fixed.fixed[2]).point, Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<PlaneSelection>(fixed.fixed[2]).normal, Vector3d(0, -1, 0));  // of length 1
-  EXPECT_EQ(std::get<SphereSelection>(fixed.fixed[3]).centre, Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<SphereSelection>(fixed.fixed[3]).radius, 4.0);
-  const auto& around = std::get<AroundSelection>(fixed.fixed[4]);
+  EXPECT_EQ(std::get<IdSelection>(fixed.fixed[0].vertices).ids, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(std::get<BoxSelection>(fixed.fixed[1].vertices).min, Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<BoxSelection>(fixed.fixed[1].vertices).max, Vector3d(4, 5, 6));
+  EXPECT_EQ(std::get<PlaneSelection>(fixed.fixed[2].vertices).point, Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<PlaneSelection>(fixed.fixed[2].vertices).normal, Vector3d(0, -1, 0));  // of length 1
+  EXPECT_EQ(std::get<SphereSelection>(fixed.fixed[3].vertices).centre, Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<SphereSelection>(fixed.fixed[3].vertices).radius, 4.0);
+  const auto& around = std::get<AroundSelection>(fixed.fixed[4].vertices);
   EXPECT_EQ(around.sweep.path, (std::vector<Vector3d>{{1, 2, 3}, {4, 5, 6}}));
   EXPECT_EQ(around.sweep.depth, Vector3d(7, 8, 9));
   EXPECT_EQ(around.distance, 0.5);

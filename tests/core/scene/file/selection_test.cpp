@@ -13,7 +13,7 @@ namespace {
 const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 4, 0}};
 using Numbers = std::vector<std::uint32_t>;
 
-Numbers select(const VertexSelection& selection) { return select_points(std::vector{selection}, points); }
+Numbers select(const VertexSelection& selection) { return select_points(selection, points, "/fixed/0"); }
 
 TEST(Selection, OfIdsIsThosePointsInOrder) { EXPECT_EQ(select(IdSelection{{3, 1, 3}}), (Numbers{1, 3})); }
 TEST(Selection, OfABoxIncludesItsSurface) { EXPECT_EQ(select(BoxSelection{{1, 0, 0}, {2, 0, 0}}), (Numbers{1, 2})); }
@@ -47,11 +47,13 @@ TEST(Selection, AroundAPathWithoutDepthIsATubeWithRoundEnds) {
   EXPECT_TRUE(contains(around, {4.6, 0.8, 0}, 0.0));
   EXPECT_FALSE(contains(around, {4.6, 0.81, 0}, 0.0));
 }
-TEST(Selection, OfSeveralIsTheirUnion) {
-  EXPECT_EQ(select_points(std::vector<VertexSelection>{IdSelection{{3}}, SphereSelection{{0, 0, 0}, 0.0}}, points),
-            (Numbers{0, 3}));
+using Axes = std::vector<HeldAxes>;
+TEST(Selection, OfSeveralThatHoldAddsUpTheirAxes) {
+  const std::vector<HeldSelection> held{
+      {IdSelection{{0, 3}}, 1}, {SphereSelection{{0, 0, 0}, 1.0}, 4}, {IdSelection{{2}}}};
+  EXPECT_EQ(held_axes_of(held, points), (Axes{5, 4, 7, 1}));
 }
-TEST(Selection, OfNoneIsEmpty) { EXPECT_EQ(select_points({}, points), Numbers{}); }
+TEST(Selection, OfNoneHoldsNothing) { EXPECT_EQ(held_axes_of({}, points), (Axes{0, 0, 0, 0})); }
 TEST(Selection, RefusesAnIdThatIsNoPointAndNamesIt) {
   try {
     select(IdSelection{{0, 4}});

@@ -108,6 +108,25 @@ TEST(FrozenDamping, MultipliesWithTheDampingThatTheAccelerationsContain) {
   EXPECT_GT(product[5].norm(), 1e-3);
 }
 
+// A vertex on a rail along x, with a damper at 45 degrees to it: c / 2 acts along the rail, and its flow is exact.
+TEST(FrozenDamping, LetsAVertexOnARailDecayByWhatActsAlongIt) {
+  SpringArrays arrays;
+  arrays.add_vertex(1.0, {0, 0, 0}, {0, 0, 0}, true);
+  arrays.add_vertex(3.0, {2, 2, 0}, {1, 0, 0});
+  arrays.add_spring(0, 1, 1.0, 2.0, 1.5);
+  arrays.held_axes = {0, 6};
+  FrozenDamping damping;
+  const Terms terms{.damping = true, .fixed = true};
+  damping.freeze(arrays.system(), terms, arrays.x);
+  std::vector<Vector3d> rate(2);
+  damping.apply(arrays.system(), terms, arrays.v, rate);
+  EXPECT_NEAR(rate[1].x(), 0.25, 4 * u);
+  EXPECT_EQ(rate[1].y(), 0.0);
+  damping.decay_symmetric(arrays.system(), terms, 8.0, arrays.v);
+  EXPECT_NEAR(arrays.v[1].x(), std::exp(-2.0), 8 * u);
+  EXPECT_EQ(arrays.v[1].y(), 0.0);
+}
+
 TEST(FrozenDamping, LeavesFixedVerticesAloneAndSpringsWithoutLength) {
   SpringArrays arrays = pair(1.5);
   arrays.fixed[0] = 1;

@@ -1,0 +1,220 @@
+// Vertices that are held along some axes: symmetry planes, rails and rollers.
+
+#include "core/plain/held_axes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/plain/error.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/time/integrators.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard {
+namespace {
+
+using namespace moving;
+using Eigen::Vector3d;
+
+constexpr double spacing = 0.125;
+
+/// A box that falls, is stretched along x and turns about x, its middle at x = 0; or its half from there on, which the
+/// middle plane holds along x. Cubes are cut alike in both, and each way of cutting has its mirror image.
+Json box(bool half, const char* material) {
+  Json scene = Json::parse(R"({"name": "box", "step": 0.0009765625, "duration": 0.0625,
+    "body": {"generate": {"box": {"cells": [4, 2, 2], "spacing": 0.125, "pattern": "mirrored"}}, "translate": [-0.25, 0, 0]},
+    "gravity": [0, 0.5, -9.81],
+    "initial_velocity": {"linear": [[2, 0, 0], [0, -0.5, 1], [0, -1, 0.25]], "centre": [0, 0.125, 0.125]}})");
+  scene["material"] = Json::parse(material);
+  if (half) {
+    scene["body"]["generate"]["box"]["cells"][0] = 2;
+    scene["body"]["translate"][0] = 0;
+    scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}, "axes": ["x"]}])");
+  }
+  return scene;
+}
+
+using ByPlace = std::map<std::array<long, 3>, VertexMotion>;
+/// Where the vertices of the right half are in the end, by their places at rest in units of the spacing.
+ByPlace right_half(const Json& scene) {
+  const SceneFile file = parse(scene);
+  const Mesh mesh = make_mesh(file);
+  Simulation simulation(file);
+  run(simulation);
+  const VertexColumns& v = simulation.body().vertices();
+  ByPlace found;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vector3d rest = mesh.points[v.point[k]] / spacing;
+    if (rest.x() > -0.5)
+      found[{std::lround(rest.x()), std::lround(rest.y()), std::lround(rest.z())}] = {v.position[k], v.velocity[k]};
+  }
+  return found;
+}
+
+/// The largest difference of the two, in metres and metres a second.
+double difference(const Json& one, const Json& other) {
+  const ByPlace a = right_half(one), b = right_half(other);
+  EXPECT_EQ(a.size(), 27u);
+  EXPECT_EQ(b.size(), 27u);
+  double largest = 0.0;
+  for (const auto& [place, motion] : a) {
+    const VertexMotion& mirrored = b.at(place);
+    largest =
+        std::max({largest, (motion.position - mirrored.position).norm(), (motion.velocity - mirrored.velocity).norm()});
+  }
+  return largest;
+}
+
+double difference_from_whole(const char* material, const Json& changes) {
+  Json whole = box(false, material), half = box(true, material);
+  whole.update(changes);
+  half.update(changes);
+  return difference(whole, half);
+}
+
+constexpr const char* springs = R"({"density": 768, "stiffness": 640, "damping": 0, "viscosity": 0.5})";
+constexpr const char* elements = R"({"density": 768, "young": 2e4, "poisson": 0.3, "viscosity": 0.5})";
+
+// To rounding, and of implicit methods to their tolerance of 1e-10 of what acts in 64 steps.
+TEST(HeldAxes, MakeAHalfMoveAsTheWholeWithEveryIntegrator) {
+  for (const IntegratorEntry& entry : integrators())
+    for (const char* material : {springs, elements}) {
+      const double allowed = entry.make()->scheme().implicit ? 1e-7 : 1e-11;
+      EXPECT_LT(difference_from_whole(material, {{"integrator", entry.name}}), allowed)
+          << entry.name << ' ' << material;
+    }
+}
+
+TEST(HeldAxes, MakeAHalfMoveAsTheWholeWithEverySolverOfLinearSystems) {
+  for (const char* integrator : {"backward-euler", "baraff-witkin"})  // of the second one solution is the step
+    for (const char* solver : {"fresh-factor", "kept-factor", "conjugate-gradients"})
+      for (const char* material : {springs, elements})
+        EXPECT_LT(difference_from_whole(material, {{"integrator", integrator}, {"solver", solver}}), 1e-7)
+            << integrator << ' ' << solver << ' ' << material;
+}
+
+// Dampers relax one after the other, in an order that the mirror image does not have: the difference goes with h^2.
+TEST(HeldAxes, MakeAHalfMoveAsTheWholeWhereItIsDamped) {
+  for (const char* material :
+       {R"({"density": 768, "stiffness": 640, "damping": 2.0})",
+        R"({"density": 768, "young": 2e4, "poisson": 0.3, "damping": {"ratio": 0.2, "frequency": 10}})"})
+    for (const char* integrator : {"verlet", "blanes-moan-4", "rk4"}) {
+      const auto with_step = [&](double h) {
+        return difference_from_whole(material, {{"integrator", integrator}, {"step", h}});
+      };
+      const double coarse = with_step(0x1p-11), fine = with_step(0x1p-12);
+      EXPECT_LT(coarse, 1e-3) << integrator << ' ' << material;
+      EXPECT_LT(fine, 0.3 * coarse + 1e-11) << integrator << ' ' << material;
+    }
+}
+
+// Of a bar on three symmetry planes pulled at its end stress is uniform: it grows longer by F / (E A) and thinner by
+// Poisson's ratio times that, to the second order of a strain of 1e-5.
+TEST(HeldAxes, LetABarGrowThinnerAsItIsPulled) {
+  for (const char* kind : {"tetrahedra", "hexahedra"})
+    for (const char* model : {"corotational", "stvk", "neo-hookean"}) {
+      Json scene = Json::parse(R"({"name": "bar", "step": 0.25, "duration": 10, "integrator": "backward-euler",
+        "body": {"generate": {"box": {"cells": [4, 2, 2], "spacing": 0.125}}}, "gravity": [0, 0, 0],
+        "material": {"density": 1000, "young": 1e5, "poisson": 0.25, "viscosity": 20},
+        "fixed": [{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}, "axes": ["x"]},
+                  {"plane": {"point": [0, 0, 0], "normal": [0, -1, 0]}, "axes": ["y"]},
+                  {"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}, "axes": ["z"]}],
+        "forces": [{"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}, "pressure": -1.0}]})");
+      scene["body"]["generate"]["box"]["kind"] = kind;
+      scene["material"]["model"] = model;
+      const SceneFile file = parse(scene);
+      const Mesh mesh = make_mesh(file);
+      Simulation simulation(file);
+      run(simulation);
+      const VertexColumns& v = simulation.body().vertices();
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        const Vector3d rest = mesh.points[v.point[k]];
+        const Vector3d moved = 1e-5 * rest.cwiseProduct(Vector3d(1, -0.25, -0.25));
+        EXPECT_LT((v.position[k] - rest - moved).norm(), 1e-3 * 1e-5)
+            << kind << ' ' << model << ' ' << rest.transpose();
+        for (int c = 0; c < 3; ++c) {
+          if (rest[c] == 0.0) {
+            EXPECT_EQ(v.position[k][c], 0.0) << kind << ' ' << model;
+          }
+        }
+      }
+    }
+}
+
+// What an operation makes of a vertex is held as it was, and one that refinement puts between held ones along the axes
+// that all of them are; a vertex of two selections is held along the axes of both.
+TEST(HeldAxes, FollowOperations) {
+  Json scene = with_events(box(true, springs), R"([
+    {"refine": {"cells": {"box": {"min": [0, 0, 0], "max": [0.125, 0.125, 0.125]}}}, "at": 0.01},
+    {"refine": {"cells": {"box": {"min": [0, 0, 0], "max": [0.125, 0.125, 0.125]}}}, "at": 0.015},
+    {"dissociate": {"plane": {"point": [0, 0.125, 0], "normal": [0, 1, 0]}}, "at": 0.02}])");
+  scene["fixed"].push_back(Json::parse(R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, -1]}, "axes": ["z"]})"));
+  Simulation simulation(parse(scene));
+  const std::size_t before = simulation.body().vertices().size();
+  run(simulation);
+  const VertexColumns& v = simulation.body().vertices();
+  ASSERT_EQ(v.held_axes.size(), v.size());
+  EXPECT_GT(v.size(), before + 9);
+  std::size_t made = 0, corner = 0;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    EXPECT_EQ(holds(v.held_axes[k], 0), v.position[k].x() == 0.0) << k;
+    EXPECT_EQ(holds(v.held_axes[k], 2), v.position[k].z() == 0.0) << k;
+    EXPECT_FALSE(holds(v.held_axes[k], 1)) << k;
+    made += v.point[k] == no_point && v.held_axes[k] != 0;
+    corner += v.held_axes[k] == 5;
+  }
+  EXPECT_GT(made, 0u);
+  EXPECT_GE(corner, 3u);
+}
+
+TEST(HeldAxes, AreLetGoByARelease) {
+  Json scene = with_events(box(true, springs),
+                           R"([{"release": {"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}, "at": 0.02}])");
+  Simulation simulation(parse(scene));
+  run(simulation);
+  EXPECT_EQ(simulation.operations(), 9u);
+  const VertexColumns& v = simulation.body().vertices();
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    EXPECT_EQ(v.held_axes[k], 0);
+    EXPECT_NE(v.position[k].x(), 0.0);
+  }
+}
+
+TEST(HeldAxes, AreSaidInSelectionsAndFrames) {
+  Json scene = box(true, springs);
+  scene["fixed"].push_back(Json::parse(R"({"ids": [0]})"));
+  const Simulation simulation(parse(scene));
+  EXPECT_EQ(to_string(simulation.selections()[0]), "/fixed/0: 9 of 27 vertices, along x");
+  EXPECT_EQ(to_string(simulation.selections()[1]), "/fixed/1: 1 of 27 vertices");
+  const Frame frame = simulation.frame({.held = true});
+  EXPECT_EQ(std::ranges::count(frame.held, 3), 8);
+  EXPECT_EQ(std::ranges::count(frame.held, 1), 1);
+  EXPECT_EQ(std::ranges::count(frame.held, 0), 18);
+}
+
+TEST(HeldAxes, AreOneAtLeastAndOfNoDrivenVertex) {
+  const auto refused = [](const char* fixed) {
+    Json scene = box(true, springs);
+    scene["fixed"] = Json::parse(fixed);
+    scene["driven"] = Json::parse(R"([{"ids": [3], "velocity": [0, 0, 1]}])");
+    try {
+      const Simulation simulation(parse(scene));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refused(R"([{"ids": [0], "axes": []}])")
+                .find("/fixed/0/axes: is a list of 0, []; expected a list of words, at least one"),
+            std::string::npos);
+  EXPECT_NE(refused(R"([{"ids": [0], "axes": ["w"]}])").find("one of 'x', 'y', 'z'"), std::string::npos);
+  EXPECT_NE(refused(R"([{"ids": [3], "axes": ["x"]}])").find("/driven/0: drives point 3, and /fixed holds it;"),
+            std::string::npos);
+  EXPECT_EQ(refused(R"([{"ids": [0], "axes": ["x"]}])"), "accepted");
+}
+
+}  // namespace
+}  // namespace dartboard
