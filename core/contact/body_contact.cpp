@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "core/contact/nearest_on_triangle.h"
+#include "core/forces/compensated_sum.h"
 #include "core/plain/bytes.h"
-#include "core/plain/compensated_sum.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

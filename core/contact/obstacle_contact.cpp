@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/contact/way_inside.h"
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

@@ -4,7 +4,7 @@
 
 #include "core/elements/force_size.h"
 #include "core/elements/spring_pieces.h"
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 
 namespace dartboard {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/elements/force_size.h"
 #include "core/elements/membrane_law.h"
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 
 namespace dartboard {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/elements/force_size.h"
 #include "core/elements/strain_damping.h"
 #include "core/elements/with_law.h"
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 
 namespace dartboard {
 namespace {

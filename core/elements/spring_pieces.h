@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/elements/force_size.h"
+#include "core/forces/compensated_sum.h"
 #include "core/forces/force_term.h"
-#include "core/plain/compensated_sum.h"
 
 namespace dartboard {
 

@@ -16,7 +16,7 @@ namespace dartboard {
 /// along edges are all the forces that a walk meets: bodies of elements, membranes or diagonals are stepped by the
 /// integrators of core/time over their system.
 ///
-/// throws  InputError for a body with anything but springs along its edges
+/// throws  InputError for a body with anything but springs along its edges, or vertices held along axes
 /// order   4; stable on the imaginary axis up to h omega = 2 sqrt(2)
 /// cost    4 force evaluations
 class RungeKutta4 {
@@ -29,6 +29,10 @@ class RungeKutta4 {
           "RungeKutta4 knows springs along edges alone, and the body has other forces; expected an "
           "integrator of core/time over its system");
     VertexColumns& v = body.vertices;
+    if (!v.held_axes.empty())
+      throw InputError(
+          "RungeKutta4 holds vertices still or not at all, and the body has some that are held along axes; expected an "
+          "integrator of core/time over its system");
     for (auto* column : {&x0_, &v0_, &sum_x_, &sum_v_}) column->resize(v.size());
     const Eigen::Vector3d gravity = body.surroundings.gravity;
 

@@ -452,7 +452,9 @@ TEST(Explain, SaysWhatIsLeftOutAndWhy) {
 TEST(Explain, OfAMissingSceneExitsWithThree) { EXPECT_EQ(run("explain /nowhere/scene.json").status, 3); }
 
 TEST(Explain, RefusesAnEventThatTheBodyRefuses) {
-  const Answer answer = run("explain " + source_folder().string() + "/tests/scenes_bad/removed_id_out_of_range.json");
+  const TemporaryFile scene("removed.json", R"({"name": "removed", "step": 0.001, "duration": 0.01,
+    "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}}, "events": [{"at": 0, "remove": {"ids": [6]}}]})");
+  const Answer answer = run("explain " + scene.path.string());
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("/events/0/remove"), std::string::npos) << answer.out;
 }

@@ -41,7 +41,8 @@ void explain_dt(const ExplainDtOptions& options, Outcome& outcome) {
 void add_explain_dt(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<ExplainDtOptions>();
   auto* verb = app.add_subcommand(
-      "explain-dt", "Which springs, elements and vertices limit the time step of a scene, and what changing them would buy.");
+      "explain-dt",
+      "Which springs, elements and vertices limit the time step of a scene, and what changing them would buy.");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
       ->required();
   verb->add_flag("--json", options->json, "print JSON");

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 
 namespace dartboard {
 namespace {

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 
-#include "core/plain/error.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
@@ -193,27 +192,6 @@ TEST(HeldAxes, AreSaidInSelectionsAndFrames) {
   EXPECT_EQ(std::ranges::count(frame.held, 3), 8);
   EXPECT_EQ(std::ranges::count(frame.held, 1), 1);
   EXPECT_EQ(std::ranges::count(frame.held, 0), 18);
-}
-
-TEST(HeldAxes, AreOneAtLeastAndOfNoDrivenVertex) {
-  const auto refused = [](const char* fixed) {
-    Json scene = box(true, springs);
-    scene["fixed"] = Json::parse(fixed);
-    scene["driven"] = Json::parse(R"([{"ids": [3], "velocity": [0, 0, 1]}])");
-    try {
-      const Simulation simulation(parse(scene));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
-  EXPECT_NE(refused(R"([{"ids": [0], "axes": []}])")
-                .find("/fixed/0/axes: is a list of 0, []; expected a list of words, at least one"),
-            std::string::npos);
-  EXPECT_NE(refused(R"([{"ids": [0], "axes": ["w"]}])").find("one of 'x', 'y', 'z'"), std::string::npos);
-  EXPECT_NE(refused(R"([{"ids": [3], "axes": ["x"]}])").find("/driven/0: drives point 3, and /fixed holds it;"),
-            std::string::npos);
-  EXPECT_EQ(refused(R"([{"ids": [0], "axes": ["x"]}])"), "accepted");
 }
 
 }  // namespace

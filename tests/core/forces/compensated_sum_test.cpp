@@ -1,4 +1,4 @@
-#include "core/plain/compensated_sum.h"
+#include "core/forces/compensated_sum.h"
 
 #include <gtest/gtest.h>
 
