@@ -302,7 +302,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
         trial_.resize(w.size());
         for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = -residual_[i];
         status = solver_.solve(trial_, direction_, Accuracy::iteration, work);
-        free_along_axes(system, direction_);  // a factor of one coordinate knows of no axes
+        free_along_axes(system, direction_);  // a matrix for all coordinates knows of none
       }
       if (status == SolveStatus::ok && search(p, w, work)) break;
       if (now <= 1.0) return {};

@@ -76,10 +76,11 @@ bool StepSolver::undo_step(WorkCounters& work) {
   return true;
 }
 
-SolveStatus StepSolver::prepare(const SpringSystem& system, const TangentsAt& tangents, double tau,
-                                WorkCounters& work) {
+SolveStatus StepSolver::prepare(const SpringSystem& given, const TangentsAt& tangents, double tau, WorkCounters& work) {
   if (projecting_ && options_.tangent == TangentPolicy::on_demand && remaining_-- == 0) projecting_ = false;
   const bool laplacian = options_.solver == LinearSolver::laplacian;
+  SpringSystem system = given;
+  if (laplacian) system.held_axes = {};  // one matrix for all coordinates
   const bool keeps = laplacian || options_.solver == LinearSolver::kept_factor;
   // Steps that should be equal may differ by rounding; and as a preconditioner, a factor for a tau that differs by a
   // fifth is still a good one: the condition number is at most 1.44.

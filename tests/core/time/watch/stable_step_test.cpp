@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/time/integrators.h"
+#include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/random_operations.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
@@ -127,6 +128,39 @@ TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
       EXPECT_LE(step.lower, frequency * (1 + 1e-9)) << seed;
     }
   }
+}
+
+TEST(StableStep, HoldsTheFrequencyOfElementsThatAreHeldAlongAxes) {
+  ElementBody body(reference::kuhn_grid(1, 1, 1, 0.1, 0.0, 1), Model::corotational, 1e5, 0.3);
+  SplitMix64 random(3);
+  std::vector<HeldAxes> axes;
+  for (std::size_t i = 0; i < body.x.size(); ++i) axes.push_back(static_cast<HeldAxes>(random.below(7)));
+  const auto n = static_cast<Eigen::Index>(3 * body.x.size());
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
+  body.term->for_each_tangent({body.x}, Compression::projected,
+                              [&k](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+                                for (std::size_t a = 0, place = 0; a < nodes.size(); ++a)
+                                  for (std::size_t b = 0; b <= a; ++b, ++place) {
+                                    k.block<3, 3>(3 * nodes[a], 3 * nodes[b]) += blocks[place];
+                                    if (a != b) k.block<3, 3>(3 * nodes[b], 3 * nodes[a]) += blocks[place].transpose();
+                                  }
+                              });
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const auto vertex = static_cast<std::size_t>(r / 3);
+    const double s = holds(axes[vertex], static_cast<int>(r % 3)) ? 0.0 : std::sqrt(body.inverse_mass[vertex]);
+    k.row(r) *= s;
+    k.col(r) *= s;
+  }
+  const double frequency =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  SpringSystem system = body.system();
+  StableStepEstimate estimate;
+  EXPECT_GT(estimate.refresh(system, body.x).lower, 1.01 * frequency);
+  system.held_axes = axes;
+  const StableStep& step = estimate.refresh(system, body.x);
+  EXPECT_GE(step.upper, frequency * (1 - 1e-9));
+  EXPECT_LE(step.lower, frequency * (1 + 1e-9));
+  EXPECT_LE(step.upper, frequency / 0.9);
 }
 
 TEST(StableStep, RisesWhenACutMakesAVertexLighter) {
