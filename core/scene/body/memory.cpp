@@ -1,6 +1,6 @@
 #include "core/scene/body/memory.h"
 
-#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/plain/bytes.h"
 
 namespace dartboard {

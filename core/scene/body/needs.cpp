@@ -29,8 +29,7 @@ BodyNeeds body_needs(const Problem& problem, bool topology_changes) {
   return {.storage = storage_of(problem.mesh),
           .topology_changes = topology_changes,
           .viscosity = problem.material.viscosity != 0.0,
-          .fixed = !problem.fixed.empty(),
-          .held_axes = !problem.held_axes.empty()};
+          .fixed = !problem.fixed.empty()};
 }
 
 Needs needs_of(const SceneFile& scene, const Problem& problem) {

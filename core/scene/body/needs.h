@@ -26,7 +26,6 @@ struct BodyNeeds {
   bool viscosity, fixed;                   // a column for it
   bool rest = false;                       // a column of places at rest
   bool pull = false;                       // a column of forces from outside
-  bool held_axes = false;                  // a column of the axes that vertices are held along
   Diagonals diagonals = Diagonals::none;   // springs on those of its cells
   Bending bending{};                       // of a surface
   std::vector<SceneObstacle> obstacles{};  // that its boundary feels

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/scene/body/simulated_body.h"
 
 namespace dartboard {

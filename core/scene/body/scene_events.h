@@ -5,6 +5,7 @@
 
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
+#include "core/topology/generalized_map.h"
 
 namespace dartboard {
 

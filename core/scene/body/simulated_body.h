@@ -11,7 +11,7 @@
 
 #include "core/contact/body_contact.h"
 #include "core/contact/obstacle_contact.h"
-#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/plain/archive.h"
 #include "core/plain/problem.h"
 #include "core/plain/random.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/plain/mesh.h"
 #include "core/scene/file/scene_file.h"
 

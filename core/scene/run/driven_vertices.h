@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/run/event_clock.h"
 #include "core/time/system/spring_system.h"
