@@ -8,6 +8,7 @@
 
 #include "core/elements/solids.h"
 #include "core/meshes/formats/crossed_cells.h"
+#include "tests/support/meshes/mesh_samples.h"
 
 namespace dartboard {
 namespace {
@@ -25,14 +26,12 @@ bool has_corner_of_another_hand(const std::vector<Eigen::Vector3d>& x, bool is_l
 TEST(CrossedCellsAndElements, AgreeOnRandomVolumes) {
   std::mt19937_64 random(20100601);
   const auto coordinate = [&random] { return static_cast<double>(random() >> 11) / 9007199254740992.0; };
-  const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   const std::vector<std::vector<std::uint32_t>> corners{{0, 1, 2, 3, 4}, {0, 1, 3, 4, 5, 7}, {0, 1, 2, 3, 4, 5, 6, 7}};
   const CellKind kinds[] = {CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
   std::size_t whole = 0, crossed = 0;
   for (std::size_t k = 0; k < 6000; ++k) {
     Mesh mesh;
-    mesh.points = cube;
+    mesh.points = samples::cube;
     // from hardly bent to without any shape
     for (auto& x : mesh.points)
       x += static_cast<double>(k % 8) / 3.0 *

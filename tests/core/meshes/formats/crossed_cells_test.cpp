@@ -19,9 +19,6 @@ namespace {
 using namespace samples;
 using Nodes = std::vector<std::uint32_t>;
 
-const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-
 CrossedCells of_cell(CellKind kind, const Nodes& nodes, const std::vector<Eigen::Vector3d>& points = cube) {
   Mesh mesh;
   mesh.points = points;
