@@ -58,13 +58,26 @@ std::vector<Facet> facets_of(const Mesh& mesh) {
   return all;
 }
 
-constexpr std::uint32_t no_origin = 0xffffffff;  // -1
+// The points of the mesh that facets go by: their own, or those of the face of the mesh in which they lie.
+class Origins {
+ public:
+  explicit Origins(const Frame& panel) : panel_(panel) {
+    for (const RefinedFacet& facet : panel.refined_facets)
+      lies_in_.try_emplace(sorted(Key(facet.points.begin(), facet.points.end())),
+                           sorted(Key(facet.lies_in.begin(), facet.lies_in.end())));
+  }
+  // With a vertex that refinement made among them, of a facet within a cell of the mesh.
+  Key of(const Facet& facet) const {
+    Key points;
+    for (const std::uint32_t k : facet.nodes) points.push_back(static_cast<std::uint32_t>(panel_.mesh_point[k]));
+    const auto found = lies_in_.find(sorted(facet.nodes));
+    return found == lies_in_.end() ? sorted(std::move(points)) : found->second;
+  }
 
-Key origin_of(const Facet& facet, const Frame& panel) {
-  Key points;
-  for (const std::uint32_t k : facet.nodes) points.push_back(static_cast<std::uint32_t>(panel.mesh_point[k]));
-  return sorted(std::move(points));
-}
+ private:
+  const Frame& panel_;
+  std::map<Key, Key> lies_in_;
+};
 
 std::uint32_t shaded(std::uint32_t colour, double light) {
   std::uint32_t out = 0;
@@ -150,7 +163,8 @@ std::vector<Frame> upright(std::span<const Frame> panels, const Vector3d& up_now
 
 std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first) {
   std::set<Key> skin;
-  for (const Facet& facet : facets_of(first.mesh)) skin.insert(origin_of(facet, first));
+  const Origins first_origins(first), origins(panel);
+  for (const Facet& facet : facets_of(first.mesh)) skin.insert(first_origins.of(facet));
   std::vector<DrawnFacet> drawn;
   for (const Facet& facet : facets_of(panel.mesh)) {
     const auto& x = panel.mesh.points;
@@ -165,9 +179,7 @@ std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first) {
     // a face of a volume that looks away is hidden by the others
     if (dimension(panel.mesh.kinds[facet.cell]) == 3 && normal.dot(toward_viewer) <= 0.0) continue;
     d.depth = middle.dot(toward_viewer);
-    const Key origin = origin_of(facet, panel);
-    // a facet with a vertex that refinement put in is not known to have been inside
-    const bool was_inside = !skin.contains(origin) && origin.back() != no_origin;
+    const bool was_inside = !skin.contains(origins.of(facet));
     const std::uint32_t component = panel.component[facet.cell];
     const std::uint32_t colour = was_inside ? inside_colour : component_colours[component % component_colours.size()];
     // lit from the side that is seen

@@ -37,8 +37,10 @@ constexpr MeshFormatInfo table[] = {
      "ASCII and binary; equal corners are one point; facets with two equal corners are left out; solids", ""},
     {MeshFormat::obj, "OBJ", obj,
      "triangles and quadrilaterals; points of two or three coordinates; groups and materials", ""},
-    {MeshFormat::ply, "PLY", ply, "ASCII and binary of either byte order; triangles and quadrilaterals", ""},
-    {MeshFormat::off, "OFF", off, "ASCII and BINARY; triangles and quadrilaterals; also COFF, NOFF, CNOFF and STOFF",
+    {MeshFormat::ply, "PLY", ply,
+     "ASCII and binary of either byte order; triangles and quadrilaterals; points of two or three coordinates", ""},
+    {MeshFormat::off, "OFF", off,
+     "ASCII and BINARY; triangles and quadrilaterals; also COFF, NOFF, CNOFF, STOFF, nOFF and 2OFF, points of two or three coordinates",
      ""},
 };
 

@@ -24,7 +24,12 @@ struct Record : RunWatcher {
   std::size_t frames_then = 0, rows_then = 0, probe_rows_then = 0;
   std::optional<std::uint64_t> interrupt_after;
 
-  void frame(const Frame& frame) override { frames.push_back(to_vtu(frame)); }
+  void frame(const Frame& frame) override {
+    frames.push_back(to_vtu(frame));
+    for (const RefinedFacet& facet : frame.refined_facets)  // files have none of them, pictures do
+      for (std::size_t k = 0; k < 3; ++k)
+        frames.back() += std::to_string(facet.points[k]) + ' ' + std::to_string(facet.lies_in[k]) + '\n';
+  }
   void diagnostics(const Diagnostics& d) override { rows.push_back(diagnostics_row(d)); }
   void probes(const ProbeRow& row) override { probe_rows.push_back(probes_row(row)); }
   void checkpoint(const Simulation& simulation, const RunProgress& now) override {

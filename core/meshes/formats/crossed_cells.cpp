@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -62,9 +63,13 @@ double size_of_cell(const Corners& x, std::size_t corners) {
 }
 
 // The columns are shorter than L, the size: the six products of a determinant are each off by a few u L^3.
-Signs signs_of_volume(CellKind kind, const Corners& corners) {
+double rounding_of_volume(CellKind kind, const Corners& corners) {
   const double size = size_of_cell(corners, static_cast<std::size_t>(node_count(kind)));
-  const double rounding = 1e-14 * size * size * size;
+  return 1e-14 * size * size * size;
+}
+
+Signs signs_of_volume(CellKind kind, const Corners& corners) {
+  const double rounding = rounding_of_volume(kind, corners);
   const double near_end = 0.5 + 0.5 / std::sqrt(3.0), far_end = 1.0 - near_end;  // shares at a Gauss point
   Signs signs;
   Corners x = corners;
@@ -92,18 +97,51 @@ Signs signs_of_corners(const Corners& x) {
   return signs;
 }
 
+/// The volume at each of the six corners of a prism, of its three edges there.
+std::array<double, 6> prism_corner_volumes(const Corners& x) {
+  std::array<double, 6> volumes{};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::size_t end = k / 3 * 3, next = end + (k + 1) % 3, last = end + (k + 2) % 3;
+    volumes[k] = (x[next] - x[k]).cross(x[last] - x[k]).dot(x[k % 3 + 3] - x[k % 3]);
+  }
+  return volumes;
+}
+
+// Where a corner of one triangle and one of the other are swapped, all Gauss points may stay of one hand: the axial
+// edge that has neither corner then lies in both triangles, and has no volume at its ends, but for what faces are
+// twisted by. With the two swapped back every corner has volume. Of a prism in order the swapped one is this flat; one
+// with volume of one hand at every corner never counts as crossed.
+bool has_swapped_ends(const Corners& x, double rounding) {
+  const auto volumes = prism_corner_volumes(x);
+  const double hand = std::accumulate(volumes.begin(), volumes.end(), 0.0) > 0 ? 1.0 : -1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [smaller, larger] = std::minmax({hand * volumes[axis], hand * volumes[axis + 3]});
+    if (smaller > rounding) continue;
+    const double at_ends = std::max(larger, rounding);
+    for (const std::size_t one : {(axis + 1) % 3, (axis + 2) % 3}) {
+      Corners swapped = x;
+      std::swap(swapped[one], swapped[3 + (3 - axis - one)]);
+      const auto better = prism_corner_volumes(swapped);
+      const auto [least, largest] = std::ranges::minmax(better);
+      if (least > 4.0 * at_ends || largest < -4.0 * at_ends) return true;
+    }
+  }
+  return false;
+}
+
 bool is_crossed(CellKind kind, const Corners& x) {
   if (kind == CellKind::quadrilateral) {
     const Signs signs = signs_of_corners(x);
     return signs.positive > 1 && signs.negative > 1;
   }
   const Signs signs = signs_of_volume(kind, x);
-  return signs.positive > 0 && signs.negative > 0;
+  if (signs.positive > 0 && signs.negative > 0) return true;
+  return kind == CellKind::prism && has_swapped_ends(x, rounding_of_volume(kind, x));
 }
 
 bool is_whole(CellKind kind, const Corners& x) {
   const Signs signs = kind == CellKind::quadrilateral ? signs_of_corners(x) : signs_of_volume(kind, x);
-  return (signs.positive == 0) != (signs.negative == 0);
+  return (signs.positive == 0) != (signs.negative == 0) && !is_crossed(kind, x);
 }
 
 using Swaps = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -121,12 +159,33 @@ std::vector<Swaps> voxel_swaps(CellKind kind) {
   return {};
 }
 
+/// Six times the mean of the Jacobians of a prism.
+double prism_volume(const Corners& x) {
+  double sum = 0.0;
+  for (const double z : {0.0, 0.5, 1.0})
+    for (std::size_t near = 0; near < 3; ++near) sum += (z == 0.5 ? 4.0 : 1.0) / 3.0 * prism_jacobian(x, near, z);
+  return std::abs(sum);
+}
+
+/// Whether another order of the corners of a prism, with two of its ends swapped, has more volume: one turned by 120
+/// degrees against itself is whole, too, and not what was meant.
+bool is_turned_against_itself(const Corners& x) {
+  for (std::size_t one = 0; one < 3; ++one)
+    for (const std::size_t other : {3 + (one + 1) % 3, 3 + (one + 2) % 3}) {
+      Corners swapped = x;
+      std::swap(swapped[one], swapped[other]);
+      if (prism_volume(swapped) > 1.01 * prism_volume(x)) return true;
+    }
+  return false;
+}
+
 /// The swaps that make a crossed cell whole; none where it is crossed in another way.
 Swaps swaps_of(const Mesh& mesh, std::size_t c) {
   for (const Swaps& swaps : voxel_swaps(mesh.kinds[c])) {
     Corners x = corners_of(mesh, c);
     for (const auto& [a, b] : swaps) std::swap(x[a], x[b]);
-    if (is_whole(mesh.kinds[c], x)) return swaps;
+    const bool is_prism = mesh.kinds[c] == CellKind::prism;
+    if (is_whole(mesh.kinds[c], x) && !(is_prism && is_turned_against_itself(x))) return swaps;
   }
   return {};
 }

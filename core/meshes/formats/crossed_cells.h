@@ -22,8 +22,9 @@ struct CrossedCells {
 };
 
 /// A volume crosses itself where it is right-handed at some of its Gauss points, those that elements integrate at, and
-/// left-handed at others; a quadrilateral where two of its corners turn against the other two, seen along its normal.
-/// A quadrilateral with one corner that turns back has the shape of an arrow, and does not cross itself.
+/// left-handed at others, a prism also where one of its corners is swapped with one of its other end; a quadrilateral
+/// where two of its corners turn against the other two, seen along its normal. A quadrilateral with one corner that
+/// turns back has the shape of an arrow, and does not cross itself.
 ///
 /// pre  nodes are points of the mesh
 CrossedCells find_crossed_cells(const Mesh& mesh);

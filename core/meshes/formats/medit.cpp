@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <span>
-#include <vector>
 
 #include "core/meshes/formats/medit_sections.h"
 #include "core/meshes/formats/medit_skipped.h"
 #include "core/meshes/formats/mesh_formats.h"
+#include "core/meshes/text/letter_case.h"
 
 namespace dartboard {
 namespace {
@@ -51,42 +50,38 @@ bool is_binary(std::string_view text) {
 std::string read_medit(std::string_view text, MeshBuilder& builder) {
   if (is_binary(text)) return read_medit_binary(text, builder);
   TextScanner scan(text, builder.cell_file(), '#');
-  scan.keyword("MeshVersionFormatted");
+  scan.keyword("MeshVersionFormatted", LetterCase::any);
   const std::uint64_t version = scan.count("the version of the format");
   if (version > 4) scan.fail(fmt::format("version {}", version), "version 0, 1, 2, 3 or 4");
-  scan.keyword("Dimension");
+  scan.keyword("Dimension", LetterCase::any);
   const std::uint64_t dimension = scan.count("the dimension");
   if (dimension != 2 && dimension != 3) scan.fail(fmt::format("dimension {}", dimension), "dimension 2 or 3");
 
   bool has_vertices = false;
-  std::vector<std::string_view> skipped;
   for (;;) {
     if (scan.at_end()) {
       builder.add_notice("the file ends without the word End: whether further sections were cut off cannot be known");
       break;
     }
     const std::string_view keyword = scan.token("a section");
-    if (keyword == "End") break;
-    if (keyword == "Vertices") {
+    if (same_letters(keyword, "End")) break;
+    if (same_letters(keyword, "Vertices")) {
       if (has_vertices) scan.fail("found Vertices again", "one section of vertices");
       read_vertices(scan, static_cast<int>(dimension), builder);
       has_vertices = true;
     } else if (const MeditSection* const cells = medit_section(keyword)) {
       read_cells(scan, *cells, builder);
-    } else if (keyword == "Edges") {
+    } else if (same_letters(keyword, "Edges")) {
       const std::uint64_t count = scan.count("the number of edges");
       for (std::uint64_t i = 0; i < 3 * count; ++i) scan.integer("a vertex or the reference of an edge");
       builder.skip(1, count);
     } else if (skip_medit_section(scan, keyword, {dimension, builder.point_count()})) {
-      if (std::ranges::find(skipped, keyword) == skipped.end()) skipped.push_back(keyword);
+      builder.skip_section(keyword);
     } else {
       scan.fail(fmt::format("{} is not a section of a mesh", in_quotes(keyword)),
                 "Vertices, Triangles, Quadrilaterals, Tetrahedra, Pyramids, Prisms, Hexahedra, Edges or End");
     }
   }
-  if (!skipped.empty())
-    builder.add_notice(fmt::format("skipped the section{} {}: no cells are in {}", skipped.size() == 1 ? "" : "s",
-                                   fmt::join(skipped, ", "), skipped.size() == 1 ? "it" : "them"));
   return fmt::format("Medit {}", version);
 }
 

@@ -19,8 +19,11 @@ struct MeditSection {
   std::string called() const { return std::string(element.empty() ? name(kind) : element); }
 };
 
-/// nullptr for a section of anything else.
+/// nullptr for a section of anything else; the keyword may be in any case.
 const MeditSection* medit_section(std::string_view keyword);
 const MeditSection* medit_section(std::int64_t code);
+
+/// What a section of bytes that holds no cells is called, or "of code 120" where its name is not known here.
+std::string skipped_medit_section(std::int64_t code);
 
 }  // namespace dartboard

@@ -115,16 +115,17 @@ const Skipped* skipped_section(std::string_view keyword) {
       {"IRefGroups", texts},
       {"ReferenceStrings", texts},
   };
-  const auto* const found = std::ranges::find(table, keyword, &Skipped::keyword);
+  const auto* const found =
+      std::ranges::find_if(table, [&](const Skipped& s) { return same_letters(s.keyword, keyword); });
   return found == std::end(table) ? nullptr : found;
 }
 
 /// Families of sections: "SolAtVertices", "HOSolAtEdgesP1NodesPositions", "TetrahedraP2Ordering", "TrianglesGID".
 bool is_of_a_family(std::string_view keyword) {
   for (const std::string_view begin : {"SolAt", "DSolAt", "ISolAt", "HOSolAt", "Fault_", "ExtraVerticesAt"})
-    if (keyword.starts_with(begin)) return true;
+    if (same_letters(keyword.substr(0, begin.size()), begin)) return true;
   for (const std::string_view end : {"Ordering", "ReferenceElement", "GrainPartitions", "GID"})
-    if (keyword.ends_with(end)) return true;
+    if (keyword.size() >= end.size() && same_letters(keyword.substr(keyword.size() - end.size()), end)) return true;
   return false;
 }
 

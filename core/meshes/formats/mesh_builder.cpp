@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
 #include "core/plain/cell_limits.h"
 #include "core/plain/counted.h"
@@ -151,6 +152,22 @@ std::map<std::string_view, std::size_t> MeshBuilder::count_elements(auto&& is_co
   return counts;
 }
 
+void MeshBuilder::notice_plane(std::uint64_t points) {
+  if (points != 0) add_notice(fmt::format("put {} of two coordinates in the plane z = 0", counted(points, "point")));
+}
+
+void MeshBuilder::skip_section(std::string_view name) {
+  const auto is_same = [name](const std::string& known) { return same_letters(known, name); };
+  if (std::ranges::none_of(skipped_sections_, is_same)) skipped_sections_.emplace_back(name);
+}
+
+void MeshBuilder::notice_sections() {
+  const bool is_one = skipped_sections_.size() == 1;
+  if (skipped_sections_.empty()) return;
+  add_notice(fmt::format("skipped the section{} {}: no cells are in {}", is_one ? "" : "s",
+                         fmt::join(skipped_sections_, ", "), is_one ? "it" : "them"));
+}
+
 std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {
   const auto is_skipped = [&](CellKind kind) { return dartboard::dimension(kind) < dimension; };
   std::array<std::size_t, 2> polygons{};  // triangles, quadrilaterals
@@ -190,6 +207,7 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
     fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
   const auto by_number = number_points();
 
+  notice_sections();
   LoadedMesh loaded{.mesh = {}, .format = std::move(format), .notices = std::move(notices_), .place_of_point = {}};
   Mesh& mesh = loaded.mesh;
   std::vector<bool> used(points_.size(), false);

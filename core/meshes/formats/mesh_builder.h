@@ -61,6 +61,10 @@ class MeshBuilder {
   /// Count elements of dimension 0 or 1, which no body is made of.
   void skip(int dimension, std::uint64_t count = 1) { skipped_.at(static_cast<std::size_t>(dimension)) += count; }
   void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }
+  /// Report so many points of two coordinates, if any.
+  void notice_plane(std::uint64_t points);
+  /// Pass over a section that holds no cells; each name is reported once.
+  void skip_section(std::string_view name);
   /// What is said of cells, by their places in the order in which they were added.
   CellTagsBuilder& tags() { return tags_; }
 
@@ -74,6 +78,7 @@ class MeshBuilder {
  private:
   std::vector<std::uint32_t> number_points();
   std::uint32_t find_point(std::uint64_t number, std::span<const std::uint32_t> by_number) const;
+  void notice_sections();
   std::string skipped_notice(int dimension, std::size_t kept) const;
   std::string straightened_notice(int dimension) const;
   std::map<std::string_view, std::size_t> count_elements(auto&& is_counted) const;
@@ -92,6 +97,7 @@ class MeshBuilder {
   std::vector<bool> left_out_;  // as far as one is
   std::size_t left_out_count_ = 0;
   std::array<std::uint64_t, 2> skipped_{};  // points, edges
+  std::vector<std::string> skipped_sections_;
   std::vector<std::string> notices_;
   CellTagsBuilder tags_;
 };

@@ -6,7 +6,6 @@
 
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/text_scanner.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {
@@ -39,7 +38,7 @@ struct Reader {
   MeshBuilder& builder;
   Names groups{builder, "group"}, materials{builder, "material"};
   std::vector<std::uint64_t> corners = {};
-  std::size_t in_the_plane = 0;  // points of two coordinates
+  std::uint64_t in_the_plane = 0;  // points of two coordinates
 };
 
 /// The first of the numbers of a corner, as in 7/2/3; negative ones count from the last point backwards.
@@ -114,8 +113,7 @@ std::string read_obj(std::string_view text, MeshBuilder& builder) {
                 "v, f, g, o or another keyword of an OBJ file of polygons");
     read_line(r, keyword);
   }
-  if (r.in_the_plane != 0)
-    builder.add_notice(fmt::format("put {} of two coordinates in the plane z = 0", counted(r.in_the_plane, "point")));
+  builder.notice_plane(r.in_the_plane);
   return "OBJ";
 }
 

@@ -21,18 +21,29 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{"OFF", 0}, {"COFF", 4}, {"NOFF", 3}, {"CNOFF", 7}, {"STOFF", 2}};
 
-/// The word may be in small letters, have the first number close behind it, or be missing before a number.
-std::uint64_t read_further(TextScanner& scan) {
-  const std::string word = upper(scan.peek());
+/// What the word says of a point: how many numbers follow its coordinates, and how many these are, where it is said.
+struct PointLine {
+  std::uint64_t further = 0, axes = 3;
+  bool axes_follow = false;  // as the first number of the file
+};
+
+/// The word may be in small letters, have the first number close behind it, or be missing before a number. The n of
+/// nOFF, points of some dimension, is small: a capital N says that points have normals, and so does noff.
+PointLine read_point_line(TextScanner& scan) {
+  const std::string_view as_given = scan.peek();
+  const std::string word = upper(as_given);
+  if (as_given.starts_with("nOFF")) return scan.bytes(4, "the word nOFF"), PointLine{.axes_follow = true};
+  if (word == "2OFF" || word == "3OFF")
+    return scan.token("the word 2OFF"), PointLine{.axes = static_cast<std::uint64_t>(word[0] - '0')};
   const std::size_t letters = std::min(word.find_first_of("0123456789"), word.size());
-  if (letters == 0 && !word.empty()) return 0;
+  if (letters == 0 && !word.empty()) return {};
   for (const Kind& kind : kinds)
     if (kind.word == word.substr(0, letters)) {
       scan.bytes(letters, "the word OFF");
-      return kind.further;
+      return {.further = kind.further};
     }
   const std::string_view found = scan.token("the word OFF");
-  scan.fail(fmt::format("found {}", in_quotes(found)), "the word OFF, COFF, NOFF, CNOFF or STOFF");
+  scan.fail(fmt::format("found {}", in_quotes(found)), "the word OFF, COFF, NOFF, CNOFF, STOFF, nOFF or 2OFF");
 }
 
 struct Counts {
@@ -67,22 +78,27 @@ void skip_properties(TextScanner& scan, FileNumbers& numbers, std::optional<std:
 std::string read_off(std::string_view text, MeshBuilder& builder) {
   TextScanner scan(text, builder.cell_file(), '#');
   FileNumbers numbers(scan);
-  const std::uint64_t further = read_further(scan);
+  PointLine said = read_point_line(scan);
   if (scan.more_on_line() && same_letters(scan.peek(), "BINARY")) {
     scan.token("BINARY");
     numbers.set_binary(true);
     numbers.begin();
   }
   const auto count = [&numbers](Wanted wanted) { return numbers.count(Scalar::int32, wanted); };
+  if (said.axes_follow) said.axes = count("the number of coordinates of a point");
+  if (said.axes != 2 && said.axes != 3)
+    numbers.fail(fmt::format("points of {} coordinates", said.axes), "2 or 3 coordinates");
   const auto [points, cells] = read_counts(scan, numbers);
 
-  builder.reserve_points(numbers.plausible(points, 12, 6));
+  builder.reserve_points(numbers.plausible(points, 4 * said.axes, 2 * said.axes));
   for (std::uint64_t i = 0; i < points; ++i) {
-    Eigen::Vector3d x;
-    for (int k = 0; k < 3; ++k) x[k] = numbers.real(Scalar::float32, {"a coordinate of point", i});
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (std::uint64_t k = 0; k < said.axes; ++k)
+      x[static_cast<int>(k)] = numbers.real(Scalar::float32, {"a coordinate of point", i});
     builder.add_point(i, x, numbers.line());
-    skip_properties(scan, numbers, further, "a property of a point");
+    skip_properties(scan, numbers, said.further, "a property of a point");
   }
+  if (said.axes == 2) builder.notice_plane(points);
   std::vector<std::uint64_t> corners;
   for (std::uint64_t c = 0; c < cells; ++c) {
     const std::uint64_t size = count({"the number of corners of polygon", c});

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -86,20 +87,31 @@ Header read_header(TextScanner& scan) {
   return header;
 }
 
-void check_vertex(const TextScanner& scan, const Element& element) {
-  int axes = 0;
-  for (const auto& p : element.properties) axes += (p.name == "x" || p.name == "y" || p.name == "z") && !p.length;
-  if (axes != 3) scan.fail("vertices without one property each of x, y and z", "three coordinates");
+bool is_axis(const Property& property) {
+  return property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
+}
+
+/// Whether vertices have a property z; those without it are in the plane.
+bool check_vertex(const TextScanner& scan, const Element& element) {
+  std::array<int, 3> axes{};
+  bool are_numbers = true;
+  for (const Property& property : element.properties) {
+    if (!is_axis(property)) continue;
+    ++axes[static_cast<std::size_t>(property.name[0] - 'x')];
+    are_numbers = are_numbers && !property.length;
+  }
+  if (axes[0] != 1 || axes[1] != 1 || axes[2] > 1 || !are_numbers)
+    scan.fail("vertices without one property each of x, y and z", "three coordinates, or x and y in the plane");
+  return axes[2] == 1;
 }
 
 void read_vertex(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
   const std::uint64_t number = builder.point_count();
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   for (const Property& property : element.properties) {
-    const bool is_axis = property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
     if (property.length)
       numbers.skip(property.type, numbers.count(*property.length, "the length of a list"), "a property of a vertex");
-    else if (is_axis)
+    else if (is_axis(property))
       x[property.name[0] - 'x'] = numbers.real(property.type, {"a coordinate of vertex", number});
     else
       numbers.skip(property.type, 1, "a property of a vertex");
@@ -137,8 +149,9 @@ std::string read_ply(std::string_view text, MeshBuilder& builder) {
     numbers.set_binary(header.format == "binary_big_endian");
     numbers.begin();
   }
+  std::uint64_t in_the_plane = 0;
   for (const Element& element : header.elements) {
-    if (element.is_vertex()) check_vertex(scan, element);
+    if (element.is_vertex() && !check_vertex(scan, element)) in_the_plane += element.count;
     if (element.properties.empty() && element.count != 0 && !element.is_face()) continue;
     for (std::uint64_t k = 0; k < element.count; ++k)
       element.is_vertex() ? read_vertex(numbers, element, builder) : read_element(numbers, element, builder);
@@ -147,6 +160,7 @@ std::string read_ply(std::string_view text, MeshBuilder& builder) {
     const auto extra = scan.token("nothing");
     scan.fail(fmt::format("{} follows the last element", in_quotes(extra)), "as many elements as the header announces");
   }
+  builder.notice_plane(in_the_plane);
   return header.format == "ascii" ? "PLY" : "PLY " + header.format.substr(0, header.format.rfind('_'));
 }
 

@@ -18,6 +18,7 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/plain/bytes.h"
+#include "core/scene/body/face_origins.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
 #include "core/scene/body/scene_events.h"
@@ -113,6 +114,7 @@ class BodyOnMap final : public SimulatedBody {
   }
   /// The same for a subdivision of tetrahedra.
   void follow(const Subdivision& subdivision, double bracing) requires(n == 3) {
+    face_origins_.follow(body_, subdivision);
     const ChangedEmbeddings changed = adapt(body_, subdivision, bracing);
     mesh_cell_.resize(changed.cell_count);
     const auto cell_of = [this](const Subdivision::Child& child) { return body_.cell(body_.map, child.darts[0]); };
@@ -210,6 +212,7 @@ class BodyOnMap final : public SimulatedBody {
       frame.mesh_cell.push_back(mesh_cell_[c]);
       frame.component.push_back(components_.label(c));
     }
+    if constexpr (n == 3) add_refined_facets(frame);
     frame.material = body_.cell_material;
     std::vector<double> room;
     fill_columns(frame, fields, body_.vertices, system(), rest_volumes(body_, room));
@@ -222,6 +225,7 @@ class BodyOnMap final : public SimulatedBody {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(body_, ends_, nodes_, solids_, triangles_, components_, mesh_cell_, removed_mass_);
+    archive(face_origins_);
     if (bending_) archive(bends_, neighbours_);
     if (contact_ || body_contact_) archive(skin_);
     if (contact_) archive(*contact_);
@@ -241,7 +245,7 @@ class BodyOnMap final : public SimulatedBody {
                         {Part::embeddings, body_.embedding_bytes()},
                         {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
                         {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
-                                          bytes_of(body_.edge_share, body_.cell_material)},
+                                          bytes_of(body_.edge_share, body_.cell_material) + face_origins_.bytes()},
                         {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
                                                (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
                         {Part::vertices, bytes_of_vertices(v)},
@@ -275,6 +279,20 @@ class BodyOnMap final : public SimulatedBody {
     for_each_column(body_, Body::embedded_in_cells(), fit_column);
     fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
         solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
+  }
+
+  void add_refined_facets(Frame& frame) const {
+    for (const Dart d : body_.face_dart) {
+      const FaceOrigins::Points* const origin = face_origins_.of(d);
+      if (origin == nullptr || !body_.map.template is_free<n>(d)) continue;
+      RefinedFacet facet{};
+      const auto around = detail::around_face(body_.map, d);
+      for (std::size_t k = 0; k < 3; ++k) {
+        facet.points[k] = body_.vertex(body_.map, around[k]);
+        facet.lies_in[k] = (*origin)[k];
+      }
+      frame.refined_facets.push_back(facet);
+    }
   }
 
   void add_term(const std::unique_ptr<ForceTerm>& term) {
@@ -332,6 +350,7 @@ class BodyOnMap final : public SimulatedBody {
   ComponentLabels components_;
   std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
   double removed_mass_ = 0.0;             // [kg]
+  FaceOrigins face_origins_;              // of a refined solid
 };
 
 }  // namespace dartboard

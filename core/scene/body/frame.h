@@ -11,6 +11,13 @@
 
 namespace dartboard {
 
+/// A triangle on the boundary of a refined solid that has a vertex which refinement made, and the face of the mesh in
+/// which it lies.
+struct RefinedFacet {
+  std::array<std::uint32_t, 3> points;
+  std::array<std::int64_t, 3> lies_in;  // the numbers of the corners of that face, as in mesh_point
+};
+
 /// The cells of a body where they are now. Points are its vertices: the parts of a dissociated vertex are two points.
 struct Frame {
   double time = 0.0;  // [s]
@@ -23,6 +30,7 @@ struct Frame {
   std::vector<std::uint8_t> material;     // by cell: its number; of a body of several
   // of a chain, which has no cells: the ends of each link, which files count as a cell of component 0
   std::vector<std::array<std::uint32_t, 2>> links;
+  std::vector<RefinedFacet> refined_facets;  // not written to files; those within a cell of the mesh are not among them
 
   FrameFields fields;              // which of these there are; others are empty
   std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven, 3 held along some axes

@@ -28,6 +28,9 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
   if (!number.empty())
     for (std::int64_t& p : frame.mesh_point)
       if (p >= 0) p = number[static_cast<std::size_t>(p)];
+  if (!number.empty())
+    for (RefinedFacet& facet : frame.refined_facets)
+      for (std::int64_t& p : facet.lies_in) p = number[static_cast<std::size_t>(p)];
   const auto rank = [](std::int64_t p) { return static_cast<std::uint64_t>(p); };  // -1 comes last
   if (std::ranges::is_sorted(frame.mesh_point, {}, rank)) return;
   std::vector<std::uint32_t> order(frame.mesh_point.size()), place(order.size());
@@ -39,6 +42,8 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
               frame.largest_principal_stress, frame.largest_stress_magnitude, frame.von_mises_stress,
               frame.displacement, frame.contact_force, frame.contact_depth);
   for (std::uint32_t& node : frame.mesh.nodes) node = place[node];
+  for (RefinedFacet& facet : frame.refined_facets)
+    for (std::uint32_t& point : facet.points) point = place[point];
   for (auto* lines : {&frame.links, &frame.springs})
     for (auto& [a, b] : *lines) {
       a = place[a];

@@ -13,6 +13,7 @@
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/run/driven_vertices.h"
 #include "core/scene/survey/bending_stiffness.h"
+#include "core/scene/survey/cut_counts.h"
 #include "core/scene/survey/mesh_direction.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/divergence.h"
@@ -87,15 +88,13 @@ class Planner {
 
   void selections() {
     plan_.selections = count_selections(scene_, problem_.mesh);
-    for (const SelectionCount& count : plan_.selections)
-      if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
     for (std::size_t k = 0; k < scene_.events.size(); ++k)
       if (std::holds_alternative<Dissociate>(scene_.events[k].action))
-        plan_.selections.push_back(
-            {.path = scene_.events[k].path + "/dissociate",
-             .of_what = problem_.mesh.dimension() == 3 ? "faces between cells" : "edges between faces",
-             .selected = static_cast<std::size_t>(plan_.events[k].operations),
-             .all = plan_.counts.cells_of_facet.size()});
+        plan_.selections.push_back(count_cut(scene_.events[k], problem_.mesh,
+                                             static_cast<std::size_t>(plan_.events[k].operations),
+                                             plan_.counts.cells_of_facet.size()));
+    for (const SelectionCount& count : plan_.selections)
+      if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
   }
 
   void map() {

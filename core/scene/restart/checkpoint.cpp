@@ -93,20 +93,17 @@ Checkpoint::Checkpoint(const fs::path& file)
   archive_(progress_, output_);
 }
 
-bool Checkpoint::says_the_same(const std::string& text) const {
-  const auto now = nlohmann::json::parse(text, nullptr, false);
-  return !now.is_discarded() && now == nlohmann::json::parse(origin_.text, nullptr, false);
-}
-
 // The step of a scene that asks for an accuracy was chosen for its duration.
-bool Checkpoint::lasts_longer(const std::string& text) const {
+Checkpoint::Difference Checkpoint::difference_of(const std::string& text) const {
   const auto now = nlohmann::json::parse(text, nullptr, false);
   auto then = nlohmann::json::parse(origin_.text, nullptr, false);
-  if (!now.is_object() || !now.contains("duration") || !now["duration"].is_number() || then.contains("accuracy") ||
+  if (!now.is_object()) return Difference::other;
+  if (now == then) return Difference::none;
+  if (!now.contains("duration") || !now["duration"].is_number() || then.contains("accuracy") ||
       !(now["duration"] > then["duration"]))
-    return false;
+    return Difference::other;
   then["duration"] = now["duration"];
-  return now == then;
+  return now == then ? Difference::longer_duration : Difference::other;
 }
 
 SceneFile Checkpoint::scene() const {
@@ -115,12 +112,13 @@ SceneFile Checkpoint::scene() const {
   const fs::path path = folder / fs::path(origin_.file).filename();
   std::error_code error;
   const std::string now = fs::is_regular_file(path, error) ? contents_of(path, "a scene") : origin_.text;
-  if (!says_the_same(now) && !lasts_longer(now))
+  const Difference difference = difference_of(now);
+  if (difference == Difference::other)
     throw InputError(
         fmt::format("{}: has changed since the run in {} began; expected it as it was, or with a longer "
                     "'duration' and nothing else changed: restore it, or start a new run with --out",
                     path.string(), file_.parent_path().string()));
-  SceneFile scene = parse_scene(lasts_longer(now) ? now : origin_.text, path.string(), folder);
+  SceneFile scene = parse_scene(difference == Difference::longer_duration ? now : origin_.text, path.string(), folder);
   load_mesh(scene);
   reseed(scene, origin_.added_seed);
   scene.step = origin_.step;

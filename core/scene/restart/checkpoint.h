@@ -63,8 +63,9 @@ class Checkpoint {
     }
   };
   static std::uint64_t hash_of_mesh(const SceneFile& scene);
-  bool says_the_same(const std::string& text) const;
-  bool lasts_longer(const std::string& text) const;
+  /// How a scene differs from that of the run.
+  enum class Difference { none, longer_duration, other };
+  Difference difference_of(const std::string& text) const;
 
   std::filesystem::path file_;
   std::unique_ptr<std::string> bytes_;  // `archive_` looks at them

@@ -15,6 +15,7 @@
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/run/body_in_words.h"
+#include "core/scene/survey/cut_counts.h"
 #include "core/time/integrators.h"
 #include "core/time/solve/stop_request.h"
 #include "core/time/system/energy.h"
@@ -153,10 +154,8 @@ void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh) {
   for (const CellKind kind : mesh.kinds)
     facets_of_cells += dimension_ == 3 ? faces_of(kind).size() : static_cast<std::size_t>(node_count(kind));
   const CellCounts counts = body_->counts();
-  selections_.push_back({.path = event.path + "/dissociate",
-                         .of_what = dimension_ == 3 ? "faces between cells" : "edges between faces",
-                         .selected = *facets,
-                         .all = facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges)});
+  selections_.push_back(
+      dartboard::count_cut(event, mesh, *facets, facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges)));
 }
 
 Simulation::~Simulation() = default;

@@ -43,7 +43,8 @@ std::string direction_in_words(const SceneFile& scene, const Mesh& mesh) {
       found->ratio, a[0], a[1], a[2]);
   for (const BodySource& body : scene.bodies())
     if (const auto* box = std::get_if<BoxMesh>(&body.mesh); box != nullptr && box->pattern == "kuhn")
-      return text + fmt::format(" A box with {}/generate/box/pattern \"mirrored\" has none.", body.path);
+      return text + fmt::format(" A box with {}/generate/box/pattern \"mirrored\" has none for even counts of cells.",
+                                body.path);
   return text;
 }
 

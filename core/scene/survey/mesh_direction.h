@@ -19,7 +19,7 @@ struct MeshDirection {
 /// Of the edges of all cells, each counted once for every cell that has it; nothing for a mesh without cells or in a
 /// line or plane.
 ///
-/// A box cut alike around diagonals along (1, 1, 1) has 4, one that is cut in mirror images 1.
+/// A box cut alike around diagonals along (1, 1, 1) has 4, one of even counts that is cut in mirror images 1.
 std::optional<MeshDirection> direction_of(const Mesh& mesh);
 
 /// What such a direction does to a body, where the ratio is 1.5 or more; empty elsewhere.

@@ -4,11 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/folder_for_tests.h"
+#include "tests/support/moving_box.h"
 
 namespace dartboard {
 namespace {
@@ -189,12 +193,68 @@ TEST(BodyPicture, LightsTheTopMost) {
   EXPECT_GT(sum_of_channels(facets[2].colour), sum_of_channels(facets[1].colour));
 }
 
-// A new vertex has no place in the mesh: its facets are not known to have been inside.
-TEST(BodyPicture, DoesNotTakeWhatRefinementMadeForWhatWasInside) {
-  const Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0));
-  Frame refined = first;
-  refined.mesh_point.assign(refined.mesh_point.size(), -1);
-  for (const DrawnFacet& f : drawn_facets(refined, first)) EXPECT_LT(red(f.colour), f.colour & 0xff);  // blue
+bool is_inside(const DrawnFacet& f) { return red(f.colour) > 2 * ((f.colour >> 8) & 0xff); }  // neither blue nor ochre
+
+/// Of the boundary facets that look towards the viewer, those that are on a side of the box, and the others.
+std::array<std::ptrdiff_t, 2> seen_on_and_off_the_sides(const Mesh& mesh, double side) {
+  std::map<std::set<std::uint32_t>, std::pair<int, std::vector<Vector3d>>> faces;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    for (const std::vector<int>& face : faces_of(mesh.kinds[c])) {
+      std::set<std::uint32_t> nodes;
+      std::vector<Vector3d> corners;
+      for (const int k : face) {
+        nodes.insert(mesh.cell(c)[static_cast<std::size_t>(k)]);
+        corners.push_back(mesh.points[mesh.cell(c)[static_cast<std::size_t>(k)]]);
+      }
+      auto& [cells, of_last] = faces[nodes];
+      ++cells;
+      of_last = corners;
+    }
+  std::array<std::ptrdiff_t, 2> count{};
+  for (const auto& [nodes, face] : faces) {
+    const std::vector<Vector3d>& x = face.second;
+    if (face.first != 1 || (x[1] - x[0]).cross(x[2] - x[0]).dot(towards_viewer()) <= 0.0) continue;
+    bool is_on_a_side = false;
+    for (const int axis : {0, 1, 2})
+      for (const double at : {0.0, side})
+        is_on_a_side |= std::ranges::all_of(x, [&](const Vector3d& p) { return p[axis] == at; });
+    ++count[is_on_a_side ? 0 : 1];
+  }
+  return count;
+}
+
+// A box without forces, whose sides are known by their coordinates: means of powers of two are exact.
+TEST(BodyPicture, KnowsOfFacetsThatRefinementMadeWhichAreOnTheOutside) {
+  using namespace moving;
+  for (const char* events :
+       {R"([{"at": 0.001, "refine": {"cells": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.2}}}}])",
+        R"([{"at": 0.001, "refine": {"cells": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.2}}}},
+                                 {"at": 0.002, "refine": {"cells": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.1}}}},
+                                 {"at": 0.003, "refine": {"cells": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.1}}, "at": "centre"}},
+                                 {"at": 0.004, "remove": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.08}}},
+                                 {"at": 0.005, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+                                 {"at": 0.006, "refine": {"cells": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.15}}}},
+                                 {"at": 0.007, "remove": {"sphere": {"centre": [0.25, 0, 0], "radius": 0.09}}}])",
+        R"([{"at": 0.001, "refine": {"cells": {"ids": [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]}, "at": "centre"}},
+                                 {"at": 0.002, "remove": {"sphere": {"centre": [0.25, 0, 0.25], "radius": 0.1}}}])"}) {
+    Json scene = with_events(moving_box(), events);
+    scene.erase("initial_velocity");
+    scene["gravity"] = {0, 0, 0};
+    scene["material"]["stiffness"] = scene["material"]["damping"] = 0;
+    Simulation simulation(parse(scene));
+    const Frame first = simulation.frame();
+    while (simulation.steps_done() < simulation.step_count()) {
+      ASSERT_FALSE(simulation.advance());
+      const Frame now = simulation.frame();
+      const auto [on, off] = seen_on_and_off_the_sides(now.mesh, 0.25);
+      const auto facets = drawn_facets(now, first);
+      ASSERT_EQ(std::ranges::count_if(facets, is_inside), off) << simulation.time() << " s of " << events;
+      ASSERT_EQ(static_cast<std::ptrdiff_t>(facets.size()), on + off) << simulation.time() << " s of " << events;
+      ASSERT_GT(on, 12);  // each side of 2 x 2 squares has 8 at first
+    }
+    const auto off = seen_on_and_off_the_sides(simulation.frame().mesh, 0.25)[1];
+    EXPECT_EQ(off > 0, std::string_view(events).find("remove") != std::string_view::npos) << events;
+  }
 }
 
 // Two opposite corners of a cube exchange their numbers, as removals make vertices do: its sides are its sides still.

@@ -74,6 +74,9 @@ std::vector<Sample> all_samples(const std::filesystem::path& folder) {
                           {std::string(off_of_one_line), MeshFormat::off},
                           {std::string(stl_in_capitals), MeshFormat::stl},
                           {std::string(obj_in_the_plane), MeshFormat::obj},
+                          {std::string(off_in_the_plane), MeshFormat::off},
+                          {std::string(ply_in_the_plane), MeshFormat::ply},
+                          {std::string(medit_in_small_letters), MeshFormat::medit},
                           {std::string(vtu_with_ghosts), MeshFormat::vtk_legacy}};
   for (const int version : {1, 2, 3, 4}) all.push_back({meshb(version, version == 3), MeshFormat::medit});
   write_pieces(folder);

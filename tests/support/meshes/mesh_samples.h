@@ -220,6 +220,10 @@ inline constexpr std::string_view vtu_base64_wide = R"(<?xml version="1.0"?>
 </VTKFile>
 )";
 
+/// The corners of a unit cube, as a hexahedron has them.
+inline const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                               {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
 inline std::string tetgen() { return std::string(tetgen_node) + std::string(tetgen_ele); }
 
 /// The text with one part of it exchanged for another.

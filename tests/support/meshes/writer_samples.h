@@ -106,6 +106,37 @@ EdgeOnGeometricEdge
 1 1
 )";
 
+inline constexpr std::string_view medit_in_small_letters = R"(meshversionformatted 2
+dimension 3
+VERTICES
+5
+0 0 0 1
+1 0 0 1
+0 1 0 1
+0 0 1 1
+1 1 1 2
+corners
+1
+5
+solatvertices
+5 1 1
+1 2 3 4 5
+trianglesGid
+1
+7
+edges
+1
+1 2 0
+tetrahedra
+2
+1 2 3 4 0
+2 3 4 5 0
+CORNERS
+1
+4
+end
+)";
+
 inline constexpr std::string_view gmsh2_of_groups = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -217,6 +248,25 @@ VERTEX 0.0 1.0 0.0
 ENDLOOP
 ENDFACET
 ENDSOLID SQUARE
+)";
+
+inline constexpr std::string_view off_in_the_plane = "nOFF 2\n4 2 0\n0 0\n1 0\n1 1\n0 1\n3 0 1 2\n3 0 2 3\n";
+
+inline constexpr std::string_view ply_in_the_plane = R"(ply
+format ascii 1.0
+element vertex 4
+property uchar red
+property float y
+property double x
+element face 2
+property list uchar int vertex_indices
+end_header
+9 0 0
+9 0 1
+9 1 1
+9 1 0
+3 0 1 2
+3 0 2 3
 )";
 
 inline constexpr std::string_view obj_in_the_plane = "v 0 0\nv 1 0 # right\nv 1 \\\n1\nv 0 1\nf 1 2 3\nf 1 3 4\n";

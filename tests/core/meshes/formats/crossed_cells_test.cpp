@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
 #include <tuple>
+#include <utility>
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/meshes/mesh_samples.h"
@@ -14,9 +18,6 @@ namespace {
 
 using namespace samples;
 using Nodes = std::vector<std::uint32_t>;
-
-const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 CrossedCells of_cell(CellKind kind, const Nodes& nodes, const std::vector<Eigen::Vector3d>& points = cube) {
   Mesh mesh;
@@ -53,6 +54,7 @@ TEST(CrossedCells, AreThoseOfEveryKindInVoxelOrder) {
         {CellKind::hexahedron, Nodes{0, 1, 2, 3, 4, 5, 7, 6}, "swap the seventh and eighth points"},
         {CellKind::pyramid, Nodes{0, 1, 3, 2, 4}, "swap the third and fourth points"},
         {CellKind::prism, Nodes{0, 1, 3, 4, 7, 5}, "swap the fifth and sixth points"},
+        {CellKind::prism, Nodes{0, 1, 4, 3, 5, 7}, "swap the third and fourth points"},
         {CellKind::quadrilateral, Nodes{0, 1, 3, 2}, "swap the third and fourth"}}) {
     const CrossedCells crossed = of_cell(kind, nodes);
     EXPECT_EQ(crossed.cells, (Nodes{0})) << name(kind);
@@ -92,6 +94,66 @@ TEST(CrossedCells, AreNotHexahedraThatBendBackAtOneCornerAlone) {
     points[6] = {at, at, 1};
     EXPECT_FALSE(of_cell(CellKind::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}, points).any()) << at;
   }
+}
+
+/// A triangle and another above it, larger or smaller, turned and shifted, each corner moved by up to a share of the
+/// height, which is at most one; of either hand.
+std::vector<Eigen::Vector3d> random_prism(std::mt19937_64& random, double twist, double shift, double noise) {
+  const auto within = [&random](double a, double b) {
+    return a + (b - a) * static_cast<double>(random() >> 11) / 0x1p53;
+  };
+  const double height = within(0.02, 1.0), larger = within(0.5, 2.0), angle = within(-twist, twist);
+  const Eigen::Vector3d shear(within(-shift, shift) * height, within(-shift, shift) * height, height);
+  const Eigen::Matrix3d turn = larger * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<Eigen::Vector3d> points;
+  for (const double corner : {0.0, 2.0, 4.5})
+    points.emplace_back(std::cos(corner) + within(-0.2, 0.2), std::sin(corner) + within(-0.2, 0.2), 0.0);
+  const double hand = within(0, 1) < 0.5 ? -1 : 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d x = points[k];
+    points.emplace_back(shear + Eigen::Vector3d((turn * x).x(), (turn * x).y(), 0));
+  }
+  for (auto& x : points) {
+    for (int k = 0; k < 3; ++k) x[k] += within(-noise, noise) * height;
+    x.z() *= hand;
+  }
+  return points;
+}
+
+const Nodes prism_nodes{0, 1, 2, 3, 4, 5};
+
+TEST(CrossedCells, AreNotPrismsThatAreFlatShearedOrTwistedByThirtyDegrees) {
+  std::mt19937_64 random(1);
+  for (const auto& [twist, shift, noise] :
+       {std::tuple{0.0, 0.0, 0.0}, {0.52, 0.0, 0.0}, {0.52, 5.0, 0.0}, {0.52, 1.0, 0.1}})
+    for (int n = 0; n < 2000; ++n) {
+      const auto points = random_prism(random, twist, shift, noise);
+      ASSERT_FALSE(of_cell(CellKind::prism, prism_nodes, points).any())
+          << twist << ' ' << shift << ' ' << noise << ' ' << n;
+    }
+}
+
+// Their Jacobians are of one sign at all Gauss points.
+TEST(CrossedCells, AreThePrismsWithACornerOfEachEndSwapped) {
+  std::mt19937_64 random(2);
+  for (const auto& [a, b] : {std::pair{2, 3}, {2, 4}, {0, 4}, {0, 5}, {1, 3}, {1, 5}})
+    for (int n = 0; n < 200; ++n) {
+      Nodes nodes = prism_nodes;
+      std::swap(nodes[static_cast<std::size_t>(a)], nodes[static_cast<std::size_t>(b)]);
+      const CrossedCells crossed = of_cell(CellKind::prism, nodes, random_prism(random, 0.0, 3.0, 0.0));
+      ASSERT_EQ(crossed.cells, (Nodes{0})) << a << ' ' << b << ' ' << n;
+      ASSERT_EQ(crossed.voxel_order, a == 2 && b == 3 ? 1u : 0u) << a << ' ' << b << ' ' << n;
+    }
+}
+
+// Faces twisted by a few degrees leave volumes of either hand at the ends of the axial edge. Where both are of the hand
+// of the others, the cell is whole as it is; elsewhere it is found.
+TEST(CrossedCells, AreTheTwistedPrismsWithACornerOfEachEndSwappedThatTurnOverAtACorner) {
+  std::mt19937_64 random(3);
+  int found = 0;
+  for (int n = 0; n < 1000; ++n)
+    found += of_cell(CellKind::prism, {0, 1, 3, 2, 4, 5}, random_prism(random, 0.05, 1.0, 0.02)).any();
+  EXPECT_GT(found, 500);
 }
 
 TEST(CrossedCells, OfEqualLobesAreCrossedThoughTheyHaveNoMeasure) {

@@ -31,7 +31,8 @@ TEST(MeditBinary, ReadsToTheSameBitsInEveryVersionAndByteOrder) {
       expect_two_tetrahedra(loaded);
       EXPECT_EQ(loaded.format, "Medit " + std::to_string(version) + " binary");
       EXPECT_EQ(loaded.notices,
-                (std::vector<std::string>{"skipped 1 triangle, 1 edge: the body is made of its 2 volumes"}));
+                (std::vector<std::string>{"skipped the section Corners: no cells are in it",
+                                          "skipped 1 triangle, 1 edge: the body is made of its 2 volumes"}));
       ASSERT_EQ(loaded.tags.size(), 1u);
       EXPECT_EQ(loaded.tags[0].values, (std::vector<std::int32_t>{7, -3}));
     }
@@ -71,6 +72,17 @@ TEST(MeditBinary, TakesCellsOfSecondOrderByTheirCorners) {
   EXPECT_EQ(loaded.mesh.nodes, (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(loaded.notices,
             (std::vector<std::string>{"took 1 10-node tetrahedron by their corners: edges of a body are straight"}));
+}
+
+TEST(MeditBinary, NamesTheSectionsThatWereSkipped) {
+  MeshbWriter file(2, false);
+  file.section(4, file.integers({3}) + file.reals({0, 0, 0}) + file.integers({0}) + file.reals({1, 0, 0}) +
+                      file.integers({0}) + file.reals({0, 1, 0}) + file.integers({0}));
+  for (const std::int32_t code : {14, 120, 62, 14}) file.lines(code, 1, {1, 1, 1, 1});
+  file.lines(6, 1, {1, 2, 3, 0});
+  EXPECT_EQ(
+      parse(file.finish()).notices,
+      (std::vector<std::string>{"skipped the sections Ridges, of code 120, SolAtVertices: no cells are in them"}));
 }
 
 TEST(MeditBinary, RefusesASectionThatMayHoldCellsInsteadOfLosingThem) {

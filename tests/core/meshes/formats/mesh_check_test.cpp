@@ -14,9 +14,6 @@ namespace {
 using namespace samples;
 using Nodes = std::vector<std::uint32_t>;
 
-const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                        {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-
 LoadedMesh mesh_of(std::vector<Eigen::Vector3d> points, const std::vector<std::pair<CellKind, Nodes>>& cells) {
   LoadedMesh loaded;
   loaded.mesh.points = std::move(points);

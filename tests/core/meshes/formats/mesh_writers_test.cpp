@@ -36,6 +36,14 @@ TEST(MeditOfBamg, HasVersion0QuotedTextsAndSizesAtVertices) {
   EXPECT_EQ(loaded.format, "Medit 0");
 }
 
+TEST(MeditKeywords, MayBeInSmallLetters) {
+  const LoadedMesh loaded = medit_mesh(medit_in_small_letters);
+  expect_two_tetrahedra(loaded);
+  EXPECT_EQ(loaded.notices, (Notices{"skipped the sections corners, solatvertices, trianglesGid: no cells are in them",
+                                     "skipped 1 edge: the body is made of its 2 volumes"}));
+  expect_part(refused_medit(with(medit_in_small_letters, "corners", "cornrs")), "'cornrs' is not a section of a mesh");
+}
+
 TEST(MeditText, WithoutEndIsReadWithANotice) {
   const LoadedMesh loaded = medit_mesh(with(medit, "End\n", ""));
   expect_two_tetrahedra(loaded);
@@ -180,6 +188,41 @@ TEST(ObjPoints, OfTwoCoordinatesAreInThePlane) {
   expect_square(loaded);
   EXPECT_EQ(loaded.notices, (Notices{"put 4 points of two coordinates in the plane z = 0"}));
   expect_part(refusal(with(obj_in_the_plane, "v 0 1", "v 0"), MeshFormat::obj), "'f' is not a number");
+}
+
+TEST(PlyPoints, WithoutAPropertyZAreInThePlane) {
+  const LoadedMesh loaded = parse_mesh(ply_in_the_plane, MeshFormat::ply, "file");
+  expect_square(loaded);
+  EXPECT_EQ(loaded.notices, (Notices{"put 4 points of two coordinates in the plane z = 0"}));
+}
+
+TEST(OffPoints, OfTwoCoordinatesAreInThePlaneWhereTheWordSaysSo) {
+  const auto points = std::string(off_in_the_plane.substr(off_in_the_plane.find("4 2 0")));
+  for (const char* head : {"nOFF 2\n", "nOFF\n2\n", "nOFF2 ", "2OFF\n", "2off "}) {
+    const LoadedMesh loaded = parse_mesh(head + points, MeshFormat::off, "file");
+    expect_square(loaded);
+    EXPECT_EQ(loaded.notices, (Notices{"put 4 points of two coordinates in the plane z = 0"})) << head;
+  }
+  expect_part(refusal("OFF\n" + points, MeshFormat::off), "expected");
+}
+
+TEST(OffPoints, HaveTwoOrThreeCoordinates) {
+  const auto points = std::string(off_of_one_line.substr(off_of_one_line.find('\n')));
+  for (const char* head : {"nOFF 3 4 2", "3OFF 4 2 5"}) {
+    const LoadedMesh loaded = parse_mesh(head + points, MeshFormat::off, "file");
+    expect_square(loaded);
+    EXPECT_TRUE(loaded.notices.empty()) << head;
+  }
+  for (const char* many : {"0", "1", "4"})
+    expect_part(refusal("nOFF " + std::string(many) + "\n4 2" + points, MeshFormat::off),
+                "file:1: points of " + std::string(many) + " coordinates; expected 2 or 3 coordinates");
+}
+
+TEST(OffPoints, HaveNormalsWhereTheNIsNoSmallLetterBeforeCapitals) {
+  for (const char* head : {"NOFF", "noff"})
+    expect_square(
+        parse_mesh(head + std::string("\n4 2\n0 0 0 7 7 7\n1 0 0 7 7 7\n1 1 0 7 7 7\n0 1 0 7 7 7\n3 0 1 2\n3 0 2 3\n"),
+                   MeshFormat::off, "file"));
 }
 
 }  // namespace

@@ -115,8 +115,13 @@ TEST(Ply, RefusesAListLongerThanTheFile) {
   expect_part(refusal(text, MeshFormat::ply), " bytes are left; expected a corner of face 1");
 }
 
-TEST(Ply, RefusesVerticesWithoutThreeCoordinates) {
-  expect_part(refusal(with(ply_text, "float z", "float w"), MeshFormat::ply), "vertices without one property each");
+TEST(Ply, RefusesVerticesWithoutOnePropertyForEachCoordinate) {
+  for (const auto& [axis, other] : {std::pair{"float y", "float w"},
+                                    {"float x", "float w"},
+                                    {"float y", "float x"},
+                                    {"float z", "float x"},
+                                    {"float z", "list uchar float z"}})
+    expect_part(refusal(with(ply_text, axis, other), MeshFormat::ply), "vertices without one property each");
 }
 
 // ---- OFF
@@ -127,6 +132,15 @@ TEST(Off, ReadsBytesWithWhatEachWordSaysOfPoints) {
   EXPECT_EQ(expect_square(off_binary(), MeshFormat::off).format, "OFF binary");
   expect_square(off_binary("OFF"), MeshFormat::off);
   expect_square(off_binary("OFF") + "\n", MeshFormat::off);
+}
+
+TEST(Off, ReadsBytesOfPointsInThePlane) {
+  const std::string text = "nOFF BINARY\n" + bytes_of(std::vector<std::int32_t>{2, 3, 1, 0}, true) +
+                           bytes_of(std::vector<float>{0, 0, 1, 0, 0, 1}, true) +
+                           bytes_of(std::vector<std::int32_t>{3, 0, 1, 2, 0}, true);
+  const LoadedMesh loaded = parse_mesh(text, MeshFormat::off, "file");
+  EXPECT_EQ(loaded.mesh.points, (std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(loaded.notices, (std::vector<std::string>{"put 3 points of two coordinates in the plane z = 0"}));
 }
 
 TEST(Off, RefusesBytesThatAreTooFewOrTooMany) {

@@ -170,6 +170,7 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   f.mesh_point = {1, -1, 0, 1};  // the second was put in by refinement, the first and the last are parts of one
   f.links = {{0, 2}};
   f.springs = {{3, 1}};
+  f.refined_facets = {{.points = {0, 1, 2}, .lies_in = {0, 1, 1}}};
   for (std::vector<double>* column :
        {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
     *column = {0, 1, 2, 3};
@@ -178,6 +179,8 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   const std::vector<std::uint32_t> number{7, 5};
   put_in_order(f, number);
   EXPECT_EQ(f.mesh_point, (std::vector<std::int64_t>{5, 5, 7, -1}));
+  EXPECT_EQ(f.refined_facets.at(0).points, (std::array<std::uint32_t, 3>{0, 3, 2}));
+  EXPECT_EQ(f.refined_facets.at(0).lies_in, (std::array<std::int64_t, 3>{7, 5, 5}));
   const std::vector<double> order{0, 3, 2, 1};
   EXPECT_EQ(f.held, (std::vector<std::uint8_t>{0, 3, 2, 1}));
   for (const std::vector<double>* column :

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/scene/file/scene_problem.h"
+#include "core/scene/plan/scene_plan.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard {
@@ -78,6 +81,62 @@ TEST(SelectionCounts, NameALayerThatABorderMissesByLessThanTenThicknesses) {
   EXPECT_EQ(near_miss(missed(0.3 - 9e-9)),
             "/fixed/0: 4 lie just outside, less than 1e-08 m from the border, and not selected");
   EXPECT_EQ(near_miss(missed(0.3)), "");
+}
+
+/// A cut across the bar between two cubes, whose two faces have their centres at thirds of its width and height.
+Json with_bounded_cut(const char* within) {
+  Json json = bar();
+  Json cut = Json::parse(R"({"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}})");
+  cut["within"] = Json::parse(within);
+  json["events"] = Json::array({{{"at", 0.005}, {"dissociate", cut}}});
+  return json;
+}
+SelectionCount of_cut(const Json& json) {
+  const Simulation simulation(parse(json));
+  return simulation.selections().back();
+}
+
+// Within the box there are also the faces inside of cubes, with centres nearer to its border than the two of the cut.
+TEST(SelectionCounts, NameTheFacesOfACutThatItsBoundsMissByLessThanTenThicknesses) {
+  const auto missed = [](const char* least) {
+    return of_cut(
+        with_bounded_cut((R"({"box": {"min": [0, )" + std::string(least) + R"(, 0], "max": [1, 1, 1]}})").c_str()));
+  };
+  // two thirds of 0.1 m, and more by some 0.7, 7 and 13 thicknesses
+  for (const auto& [least, selected, just_outside] :
+       {std::tuple{"0.0666666674", 1u, 0u}, {"0.0666666740", 0u, 1u}, {"0.0666666800", 0u, 0u}}) {
+    EXPECT_EQ(missed(least).selected, selected) << least;
+    EXPECT_EQ(missed(least).just_outside, just_outside) << least;
+  }
+  EXPECT_EQ(near_miss(missed("0.0666666740")),
+            "/events/0/dissociate: 1 lies just outside, less than 1e-08 m from the border, and not selected");
+}
+
+TEST(SelectionCounts, NameTheFacesThatBoundsOfEveryShapeMiss) {
+  // the centre of a face at two thirds of the width is a sixtieth of a metre above or below that of the sphere
+  for (const char* within :
+       {R"({"sphere": {"centre": [0.5, 0.16666666666667, 0.05], "radius": 0.101379368505}})",
+        R"({"polygon": [[0.5, 0.0666666740, 0], [0.5, 0.2, 0], [0.5, 0.2, 0.2], [0.5, 0.0666666740, 0.2]]})"})
+    EXPECT_EQ(of_cut(with_bounded_cut(within)).just_outside, 1u) << within;
+}
+
+TEST(SelectionCounts, OfCutsAreThoseOfThePlanAndTheRunAlike) {
+  const Json json = with_bounded_cut(R"({"box": {"min": [0, 0.0666666740, 0], "max": [1, 1, 1]}})");
+  const SceneFile scene = parse(json);
+  const SelectionCount planned = plan_scene(scene, make_problem(scene)).selections.back(), run = of_cut(json);
+  EXPECT_EQ(to_string(planned), to_string(run));
+  EXPECT_EQ(near_miss(planned), near_miss(run));
+  EXPECT_EQ(planned.just_outside, 1u);
+}
+
+TEST(SelectionCounts, OfACutOfASurfaceNameItsEdges) {
+  Json json = bar();
+  json["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.5}}})");
+  json["events"] = Json::parse(R"([{"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]},
+                                   "within": {"box": {"min": [0, 0.250000005, -1], "max": [1, 0.7, 1]}}}}])");
+  const SelectionCount count = of_cut(json);
+  EXPECT_EQ(to_string(count), "/events/0/dissociate: 0 of 8 edges between faces");
+  EXPECT_EQ(count.just_outside, 1u);
 }
 
 }  // namespace
