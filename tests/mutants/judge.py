@@ -23,6 +23,7 @@ class Test:
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.folder = properties.get("WORKING_DIRECTORY", ".")
         self.skip_status = properties.get("SKIP_RETURN_CODE")
+        self.labels = properties.get("LABELS", [])
         self.environment = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
         self.filter = next((a.split("=", 1)[1] for a in self.command if a.startswith("--gtest_filter=")), None)
         self.suite = self.command[0] if self.filter else None

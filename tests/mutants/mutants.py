@@ -4,11 +4,15 @@
     mutants.py --seed 2 --count 400 --work DIR      draw, build, run, report; goes on where it was interrupted
     mutants.py --work DIR --report                  the report of what has been judged so far
     mutants.py --work DIR --budget 3600             run survivors with the tests that were too slow before
+    mutants.py --work DIR --since REVISION          some 40 changes in the lines that differ from it, anew each time
 
 The changes are drawn over all sources of core, reference, validation and benchmarks, each place alike (sites.py,
 draw.py). A copy of the repository is built once with all of them in it behind one switch (schemata.py, build.py). Every
 test is run once as it is, which tells the mutants that it reaches; each mutant is then run with those tests, likeliest
 and quickest first, until one fails (judge.py). Nothing outside DIR is written.
+
+With --since, which is what one uses every day (./dartboard test --mutants REVISION), the copy is built as the release
+preset is, so that all but what is touched comes from the compiler's cache, and the tests of the quick suite are run.
 
 DIR ends with report.md (shares by room, with intervals), survivors/ROOM.md, sample.jsonl, results.jsonl. Mutants that
 are no wrong programs are set aside one by one in equivalent.txt, with the reason.
@@ -20,12 +24,15 @@ import argparse
 import concurrent.futures
 import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 import threading
 import time
 
 import build as building
+import changed
 import draw
 import judge
 import report
@@ -35,6 +42,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 ROOMS = ["core", "reference", "validation", "benchmarks"]
 # not run: what builds copies of its own, what counts instructions, and the tests of this tool
 LEFT_OUT = r"^(SeededFaults|instructions|Mutants|OneDefinition)"
+SLOW = r"^(verbs|faults-.*|long|lint)$"  # labels of what is no part of the quick suite
 
 
 def say(text):
@@ -105,6 +113,35 @@ def drawn(work, source, seed, count, jobs):
     return work.read("sample.jsonl"), {file: text.encode() for file, text in work.read("texts.json").items()}
 
 
+def drawn_since(work, source, revision, count, seed, jobs):
+    """The same of the lines that differ from a revision."""
+    for name in ("sample.jsonl", "tests.json", "dropped.json", "results.jsonl"):
+        if work.has(name):
+            os.remove(work.path(name))
+    lines = changed.changed_lines(source, revision, ROOMS)
+    say("%d lines of %d sources differ from %s" % (sum(map(len, lines.values())), len(lines), revision))
+    if not lines:
+        return [], {}
+    import sites
+    changed.refresh(source, work.tree)
+    work.build = changed.configure(work.tree)
+    found = sites.find_sites(work.tree, ROOMS, os.path.join(work.build, "compile_commands.json"), jobs, lambda text: None,
+                             changed.units_of(work.tree, lines))
+    found = [site for site in found if site["line"] in lines.get(site["file"], ())]
+    texts = {}
+    for file in {site["file"] for site in found}:
+        with open(os.path.join(work.tree, file), "rb") as text:
+            texts[file] = text.read()
+    of_room = {}
+    for site in found:
+        of_room[draw.room_of(site["file"])] = of_room.get(draw.room_of(site["file"]), 0) + 1
+    sample = draw.draw(found, texts, count, seed) if found else []
+    work.write("about.json", {"commit": commit_of(source), "seed": seed, "count": count, "since": revision, "sites": of_room,
+                              "shares": draw.shares(found, count) if found else {}})
+    work.write("sample.jsonl", sample)
+    return sample, texts
+
+
 def built(work, sample, texts):
     """{id: why} of the mutants that do not compile."""
     if not work.has("dropped.json"):
@@ -163,7 +200,8 @@ def write_report(work, sample, sound):
         names = [name for name, run in sound.items() if mutant["id"] in run["reached_set"]]
         return sorted(names, key=lambda name: (-judge.affinity(name, mutant), sound[name]["seconds"]))[:3]
 
-    os.makedirs(work.path("survivors"), exist_ok=True)
+    shutil.rmtree(work.path("survivors"), ignore_errors=True)
+    os.makedirs(work.path("survivors"))
     for room, blocks in report.survivors(sample, results, dropped, equivalents, reached_by).items():
         with open(work.path("survivors", room.replace("/", "_") + ".md"), "w", encoding="utf-8") as file:
             file.write("# %s: %d survivors\n\n%s" % (room, len(blocks), "".join(blocks)))
@@ -174,20 +212,32 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", required=True, help="folder for the copy, its build, and the results")
     parser.add_argument("--seed", type=int)
-    parser.add_argument("--count", type=int, default=400)
-    parser.add_argument("--budget", type=float, default=60, help="seconds of tests run per mutant, as they take without one (60)")
+    parser.add_argument("--since", metavar="REVISION", help="draw from the lines that differ from it")
+    parser.add_argument("--count", type=int, help="how many (400; 40 of changed lines)")
+    parser.add_argument("--budget", type=float, help="seconds of tests run per mutant, as they take without one (60; 10 of changed lines)")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--source", default=ROOT, help="the repository (this one)")
     parser.add_argument("--leave-out", default=LEFT_OUT, help="tests that are not run, as a regular expression (%(default)s)")
     parser.add_argument("--report", action="store_true", help="only report")
     arguments = parser.parse_args()
     work = Work(arguments.work)
-    if arguments.seed is None and not work.has("sample.jsonl"):
-        parser.error("--seed is needed to draw")
-    seed = arguments.seed
-    sample, texts = drawn(work, arguments.source, seed, arguments.count, arguments.jobs)
+    of_all, budget = arguments.since is None, arguments.budget
+    count = arguments.count or (400 if of_all else 40)
+    if budget is None:
+        budget = 60 if of_all else 10
+    if of_all:
+        if arguments.seed is None and not work.has("sample.jsonl"):
+            parser.error("--seed is needed to draw")
+        sample, texts = drawn(work, arguments.source, arguments.seed, count, arguments.jobs)
+    else:
+        sample, texts = drawn_since(work, arguments.source, arguments.since, count, arguments.seed or 1, arguments.jobs)
+        if not sample:
+            print("nothing drawn: no line that differs from %s can be changed" % arguments.since)
+            return 0
     dropped = built(work, sample, texts)
     tests = judge.tests_of(work.build, arguments.leave_out)
+    if not of_all:
+        tests = [test for test in tests if not any(re.match(SLOW, label) for label in test.labels)]
     if not work.has("tests.json"):
         say("%d tests without a mutant" % len(tests))
         work.write("tests.json", judge.sound_runs(tests, arguments.jobs, say))
@@ -198,8 +248,12 @@ def main():
     taken = first_of_each_room(sample, dropped, work.read("about.json")["shares"])
     compiled = [mutant for mutant in taken if mutant["id"] not in dropped]
     if not arguments.report:
-        judged(work, compiled, tests, sound, arguments.jobs, arguments.budget)
+        judged(work, compiled, tests, sound, arguments.jobs, budget)
     print(write_report(work, taken, sound))
+    if not of_all:
+        for name in sorted(os.listdir(work.path("survivors"))):
+            with open(work.path("survivors", name), encoding="utf-8") as file:
+                print(file.read())
     return 0
 
 

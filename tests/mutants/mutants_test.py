@@ -10,6 +10,7 @@ import types
 import unittest
 
 import build
+import changed
 import draw
 import judge
 import report
@@ -163,6 +164,35 @@ def shell(name, command):
     return judge.Test({"name": name, "command": ["/bin/sh", "-c", command]})
 
 
+class Changed(unittest.TestCase):
+    DIFF = ("diff --git a/core/one.h b/core/one.h\n--- a/core/one.h\n+++ b/core/one.h\n@@ -3 +3,2 @@ f\n-x\n+y\n+z\n"
+            "@@ -9,2 +10,0 @@\n-gone\n-too\n"
+            "diff --git a/core/gone.cpp b/core/gone.cpp\n--- a/core/gone.cpp\n+++ /dev/null\n@@ -1 +0,0 @@\n-x\n"
+            "diff --git a/core/read.md b/core/read.md\n--- a/core/read.md\n+++ b/core/read.md\n@@ -1 +1 @@\n-x\n+y\n")
+
+    def test_lines_are_those_that_the_new_text_has(self):
+        self.assertEqual(changed.lines_of_diff(self.DIFF), {"core/one.h": {3, 4}})
+
+    def test_a_tree_is_refreshed_without_touching_what_is_as_it_was(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, tree = os.path.join(folder, "source"), os.path.join(folder, "tree")
+            os.makedirs(source)
+            os.makedirs(tree)
+            subprocess.run(["git", "init", "-q", source], check=True)
+            write = lambda where, name, text: open(os.path.join(where, name), "w").write(text)
+            for name in ("same.cpp", "other.cpp", "new.cpp"):
+                write(source, name, name)
+            for name, text in (("same.cpp", "same.cpp"), ("other.cpp", "mutated"), ("stale.cpp", "x")):
+                write(tree, name, text)
+                os.utime(os.path.join(tree, name), (1, 1))
+            changed.refresh(source, tree)
+            self.assertEqual(sorted(os.listdir(tree)), ["new.cpp", "other.cpp", "same.cpp"])
+            self.assertEqual(open(os.path.join(tree, "other.cpp")).read(), "other.cpp")
+            times = [os.stat(os.path.join(tree, name)).st_mtime for name in ("same.cpp", "other.cpp")]
+            self.assertEqual(times[0], 1)
+            self.assertGreater(times[1], 1)
+
+
 class Judge(unittest.TestCase):
     def judged(self, tests, budget=60):
         sound = {test.name: {"seconds": 0.01, "fails": None, "reached_set": {7}} for test in tests}
@@ -209,7 +239,7 @@ class Report(unittest.TestCase):
         rows = report.counts(mutants, results, {4: "no"}, {"k5": "the same"}, lambda file: "core")
         self.assertEqual(rows["core"], {"drawn": 6, "killed": 1, "survived": 1, "not reached": 1, "not compiled": 1,
                                         "equivalent": 1, "not judged yet": 1})
-        self.assertEqual(report.row_of("core", rows["core"], 0)[6:8], [3, 1], "judged and killed")
+        self.assertEqual(report.row_of("core", rows["core"], 0)[6:8], [4, 1], "counted and killed")
 
     def test_what_is_set_aside_has_a_reason(self):
         here = os.path.dirname(os.path.abspath(__file__))

@@ -30,7 +30,7 @@ def read_equivalents(path):
     return found
 
 
-COLUMNS = ["room", "sites", "drawn", "not compiled", "compile time only", "equivalent", "judged", "killed", "not reached",
+COLUMNS = ["room", "sites", "drawn", "not compiled", "compile time only", "equivalent", "counted", "killed", "not reached",
            "survived", "share killed", "95 % interval"]
 
 
@@ -59,9 +59,13 @@ def counts(mutants, results, dropped, equivalents, room_of):
     return rooms
 
 
+def counted(row):
+    """What the share is of: all that was drawn, what does not compile or is not reached too, but what no test can kill."""
+    return row.get("drawn", 0) - row.get("equivalent", 0) - row.get("not judged yet", 0)
+
+
 def row_of(name, row, sites):
-    killed = row.get("killed", 0)
-    judged = killed + row.get("survived", 0) + row.get("not reached", 0)
+    killed, judged = row.get("killed", 0), counted(row)
     low, high = wilson(killed, judged)
     return [name, sites, row["drawn"], row.get("not compiled", 0), row.get("compile time only", 0), row.get("equivalent", 0),
             judged, killed, row.get("not reached", 0), row.get("survived", 0),
@@ -70,10 +74,10 @@ def row_of(name, row, sites):
 
 def weighted(rows, sites):
     """The share over all rooms, each weighed by its sites: small rooms are drawn from more often than is their share."""
-    judged = {room: row.get("killed", 0) + row.get("survived", 0) + row.get("not reached", 0) for room, row in rows.items()}
+    judged = {room: counted(row) for room, row in rows.items()}
     total = sum(sites[room] for room, n in judged.items() if n)
     if not total:
-        return "nothing judged yet"
+        return "nothing drawn" if not rows else "nothing judged yet"
     share = variance = 0.0
     for room, n in judged.items():
         if n:

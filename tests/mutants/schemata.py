@@ -118,13 +118,16 @@ def replaced(text, edits):
     return text
 
 
+prefix = b""  # of every file that has mutants, where the switch is not included by the command line
+
+
 def write_tree(tree, texts, mutants):
     """Writes the files that differ from what is there. `texts` holds the sources without mutants."""
     of_file = {}
     for mutant in mutants:
         of_file.setdefault(mutant["file"], []).append(mutant)
     for file, text in texts.items():
-        new = with_mutants(text, of_file[file]) if file in of_file else text
+        new = prefix + with_mutants(text, of_file[file]) if file in of_file else text
         path = os.path.join(tree, file)
         with open(path, "rb") as old:
             if old.read() == new:

@@ -508,8 +508,9 @@ def precompile(root, rooms, command, folder):
     return header + ".pch"
 
 
-def find_sites(root, rooms, compile_commands, workers, say):
-    """All sites in the rooms below `root`: sources by their own units, headers by the first unit that includes them."""
+def find_sites(root, rooms, compile_commands, workers, say, units=None):
+    """All sites in the rooms below `root`: sources by their own units, headers by the first unit that includes them. Or
+    those in what some units read."""
     root = os.path.realpath(root)
     with open(compile_commands, encoding="utf-8") as file:
         commands = {entry["file"]: entry["command"] for entry in json.load(file)}
@@ -517,6 +518,8 @@ def find_sites(root, rooms, compile_commands, workers, say):
                 if os.path.relpath(file, root).startswith(tuple(room + "/" for room in rooms))}
     general = next(command for file, command in commands.items() if file.endswith("benchmarks/main.cpp"))
     prelude = precompile(root, rooms, general, os.path.dirname(compile_commands))
+    if units is not None:
+        commands = {os.path.join(root, unit): general for unit in units}
     jobs = [(root, rooms, file, command, prelude) for file, command in commands.items()]
     by_place = {}
     with multiprocessing.Pool(workers) as pool:
@@ -528,7 +531,7 @@ def find_sites(root, rooms, compile_commands, workers, say):
                 by_place.setdefault(key, site)
             if done % 20 == 0:
                 say("read %d of %d sources" % (done, len(jobs)))
-    if not by_place:
+    if not by_place and units is None:
         raise SystemExit("mutants: no place to change was found in " + ", ".join(rooms))
     # the same whichever process walked a header first
     return sorted(by_place.values(), key=lambda s: (s["file"], s["edits"][0][0][0], s["edits"][0][0][1], s["kind"]))
