@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Copy rooms of the project into a folder, with every fault of a list compiled in behind a switch.
+"""Copy the files that hold a fault of a list into a folder, with every fault compiled in behind a switch.
 
-    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT ROOM...   all files of some rooms
-    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT           only the files that hold a fault, of any room
+    make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT
 
 The switch is the environment variable DARTBOARD_FAULT: the number of the fault that is on (or of two, with a comma), or
 unset. The sources themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
@@ -83,8 +82,8 @@ class Fault:
 
     def mistake(self):
         """What its fields contradict each other in, or None."""
-        if bool(self.killer) + bool(self.run) + bool(self.hides) > 1:
-            return "has more than one of killer, run and hides: choose one"
+        if bool(self.killer) + bool(self.run) + bool(self.hides) != 1:
+            return "has none or more than one of killer, run and hides: choose one"
         if bool(self.run) != bool(self.says):
             return "has a run that says nothing, or says something in no run"
         return None
@@ -206,26 +205,20 @@ def write_if_changed(path, text):
         file.write(text)
 
 
-def main(source_root, fault_list, output, *rooms):
-    faults = read_faults(fault_list)
+def main(source_root, fault_list, output):
     of_file = {}
-    for fault in faults:
+    for fault in read_faults(fault_list):
         of_file.setdefault(fault.file, []).append(fault)
-    paths = sources_below(source_root, rooms)
-    if not rooms:
-        paths = [path for path in sorted(of_file) if os.path.exists(os.path.join(source_root, path))]
     # all or nothing: a mistake must not leave a tree that is half new
     texts, mistakes = {"fault.h": SWITCH}, []
-    for path in paths:
-        with open(os.path.join(source_root, path), encoding="utf-8") as file:
-            text = file.read()
-        here = of_file.pop(path, None)
+    for path, faults in sorted(of_file.items()):
         try:
-            texts[path] = with_faults(text, here) if here else text
+            with open(os.path.join(source_root, path), encoding="utf-8") as file:
+                texts[path] = with_faults(file.read(), faults)
+        except FileNotFoundError:
+            mistakes.append("line %d: fault '%s' is stale: there is no %s" % (faults[0].line, faults[0].name, path))
         except Mistake as mistake:
             mistakes.append(str(mistake))
-    for path, lost in of_file.items():
-        mistakes.append("line %d: fault '%s' is stale: no %s is copied" % (lost[0].line, lost[0].name, path))
     if mistakes:
         raise Mistake("adapt %s to the new sources\n%s" % (fault_list, "\n".join(mistakes)))
     for path, text in texts.items():

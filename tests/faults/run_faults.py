@@ -3,8 +3,6 @@
 
     run_faults.py SUITE FAULT_LIST            all of them
     run_faults.py SUITE FAULT_LIST WORD...    only the faults whose name contains a word
-    run_faults.py SUITE FAULT_LIST --name     run the whole suite with faults that say nothing of who notices, and name
-                                              the test that does
 
 A fault with a `killer` is run with that test and no other. It is killed by a failure, by a crash, by running out of
 memory or by not ending: all are seen by whoever runs the suite. One that reads or writes what is not its own may be
@@ -141,18 +139,6 @@ def sound_runs(program, faults):
     return runs
 
 
-def name_killers(path, killers):
-    """Adds a `killer` line to the blocks of these faults: {name: test}."""
-    with open(path, encoding="utf-8") as file:
-        blocks = file.read().split("\n\n")
-    for k, block in enumerate(blocks):
-        match = re.search(r"^fault: *(.*)$", block, re.M)
-        if match and match[1].rstrip() in killers:
-            blocks[k] = block.rstrip("\n") + "\nkiller: " + killers[match[1].rstrip()] + block[len(block.rstrip("\n")):]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("\n\n".join(blocks))
-
-
 def table_of_rooms(faults):
     """How many faults lie in each room, in one line."""
     rooms = collections.Counter(os.path.dirname(fault.file) for fault in faults)
@@ -160,17 +146,10 @@ def table_of_rooms(faults):
 
 
 def main(suite, fault_list, *words):
-    naming = "--name" in words
-    words = [word for word in words if word != "--name"]
     every = read_faults(fault_list)
     faults = [f for f in every if not words or any(word in f.name for word in words)]
-    nameless = [f for f in faults if not f.killer and not f.run and not f.hides]
-    if naming:
-        faults = nameless
-    elif nameless:
-        sys.exit("%s: fault '%s' names no killer; run with --name to find one" % (fault_list, nameless[0].name))
     start = time.monotonic()
-    tested = sorted({f.killer for f in faults if f.killer}) or ["*"] * naming
+    tested = sorted({f.killer for f in faults if f.killer})
     sound = run_tests(suite, 0, 300, ":".join(tested)) if tested else Result(None, "", 0.0)
     if sound.killer is not None or sound.how:
         sys.exit("without any fault %s %s: faults tell nothing until it passes" % (sound.killer, sound.how))
@@ -185,11 +164,11 @@ def main(suite, fault_list, *words):
         if fault.hides:
             hidden = by_name[fault.hides]
             return program.result_of_hiding(fault, hidden, runs[hidden.run])
-        result = run_tests(suite, fault.number, limit_for(sound.seconds), fault.killer or "*")
+        result = run_tests(suite, fault.number, limit_for(sound.seconds), fault.killer)
         for run in range(2, TRIES + 1):
             if result.killer is not None or result.how:
                 break
-            result = run_tests(suite, fault.number, limit_for(sound.seconds), fault.killer or "*")
+            result = run_tests(suite, fault.number, limit_for(sound.seconds), fault.killer)
             result.how += " in run %d only" % run if result.killer is not None else ""
         return result
 
@@ -201,15 +180,13 @@ def main(suite, fault_list, *words):
         else:
             print("%10d  %s\n     %s %s (%.1f s)" %
                   (fault.number, fault.name, result.killer, result.how, result.seconds))
-    if naming:
-        name_killers(fault_list, {f.name: r.killer for f, r in zip(faults, results) if r.killer})
     alone = sound.seconds + sum(ended.seconds for ended in runs.values())
     print("%d of %d seeded faults killed in %.0f s (%.1f s without a fault): %s" %
           (len(faults) - len(survivors), len(faults), time.monotonic() - start, alone, table_of_rooms(faults)))
     # last, where who reads the end of a log finds them
     for fault, how in survivors:
         print("SURVIVED: %d, %s\n     %s: %s with\n     %s\n     in place of\n     %s" %
-              (fault.number, fault.name, fault.file, how or "%s passes" % (fault.killer or "every test"),
+              (fault.number, fault.name, fault.file, how or "%s passes" % fault.killer,
                fault.wrong or "(nothing)", fault.right))
     return 1 if survivors or not faults else 0
 
