@@ -256,7 +256,7 @@ class StrainDamping final : public TermDamping {
   static void decay_at(const Matrix3d& f, const Gradients& g, const SomeNodes& n, double shape, double volume,
                        const std::array<double, 8>& mobility, const std::array<HeldAxes, 8>& held, bool backwards,
                        std::array<Vector3d, 8>& v) {
-    const auto free = [&held](std::size_t a, const Vector3d& arm) -> Vector3d {
+    const auto free = [&](std::size_t a, const Vector3d& arm) -> Vector3d {
       if constexpr (any_held) return free_part(held[a], arm);
       return arm;
     };

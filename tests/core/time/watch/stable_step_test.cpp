@@ -111,6 +111,7 @@ TEST(StableStep, FollowsRandomOperationsOnFiftyBodies) {
 
 // Of small bodies all eigenvalues, of larger ones Lanczos' bracket.
 TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
+  int lower = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SpringArrays body = random_body(seed, 0.0);
     if (seed > 15) body = spring_grid(5, 5, 5, 50.0, 0.0, 0.03);
@@ -120,7 +121,7 @@ TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
     for (HeldAxes& held : body.held_axes)
       if (random.below(3) > 0) held = static_cast<HeldAxes>(random.below(7));
     const double frequency = true_frequency(body);
-    EXPECT_LT(frequency, 0.999 * free) << seed;
+    lower += frequency < 0.95 * free;
     StableStepEstimate estimate;
     for (const StableStep& step : {estimate.refresh(body.system(), body.x), estimate.follow(body.system(), body.x)}) {
       EXPECT_GE(step.upper, frequency * (1 - 1e-9)) << seed;
@@ -128,6 +129,7 @@ TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
       EXPECT_LE(step.lower, frequency * (1 + 1e-9)) << seed;
     }
   }
+  EXPECT_GE(lower, 10);
 }
 
 TEST(StableStep, HoldsTheFrequencyOfElementsThatAreHeldAlongAxes) {
