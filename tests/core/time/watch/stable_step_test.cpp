@@ -121,7 +121,7 @@ TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
     for (HeldAxes& held : body.held_axes)
       if (random.below(3) > 0) held = static_cast<HeldAxes>(random.below(7));
     const double frequency = true_frequency(body);
-    lower += frequency < 0.95 * free;
+    lower += frequency < 0.999 * free;
     StableStepEstimate estimate;
     for (const StableStep& step : {estimate.refresh(body.system(), body.x), estimate.follow(body.system(), body.x)}) {
       EXPECT_GE(step.upper, frequency * (1 - 1e-9)) << seed;
