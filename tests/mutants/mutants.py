@@ -82,13 +82,18 @@ def commit_of(source):
     return text("rev-parse", "HEAD") + (" with changes" if changed else "")
 
 
+def reader_of_sites():
+    try:
+        import sites
+    except ImportError:
+        sys.exit("mutants: drawing reads the syntax tree: apt-get install python3-clang-14 (and run Debian's /usr/bin/python3)")
+    return sites
+
+
 def drawn(work, source, seed, count, jobs):
     """The sample, and the sources that it was drawn from."""
     if not work.has("sample.jsonl"):
-        try:
-            import sites
-        except ImportError:
-            sys.exit("mutants: drawing reads the syntax tree: apt-get install python3-clang-14 (and run Debian's /usr/bin/python3)")
+        sites = reader_of_sites()
         building.copy_of_repository(source, work.tree)
         building.configure(work.tree, work.build)
         if not work.has("sites.jsonl"):
@@ -122,7 +127,7 @@ def drawn_since(work, source, revision, count, seed, jobs):
     say("%d lines of %d sources differ from %s" % (sum(map(len, lines.values())), len(lines), revision))
     if not lines:
         return [], {}
-    import sites
+    sites = reader_of_sites()
     changed.refresh(source, work.tree)
     work.build = changed.configure(work.tree)
     found = sites.find_sites(work.tree, ROOMS, os.path.join(work.build, "compile_commands.json"), jobs, lambda text: None,
