@@ -48,26 +48,28 @@ def lines_of(mutant, text):
     return range(first, text.count(b"\n", 0, mutant["edits"][-1][1]) + 2)
 
 
-def guilty(output, tree, texts, mutants):
-    """The mutants at the lines that errors name; or, of an error elsewhere, at the lines that it came from.
+def guilty(output, tree, texts, mutants, ran_in="."):
+    """The mutants at the lines that errors name, from where the compiler ran; or, of an error elsewhere, at the lines that
+    it came from.
 
     Returns {mutant id: message} and the errors that name no mutant."""
     at = {}
     for mutant in mutants:
         for line in lines_of(mutant, texts[mutant["file"]]):
             at.setdefault((mutant["file"], line), []).append(mutant["id"])
+    name = lambda path: os.path.relpath(os.path.join(ran_in, path), tree)
     found, unexplained = {}, []
     blocks = re.split(r"^(?=FAILED: )", output, flags=re.M)
     for block in blocks:
         errors = list(ERROR.finditer(block))
         for k, error in enumerate(errors):
-            ids = at.get((os.path.relpath(error[1], tree), int(error[2])), [])
+            ids = at.get((name(error[1]), int(error[2])), [])
             if not ids:
                 # what led there: the lines before it back to the last error, and the notes after it
                 begin = errors[k - 1].end() if k else 0
                 end = errors[k + 1].start() if k + 1 < len(errors) else len(block)
                 for file, line in PLACE.findall(block[begin:end]):
-                    ids = ids + at.get((os.path.relpath(file, tree), int(line)), [])
+                    ids = ids + at.get((name(file), int(line)), [])
             if not ids:
                 unexplained.append(error[0])
             for number in ids:
@@ -111,7 +113,7 @@ def build_all(build, tree, texts, mutants, say, targets=("all",)):
             file.write(output)
         if result.returncode == 0:
             return out
-        found, unexplained = guilty(output, tree, texts, left)
+        found, unexplained = guilty(output, tree, texts, left, build)
         if not found:
             raise BuildFails("the copy does not build, and no mutant is to blame (build.log):\n" +
                              "\n".join(unexplained[:5] or output.splitlines()[-20:]))

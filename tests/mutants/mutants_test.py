@@ -108,6 +108,10 @@ class Schemata(Folder):
                "/tree/core/one.cpp:10:46: error: 'worst' was not declared in this scope\n")
         found, unexplained = build.guilty(log, "/tree", {"core/one.cpp": SOURCE.encode()}, mutants)
         self.assertEqual((list(found), unexplained), ([1], []))
+        # as a compiler behind a cache names files: from where it ran
+        log = log.replace("/tree/", "../../")
+        found, unexplained = build.guilty(log, "/tree", {"core/one.cpp": SOURCE.encode()}, mutants, "/tree/build/release")
+        self.assertEqual((list(found), unexplained), ([1], []))
 
     def test_an_error_in_a_library_is_traced_to_the_line_that_led_there(self):
         mutants = [change(SOURCE, "b > best", "f(b)", 1), change(SOURCE, "return best;", "return {};", 2, statement=True)]
