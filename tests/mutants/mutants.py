@@ -259,6 +259,8 @@ def main():
         for name in sorted(os.listdir(work.path("survivors"))):
             with open(work.path("survivors", name), encoding="utf-8") as file:
                 print(file.read())
+        killed = sum(bool(result["killer"]) for result in work.read("results.jsonl")) if work.has("results.jsonl") else 0
+        print("%d of %d changes that compile are noticed; %d do not compile" % (killed, len(compiled), len(taken) - len(compiled)))
     return 0
 
 

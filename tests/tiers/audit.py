@@ -42,7 +42,7 @@ PARTS = [
     suite("verbs", 3, ["--only", "verbs"], "every verb once, every mesh format and hostile names through those that take them"),
     suite("long", 1, ["--only", "long"], "tests that take more than a few seconds each"),
     suite("lint", 4, ["--preset", "lint", "--only", "lint"], "clang-tidy over the twenty sources changed last"),
-    suite("faults", 12, ["--only", "faults"], "seeded faults: each claim and each verb that judges has one that it must see"),
+    suite("faults", 7, ["--only", "faults"], "seeded faults: each claim and each verb that judges has one that it must see"),
     suite("sanitizers-verbs", 15, ["--preset", "asan", "--only", "verbs"], "every verb under the sanitizers"),
     suite("sanitizers-all", 60, ["--preset", "asan"], "the quick suite, validation and reports included, under the sanitizers"),
     Part("mutants", 150, [sys.executable, "-B", os.path.join(red.ROOT, "tests", "mutants", "mutants.py"),
