@@ -115,7 +115,7 @@ Virial virial_share(const Law& law, const SolidShape& shape, std::size_t count, 
     gradients_at(shape, rule, q, count, g);
     const Matrix3d f = gradient(count, g, line);
     sum += shape.volume[q] * (law.stress(f) * f.transpose());
-    growth += shape.volume[q] * (f.determinant() - 1.0);
+    growth += shape.volume[q] * (volume_ratio(law, f) - 1.0);
   }
   return {(0.5 / static_cast<double>(count)) * (sum + sum.transpose()), growth / static_cast<double>(count)};
 }
@@ -330,10 +330,9 @@ std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const Sol
 }
 
 Virial solid_virial(const Material& material, const SolidShape& shape, std::span<const Vector3d> x) {
-  if (material.model == Model::springs) return {};
-  return with_law_of(material, [&](const auto& law) {
-    return virial_share(law, shape, x.size(), [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; });
-  });
+  const auto line = [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; };
+  if (material.model == Model::springs) return virial_share(NoLaw(), shape, x.size(), line);
+  return with_law_of(material, [&](const auto& law) { return virial_share(law, shape, x.size(), line); });
 }
 
 }  // namespace dartboard

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 template <class Law>
 Virial virial_share(const Law& law, double volume, const Matrix3d& f) {
   const Matrix3d whole = (0.25 * volume) * (law.stress(f) * f.transpose());
-  return {0.5 * (whole + whole.transpose()), 0.25 * volume * (f.determinant() - 1.0)};
+  return {0.5 * (whole + whole.transpose()), 0.25 * volume * (volume_ratio(law, f) - 1.0)};
 }
 
 template <class Laws>
@@ -187,10 +187,10 @@ Virial tetrahedron_virial(const Material& material, double mass, const RestShape
                           const std::array<Vector3d, 4>& x) {
   Matrix3d edges;
   edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
-  if (material.model == Model::springs) return {};
-  return with_law_of(material, [&](const auto& law) {
-    return virial_share(law, 1.0 / material.density * mass, Matrix3d(edges * shape));
-  });
+  const double volume = 1.0 / material.density * mass;
+  const Matrix3d f = edges * shape;
+  if (material.model == Model::springs) return virial_share(NoLaw(), volume, f);
+  return with_law_of(material, [&](const auto& law) { return virial_share(law, volume, f); });
 }
 
 }  // namespace dartboard

@@ -2,6 +2,8 @@
 // From the materials of cells to their elastic laws.
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <variant>
@@ -37,6 +39,13 @@ struct NoLaw {
   double modulus() const { return 0.0; }
 };
 
+/// The volume of an element now over that at rest. One of springs may be turned inside out and does not feel it.
+template <class Law>
+double volume_ratio(const Law&, const Eigen::Matrix3d& f) {
+  return f.determinant();
+}
+inline double volume_ratio(const NoLaw&, const Eigen::Matrix3d& f) { return std::abs(f.determinant()); }
+
 /// Any of the laws.
 class AnyLaw {
  public:
@@ -58,6 +67,9 @@ class AnyLaw {
   }
   double modulus() const {
     return std::visit([](const auto& law) { return law.modulus(); }, law_);
+  }
+  friend double volume_ratio(const AnyLaw& any, const Eigen::Matrix3d& f) {
+    return std::visit([&](const auto& law) { return volume_ratio(law, f); }, any.law_);
   }
 
  private:

@@ -11,17 +11,21 @@
 namespace dartboard {
 
 /// One row of corners per cell, in one stream: TetrahedronNodes, sixteen bytes, TriangleNodes, twelve, or SolidNodes.
-/// Of a body that has no such elements, and no springs within its cells, nothing.
+/// Of a body that has no such elements, and no springs within its cells, nothing; or, if it is asked for, the cells of
+/// a body of springs too, whose stress is per volume as it is now.
 template <class Nodes>
 class ElementNodesView {
  public:
+  ElementNodesView() = default;
+  explicit ElementNodesView(bool of_springs) : of_springs_(of_springs) {}
+
   std::vector<Nodes> nodes;
   friend bool operator==(const ElementNodesView&, const ElementNodesView&) = default;
 
   /// cost    O(cells)
   template <class Body>
   void rebuild(const Body& body) {
-    nodes.resize(element_count(body, Nodes{}));
+    nodes.resize(row_count(body));
     if constexpr (has_nodes<Body>)
       for (std::uint32_t c = 0; c < nodes.size(); ++c) find_nodes(body, c, nodes[c]);
   }
@@ -31,7 +35,7 @@ class ElementNodesView {
   /// cost    O(changed cells, and the cells around changed vertices), whatever the size of the body
   template <class Body>
   void apply(const Body& body, const ChangedEmbeddings& changed) {
-    nodes.resize(element_count(body, Nodes{}));
+    nodes.resize(row_count(body));
     if constexpr (has_nodes<Body>)
       if (!nodes.empty()) follow(body, changed);
   }
@@ -47,6 +51,12 @@ class ElementNodesView {
                                     (Body::dimension == 3) == std::is_same_v<Nodes, TetrahedronNodes>;
 
   template <class Body>
+  std::size_t row_count(const Body& body) const {
+    const bool every_cell = of_springs_ && !body.cell_materials().has_elements();
+    return every_cell ? body.cell_dart.size() : element_count(body, Nodes{});
+  }
+
+  template <class Body>
   void follow(const Body& body, const ChangedEmbeddings& changed) {
     for (const std::uint32_t c : changed.cells) find_nodes(body, c, nodes[c]);
     Mark seen(body.map);
@@ -56,6 +66,8 @@ class ElementNodesView {
         find_nodes(body, c, nodes[c]);
       });
   }
+
+  bool of_springs_ = false;
 };
 
 using TetrahedronNodesView = ElementNodesView<TetrahedronNodes>;

@@ -48,10 +48,12 @@ class Body:
 
 
 def fan_measure(points, nodes_of_faces):
-    """Volume between faces that look outwards (divergence theorem), by fans of triangles from one corner of each."""
+    """Volume between faces that look outwards (divergence theorem), by fans of triangles from the corners of each: where
+    a face is not plane, that is the mean of all of them."""
     origin = points[nodes_of_faces[0][0]]
-    six = [np.linalg.det([points[f[0]] - origin, points[f[k]] - origin, points[f[k + 1]] - origin])
-           for f in nodes_of_faces for k in range(1, len(f) - 1)]
+    six = [np.linalg.det([points[f[0]] - origin, points[f[k]] - origin, points[f[k + 1]] - origin]) / len(face)
+           for face in nodes_of_faces for turn in range(len(face))
+           for f in [list(face[turn:]) + list(face[:turn])] for k in range(1, len(f) - 1)]
     return math.fsum(six) / 6
 
 

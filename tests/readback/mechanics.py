@@ -78,7 +78,14 @@ class Network:
         for mass, (_, nodes) in zip(self.cell_mass, self.frame.cells):
             for vertex in nodes:
                 self.mass[vertex] += mass / len(nodes)
-        self.volume = self.mass / density
+
+    def volumes(self):
+        """Of each vertex its share of the volume (area) of its cells as they are now."""
+        volume = np.zeros(len(self.frame.x))
+        for kind, nodes in self.frame.cells:
+            for vertex in nodes:
+                volume[vertex] += abs(measure(kind, self.frame.x[list(nodes)])) / len(nodes)
+        return volume
 
     def join_springs(self, material):
         count = collections.Counter(frozenset(edge) for kind, nodes in self.frame.cells
@@ -152,7 +159,7 @@ class Network:
         return total([np.linalg.norm(self.frame.x[a] - self.frame.x[b]) for a, b in single])
 
     def largest_stress(self):
-        """The largest principal stress of a vertex, sum over its springs of T l u u^T / 2 over its rest volume; of a
+        """The largest principal stress of a vertex, sum over its springs of T l u u^T / 2 over its volume; of a
         chain the largest tension, 0 where none is stretched."""
         if self.body.dimension == 1:
             tension, bound = self.tensions()
@@ -184,7 +191,8 @@ class Network:
             for end in (a, b):
                 stress[end] += np.outer(dx, dx) * (0.5 * t / l)
                 bound[end] += 0.5 * l * k * size
-        return stress / self.volume[:, None, None], SUM * bound / self.volume
+        volume = self.volumes()
+        return stress / volume[:, None, None], SUM * bound / volume
 
     def stretch(self):
         along = self.frame.x[self.ends[:, 1]] - self.frame.x[self.ends[:, 0]]

@@ -52,8 +52,13 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
     case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;
     case Part::cells:
-      // of a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart of a triangle
+      // of springs, corners; of a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart of
+      // a triangle
       return n.cells * (2 * real + 1 + number) +
+             (problem.cell_materials().has_elements() ? 0
+              : tetrahedra                            ? n.cells * 4 * number
+              : scene.diagonals == Diagonals::none    ? n.cells * sizeof(SolidNodes)
+                                                      : 0) +
              (problem.material.young > 0.0 && problem.material.model == Model::springs
                   ? (tetrahedra ? 6 * n.cells : n.darts) * real
                   : 0);

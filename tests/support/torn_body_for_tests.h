@@ -56,6 +56,25 @@ Eigen::Vector3d normal_of(const Body<Map>& body, Dart d) {
       .normalized();
 }
 
+/// Springs that do not end at vertex k pull no more.
+template <class Map>
+void slacken_all_but_around(MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
+  CellArrays arrays;
+  arrays.rebuild(body);
+  for (const EdgeEntry& edge : arrays.edges)
+    if (edge.ends[0] != k && edge.ends[1] != k)
+      body.springs.change(edge.embedding, [](Spring& spring) { spring.stiffness = 0.0; });
+}
+
+template <class Map>
+std::uint32_t most_stressed(const MassSpringBody<Map, Held::by_every_dart>& body) {
+  std::uint32_t most = 0;
+  const auto stress = [&body](std::uint32_t k) { return principal_stress(vertex_stress(body, k)).value; };
+  for (std::uint32_t k = 1; k < body.vertices.size(); ++k)
+    if (stress(k) > stress(most)) most = k;
+  return most;
+}
+
 /// A body with arrays that follow it, and what it has lost.
 template <class Map>
 struct Torn {

@@ -76,7 +76,8 @@ std::uint32_t most_stressed_point(const SpringScene& scene, double t) {
     if (!result.ok()) throw SolverError(to_string(result));
   }
   std::vector<Eigen::Matrix3d> stress;
-  vertex_stresses(ends.ends, body.springs, {body.vertices.mass, body.material.density}, body.vertices.position, stress);
+  VolumeRoom room;
+  vertex_stresses(ends.ends, body.springs, vertex_volumes(body, {}, room), body.vertices.position, stress);
   std::vector<std::pair<double, std::uint32_t>> order;
   for (std::uint32_t k = 0; k < stress.size(); ++k) order.emplace_back(-principal_stress(stress[k]).value, k);
   std::sort(order.begin(), order.end());

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 #include <limits>
 
 #include "core/elements/cell_springs.h"
@@ -12,6 +13,7 @@
 #include "core/elements/solids.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/element_nodes.h"
+#include "core/mechanics/fracture/cell_size.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 
@@ -88,14 +90,77 @@ void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uin
   }
 }
 
-void finish(Eigen::Matrix3d& sum, double rest_volume) {
-  const double now = rest_volume + sum(0, 2), least = least_volume * rest_volume;
+void finish(Eigen::Matrix3d& sum, double now, double at_rest) {
+  const double least = least_volume * at_rest;
   const double volume = now > least ? now : least;
   for (int j = 0; j < 3; ++j)
     for (int i = j; i < 3; ++i) sum(j, i) = sum(i, j) = sum(i, j) / volume;
 }
 
+/// What a cell gives each of its vertices of its size.
+template <class Corners>
+double share_of_size(CellKind kind, const Corners& corners, std::span<const Eigen::Vector3d> position) {
+  boost::container::static_vector<Eigen::Vector3d, 8> x;
+  for (const std::uint32_t k : corners) x.push_back(position[k]);
+  return cell_size(kind, {x.data(), x.size()}) / static_cast<double>(x.size());
+}
+
+template <class Corners>
+void add_cell(CellKind kind, const Corners& corners, std::span<const Eigen::Vector3d> position, std::span<double> now) {
+  const double share = share_of_size(kind, corners, position);
+  for (const std::uint32_t k : corners) now[k] += share;
+}
+
+template <class Map>
+bool is_of_springs(const MassSpringBody<Map, Held::by_every_dart>& body) {
+  return !body.cell_materials().has_elements();
+}
+
+/// f(kind, corners) of a cell.
+template <class Map, class F>
+void with_corners(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t c, F&& f) {
+  if constexpr (Map::tetrahedral) {
+    TetrahedronNodes nodes;
+    find_nodes(body, c, nodes);
+    f(CellKind::tetrahedron, nodes);
+  } else {
+    SolidNodes nodes;
+    find_nodes(body, c, nodes);
+    f(kind_of_corners(Map::dimension, nodes.count), std::span(nodes.at).first(nodes.count));
+  }
+}
+
 }  // namespace
+
+template <class Map>
+VertexVolumes vertex_volumes(const MassSpringBody<Map, Held::by_every_dart>& body, const CornerRows& corners,
+                             VolumeRoom& room) {
+  const auto& position = body.vertices.position;
+  VertexVolumes volumes{body.vertices.mass, body.material.density};
+  if (!body.materials.empty()) {
+    room.at_rest.clear();
+    for (const Dart d : body.vertices.dart) room.at_rest.push_back(body.volume_of(Vertex{d}));
+    volumes.rest_of_vertex = room.at_rest;
+  }
+  if (!is_of_springs(body)) return volumes;
+  room.now.assign(position.size(), 0.0);
+  if (!corners.tetrahedra.empty())
+    for (const TetrahedronNodes& nodes : corners.tetrahedra) add_cell(CellKind::tetrahedron, nodes, position, room.now);
+  else if (!corners.solids.empty())
+    for (const SolidNodes& nodes : corners.solids)
+      add_cell(kind_of_corners(Map::dimension, nodes.count), std::span(nodes.at).first(nodes.count), position,
+               room.now);
+  else
+    for (std::uint32_t c = 0; c < body.cell_dart.size(); ++c)
+      with_corners(body, c, [&](CellKind kind, const auto& nodes) { add_cell(kind, nodes, position, room.now); });
+  volumes.now = room.now;
+  return volumes;
+}
+
+void find_volumes_now(const Mesh& cells, std::span<const Eigen::Vector3d> position, std::span<double> now) {
+  std::ranges::fill(now, 0.0);
+  for (std::size_t c = 0; c < cells.cell_count(); ++c) add_cell(cells.kinds[c], cells.cell(c), position, now);
+}
 
 template <class Map>
 Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
@@ -115,13 +180,20 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
   if constexpr (Map::dimension == 2)
     if (!body.cell_triangle.empty() || !body.cell_membrane.empty()) add_membranes(body, k, sum);
   if (!body.cell_springs.empty()) add_cell_springs(body, k, sum);
-  finish(sum, body.materials.empty() ? v.mass[k] / body.material.density : body.volume_of(Vertex{v.dart[k]}));
+  const double at_rest = body.materials.empty() ? v.mass[k] / body.material.density : body.volume_of(Vertex{v.dart[k]});
+  double now = at_rest + sum(0, 2);
+  if (is_of_springs(body)) {
+    now = 0.0;
+    for (const std::uint32_t c : cells_around(body, k))
+      with_corners(body, c, [&](CellKind kind, const auto& nodes) { now += share_of_size(kind, nodes, v.position); });
+  }
+  finish(sum, now, at_rest);
   return sum;
 }
 
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs, const RestVolumes& volumes,
-                     std::span<const Eigen::Vector3d> position, std::vector<Eigen::Matrix3d>& stress,
-                     ForceTerms terms) {
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
+                     const VertexVolumes& volumes, std::span<const Eigen::Vector3d> position,
+                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms) {
   stress.assign(volumes.mass.size(), Eigen::Matrix3d::Zero());
   for (std::size_t e = 0; e < springs.size(); ++e) {
     const auto [a, b] = ends[e];
@@ -134,7 +206,10 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
       const Virial virial = term->virial(position, piece);
       for (const std::uint32_t i : term->nodes(piece)) add_lower(stress[i], virial);
     }
-  for (std::size_t k = 0; k < stress.size(); ++k) finish(stress[k], volumes[k]);
+  for (std::size_t k = 0; k < stress.size(); ++k) {
+    const double at_rest = volumes.at_rest(k);
+    finish(stress[k], volumes.now.empty() ? at_rest + stress[k](0, 2) : volumes.now[k], at_rest);
+  }
 }
 
 StressError::StressError(std::uint32_t which)
@@ -174,8 +249,8 @@ double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses) {
   return largest;
 }
 
-template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);
-template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map3, Held::by_every_dart>&, std::uint32_t);
-template Eigen::Matrix3d vertex_stress(const MassSpringBody<TetMap, Held::by_every_dart>&, std::uint32_t);
+DARTBOARD_STRESS(, Map2)
+DARTBOARD_STRESS(, Map3)
+DARTBOARD_STRESS(, TetMap)
 
 }  // namespace dartboard

@@ -30,11 +30,12 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
   return virial;
 }
 
-/// Of what it was at rest, the volume at a vertex counts as this at least: cells that are squeezed flat or turned
-/// inside out have no stress of Cauchy's.
+/// Of what it was at rest, the volume at a vertex counts as this at least: cells that are squeezed flat, or elements
+/// turned inside out, have no stress of Cauchy's.
 inline constexpr double least_volume = 0.01;
 
-/// The stress at vertex k [Pa] (of a surface [N/m]), symmetric, tension positive:
+/// The stress at vertex k [Pa] (of a surface [N/m]), Cauchy's: symmetric, tension positive, per volume (area) as it is
+/// now
 ///
 ///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T)
 ///
@@ -42,40 +43,52 @@ inline constexpr double least_volume = 0.01;
 /// or a fourth of their area. Springs within the cells around it add what they have over the number of the cell's
 /// vertices.
 ///
-/// V is the volume (area) of the vertex, its share of each cell as eq. (1) has it: of elements as it is now, so that
-/// sigma is their mean Cauchy stress; of cells of springs as it was at rest, so that sigma is their virial per volume
-/// at rest. The sum of V sigma over all vertices is the virial of the body, and a uniform stress is the same at every
-/// vertex of a regular lattice. Springs are found by walking the edges around the vertex, and summed by edge number, so
-/// that the order of the walk leaves no trace in the bits.
+/// V is the volume (area) of the vertex now, its share of each cell as eq. (1) has it at rest. The sum of V sigma over
+/// all vertices is the virial of the body, and a uniform stress is the same at every vertex of a regular lattice.
+/// Springs are found by walking the edges around the vertex, and summed by edge number, cells by theirs, so that the
+/// order of the walk leaves no trace in the bits.
 template <class Map>
 Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k);
 
-/// The volume at rest of every vertex [m^3] (of a surface its area): in a body of one density its mass over that.
-struct RestVolumes {
-  std::span<const double> mass;  // [kg] by vertex number
-  double density;
-  std::span<const double> of_vertex{};  // where densities differ
+/// The volumes of all vertices [m^3] (of a surface their areas), by vertex number.
+struct VertexVolumes {
+  std::span<const double> mass;              // [kg]
+  double density;                            // where all cells have this one, volumes at rest are masses over it
+  std::span<const double> rest_of_vertex{};  // where densities differ
+  std::span<const double> now{};  // of a body of springs; the forces of elements say what theirs have grown by
 
-  double operator[](std::size_t k) const { return of_vertex.empty() ? mass[k] / density : of_vertex[k]; }
+  double at_rest(std::size_t k) const { return rest_of_vertex.empty() ? mass[k] / density : rest_of_vertex[k]; }
 };
-/// Of the vertices of a body; `room` holds them where densities differ.
-/// cost    O(1), or O(vertices) of a body of several materials
+
+/// What holds volumes of vertices that are no columns of a body, for the next time too.
+struct VolumeRoom {
+  std::vector<double> at_rest, now;
+};
+
+/// The corners of the cells of a body of springs, where a view has them: rows of one of the two kinds.
+struct CornerRows {
+  std::span<const TetrahedronNodes> tetrahedra{};
+  std::span<const SolidNodes> solids{};  // of cells of any kind, polygons too
+};
+
+/// Of the vertices of a body, which holds no more than `room` does; corners that are not given are walked to.
+/// cost    O(cells)
 template <class Map>
-RestVolumes rest_volumes(const MassSpringBody<Map, Held::by_every_dart>& body, std::vector<double>& room) {
-  if (body.materials.empty()) return {body.vertices.mass, body.material.density};
-  room.clear();
-  for (const Dart d : body.vertices.dart) room.push_back(body.volume_of(Vertex{d}));
-  return {body.vertices.mass, 0.0, room};
-}
+VertexVolumes vertex_volumes(const MassSpringBody<Map, Held::by_every_dart>& body, const CornerRows& corners,
+                             VolumeRoom& room);
+
+/// now[k] = the volume (area) at vertex k of cells of springs as they are now.
+/// pre     `now` has as many numbers as there are vertices
+void find_volumes_now(const Mesh& cells, std::span<const Eigen::Vector3d> position, std::span<double> now);
 
 /// The same for all vertices at once, into `stress` by vertex number, to the bit: one pass over the springs and one
 /// over the vertices, for use in every time step.
 ///
 /// pre     ends, springs by edge number, volumes, position by vertex number, as the body has them; the terms of its system
 /// cost    O(springs + vertices); no allocation once `stress` has had its size
-void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs, const RestVolumes& volumes,
-                     std::span<const Eigen::Vector3d> position, std::vector<Eigen::Matrix3d>& stress,
-                     ForceTerms terms = {});
+void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringSpan springs,
+                     const VertexVolumes& volumes, std::span<const Eigen::Vector3d> position,
+                     std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {});
 
 /// The stress of this vertex is not finite.
 struct StressError : SolverError {
@@ -106,8 +119,12 @@ StressMeasures measures_of(const Eigen::Matrix3d& stress);
 /// The largest principal stress [Pa] of a body's vertices: 0 when there is none, infinite where one is not finite.
 double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses);
 
-extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map2, Held::by_every_dart>&, std::uint32_t);
-extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map3, Held::by_every_dart>&, std::uint32_t);
-extern template Eigen::Matrix3d vertex_stress(const MassSpringBody<TetMap, Held::by_every_dart>&, std::uint32_t);
+#define DARTBOARD_STRESS(prefix, Map)                                                                              \
+  prefix template Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>&, std::uint32_t);   \
+  prefix template VertexVolumes vertex_volumes(const MassSpringBody<Map, Held::by_every_dart>&, const CornerRows&, \
+                                               VolumeRoom&);
+DARTBOARD_STRESS(extern, Map2)
+DARTBOARD_STRESS(extern, Map3)
+DARTBOARD_STRESS(extern, TetMap)
 
 }  // namespace dartboard

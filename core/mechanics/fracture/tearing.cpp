@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mechanics/fracture/stress.h"
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
 #include "core/plain/error.h"
@@ -149,13 +148,13 @@ Dart starting_face(const Body<Map>& body, std::uint32_t k, const Eigen::Vector3d
 template <class Map>
 TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std::uint32_t, 2>> ends,
                                  const TearRule& rule, const FaceFilter& filter, const FollowChange& follow,
-                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms) {
+                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms, const CornerRows& corners) {
   if (!(rule.threshold > 0.0))
     throw InputError(fmt::format("a tear threshold of {}, expected a positive number of Pa", rule.threshold));
   if (!(rule.least_alignment <= 1.0))
     throw InputError(fmt::format("a least alignment of {}, expected at most 1", rule.least_alignment));
-  std::vector<double> room;
-  vertex_stresses(ends, body.springs, rest_volumes(body, room), body.vertices.position, stress, terms);
+  VolumeRoom room;
+  vertex_stresses(ends, body.springs, vertex_volumes(body, corners, room), body.vertices.position, stress, terms);
 
   TornVertices torn;
   std::vector<Stressed> stressed;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/operations/topology_change.h"
 
@@ -61,23 +62,25 @@ struct TornVertices {
 /// `follow` is called after each tear. `stress` is scratch, by vertex number, and holds the stresses before the first
 /// tear afterwards.
 ///
-/// pre     `ends` by edge number, as the body has them; not used any more once `follow` is called
+/// pre     `ends` by edge number, and corners by cell number or none, as the body has them; not used any more once
+///         `follow` is called
 /// throws  InputError if the threshold is not positive, or the alignment is above 1 or not a number;
 ///         StressError if a stress is not finite, the body unchanged then
-/// cost    O(springs + vertices), and around the vertices torn
+/// cost    O(springs + cells), and around the vertices torn; corners that are not given are walked to
 /// source  section 5.1
 template <class Map>
 TornVertices tear_where_stressed(MassSpringBody<Map, Held::by_every_dart>& body,
                                  std::span<const std::array<std::uint32_t, 2>> ends, const TearRule& rule,
                                  const FaceFilter& filter, const FollowChange& follow,
-                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {});
+                                 std::vector<Eigen::Matrix3d>& stress, ForceTerms terms = {},
+                                 const CornerRows& corners = {});
 
 #define DARTBOARD_TEARING(prefix, Map)                                                                           \
   prefix template Dart starting_face(const MassSpringBody<Map, Held::by_every_dart>&, std::uint32_t,             \
                                      const Eigen::Vector3d&, const FaceFilter&, double);                         \
   prefix template TornVertices tear_where_stressed(                                                              \
       MassSpringBody<Map, Held::by_every_dart>&, std::span<const std::array<std::uint32_t, 2>>, const TearRule&, \
-      const FaceFilter&, const FollowChange&, std::vector<Eigen::Matrix3d>&, ForceTerms);
+      const FaceFilter&, const FollowChange&, std::vector<Eigen::Matrix3d>&, ForceTerms, const CornerRows&);
 DARTBOARD_TEARING(extern, Map3)
 DARTBOARD_TEARING(extern, TetMap)
 

@@ -128,9 +128,9 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     body.vertices.rest = {};
   }
 
-  std::vector<double> room;
-  rest_volumes(body, room);
-  volume_ = std::move(room);
+  VolumeRoom room;
+  vertex_volumes(body, {}, room);
+  volume_ = std::move(room.at_rest);
   vertices_ = std::move(body.vertices);
   vertices_.dart.clear();
   vertices_.force.clear();
@@ -257,11 +257,19 @@ double BodyOfColumns::largest_tension() const {
   return largest;
 }
 
+VertexVolumes BodyOfColumns::volumes(std::vector<double>& room) const {
+  if (!elements_) {
+    room.resize(vertices_.size());
+    find_volumes_now(cells_, vertices_.position, room);
+  }
+  return {vertices_.mass, material_.density, volume_, room};
+}
+
 double BodyOfColumns::largest_stress() const {
   if (counts_.cells == 0) return largest_tension();
   std::vector<Eigen::Matrix3d> stress;
-  vertex_stresses(ends_, springs_, {vertices_.mass, material_.density, volume_}, vertices_.position, stress,
-                  system().terms);
+  std::vector<double> room;
+  vertex_stresses(ends_, springs_, volumes(room), vertices_.position, stress, system().terms);
   return largest_principal_stress(stress);
 }
 
@@ -272,7 +280,8 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
   frame.material = cell_material_;
-  fill_columns(frame, fields, vertices_, system(), {vertices_.mass, material_.density, volume_});
+  std::vector<double> room;
+  fill_columns(frame, fields, vertices_, system(), volumes(room));
   if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
   return frame;
 }

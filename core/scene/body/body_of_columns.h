@@ -15,6 +15,8 @@
 
 namespace dartboard {
 
+struct VertexVolumes;
+
 /// What a scene without events needs of a body. It is built on a map, so its numbers are those of a body on a map and
 /// it moves with the same bits; the map and all that was held by darts is then let go.
 class BodyOfColumns final : public SimulatedBody {
@@ -57,6 +59,7 @@ class BodyOfColumns final : public SimulatedBody {
  private:
   void link(const Problem& problem, const BodyNeeds& needs);
   double largest_tension() const;  // [N] of the links of a chain; 0 where none is stretched
+  VertexVolumes volumes(std::vector<double>& room) const;
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 

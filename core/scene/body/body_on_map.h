@@ -94,6 +94,7 @@ class BodyOnMap final : public SimulatedBody {
   const Body& body() const { return body_; }
   std::span<const SpringEnds> ends() const { return ends_.ends; }
   std::span<const std::uint32_t> mesh_cell() const { return mesh_cell_; }
+  CornerRows corners() const { return {nodes_.nodes, solids_.nodes}; }
 
   /// Let embeddings and views follow a change of the map.
   void follow(const TopologyChange& change) {
@@ -200,8 +201,9 @@ class BodyOnMap final : public SimulatedBody {
   double largest_stress() const override {
     const VertexColumns& v = body_.vertices;
     std::vector<Eigen::Matrix3d> stress;
-    std::vector<double> room;
-    vertex_stresses(ends_.ends, body_.springs, rest_volumes(body_, room), v.position, stress, system().terms);
+    VolumeRoom room;
+    vertex_stresses(ends_.ends, body_.springs, vertex_volumes(body_, corners(), room), v.position, stress,
+                    system().terms);
     return largest_principal_stress(stress);
   }
 
@@ -214,8 +216,8 @@ class BodyOnMap final : public SimulatedBody {
     }
     if constexpr (n == 3) add_refined_facets(frame);
     frame.material = body_.cell_material;
-    std::vector<double> room;
-    fill_columns(frame, fields, body_.vertices, system(), rest_volumes(body_, room));
+    VolumeRoom room;
+    fill_columns(frame, fields, body_.vertices, system(), vertex_volumes(body_, corners(), room));
     if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
     return frame;
   }
@@ -240,24 +242,27 @@ class BodyOnMap final : public SimulatedBody {
     const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
     const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
     const bool of_elements = !body_.cell_solid.empty() || !body_.cell_membrane.empty();
-    MemoryReport report{{Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
-                        {Part::marks, mark_bytes()},
-                        {Part::embeddings, body_.embedding_bytes()},
-                        {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
-                        {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
-                                          bytes_of(body_.edge_share, body_.cell_material) + face_origins_.bytes()},
-                        {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
-                                               (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
-                        {Part::vertices, bytes_of_vertices(v)},
-                        {Part::viscosity, bytes_of(v.viscosity)},
-                        {Part::fixed, bytes_of(v.fixed, v.held_axes)},
-                        {Part::rest, bytes_of(v.rest)},
-                        {Part::pull, bytes_of(v.pull)},
-                        {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
-                        {Part::damping, body_.springs.damping_bytes()},
-                        {Part::elements, bytes_of(body_.cell_shape, nodes_.nodes, body_.cell_solid) +
-                                             bytes_of(body_.cell_triangle, triangles_.nodes, body_.cell_membrane) +
-                                             (of_elements ? bytes_of(solids_.nodes) : 0)}};
+    MemoryReport report{
+        {Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
+        {Part::marks, mark_bytes()},
+        {Part::embeddings, body_.embedding_bytes()},
+        {Part::cell_darts, bytes_of(v.dart, body_.edge_dart, body_.face_dart, body_.cell_dart)},
+        {Part::cells, bytes_of(body_.cell_mass, body_.node_share, body_.cell_inside_out, mesh_cell_) +
+                          bytes_of(body_.edge_share, body_.cell_material) + face_origins_.bytes() +
+                          (elements_ ? 0 : bytes_of(nodes_.nodes)) +
+                          (of_elements || cell_springs_ ? 0 : bytes_of(solids_.nodes))},
+        {Part::components, sizeof(std::uint32_t) * components_.cell_count() +
+                               (2 * sizeof(std::uint32_t) + sizeof(std::size_t)) * components_.count()},
+        {Part::vertices, bytes_of_vertices(v)},
+        {Part::viscosity, bytes_of(v.viscosity)},
+        {Part::fixed, bytes_of(v.fixed, v.held_axes)},
+        {Part::rest, bytes_of(v.rest)},
+        {Part::pull, bytes_of(v.pull)},
+        {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
+        {Part::damping, body_.springs.damping_bytes()},
+        {Part::elements, bytes_of(body_.cell_shape, body_.cell_solid) +
+                             bytes_of(body_.cell_triangle, triangles_.nodes, body_.cell_membrane) +
+                             (elements_ ? bytes_of(nodes_.nodes) : 0) + (of_elements ? bytes_of(solids_.nodes) : 0)}};
     if (cell_springs_)
       report.push_back(
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
@@ -332,12 +337,12 @@ class BodyOnMap final : public SimulatedBody {
 
   Body body_;
   SpringEndsView ends_;
-  TetrahedronNodesView nodes_;               // of a body of elements, all tetrahedra
-  SolidNodesView solids_;                    // or of cells of any kind
-  TriangleNodesView triangles_;              // of a surface of elements, all triangles
-  std::unique_ptr<ForceTerm> elements_;      // null where all are springs
-  std::unique_ptr<ForceTerm> cell_springs_;  // null without diagonals
-  BendingView bends_;                        // of a surface, one of the two where it resists bending
+  TetrahedronNodesView nodes_{Map::tetrahedral};  // of springs, or of elements that are all tetrahedra
+  SolidNodesView solids_{!Map::tetrahedral};      // or of cells of any kind
+  TriangleNodesView triangles_;                   // of a surface of elements, all triangles
+  std::unique_ptr<ForceTerm> elements_;           // null where all are springs
+  std::unique_ptr<ForceTerm> cell_springs_;       // null without diagonals
+  BendingView bends_;                             // of a surface, one of the two where it resists bending
   SecondNeighboursView neighbours_;
   bool bends_across_edges_ = false;  // the first of them
   std::unique_ptr<ForceTerm> bending_;

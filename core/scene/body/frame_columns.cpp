@@ -52,7 +52,7 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
 }
 
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
-                  const RestVolumes& volumes) {
+                  const VertexVolumes& volumes) {
   const auto& ends = system.ends;
   const SpringSpan& springs = system.springs;
   const auto& x = vertices.position;

@@ -25,7 +25,7 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number);
 /// pre   the cells and links of the frame are there; vertices have their places at rest where displacement is asked for
 /// cost  O(vertices + springs)
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
-                  const RestVolumes& volumes);
+                  const VertexVolumes& volumes);
 
 /// The same for what obstacles, and bodies, do to the vertices of a body that has contact: of each kind, or null.
 /// pre  its places are there

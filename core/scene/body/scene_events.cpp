@@ -373,7 +373,7 @@ class ReadyStress : public ReadyEvent {
   std::size_t apply() override {
     return tear_where_stressed(
                on_.body(), on_.ends(), rule_, filter_, [this](const TopologyChange& change) { on_.follow(change); },
-               stress_, on_.system().terms)
+               stress_, on_.system().terms, on_.corners())
         .faces;
   }
   // of a seam, a bit for each face slot of a cell

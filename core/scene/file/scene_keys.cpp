@@ -399,8 +399,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = tear, .name = "direction", .type = point, .required = true,
        .help = "of the stress: the fan starts with the face whose normal is nearest to it"},
       {.shape = stress, .name = "threshold", .type = real, .unit = "Pa", .range = positive, .required = true,
-       .help = "the largest principal stress that holds: of elements Cauchy's, per area as it is now; of springs their virial "
-               "per volume at rest"},
+       .help = "the largest principal stress that holds: Cauchy's, per area as it is now"},
       {.shape = stress, .name = "plane", .type = object, .of = plane,
        .help = "only along this seam: the faces between cells whose centroids are on different sides of it at rest"},
       {.shape = stress, .name = "most_per_step", .type = integer, .range = count_from_1,
@@ -424,8 +423,8 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
                "which vertices are free (0), fixed (1), driven (2) or held along some axes (3). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
-               "one is not finite: of elements Cauchy's, per area (length) as it is now, of springs their virial per volume "
-               "(area) at rest; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
+               "one is not finite: Cauchy's, per area (length) as it is now, of springs their virial over the volume "
+               "(area) of the cells; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
                "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
                "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
                "inside [m]"},

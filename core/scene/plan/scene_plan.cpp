@@ -115,8 +115,9 @@ class Planner {
     const bool springs_of_young = std::ranges::any_of(
         materials.all(), [](const Material& m) { return m.model == Model::springs && m.young > 0.0; });
     add(Part::cells,
-        fmt::format("mass, share of a node, side{} and mesh number of each cell{}",
-                    materials.is_one() ? "" : ", material", springs_of_young ? ", stiffness shares of its edges" : ""),
+        fmt::format("mass, share of a node, side{}{} and mesh number of each cell{}",
+                    materials.is_one() ? "" : ", material", materials.has_elements() ? "" : ", corners",
+                    springs_of_young ? ", stiffness shares of its edges" : ""),
         changed + (springs_of_young || !materials.is_one() ? "; " + elasticity() : ""));
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
         changed + "; /output: frames and diagnostics tell the components");

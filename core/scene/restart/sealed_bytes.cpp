@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view word = "dartboard checkpoint\n";
 constexpr std::uint32_t byte_order = 0x01020304;
 // another one for every change of what is stored, or of the order that it is stored in
-constexpr std::uint32_t format = 8;
+constexpr std::uint32_t format = 9;
 
 struct Head {
   std::uint32_t order = byte_order, number = format;

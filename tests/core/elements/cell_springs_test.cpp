@@ -244,7 +244,8 @@ TEST(CellSprings, HaveTheStressOfTheirSolidAtEveryVertex) {
       braced.shake(0.01);
     const ForceTerm* terms[] = {braced.term.get()};
     std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(braced.ends.ends, braced.body.springs, {braced.body.vertices.mass, 1000.0},
+    VolumeRoom room;
+    vertex_stresses(braced.ends.ends, braced.body.springs, vertex_volumes(braced.body, {}, room),
                     braced.body.vertices.position, stress, terms);
     Eigen::Matrix3d mean_stress = Eigen::Matrix3d::Zero();
     double mass = 0.0;

@@ -204,13 +204,13 @@ TEST(SeveralMaterials, HaveStressesOverVolumesAndNotOverMasses) {
     ASSERT_GT(stress(0, 0), 1000.0);
     EXPECT_LT((stress - vertex_stress(b, k)).norm(), 1e-12 * stress.norm()) << k;
   }
-  std::vector<double> room;
+  VolumeRoom room;
   std::vector<Eigen::Matrix3d> all;
   TetrahedronNodesView view;
   view.rebuild(b);
   const auto term = make_tetrahedra(b.cell_materials(), {view.nodes, b.cell_shape, b.cell_mass});
   const ForceTerm* terms[] = {term.get()};
-  vertex_stresses({}, {}, rest_volumes(b, room), b.vertices.position, all, terms);
+  vertex_stresses({}, {}, vertex_volumes(b, {}, room), b.vertices.position, all, terms);
   for (std::uint32_t k = 0; k < b.vertices.size(); ++k)
     EXPECT_LT((all[k] - vertex_stress(b, k)).norm(), 1e-12 * all[k].norm()) << k;
 }

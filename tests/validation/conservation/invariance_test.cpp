@@ -376,7 +376,8 @@ std::set<Triple> torn_in_mid_run(const Problem& problem, const std::vector<Tripl
   std::vector<Eigen::Matrix3d> stress;
   std::set<Triple> torn;
   const auto& body = scene.body;
-  vertex_stresses(ends, body.springs, {body.vertices.mass, problem.material.density}, body.vertices.position, stress);
+  VolumeRoom room;
+  vertex_stresses(ends, body.springs, vertex_volumes(body, {}, room), body.vertices.position, stress);
   std::vector<double> values;
   for (const auto& s : stress) values.push_back(principal_stress(s).value);
   std::sort(values.begin(), values.end());

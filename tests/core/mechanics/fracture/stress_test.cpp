@@ -48,7 +48,8 @@ std::vector<Matrix3d> stresses(const Body<Map>& body) {
   std::vector<std::array<std::uint32_t, 2>> ends;
   for (const EdgeEntry& edge : arrays.edges) ends.push_back(edge.ends);
   std::vector<Matrix3d> stress;
-  vertex_stresses(ends, body.springs, {body.vertices.mass, body.material.density}, body.vertices.position, stress);
+  VolumeRoom room;
+  vertex_stresses(ends, body.springs, vertex_volumes(body, {}, room), body.vertices.position, stress);
   return stress;
 }
 
@@ -65,7 +66,15 @@ void move(Body<Map>& body, const Matrix3d& matrix, const Vector3d& shift = {0, 0
   for (Vector3d& x : body.vertices.position) x = matrix * x + shift;
 }
 
-// 1/V times the sum over the springs around a vertex of k (l + L) l: the scale of all that rounds in its stress.
+// The volume (area) at a vertex as it is now.
+template <class Map>
+double volume_now(const Body<Map>& body, std::uint32_t k) {
+  VolumeRoom room;
+  return vertex_volumes(body, {}, room).now[k];
+}
+
+// 1/V times the sum over the springs around a vertex of k (l + L) l: the scale of all that rounds in its stress, V the
+// volume as it is now.
 template <class Map>
 double scale_of(const Body<Map>& body, std::uint32_t k) {
   double sum = 0.0;
@@ -75,7 +84,7 @@ double scale_of(const Body<Map>& body, std::uint32_t k) {
     const double length = (body.vertices.position[other] - body.vertices.position[k]).norm();
     sum += spring.stiffness * (length + spring.rest_length) * length;
   }
-  return sum / (body.vertices.mass[k] / body.material.density);
+  return sum / volume_now(body, k);
 }
 
 // ---- one spring
@@ -171,11 +180,13 @@ TYPED_TEST(Stress, DoesNotDependOnVelocities) {
 // root), the rest length likewise; so the stretch by 3 u (l + L) + u |l - L| <= 4 u (l + L). The scale takes three more
 // operations and an entry two, and two differences: an entry of at most 1/2 k |l - L| l is off by
 // 1/2 k l (4 u (l + L) + 7 u |l - L|) <= 6 u k (l + L) l. The sum of n springs adds n u, mass and quotients 3 u; what
-// is compared with is long double and no concern. Hence (n + 9) u times scale_of, and 1.01 for second-order terms.
+// is compared with is long double and no concern. Hence (n + 9) u times scale_of, and 1.01 for second-order terms. The
+// volume of a cell takes three differences of coordinates, a cross and an inner product, 9 u of the product of three
+// sides, which in these bodies is at most 12 times the volume; 24 cells sum to a vertex's: 132 u.
 template <class Map>
 double rounding_of(const Body<Map>& body, std::uint32_t k) {
   const auto springs = static_cast<double>(incident_cells<1>(body.map, Vertex{body.vertices.dart[k]}).size());
-  return 1.01 * (springs + 9) * u * scale_of(body, k);
+  return 1.01 * (springs + 9 + 132) * u * scale_of(body, k);
 }
 
 TYPED_TEST(Stress, OfAnAffineStretchIsThatOfTheSpringsOfTheMesh) {
@@ -193,7 +204,14 @@ TYPED_TEST(Stress, OfAnAffineStretchIsThatOfTheSpringsOfTheMesh) {
 
   // once for each cell: springs in parallel add up
   std::vector<Matrix> virial(x.size(), Matrix::Zero());
+  std::vector<Long> volume(x.size(), 0);
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const auto corner = mesh.cell(c);
+    const auto side = [&](std::size_t k) -> Vector { return x[corner[k]] - x[corner[0]]; };
+    Vector normal = side(1).cross(side(2));
+    if (mesh.kinds[c] == CellKind::quadrilateral) normal += side(2).cross(side(3));
+    const Long size = mesh.kinds[c] == CellKind::tetrahedron ? std::abs(normal.dot(side(3))) / 6 : normal.norm() / 2;
+    for (const std::uint32_t k : corner) volume[k] += size / Long(corner.size());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const auto& face : faces_of(mesh.kinds[c]))
       for (std::size_t e = 0; e < face.size(); ++e)
@@ -210,7 +228,7 @@ TYPED_TEST(Stress, OfAnAffineStretchIsThatOfTheSpringsOfTheMesh) {
   }
   const auto stress = stresses(body);
   for (std::uint32_t k = 0; k < stress.size(); ++k) {
-    const Matrix expected = virial[body.vertices.point[k]] * 8 / Long(body.vertices.mass[k]);
+    const Matrix expected = virial[body.vertices.point[k]] / volume[body.vertices.point[k]];
     EXPECT_LE((stress[k] - expected.template cast<double>()).template lpNorm<Eigen::Infinity>(), rounding_of(body, k));
   }
 }
@@ -261,7 +279,7 @@ TYPED_TEST(Stress, TimesVolumeSumsToTheVirialOfAllSprings) {
   Matrix3d sum = Matrix3d::Zero(), virial = Matrix3d::Zero();
   double bound = 0.0;
   for (std::uint32_t k = 0; k < stress.size(); ++k) {
-    const double volume = body.vertices.mass[k] / 8.0;
+    const double volume = volume_now(body, k);
     sum += volume * stress[k];
     bound += volume * (rounding_of(body, k) + static_cast<double>(stress.size()) * u * scale_of(body, k));
   }
@@ -274,17 +292,65 @@ TYPED_TEST(Stress, TimesVolumeSumsToTheVirialOfAllSprings) {
   EXPECT_LE((sum - virial).template lpNorm<Eigen::Infinity>(), bound);
 }
 
-// Around a vertex inside, six springs of 4 cells each: (1 / a^3) 2 (1/2) 4 k a (s - 1) a s. On the surface springs and
-// volume shrink alike, so that the stress is the same there.
-TEST(StressOfHexahedra, IsUniformUnderAUniformStretchToTheSurface) {
-  auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 0.5));
-  move(body, Vector3d(1, 1, 1.5).asDiagonal());
-  const double expected = 4 * 4.0 * 1.5 * 0.5 / 0.5;
-  for (const Matrix3d& stress : stresses(body))
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        // lengths are exact; the mass of a cell sums 24 tetrahedra and that of a vertex 8 cells, the stress 6 springs
-        EXPECT_NEAR(stress(i, j), i == 2 && j == 2 ? expected : 0.0, 64 * u * expected);
+// Around a vertex inside, six springs of 4 cells each, of tension T = 4 k a (s - 1) along an axis that is stretched by
+// s: the force on the area that a spring stands for now. On the surface springs and volume shrink alike, so that the
+// stress is the same there.
+TEST(StressOfHexahedra, IsTheForceOnTheAreaThereIsNowToTheSurface) {
+  for (const Vector3d& stretch : {Vector3d(1, 1, 1.5), Vector3d(1.25, 0.75, 1.5), Vector3d(1.25, -0.75, 1.5)}) {
+    auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 0.5));
+    move(body, stretch.asDiagonal());
+    const double size = stretch.cwiseAbs().prod();
+    for (const Matrix3d& stress : stresses(body))
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          const double s = std::abs(stretch[i]), force = 4 * 4.0 * 0.5 * (s - 1), area = 0.5 * 0.5 * size / s;
+          // lengths are exact; the volume of a cell sums 6 faces and that of a vertex 8 cells, the stress 6 springs
+          EXPECT_NEAR(stress(i, j), i == j ? force / area : 0.0, 64 * u * 16.0);
+        }
+  }
+}
+
+// "of what it was at rest, the volume at a vertex counts as this at least"
+TEST(StressOfHexahedra, IsPerHundredthOfTheVolumeAtRestWhereCellsAreFlatter) {
+  for (const double s : {0.005, 0.0}) {
+    auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 0.5));
+    move(body, Vector3d(1.5, 1, s).asDiagonal());
+    // per volume at rest the stretched axis has 4 k s (s - 1) / a
+    const double expected = 4 * 4.0 * 1.5 * 0.5 / 0.5 / least_volume;
+    for (const Matrix3d& stress : stresses(body)) EXPECT_NEAR(stress(0, 0), expected, 64 * u * expected);
+  }
+}
+
+// ---- several materials
+
+// A cell of springs among elements has the volume that it has among springs, inside out too.
+TEST(StressOfSpringsAmongElements, IsPerVolumeNow) {
+  Problem problem;
+  problem.mesh = hexahedron_box(3, 1, 1, 0.5);
+  problem.materials = {{.density = 8.0, .stiffness = 4.0, .damping = 0.0, .viscosity = 0.0},
+                       {.density = 8.0,
+                        .stiffness = 0.0,
+                        .damping = 0.0,
+                        .viscosity = 0.0,
+                        .young = 100.0,
+                        .poisson = 0.25,
+                        .model = Model::neo_hookean}};
+  problem.cell_material = {0, 0, 1};
+  auto mixed = build_body<Map3, Held::by_every_dart>(problem);
+  for (const double s : {1.5, -1.5}) {
+    int at_springs = 0;
+    for (std::uint32_t k = 0; k < mixed.vertices.size(); ++k) {
+      const Vector3d& rest = problem.mesh.points[mixed.vertices.point[k]];
+      mixed.vertices.position[k] = rest.cwiseProduct(Vector3d(1, 1, s));
+    }
+    for (std::uint32_t k = 0; k < mixed.vertices.size(); ++k) {
+      if (mixed.vertices.position[k].x() != 0.0) continue;
+      ++at_springs;
+      // at the end a spring of one cell stands for a fourth of the section
+      EXPECT_NEAR(vertex_stress(mixed, k)(2, 2), 4.0 * 0.5 * 0.5 / (0.25 * 0.5 * 0.5), 64 * u * 16.0);
+    }
+    EXPECT_EQ(at_springs, 4);
+  }
 }
 
 // ---- measures

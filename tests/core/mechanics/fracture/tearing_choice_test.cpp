@@ -29,15 +29,16 @@ double flatness(const Body<Map>& body, const std::vector<Dart>& fan, const Vecto
   return sum / static_cast<double>(fan.size());
 }
 
-// Each vertex in turn is made light, so that it is the most stressed one. Where the two fans are as flat but for 24
-// bits, something else decides.
+// Each vertex in turn has all the springs that pull, and is the most stressed one unless it is a large one beside a
+// small one. Where the two fans are as flat but for 24 bits, something else decides.
 TYPED_TEST(TearingChoice, GoesOnFromTheSideWhoseFanIsNearerToThePlaneAcrossTheStress) {
   std::size_t from_here = 0, from_across = 0;
   auto stretched = body_of<TypeParam>(jittered_box());
   move(stretched, along_z);
   for (std::uint32_t k = 0; k < stretched.vertices.size(); ++k) {
     Torn<TypeParam> bar(stretched);
-    bar.body.set_mass(k, 0x1p-10 * bar.body.vertices.mass[k]);
+    slacken_all_but_around(bar.body, k);
+    if (most_stressed(bar.body) != k) continue;
     const Vector3d direction = principal_stress(vertex_stress(bar.body, k)).direction;
     const Dart start = starting_face(bar.body, k, direction);
     if (start == no_dart) continue;
@@ -62,7 +63,7 @@ TEST(TearingChoiceOfHexahedra, BeginsWithTheLowestNumberOfVerticesUnderOneStress
   std::uint32_t lowest = 0;
   while (starting_face(bar.body, lowest, {0, 0, 1}, {}, 0.5) == no_dart) ++lowest;
   const std::uint32_t point = bar.body.vertices.point[lowest];
-  const TornVertices torn = bar.tear({.threshold = 23.5, .most_per_step = 1});
+  const TornVertices torn = bar.tear({.threshold = 15.5, .most_per_step = 1});
   ASSERT_EQ(torn.tears, 1u);
   ASSERT_GT(torn.stressed, 10u);
   for (const Triple& face : bar.faces) {

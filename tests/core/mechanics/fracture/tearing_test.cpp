@@ -109,22 +109,22 @@ TYPED_TEST(Tearing, StartsInADirectionOnly) {
 
 // ---- tearing
 
-// Uniform stress of 4 k s (s - 1) / a (stress_test.cpp): 24 Pa with k = 4, s = 3/2, a = 1/2.
+// Uniform stress of 4 k (s - 1) / a (stress_test.cpp): 16 Pa with k = 4, s = 3/2, a = 1/2.
 TEST(TearingOfHexahedra, PartsAStretchedBarIntoLayersAcrossTheStretch) {
   Torn<Map3> bar(body_of<Map3>(hexahedron_box(2, 2, 3, 0.5)));
   move(bar.body, along_z);
-  EXPECT_EQ(bar.tear({.threshold = 24.5}).stressed, 0u);
+  EXPECT_EQ(bar.tear({.threshold = 16.5}).stressed, 0u);
   EXPECT_EQ(bar.followed, 0u);
-  const TornVertices torn = bar.tear({.threshold = 23.5});
-  EXPECT_NEAR(torn.largest_stress, 24, 24 * 128 * u);
+  const TornVertices torn = bar.tear({.threshold = 15.5});
+  EXPECT_NEAR(torn.largest_stress, 16, 16 * 128 * u);
   EXPECT_EQ(torn.stressed, 9u * 4u);
   EXPECT_EQ(torn.faces, 8u);  // two layers between three
   EXPECT_EQ(torn.tears, bar.followed);
   for (const Vector3d& n : bar.normals) EXPECT_EQ(n.cwiseAbs(), Vector3d(0, 0, 1));
   EXPECT_EQ(components(bar.body.map).count, 3u);
   // the layers are as much under stress, and have no face across it left
-  EXPECT_EQ(bar.tear({.threshold = 23.5}).tears, 0u);
-  EXPECT_GT(bar.tear({.threshold = 23.5, .least_alignment = 0.0}).tears, 0u);
+  EXPECT_EQ(bar.tear({.threshold = 15.5}).tears, 0u);
+  EXPECT_GT(bar.tear({.threshold = 15.5, .least_alignment = 0.0}).tears, 0u);
 }
 
 TYPED_TEST(Tearing, ChoosesFacesAcrossTheStretch) {
@@ -314,13 +314,13 @@ TYPED_TEST(Tearing, AlongASeamTearsItsFacesOnlyAndInTheEndAllOfThem) {
   EXPECT_EQ(bar.tear({.threshold = 0.25, .least_alignment = 0.0}, on_seam).tears, 0u);
 }
 
-// The vertex in the middle is made light, so that it is the most stressed one.
+// The vertex in the middle has all the springs that pull, so that it is the most stressed one.
 TYPED_TEST(Tearing, AlongASeamTakesThePieceOfItAroundTheVertex) {
   Torn<TypeParam> bar(body_of<TypeParam>(kuhn_grid(4, 4, 4, 0.5)));
   std::uint32_t middle = 0;
   while (bar.body.vertices.position[middle] != Vector3d(1, 1, 1)) ++middle;
   const std::uint32_t point = bar.body.vertices.point[middle];
-  bar.body.set_mass(middle, 0x1p-10 * bar.body.vertices.mass[middle]);
+  slacken_all_but_around(bar.body, middle);
   const auto seam = faces_on_plane(bar.body, {0, 0, 1.0}, {0, 0, 1});
   std::set<Triple> around;
   for (const Dart d : seam)

@@ -1,0 +1,22 @@
+#pragma once
+// The volume or area of a cell as it is now.
+
+#include <Eigen/Core>
+#include <span>
+
+#include "core/plain/mesh.h"
+
+namespace dartboard {
+
+/// Volume of a solid cell [m^3], or area of a polygon [m^2], with these corners in the order of a mesh: the measure of
+/// `signed_measure`, without its sign. A cell of springs turned inside out has the lengths it had, and fills as much.
+///
+/// Neither the corner that is listed first nor the side from which a cell is listed leaves a trace in the bits: each
+/// storage lists the corners of a cell in its own order, and bodies have one stress on all of them.
+double cell_size(CellKind kind, std::span<const Eigen::Vector3d> corners);
+
+/// The kind of cell that has this number of corners.
+/// pre     1 < dimension < 4; 3 or 4 corners of polygons, 4, 5, 6 or 8 of solids
+CellKind kind_of_corners(int dimension, std::size_t corners);
+
+}  // namespace dartboard
