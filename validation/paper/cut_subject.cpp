@@ -6,11 +6,7 @@
 
 namespace dartboard {
 
-CutSubject::CutSubject(const Problem& at_rest)
-    : problem(at_rest),
-      body(build_body<Map3, Held::by_every_dart>(problem)),
-      cells(problem.mesh),
-      places(body, problem.mesh, cells) {
+CutSubject::CutSubject(const Problem& problem) : Subject<Map3>(problem) {
   const Mesh& mesh = problem.mesh;
   for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
     const reference::Rational nodes = mesh.cell(c).size();
@@ -33,13 +29,11 @@ CutSubject::Mass CutSubject::mass_of(std::span<const std::uint32_t> corners) con
   return {exact, 1.001 * (bound + gamma(corners.size() + 2) * exact)};
 }
 
-std::uint32_t CutSubject::cell_of_side(std::uint32_t side) const { return places.cell_of[places.side[side].index]; }
-
 std::vector<std::uint32_t> CutSubject::corners_of(std::uint32_t side) const {
   const std::uint32_t c = cell_of_side(side);
   std::vector<std::uint32_t> corners;
-  for (const int k : sides_of(problem.mesh.kinds[c])[side - cells.first_side(c)])
-    corners.push_back(problem.mesh.first[c] + static_cast<std::uint32_t>(k));
+  for (const int k : sides_of(start->mesh.kinds[c])[side - cells.first_side(c)])
+    corners.push_back(start->mesh.first[c] + static_cast<std::uint32_t>(k));
   return corners;
 }
 
@@ -62,8 +56,8 @@ std::vector<std::uint32_t> CutSubject::edges_of(std::uint32_t side) const {
 }
 
 std::uint32_t CutSubject::same_corner(std::uint32_t corner, std::uint32_t cell) const {
-  std::uint32_t k = problem.mesh.first[cell];
-  while (problem.mesh.nodes[k] != problem.mesh.nodes[corner]) ++k;
+  std::uint32_t k = start->mesh.first[cell];
+  while (start->mesh.nodes[k] != start->mesh.nodes[corner]) ++k;
   return k;
 }
 
