@@ -194,7 +194,7 @@ class OperationRun {
     at_.cells.dissociate(side);
   }
 
-  // What the cell has of everything is told by the numbers that the darts had before the series: corners and edges
+  // What the cell has of everything is found by the numbers that the darts had before the series: corners and edges
   // moved nowhere since.
   void take_away(std::uint32_t c) {
     const LiveBody<Map>& body = at_.body;

@@ -23,7 +23,7 @@ constexpr std::size_t pairs_asked = 40;
 
 bool has_pick(const AuditedPair& p) { return !p.pick.empty(); }
 
-bool has_met(const AuditedPair& p) { return p.told() && p.audit.met(); }
+bool has_met(const AuditedPair& p) { return p.is_resolved() && p.audit.met(); }
 
 bool within_margin(double ratio) { return std::abs(ratio - 1.0) <= cost_margin; }
 
@@ -120,9 +120,9 @@ std::vector<Claim> audit_claims(AuditKind kind, const std::vector<AuditedPair>& 
   const std::vector<AuditedPair> counted = those_that_count(kind, pairs);
   std::vector<Claim> claims;
   if (is_long) claims.push_back(claim_on_predictions(pairs));
-  claims.push_back(claim_on_part(is_long ? "foretold-error" : "recommend-error",
-                                 "the setting recommended meets the error asked for", counted, &AuditedPair::told,
-                                 [](const AuditedPair& p) { return has_pick(p) && p.audit.met(); }));
+  claims.push_back(claim_on_part(
+      is_long ? "foretold-error" : "recommend-error", "the setting recommended meets the error asked for", counted,
+      &AuditedPair::is_resolved, [](const AuditedPair& p) { return has_pick(p) && p.audit.met(); }));
   if (!is_long)
     claims.push_back(claim_on_part("recommend-evaluations", "predicted force evaluations within 15 % of those counted",
                                    counted, has_pick,
@@ -141,9 +141,9 @@ namespace {
 std::string met_in_words(AuditKind kind, const AuditedPair& p) {
   const bool is_long = kind == AuditKind::long_motions;
   if (!has_pick(p)) return p.followed ? "NO" : "not followed";
-  if (!p.told() && is_long) return "not judged: the other codes differ by more";
+  if (!p.is_resolved() && is_long) return "not judged: the other codes differ by more";
   if (!std::isfinite(p.floor)) return "not judged: followed for its cost only";
-  if (!p.told()) return "not judged: the reference is no better than that";
+  if (!p.is_resolved()) return "not judged: the reference is no better than that";
   if (!p.audit.met()) return "NO";
   return is_long && !p.foretold() ? "yes, but not counted" : "yes";
 }
@@ -159,10 +159,10 @@ std::vector<std::pair<Column, std::string>> row_of(AuditKind kind, const Audited
     add({title, Align::right}, has_pick(p) && is_known ? fmt::format(fmt::runtime(format), value) : "-");
   };
   if (!has_pick(p)) row.back().second = "none";
-  add_figure("actual / asked", "{:.3f}", a.actual_error / a.error, p.told());
+  add_figure("actual / asked", "{:.3f}", a.actual_error / a.error, p.is_resolved());
   add({"met"}, met_in_words(kind, p));
   if (is_long) {
-    add_figure("actual / predicted error", "{:.3f}", a.actual_error / a.predicted_error, p.told());
+    add_figure("actual / predicted error", "{:.3f}", a.actual_error / a.predicted_error, p.is_resolved());
   } else {
     add_figure("evaluations", "{:.0f}", a.actual_evaluations);
     add_figure("predicted / counted", "{:.3f}", p.count_ratio());
@@ -229,7 +229,7 @@ nlohmann::json json_of(const AuditedPair& p) {
           {"seen_part", number(p.seen_part)},
           {"warned", p.warned},
           {"foretold", p.foretold()},
-          {"told", p.told()},
+          {"told", p.is_resolved()},
           {"actual_error", number(a.actual_error)},
           {"predicted_error", number(a.predicted_error)},
           {"actual_evaluations", number(a.actual_evaluations)},
@@ -272,7 +272,7 @@ Plot audit_plot(AuditKind kind, const std::vector<AuditedPair>& pairs, const std
                                      "#ff7f0e", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
   std::map<std::string, PlotSeries> by_pick;
   for (const AuditedPair& p : those_that_count(kind, pairs)) {
-    if (!has_pick(p) || !p.told()) continue;
+    if (!has_pick(p) || !p.is_resolved()) continue;
     PlotSeries& series = by_pick[p.pick];
     series.title = p.pick;
     series.size = 1.3;

@@ -29,7 +29,7 @@ struct AuditedPair {
   Audit audit;
 
   /// Can the reference tell whether the error was met?
-  bool told() const { return audit.error >= floor; }
+  bool is_resolved() const { return audit.error >= floor; }
   /// Is it a prediction: does the run cost 20 times the pilots, and have they kept to 2 s or a tenth of it?
   bool foretold() const;
   double count_ratio() const { return audit.predicted_evaluations / audit.actual_evaluations; }

@@ -74,7 +74,7 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
       p.seen_part = pick->seen_part;
       p.warned = pick->growth_rate > 0.0;
       p.audit = audit(scene, reference, r, {}, thread_cpu_ns, is_long ? 1 : 3);
-      if (p.told() && p.audit.met()) dearest_s = std::max(dearest_s, p.audit.actual_s);
+      if (p.is_resolved() && p.audit.met()) dearest_s = std::max(dearest_s, p.audit.actual_s);
     }
     pairs.push_back(std::move(p));
   }
