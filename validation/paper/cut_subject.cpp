@@ -41,39 +41,10 @@ std::vector<std::uint32_t> CutSubject::edges_of(std::uint32_t side) const {
   const std::uint32_t c = cell_of_side(side);
   const auto corners = corners_of(side);
   const auto has = [&](std::uint32_t k) { return std::ranges::find(corners, k) != corners.end(); };
-  const auto follow = [&](std::uint32_t a, std::uint32_t b) {
-    const auto at = std::ranges::find(corners, a) - corners.begin(),
-               to = std::ranges::find(corners, b) - corners.begin();
-    const auto n = static_cast<std::ptrdiff_t>(corners.size());
-    return (at + 1) % n == to || (to + 1) % n == at;
-  };
-  std::vector<std::uint32_t> edges;
-  for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e) {
-    const auto [a, b] = cells.ends(e);
-    if (has(a) && has(b) && follow(a, b)) edges.push_back(e);
-  }
+  std::vector<std::uint32_t> edges;  // of a cell between two corners of a side: its diagonals are no edges
+  for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e)
+    if (has(cells.ends(e).a) && has(cells.ends(e).b)) edges.push_back(e);
   return edges;
-}
-
-std::uint32_t CutSubject::same_corner(std::uint32_t corner, std::uint32_t cell) const {
-  std::uint32_t k = start->mesh.first[cell];
-  while (start->mesh.nodes[k] != start->mesh.nodes[corner]) ++k;
-  return k;
-}
-
-std::uint32_t CutSubject::same_edge(std::uint32_t edge, std::uint32_t cell) const {
-  const std::uint32_t a = same_corner(cells.ends(edge).a, cell), b = same_corner(cells.ends(edge).b, cell);
-  std::uint32_t e = cells.first_edge(cell);
-  while (!(cells.ends(e).a == a && cells.ends(e).b == b) && !(cells.ends(e).a == b && cells.ends(e).b == a)) ++e;
-  return e;
-}
-
-std::optional<std::uint32_t> CutSubject::joined_side(SplitMix64& random) const {
-  const auto sides = static_cast<std::uint32_t>(places.side.size());
-  const std::uint32_t from = random.below(sides);
-  for (std::uint32_t k = 0; k < sides; ++k)
-    if (const std::uint32_t side = (from + k) % sides; cells.is_joined(side)) return side;
-  return std::nullopt;
 }
 
 void CutSubject::deform() {

@@ -2,12 +2,10 @@
 // A body to be cut, beside a witness that knows its cells, their exact masses, and no dart.
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mechanics/adapt.h"
-#include "core/plain/random.h"
 #include "reference/exact_measure.h"
 #include "validation/conservation/subjects.h"
 
@@ -34,12 +32,6 @@ struct CutSubject : Subject<Map3> {
   /// The corners of a side of a cell, and its edges.
   std::vector<std::uint32_t> corners_of(std::uint32_t side) const;
   std::vector<std::uint32_t> edges_of(std::uint32_t side) const;
-  /// The corner, or the edge, of `cell` at the same mesh points.
-  std::uint32_t same_corner(std::uint32_t corner, std::uint32_t cell) const;
-  std::uint32_t same_edge(std::uint32_t edge, std::uint32_t cell) const;
-
-  /// A side that is joined, drawn at random; nothing when there is none.
-  std::optional<std::uint32_t> joined_side(SplitMix64& random) const;
 
   /// Sheared, stretched and in motion: nothing that is computed from the present shape is as at rest.
   void deform();

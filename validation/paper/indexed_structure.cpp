@@ -21,7 +21,7 @@ ClaimAnswer translate_operations(const Problem& problem, int operations, std::ui
   SplitMix64 random(seed);
   int done = 0, removed = 0;
   for (; done < operations; ++done) {
-    const auto side = s.joined_side(random);
+    const auto side = s.cells.joined_side(random);
     if (!side) break;
     if (done % 8 == 7) {
       translate(s.body, s.views, remove_volume(s.body.map, s.places.side[*side]));

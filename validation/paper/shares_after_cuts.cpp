@@ -42,20 +42,20 @@ SharesAfterCuts try_dissociations(const Problem& problem, int dissociations, std
   bool stiffness_counted = true, state_kept = true, own_embeddings = true;
   int done = 0, vertices_apart = 0, edges_apart = 0;
   for (; done < dissociations; ++done) {
-    const auto side = s.joined_side(random);
+    const auto side = s.cells.joined_side(random);
     if (!side) break;
     const std::uint32_t other = s.cell_of_side(s.cells.opposite(*side));
     std::vector<Place> vertices, edges;
     for (const std::uint32_t k : s.corners_of(*side)) {
       const std::uint32_t v = s.vertex(k);
-      vertices.push_back({k, s.same_corner(k, other), copy(s.cells.vertex(k))});
+      vertices.push_back({k, s.cells.same_corner(k, other), copy(s.cells.vertex(k))});
       vertices.back().mass = s.body.vertices.mass[v];
       vertices.back().position = s.body.vertices.position[v];
       vertices.back().velocity = s.body.vertices.velocity[v];
     }
     for (const std::uint32_t k : s.edges_of(*side)) {
       const Spring spring = s.body.springs[s.edge(k)];
-      edges.push_back({k, s.same_edge(k, other), copy(s.cells.edge(k)), 0.0, spring.stiffness, spring.damping});
+      edges.push_back({k, s.cells.same_edge(k, other), copy(s.cells.edge(k)), 0.0, spring.stiffness, spring.damping});
     }
 
     follow(s.body, dissociate_face(s.body.map, s.places.side[*side]));
