@@ -80,7 +80,7 @@ Claim claim_on_regret(std::string id, const std::vector<AuditedPair>& pairs) {
   const std::string without =
       left_out > 0 ? fmt::format("{} left out, whose error was missed or cannot be told", left_out) : "";
   if (regrets.empty()) {
-    claim.reason = left_out > 0 ? without : "no sweep";
+    claim.reason = left_out > 0 ? without : pairs.empty() ? "no pair to tell it from" : "no sweep";
     return claim;
   }
   const Figure figure{median(regrets), median_interval(regrets)};
