@@ -9,21 +9,9 @@
 #include "validation/conservation/conservation.h"
 #include "validation/conservation/conservation_ledger.h"
 #include "validation/conservation/conserved_sums.h"
-#include "validation/conservation/mesh_places.h"
+#include "validation/conservation/subjects.h"
 
 namespace dartboard {
-
-/// A body that is being taken apart, and the witness of what should be left of it.
-template <class Map>
-struct Subject {
-  explicit Subject(const Problem& problem);
-
-  const Problem& start;
-  RemainingCells whole, cells;  // at first, and now
-  LiveBody<Map> fresh, body;
-  Views views;
-  MeshPlaces places;
-};
 
 /// Numbers of cells by dimension; of a surface, the fourth is zero.
 using CountsByDimension = std::array<std::size_t, 4>;
@@ -37,49 +25,86 @@ struct BeforeSeries {
   CountsByDimension counts;
 };
 
-/// The comparisons, each written into the ledger.
-template <class Map>
-class ConservationChecks {
+/// The comparisons, each written into the ledger. What one vertex, edge or cell should be depends on the witness.
+template <class AnySubject>
+class OperationChecks {
  public:
-  ConservationChecks(const Subject<Map>& subject, ConservationLedger& ledger);
+  using Map = typename AnySubject::Map;
+
+  OperationChecks(const AnySubject& subject, ConservationLedger& ledger) : at_(subject), ledger_(ledger) { begin(); }
+  virtual ~OperationChecks() = default;
+
+  /// For a fresh body.   cost    O(cells)
+  void begin();
+  ConservedSums all_sums() const;
+  long euler() const;
 
   BeforeSeries<Map> before_series() const;
   /// `removed` are the sums of what was removed, less the boundary that appeared. Returns the sums now.
   ConservedSums after_series(const BeforeSeries<Map>& before, const TopologyChange& change,
                              const ChangedEmbeddings& changed, const ConservedSums& removed);
+  /// All columns and arrays have a row for each cell.
+  void columns_fit();
+  /// What an operation changed by number: against the witness.
+  void changed_cells(const ChangedEmbeddings& changed);
+  /// `more` roundings in a term, `elastic` what else may be off of the energy [J].
+  void sums(const ConservedSums& before, const ConservedSums& after, const ConservedSums& removed, std::size_t more = 0,
+            double elastic = 0.0);
+  /// Each vertex, edge and cell of the witness against the body's, and how many there are.
+  void all_cells();
   /// cost    O(cells log cells)
   void everything();
 
   /// Whether rounding leaves the sums of this quantity alone.
   bool is_exact(Conserved c) const { return exact_[static_cast<std::size_t>(c)]; }
 
+ protected:
+  virtual void vertex(std::uint32_t k, typename AnySubject::VertexPlace place) = 0;
+  virtual void edge(std::uint32_t k, typename AnySubject::EdgePlace place) = 0;
+  virtual void cell(std::uint32_t) {}
+  /// What else belongs to everything.
+  virtual void all_else() {}
+  /// In a term of the sums, beside those of conserved_sums.h.
+  virtual std::size_t more_roundings() const { return 0; }
+  /// The views name the two vertices of an edge.
+  void ends(std::uint32_t k, std::uint32_t a, std::uint32_t b);
+
+  const AnySubject& at_;
+  ConservationLedger& ledger_;
+  std::size_t most_cells_ = 1;  // around a vertex, so far
+  std::array<bool, conserved_count> exact_{};
+
  private:
-  ConservedSums all_sums() const;
   CountsByDimension counts_of_body() const;
-  void columns_fit(const CountsByDimension& predicted);
   void columns_were_duplicated(const BeforeSeries<Map>& before);
-  void changed_cells(const ChangedEmbeddings& changed);
-  ConservedSums sums_are_conserved(const ConservedSums& before, const ConservedSums& removed);
-  double mass_from_cells(std::span<const std::uint32_t> corners);
-  void vertex(std::uint32_t k, std::span<const std::uint32_t> corners);
-  void edge(std::uint32_t k, std::span<const std::uint32_t> edges);
-  void all_vertices();
-  void all_edges();
   void all_counts();
   void all_views();
   void boundary();
-  void soup();
+};
 
-  const Subject<Map>& at_;
-  ConservationLedger& ledger_;
-  std::size_t most_cells_ = 1;  // around a vertex
-  std::array<bool, conserved_count> exact_{};
+/// Of a body that is taken apart: bit by bit, and now and then against reference/rebuild.
+template <class Map>
+class ConservationChecks : public OperationChecks<Subject<Map>> {
+ public:
+  ConservationChecks(const Subject<Map>& subject, ConservationLedger& ledger);
+
+ private:
+  using Base = OperationChecks<Subject<Map>>;
+  using Base::at_, Base::ledger_;
+
+  void vertex(std::uint32_t k, std::span<const std::uint32_t> corners) override;
+  void edge(std::uint32_t k, std::span<const std::uint32_t> edges) override;
+  void all_else() override;
+  double mass_from_cells(std::span<const std::uint32_t> corners);
+
   std::vector<std::uint32_t> numbers_;
 };
 
-extern template struct Subject<Map2>;
-extern template struct Subject<Map3>;
-extern template struct Subject<TetMap>;
+extern template class OperationChecks<Subject<Map2>>;
+extern template class OperationChecks<Subject<Map3>>;
+extern template class OperationChecks<Subject<TetMap>>;
+extern template class OperationChecks<RefinedSubject<Map3>>;
+extern template class OperationChecks<RefinedSubject<TetMap>>;
 extern template class ConservationChecks<Map2>;
 extern template class ConservationChecks<Map3>;
 extern template class ConservationChecks<TetMap>;

@@ -71,21 +71,22 @@ double more_roundings(const Problem& rest, const CellArrays& live, const std::ve
 }  // namespace
 
 template <class Map>
-RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
-                                     const MeshPlaces& places, const RemainingCells& cells, int steps) {
+RebuiltMotion compare_rebuilt_motion(const Subject<Map>& at, int steps) {
+  const auto& [start, body, views] = static_cast<const SubjectBody<Map>&>(at);
+  const CellArrays& arrays = views.cells;
   RebuiltMotion motion;
-  const Problem rest = rest_problem(body, start, places);
+  const Problem rest = rest_problem(body, *start, at.places);
   PointState now{body.vertices.position, body.vertices.velocity};
 
   LiveBody<Map> live = body;  // the run must not notice that it was compared
-  move(live, arrays, start.h, steps);
+  move(live, arrays, start->h, steps);
 
   auto scratch = build_body<Map, Held::by_every_dart>(rest);
   scratch.set_state(now);
   auto merged = scratch;
   CellArrays merged_arrays;
   merged_arrays.rebuild(merged);
-  move(merged, merged_arrays, start.h, steps);
+  move(merged, merged_arrays, start->h, steps);
   const PointState end = merged.state();  // its points are the live body's vertices
   motion.position = largest_difference(end.x, live.vertices.position);
   motion.velocity = largest_difference(end.v, live.vertices.velocity);
@@ -107,9 +108,10 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   const auto in_order = cells_by_dart(body);
   std::vector<Dart> apart;
   for (std::uint32_t k = 0; k < in_order.size(); ++k) {
-    const std::uint32_t c = places.cell_of[in_order[k].index];
+    const std::uint32_t c = at.cell(in_order[k]);
     for (std::uint32_t s = 0; s < touching.first_side(k + 1) - touching.first_side(k); ++s)
-      if (!cells.is_joined(cells.first_side(c) + s)) apart.push_back(scratch_places.side[touching.first_side(k) + s]);
+      if (!at.cells.is_joined(at.cells.first_side(c) + s))
+        apart.push_back(scratch_places.side[touching.first_side(k) + s]);
   }
   adapt(scratch, dissociate_all(scratch.map, apart));
   motion.vertices = scratch.vertices.size();
@@ -121,28 +123,25 @@ RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays
   order.vertices.resize(motion.vertices);
   order.edges.resize(motion.springs);
   for (std::uint32_t k = 0; k < in_order.size(); ++k) {
-    const std::uint32_t c = places.cell_of[in_order[k].index];
+    const std::uint32_t c = at.cell(in_order[k]);
     for (std::size_t n = 0; n < rest.mesh.cell(k).size(); ++n)
       order.vertices[rest.mesh.cell(k)[n]] = scratch.vertex(scratch.map, scratch_places.corner[rest.mesh.first[k] + n]);
     for (std::uint32_t e = 0; e < touching.first_edge(k + 1) - touching.first_edge(k); ++e)
-      order.edges[body.edge(body.map, places.edge[cells.first_edge(c) + e])].edge =
+      order.edges[at.edge(at.cells.first_edge(c) + e)].edge =
           scratch.edge(scratch.map, scratch_places.edge[touching.first_edge(k) + e]);
   }
   for (std::size_t k = 0; k < order.edges.size(); ++k) {
     order.edges[k].a = order.vertices[arrays.edges[k].ends[0]];
     order.edges[k].b = order.vertices[arrays.edges[k].ends[1]];
   }
-  move(scratch, order, start.h, steps);
+  move(scratch, order, start->h, steps);
   const PointState same = scratch.state();
   motion.same_bits = same.x == live.vertices.position && same.v == live.vertices.velocity;
   return motion;
 }
 
-template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map2>&, const CellArrays&, const Problem&,
-                                              const MeshPlaces&, const RemainingCells&, int);
-template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map3>&, const CellArrays&, const Problem&,
-                                              const MeshPlaces&, const RemainingCells&, int);
-template RebuiltMotion compare_rebuilt_motion(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
-                                              const MeshPlaces&, const RemainingCells&, int);
+template RebuiltMotion compare_rebuilt_motion(const Subject<Map2>&, int);
+template RebuiltMotion compare_rebuilt_motion(const Subject<Map3>&, int);
+template RebuiltMotion compare_rebuilt_motion(const Subject<TetMap>&, int);
 
 }  // namespace dartboard

@@ -4,8 +4,7 @@
 #include <cstddef>
 
 #include "reference/summation_bound.h"
-#include "validation/conservation/conservation.h"
-#include "validation/conservation/mesh_places.h"
+#include "validation/conservation/subjects.h"
 
 namespace dartboard {
 
@@ -23,16 +22,11 @@ struct RebuiltMotion {
   bool same_cells = false, same_bits = false;
 };
 
-/// Neither the body nor its arrays change.   pre  `places` and `cells` are those of `start.mesh`
 template <class Map>
-RebuiltMotion compare_rebuilt_motion(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
-                                     const MeshPlaces& places, const RemainingCells& cells, int steps);
+RebuiltMotion compare_rebuilt_motion(const Subject<Map>& at, int steps);
 
-extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map2>&, const CellArrays&, const Problem&,
-                                                     const MeshPlaces&, const RemainingCells&, int);
-extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<Map3>&, const CellArrays&, const Problem&,
-                                                     const MeshPlaces&, const RemainingCells&, int);
-extern template RebuiltMotion compare_rebuilt_motion(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
-                                                     const MeshPlaces&, const RemainingCells&, int);
+extern template RebuiltMotion compare_rebuilt_motion(const Subject<Map2>&, int);
+extern template RebuiltMotion compare_rebuilt_motion(const Subject<Map3>&, int);
+extern template RebuiltMotion compare_rebuilt_motion(const Subject<TetMap>&, int);
 
 }  // namespace dartboard

@@ -40,30 +40,27 @@ RemainingNetwork remaining_network(const Problem& start, const RemainingCells& c
 }
 
 template <class Map>
-ReferenceMotion compare_with_reference(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
-                                       const MeshPlaces& places, const RemainingCells& cells, int steps) {
-  const RemainingNetwork left = remaining_network(start, cells);
+ReferenceMotion compare_with_reference(const Subject<Map>& at, int steps) {
+  const RemainingNetwork left = remaining_network(*at.start, at.cells);
   const auto state = [&](const LiveBody<Map>& of) {
     PointState s;
     for (const std::uint32_t corner : left.corner) {
-      const std::uint32_t k = of.vertex(of.map, places.corner[corner]);
+      const std::uint32_t k = of.vertex(of.map, at.places.corner[corner]);
       s.x.push_back(of.vertices.position[k]);
       s.v.push_back(of.vertices.velocity[k]);
     }
     return s;
   };
-  LiveBody<Map> live = body;  // the run must not notice that it was compared
+  const double h = at.start->h;
+  LiveBody<Map> live = at.body;  // the run must not notice that it was compared
   RungeKutta4 integrator;
-  for (int k = 0; k < steps; ++k) integrator.step(arrays, live, start.h);
-  const auto [end, spread] = reference::witnessed_motion(left.network, state(body), start.h, steps);
+  for (int k = 0; k < steps; ++k) integrator.step(at.views.cells, live, h);
+  const auto [end, spread] = reference::witnessed_motion(left.network, state(at.body), h, steps);
   return {reference::distance(reference::extended(state(live)), end), spread};
 }
 
-template ReferenceMotion compare_with_reference(const LiveBody<Map2>&, const CellArrays&, const Problem&,
-                                                const MeshPlaces&, const RemainingCells&, int);
-template ReferenceMotion compare_with_reference(const LiveBody<Map3>&, const CellArrays&, const Problem&,
-                                                const MeshPlaces&, const RemainingCells&, int);
-template ReferenceMotion compare_with_reference(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
-                                                const MeshPlaces&, const RemainingCells&, int);
+template ReferenceMotion compare_with_reference(const Subject<Map2>&, int);
+template ReferenceMotion compare_with_reference(const Subject<Map3>&, int);
+template ReferenceMotion compare_with_reference(const Subject<TetMap>&, int);
 
 }  // namespace dartboard

@@ -2,8 +2,7 @@
 // A body that was taken apart, moved by the reference alone: no map, no core, extended precision.
 
 #include "reference/schemes/extended_motion.h"
-#include "validation/conservation/conservation.h"
-#include "validation/conservation/mesh_places.h"
+#include "validation/conservation/subjects.h"
 
 namespace dartboard {
 
@@ -26,14 +25,10 @@ struct ReferenceMotion {
   reference::StateBound off, spread;
 };
 template <class Map>
-ReferenceMotion compare_with_reference(const LiveBody<Map>& body, const CellArrays& arrays, const Problem& start,
-                                       const MeshPlaces& places, const RemainingCells& cells, int steps);
+ReferenceMotion compare_with_reference(const Subject<Map>& at, int steps);
 
-extern template ReferenceMotion compare_with_reference(const LiveBody<Map2>&, const CellArrays&, const Problem&,
-                                                       const MeshPlaces&, const RemainingCells&, int);
-extern template ReferenceMotion compare_with_reference(const LiveBody<Map3>&, const CellArrays&, const Problem&,
-                                                       const MeshPlaces&, const RemainingCells&, int);
-extern template ReferenceMotion compare_with_reference(const LiveBody<TetMap>&, const CellArrays&, const Problem&,
-                                                       const MeshPlaces&, const RemainingCells&, int);
+extern template ReferenceMotion compare_with_reference(const Subject<Map2>&, int);
+extern template ReferenceMotion compare_with_reference(const Subject<Map3>&, int);
+extern template ReferenceMotion compare_with_reference(const Subject<TetMap>&, int);
 
 }  // namespace dartboard

@@ -1,37 +1,25 @@
 #pragma once
-// What a refined body is compared with, and when.
+// What a refined body is compared with.
 
-#include "validation/conservation/conservation_ledger.h"
-#include "validation/conservation/refinement_subject.h"
+#include "validation/conservation/conservation_checks.h"
 
 namespace dartboard {
 
-/// The comparisons of validate_refinement, each written into the ledger.
+/// Of a body that is refined and taken apart: within the roundings of the rule of refinement.
 template <class Map>
-class RefinementChecks {
+class RefinementChecks : public OperationChecks<RefinedSubject<Map>> {
  public:
-  RefinementChecks(const RefinedSubject<Map>& subject, ConservationLedger& ledger) : at_(subject), ledger_(ledger) {}
-
-  /// For a fresh body.   cost    O(cells)
-  void begin();
-  ConservedSums all_sums() const;
-  long euler() const;
-
-  /// What an operation changed by number: against the witness.
-  void changed_cells(const ChangedEmbeddings& changed);
-  /// `removed` is what went away; `more` roundings in a term, `elastic` what else may be off of the energy [J].
-  void sums(const ConservedSums& before, const ConservedSums& after, const ConservedSums& removed, std::size_t more,
-            double elastic);
-  void everything();
+  using OperationChecks<RefinedSubject<Map>>::OperationChecks;
 
  private:
-  void vertex(std::uint32_t k, SubdividedCells::Corner first);
-  void edge(std::uint32_t k, SubdividedCells::EdgeOfCell first);
-  void cell(std::uint32_t c);
+  using Base = OperationChecks<RefinedSubject<Map>>;
+  using Base::at_, Base::ledger_, Base::most_cells_;
 
-  const RefinedSubject<Map>& at_;
-  ConservationLedger& ledger_;
-  std::size_t most_cells_ = 1;  // around a vertex, so far
+  void vertex(std::uint32_t k, SubdividedCells::Corner first) override;
+  void edge(std::uint32_t k, SubdividedCells::EdgeOfCell first) override;
+  void cell(std::uint32_t c) override;
+  // stiffness is a sum over cells, not a product: as many roundings more as there are cells
+  std::size_t more_roundings() const override { return most_cells_; }
 };
 
 extern template class RefinementChecks<Map3>;

@@ -4,90 +4,72 @@
 #include <array>
 #include <cmath>
 
-#include "core/operations/dissociate_face.h"
-#include "core/operations/remove_volume.h"
-#include "core/operations/tear_fan.h"
 #include "core/plain/error.h"
-#include "core/plain/random.h"
-#include "core/walks/runge_kutta_4.h"
+#include "validation/conservation/operation_run.h"
 #include "validation/conservation/refinement_checks.h"
 #include "validation/conservation/refinement_effects.h"
 
 namespace dartboard {
 namespace {
 
-constexpr std::array compared{
-    Check::counts,          Check::euler,          Check::valid,           Check::mass_of_vertex,
-    Check::spring_of_edge,  Check::duplicated,     Check::views,           Check::total_mass,
-    Check::total_stiffness, Check::total_damping,  Check::linear_momentum, Check::angular_momentum,
-    Check::kinetic_energy,  Check::elastic_energy, Check::boundary_area,   Check::put_in_the_middle,
-    Check::mass_of_cell,    Check::forces_kept,    Check::mass_drift,      Check::stiffness_drift};
+constexpr std::array compared{Check::counts,
+                              Check::euler,
+                              Check::valid,
+                              Check::mass_of_vertex,
+                              Check::spring_of_edge,
+                              Check::ends,
+                              Check::duplicated,
+                              Check::views,
+                              Check::total_mass,
+                              Check::total_stiffness,
+                              Check::total_damping,
+                              Check::linear_momentum,
+                              Check::angular_momentum,
+                              Check::kinetic_energy,
+                              Check::elastic_energy,
+                              Check::boundary_area,
+                              Check::put_in_the_middle,
+                              Check::mass_of_cell,
+                              Check::forces_kept,
+                              Check::mass_drift,
+                              Check::stiffness_drift};
 
-constexpr std::size_t small = 24;     // cells; everything is compared after each series
 constexpr std::uint32_t deepest = 8;  // refinements that a cell may go through: each takes up to 8 from the square of h
 
 template <class Map>
-class Run {
+const Follow<Map> core_follow = follow<Map>;
+
+template <class Map>
+class Run : public OperationRun<RefinedSubject<Map>, RefinementChecks<Map>> {
+  using Base = OperationRun<RefinedSubject<Map>, RefinementChecks<Map>>;
+  using Base::at_, Base::checks_, Base::ledger_, Base::random_, Base::result_;
+
  public:
   Run(const Problem& start, const ConservationPlan& plan, const Tamper<Map>& tamper,
       const FollowSubdivision<Map>& followed)
-      : plan_(plan),
+      : Base(start, plan, {.longest_series = 3, .dissociations = 45, .seams = 45, .tears = 55, .tries = 0},
+             core_follow<Map>, compared),
         tamper_(tamper),
-        follow_(followed),
-        random_(plan.seed),
-        ledger_(result_, plan.seed, compared),
-        fresh_(start),
-        at_(fresh_),
-        checks_(at_, ledger_) {}
-
-  ConservationResult run() {
-    begin();
-    std::size_t next_everything = plan_.everything_every, next_progress = 1000;
-    while (!ledger_.broken() && result_.operations() < plan_.operations) {
-      if (at_.cells.count() == 0) {
-        if (fresh_.cells.count() == 0) break;
-        at_ = fresh_;
-        ++result_.refills;
-        begin();
-      }
-      move();
-      if (at_.cells.count() > 2 * fresh_.cells.count() + small) is_growing_ = false;
-      if (random_.below(100) < (is_growing_ ? 60u : 10u))
-        refine_something();
-      else
-        series();
-      ++result_.series;
-      if (tamper_) tamper_(at_.body, at_.views);
-      if (ledger_.broken()) break;
-      if (at_.cells.count() <= small || result_.operations() >= next_everything) {
-        checks_.everything();
-        next_everything = result_.operations() + plan_.everything_every;
-      }
-      if (result_.operations() >= next_progress) {
-        if (plan_.progress) plan_.progress(result_.operations());
-        next_progress += 1000;
-      }
-    }
-    if (!ledger_.broken()) checks_.everything();
-    if (!ledger_.broken()) compare_drift();
-    return std::move(result_);
-  }
+        follow_(followed) {}
 
  private:
-  void begin() {
+  void begin() override {
     is_growing_ = true;
-    checks_.begin();
-    const ConservedSums sums = checks_.all_sums();
-    mass_.begin(sums[Conserved::mass].value());
-    stiffness_.begin(sums[Conserved::stiffness].value());
-    checks_.everything();
+    Base::begin();
+  }
+
+  void change() override {
+    if (at_.cells.count() > 2 * this->fresh_.cells.count() + 24) is_growing_ = false;
+    if (random_.below(100) < (is_growing_ ? 60u : 10u))
+      refine_something();
+    else
+      this->series();
+    if (tamper_) tamper_(at_.body, at_.views);
   }
 
   // Gershgorin, as in moving_problem: stiffer springs and lighter vertices need a shorter step.
-  void move() {
-    LiveBody<Map>& body = at_.body;
-    const std::uint32_t steps = random_.below(3);
-    if (steps == 0 || body.vertices.size() == 0) return;
+  double step() const override {
+    const LiveBody<Map>& body = at_.body;
     std::vector<double> stiffness(body.vertices.size(), 0.0), damping(stiffness);
     at_.views.cells.for_each_edge(body, [&](std::uint32_t e, std::uint32_t a, std::uint32_t b) {
       for (const std::uint32_t k : {a, b}) {
@@ -95,29 +77,17 @@ class Run {
         damping[k] += body.springs[e].damping;
       }
     });
-    double fastest = 0.5 / at_.start().h;
+    double fastest = 0.5 / at_.start->h;
     for (std::uint32_t k = 0; k < stiffness.size(); ++k) {
       const double mass = body.vertices.mass[k];
       fastest = std::max(
-          {fastest, std::sqrt(2.0 * stiffness[k] / mass), 2.0 * damping[k] / mass + at_.start().material.viscosity});
+          {fastest, std::sqrt(2.0 * stiffness[k] / mass), 2.0 * damping[k] / mass + at_.start->material.viscosity});
     }
-    for (std::uint32_t k = 0; k < steps; ++k) rk4_.step(at_.views.cells, body, 0.5 / fastest);
-    result_.steps += steps;
+    return 0.5 / fastest;
   }
-
-  Dart some_dart() {
-    for (;;) {
-      const Dart d = at_.body.cell_dart[random_.below(at_.body.cell_dart.size())];
-      if (!at_.body.map.is_live(d)) continue;  // gone in this series
-      const auto& darts = at_.darts_of[at_.corner(d).cell];
-      return darts[random_.below(darts.size())];
-    }
-  }
-
-  // ---- refinement
 
   void refine_something() {
-    const Dart d = some_dart();
+    const Dart d = this->some_dart();
     const std::uint32_t dimension = 1 + random_.below(3);
     const double bracing = 0.5 * random_.below(3);
     if (dimension == 1) return refine_cell(Edge{d}, bracing);
@@ -156,6 +126,7 @@ class Run {
 
     ledger_.equal(Check::counts, body.vertices.size(), old.size() + 1, "dimension", 0);
     ledger_.equal(Check::euler, checks_.euler(), euler, "dimension", 3);
+    checks_.columns_fit();
     if (!ledger_.broken()) checks_.changed_cells(changed);
     if (ledger_.broken()) return;
     others_stay(old);
@@ -177,12 +148,11 @@ class Run {
       const double damped = is_half ? s.damping - whole.damping / 2.0 : s.damping;
       removed[Conserved::stiffness].add(-added);
       removed[Conserved::damping].add(-damped);
-      stiffness_.remove(-added);
+      this->stiffness_.remove(-added);
       if (!is_half) removed[Conserved::elastic].add(-0.5 * (s.stiffness * (e_now * e_now)));
     });
     checks_.sums(before, after, removed, 24, 1.001 * slack);
-    mass_.compare(after[Conserved::mass].value());
-    stiffness_.compare(after[Conserved::stiffness].value());
+    this->compare_totals(after);
     if (bracing == 0.0) forces_are_kept(forces_before, vertex, means);
   }
 
@@ -222,98 +192,8 @@ class Run {
     }
   }
 
-  // ---- dissociations, tears and removals
-
-  void series() {
-    const ConservedSums before = checks_.all_sums();
-    removed_ = {};
-    LiveBody<Map>& body = at_.body;
-    const std::array<std::size_t, 3> old{body.vertices.size(), body.springs.size(), body.face_dart.size()};
-    TopologyChange change;
-    for (std::uint32_t k = 1 + random_.below(3); k > 0 && at_.cells.count() > 0; --k) operate(change);
-    const Followed followed = follow(body, at_.views, change);
-    const std::array<std::size_t, 3> now{body.vertices.size(), body.springs.size(), body.face_dart.size()};
-    const std::array<std::size_t, 3> predicted{old[0] + change.vertices.size() - change.removed_vertices.size(),
-                                               old[1] + change.edges.size() - change.removed_edges.size(),
-                                               old[2] + change.faces.size() - change.removed_faces.size()};
-    for (std::size_t i = 0; i < 3; ++i) ledger_.equal(Check::counts, now[i], predicted[i], "dimension", i);
-    checks_.changed_cells(followed.embeddings);
-    if (ledger_.broken()) return;
-    const ConservedSums after = checks_.all_sums();
-    checks_.sums(before, after, removed_, 0, 0.0);
-    mass_.compare(after[Conserved::mass].value());
-    stiffness_.compare(after[Conserved::stiffness].value());
-  }
-
-  void operate(TopologyChange& change) {
-    Map& map = at_.body.map;
-    const std::uint32_t which = random_.below(100);
-    const Dart d = some_dart();
-    if (which < 45) {
-      dissociate(at_.side(d));
-      change.append(dissociate_face(map, d));
-      ++result_.dissociations;
-    } else if (which < 55) {
-      for (const Dart face : fan(map, d)) dissociate(at_.side(face));
-      change.append(tear_fan(map, d));
-      ++result_.tears;
-    } else {
-      take_away(at_.corner(d).cell);
-      change.append(remove_volume(map, d));
-      ++result_.removals;
-    }
-  }
-
-  void dissociate(SubdividedCells::Corner side) {
-    if (!at_.cells.is_joined(side)) return;
-    const auto other = at_.cells.cells()[side.cell].across[side.node];
-    for (const auto s : {side, other}) removed_[Conserved::boundary].add(-at_.cells.cells()[s.cell].side_area[s.node]);
-    at_.cells.dissociate(side);
-  }
-
-  // Numbers and states are those before the series.
-  void take_away(std::uint32_t c) {
-    const LiveBody<Map>& body = at_.body;
-    const auto cell = at_.cells.cells()[c];
-    std::array<std::uint32_t, 4> number{};
-    for (std::uint32_t n = 0; n < 4; ++n) {
-      number[n] = at_.vertex({c, n});
-      removed_.add_node(cell.mass / 4.0, body.vertices.position[number[n]], body.vertices.velocity[number[n]]);
-      mass_.remove(cell.mass / 4.0);
-    }
-    for (std::uint32_t e = 0; e < 6; ++e) {
-      const auto [a, b] = SubdividedCells::ends[e];
-      const double stiffness = at_.start().material.stiffness * cell.share[e];
-      removed_.add_spring(stiffness, at_.start().material.damping * cell.share[e],
-                          elongation(body.springs[at_.edge({c, e})].rest_length, body.vertices.position[number[a]],
-                                     body.vertices.position[number[b]]));
-      stiffness_.remove(stiffness);
-    }
-    for (std::uint32_t n = 0; n < 4; ++n) {
-      dissociate({c, n});
-      removed_[Conserved::boundary].add(cell.side_area[n]);
-    }
-    at_.cells.remove(c);
-  }
-
-  void compare_drift() {
-    const double target = drift_target(result_.operations());
-    ledger_.within(Check::mass_drift, mass_.largest(), target, 1.0, mass_.largest(), 0.0);
-    ledger_.within(Check::stiffness_drift, stiffness_.largest(), target, 1.0, stiffness_.largest(), 0.0);
-  }
-
-  const ConservationPlan& plan_;
   const Tamper<Map>& tamper_;
   const FollowSubdivision<Map>& follow_;
-  SplitMix64 random_;
-  ConservationResult result_;
-  ConservationLedger ledger_;
-  const RefinedSubject<Map> fresh_;
-  RefinedSubject<Map> at_;
-  RefinementChecks<Map> checks_;
-  RungeKutta4 rk4_;
-  ConservedSums removed_;  // by the series
-  Drift mass_, stiffness_;
   bool is_growing_ = true;
 };
 

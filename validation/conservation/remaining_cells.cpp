@@ -101,6 +101,22 @@ std::uint32_t RemainingCells::edge_at(std::uint32_t cell, std::uint32_t p, std::
   return k;
 }
 
+std::uint32_t RemainingCells::same_corner(std::uint32_t corner, std::uint32_t cell) const {
+  return corner_at(cell, mesh_->nodes[corner]);
+}
+
+std::uint32_t RemainingCells::same_edge(std::uint32_t edge, std::uint32_t cell) const {
+  return edge_at(cell, mesh_->nodes[ends_[edge].a], mesh_->nodes[ends_[edge].b]);
+}
+
+std::optional<std::uint32_t> RemainingCells::joined_side(SplitMix64& random) const {
+  const auto sides = static_cast<std::uint32_t>(opposite_.size());
+  const std::uint32_t from = random.below(sides);
+  for (std::uint32_t k = 0; k < sides; ++k)
+    if (const std::uint32_t side = (from + k) % sides; is_joined(side)) return side;
+  return std::nullopt;
+}
+
 bool RemainingCells::has_point(std::uint32_t side, std::uint32_t point) const {
   const auto begin = side_points_.begin();
   return std::find(begin + first_point_[side], begin + first_point_[side + 1], point) != begin + first_point_[side + 1];

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/plain/mesh.h"
+#include "core/plain/random.h"
 
 namespace dartboard {
 
@@ -39,6 +41,11 @@ class RemainingCells {
     std::uint32_t a, b;
   };
   Ends ends(std::uint32_t edge) const { return ends_[edge]; }
+  /// The corner, or the edge, of `cell` at the same mesh points.
+  std::uint32_t same_corner(std::uint32_t corner, std::uint32_t cell) const;
+  std::uint32_t same_edge(std::uint32_t edge, std::uint32_t cell) const;
+  /// A side that is joined, drawn at random; nothing when there is none.
+  std::optional<std::uint32_t> joined_side(SplitMix64& random) const;
   /// Of a side at rest, the same bits on both sides: its area [m^2], the length [m] of an edge of a surface.
   double measure(std::uint32_t side) const { return measure_[side]; }
 

@@ -32,17 +32,17 @@ std::vector<std::uint32_t> numbers_at(std::vector<Dart> darts, Number&& number) 
 }  // namespace
 
 template <class Map>
-void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& places, const RemainingCells& cells,
-                           std::span<const std::uint32_t> leaving, double h, ConservationLedger& ledger) {
+void split_off_and_compare(Subject<Map>& at, std::span<const std::uint32_t> leaving, ConservationLedger& ledger) {
+  LiveBody<Map>& body = at.body;
   LiveBody<Map> whole = body;
-  const CellArrays whole_arrays = views.cells;
+  const CellArrays whole_arrays = at.views.cells;
   std::vector<Dart> darts;
-  for (const std::uint32_t c : leaving) darts.insert(darts.end(), places.darts_of[c].begin(), places.darts_of[c].end());
+  for (const std::uint32_t c : leaving) darts.insert(darts.end(), at.darts_of(c).begin(), at.darts_of(c).end());
   const auto vertices = numbers_at(darts, [&whole](Dart d) { return whole.vertex(whole.map, d); });
   const auto edges = numbers_at(darts, [&whole](Dart d) { return whole.edge(whole.map, d); });
 
-  auto split = split_off(body, places.darts_of[leaving[0]].front());
-  views.apply(body, split.change, split.changed);
+  auto split = split_off(body, at.darts_of(leaving[0]).front());
+  at.views.apply(body, split.change, split.changed);
   LiveBody<Map>& part = split.part;
   CellArrays part_arrays;
   part_arrays.rebuild(part);
@@ -52,7 +52,7 @@ void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& 
   ledger.equal(Check::split_cells, part.cell_dart.size(), leaving.size(), "cells of a part, cells", which);
   ledger.equal(Check::split_cells, part.vertices.size(), vertices.size(), "vertices of a part, cells", which);
   ledger.equal(Check::split_cells, part.springs.size(), edges.size(), "springs of a part, cells", which);
-  ledger.equal(Check::split_cells, body.cell_dart.size(), cells.count() - leaving.size(), "cells left, of a part of",
+  ledger.equal(Check::split_cells, body.cell_dart.size(), at.cells.count() - leaving.size(), "cells left, of a part of",
                which);
   ledger.equal(Check::split_cells, body.vertices.size(), whole.vertices.size() - vertices.size(),
                "vertices left, of a part of", which);
@@ -63,7 +63,7 @@ void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& 
   if (ledger.broken()) return;
 
   const ConservedSums before = sums_of(whole, whole_arrays), of_part = sums_of(part, part_arrays),
-                      of_rest = sums_of(body, views.cells);
+                      of_rest = sums_of(body, at.views.cells);
   for (std::size_t i = 0; i < conserved_count; ++i) {
     const TwofoldSum &w = before.sums[i], &p = of_part.sums[i], &r = of_rest.sums[i];
     const double bound = 1.001 * gamma(4) * (w.magnitude + p.magnitude + r.magnitude);
@@ -72,8 +72,8 @@ void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& 
   }
 
   // its numbers stand in the order in which they stood in the whole
-  move(whole, whole_arrays, h);
-  move(part, part_arrays, h);
+  move(whole, whole_arrays, at.start->h);
+  move(part, part_arrays, at.start->h);
   for (std::uint32_t k = 0; k < vertices.size(); ++k) {
     const bool same = part.vertices.position[k] == whole.vertices.position[vertices[k]] &&
                       part.vertices.velocity[k] == whole.vertices.velocity[vertices[k]];
@@ -81,11 +81,8 @@ void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& 
   }
 }
 
-template void split_off_and_compare(LiveBody<Map2>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                    std::span<const std::uint32_t>, double, ConservationLedger&);
-template void split_off_and_compare(LiveBody<Map3>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                    std::span<const std::uint32_t>, double, ConservationLedger&);
-template void split_off_and_compare(LiveBody<TetMap>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                    std::span<const std::uint32_t>, double, ConservationLedger&);
+template void split_off_and_compare(Subject<Map2>&, std::span<const std::uint32_t>, ConservationLedger&);
+template void split_off_and_compare(Subject<Map3>&, std::span<const std::uint32_t>, ConservationLedger&);
+template void split_off_and_compare(Subject<TetMap>&, std::span<const std::uint32_t>, ConservationLedger&);
 
 }  // namespace dartboard

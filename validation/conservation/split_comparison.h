@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "validation/conservation/conservation_ledger.h"
-#include "validation/conservation/mesh_places.h"
+#include "validation/conservation/subjects.h"
 
 namespace dartboard {
 
@@ -14,16 +14,12 @@ namespace dartboard {
 /// their bits, so the conserved sums of the two and of the whole have the very same terms, and differ by what twofold
 /// sums round: gamma_4 of the absolute values (conserved_sums.h). Some steps of the part must give the bits of the same
 /// steps of the whole.
-/// pre  `leaving` are the cells that hang together with one of them; `places` and `cells` are those of the body
+/// pre  `leaving` are the cells that hang together with one of them, still there in the witness
 template <class Map>
-void split_off_and_compare(LiveBody<Map>& body, Views& views, const MeshPlaces& places, const RemainingCells& cells,
-                           std::span<const std::uint32_t> leaving, double h, ConservationLedger& ledger);
+void split_off_and_compare(Subject<Map>& at, std::span<const std::uint32_t> leaving, ConservationLedger& ledger);
 
-extern template void split_off_and_compare(LiveBody<Map2>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                           std::span<const std::uint32_t>, double, ConservationLedger&);
-extern template void split_off_and_compare(LiveBody<Map3>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                           std::span<const std::uint32_t>, double, ConservationLedger&);
-extern template void split_off_and_compare(LiveBody<TetMap>&, Views&, const MeshPlaces&, const RemainingCells&,
-                                           std::span<const std::uint32_t>, double, ConservationLedger&);
+extern template void split_off_and_compare(Subject<Map2>&, std::span<const std::uint32_t>, ConservationLedger&);
+extern template void split_off_and_compare(Subject<Map3>&, std::span<const std::uint32_t>, ConservationLedger&);
+extern template void split_off_and_compare(Subject<TetMap>&, std::span<const std::uint32_t>, ConservationLedger&);
 
 }  // namespace dartboard

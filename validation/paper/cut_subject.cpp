@@ -6,11 +6,7 @@
 
 namespace dartboard {
 
-CutSubject::CutSubject(const Problem& at_rest)
-    : problem(at_rest),
-      body(build_body<Map3, Held::by_every_dart>(problem)),
-      cells(problem.mesh),
-      places(body, problem.mesh, cells) {
+CutSubject::CutSubject(const Problem& problem) : Subject<Map3>(problem) {
   const Mesh& mesh = problem.mesh;
   for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
     const reference::Rational nodes = mesh.cell(c).size();
@@ -33,13 +29,11 @@ CutSubject::Mass CutSubject::mass_of(std::span<const std::uint32_t> corners) con
   return {exact, 1.001 * (bound + gamma(corners.size() + 2) * exact)};
 }
 
-std::uint32_t CutSubject::cell_of_side(std::uint32_t side) const { return places.cell_of[places.side[side].index]; }
-
 std::vector<std::uint32_t> CutSubject::corners_of(std::uint32_t side) const {
   const std::uint32_t c = cell_of_side(side);
   std::vector<std::uint32_t> corners;
-  for (const int k : sides_of(problem.mesh.kinds[c])[side - cells.first_side(c)])
-    corners.push_back(problem.mesh.first[c] + static_cast<std::uint32_t>(k));
+  for (const int k : sides_of(start->mesh.kinds[c])[side - cells.first_side(c)])
+    corners.push_back(start->mesh.first[c] + static_cast<std::uint32_t>(k));
   return corners;
 }
 
@@ -47,39 +41,10 @@ std::vector<std::uint32_t> CutSubject::edges_of(std::uint32_t side) const {
   const std::uint32_t c = cell_of_side(side);
   const auto corners = corners_of(side);
   const auto has = [&](std::uint32_t k) { return std::ranges::find(corners, k) != corners.end(); };
-  const auto follow = [&](std::uint32_t a, std::uint32_t b) {
-    const auto at = std::ranges::find(corners, a) - corners.begin(),
-               to = std::ranges::find(corners, b) - corners.begin();
-    const auto n = static_cast<std::ptrdiff_t>(corners.size());
-    return (at + 1) % n == to || (to + 1) % n == at;
-  };
-  std::vector<std::uint32_t> edges;
-  for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e) {
-    const auto [a, b] = cells.ends(e);
-    if (has(a) && has(b) && follow(a, b)) edges.push_back(e);
-  }
+  std::vector<std::uint32_t> edges;  // of a cell between two corners of a side: its diagonals are no edges
+  for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e)
+    if (has(cells.ends(e).a) && has(cells.ends(e).b)) edges.push_back(e);
   return edges;
-}
-
-std::uint32_t CutSubject::same_corner(std::uint32_t corner, std::uint32_t cell) const {
-  std::uint32_t k = problem.mesh.first[cell];
-  while (problem.mesh.nodes[k] != problem.mesh.nodes[corner]) ++k;
-  return k;
-}
-
-std::uint32_t CutSubject::same_edge(std::uint32_t edge, std::uint32_t cell) const {
-  const std::uint32_t a = same_corner(cells.ends(edge).a, cell), b = same_corner(cells.ends(edge).b, cell);
-  std::uint32_t e = cells.first_edge(cell);
-  while (!(cells.ends(e).a == a && cells.ends(e).b == b) && !(cells.ends(e).a == b && cells.ends(e).b == a)) ++e;
-  return e;
-}
-
-std::optional<std::uint32_t> CutSubject::joined_side(SplitMix64& random) const {
-  const auto sides = static_cast<std::uint32_t>(places.side.size());
-  const std::uint32_t from = random.below(sides);
-  for (std::uint32_t k = 0; k < sides; ++k)
-    if (const std::uint32_t side = (from + k) % sides; cells.is_joined(side)) return side;
-  return std::nullopt;
 }
 
 void CutSubject::deform() {

@@ -2,16 +2,12 @@
 // A body to be cut, beside a witness that knows its cells, their exact masses, and no dart.
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mechanics/adapt.h"
-#include "core/plain/random.h"
 #include "reference/exact_measure.h"
-#include "validation/conservation/conservation.h"
-#include "validation/conservation/mesh_places.h"
-#include "validation/conservation/remaining_cells.h"
+#include "validation/conservation/subjects.h"
 
 namespace dartboard {
 
@@ -19,18 +15,12 @@ namespace dartboard {
 using Adapt = std::function<void(LiveBody<Map3>&, const TopologyChange&)>;
 inline const Adapt core_adapt = [](LiveBody<Map3>& body, const TopologyChange& change) { adapt(body, change); };
 
-struct CutSubject {
-  Problem problem;
-  LiveBody<Map3> body;
-  RemainingCells cells;
-  MeshPlaces places;
+struct CutSubject : Subject<Map3> {
   std::vector<reference::Rational> share;  // by cell: what each of its nodes gets of its mass, exact [kg]
   std::vector<double> rounding;            // by cell: how far core's share may be off
 
-  /// pre  a solid without a Young's modulus
+  /// pre  a solid without a Young's modulus, which outlives this
   explicit CutSubject(const Problem& problem);
-  CutSubject(const CutSubject&) = delete;
-  CutSubject& operator=(const CutSubject&) = delete;
 
   /// The mass that the corners of one vertex have in common, and how far core's sum of as many shares may be from it.
   struct Mass {
@@ -38,18 +28,10 @@ struct CutSubject {
   };
   Mass mass_of(std::span<const std::uint32_t> corners) const;
 
-  std::uint32_t vertex_at(std::uint32_t corner) const { return body.vertex(body.map, places.corner[corner]); }
-  std::uint32_t edge_at(std::uint32_t edge) const { return body.edge(body.map, places.edge[edge]); }
-  std::uint32_t cell_of_side(std::uint32_t side) const;
+  std::uint32_t cell_of_side(std::uint32_t side) const { return cell(places.side[side]); }
   /// The corners of a side of a cell, and its edges.
   std::vector<std::uint32_t> corners_of(std::uint32_t side) const;
   std::vector<std::uint32_t> edges_of(std::uint32_t side) const;
-  /// The corner, or the edge, of `cell` at the same mesh points.
-  std::uint32_t same_corner(std::uint32_t corner, std::uint32_t cell) const;
-  std::uint32_t same_edge(std::uint32_t edge, std::uint32_t cell) const;
-
-  /// A side that is joined, drawn at random; nothing when there is none.
-  std::optional<std::uint32_t> joined_side(SplitMix64& random) const;
 
   /// Sheared, stretched and in motion: nothing that is computed from the present shape is as at rest.
   void deform();

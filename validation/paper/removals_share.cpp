@@ -49,28 +49,28 @@ RemovalAnswers try_removals(const Problem& problem, int removals, std::uint64_t 
       if (s.cells.is_joined(side)) sides.insert(s.cells.opposite(side));
     for (std::uint32_t n = problem.mesh.first[c]; n < problem.mesh.first[c + 1]; ++n) {
       const auto around = s.cells.vertex(n);
-      mass_rounding += 2.0 * gamma(around.size() + 1) * s.body.vertices.mass[s.vertex_at(n)];
+      mass_rounding += 2.0 * gamma(around.size() + 1) * s.body.vertices.mass[s.vertex(n)];
       for (const std::uint32_t m : around)
         if (s.cells.cell_of_corner(m) != c) corners.insert(m);
     }
     const auto is_own = [&](std::uint32_t e) { return s.cells.first_edge(c) <= e && e < s.cells.first_edge(c + 1); };
     for (std::uint32_t e = s.cells.first_edge(c); e < s.cells.first_edge(c + 1); ++e) {
-      stiffness_rounding += gamma(2) * s.body.springs[s.edge_at(e)].stiffness;
+      stiffness_rounding += gamma(2) * s.body.springs[s.edge(e)].stiffness;
       for (const std::uint32_t f : s.cells.edge(e))
         if (!is_own(f)) edges.insert(f);
     }
 
     const Totals before = totals_of(s.body);
-    follow(s.body, remove_volume(s.body.map, s.places.darts_of[c].front()));
+    follow(s.body, remove_volume(s.body.map, s.darts_of(c).front()));
     s.cells.remove(c);
-    for (const Dart d : s.places.darts_of[c]) gone = gone && !s.body.map.is_live(d);
+    for (const Dart d : s.darts_of(c)) gone = gone && !s.body.map.is_live(d);
     for (const std::uint32_t m : corners) {
       const auto [exact, bound] = s.mass_of(s.cells.vertex(m));
-      masses.compare(s.body.vertices.mass[s.vertex_at(m)], exact, bound);
+      masses.compare(s.body.vertices.mass[s.vertex(m)], exact, bound);
     }
     for (const std::uint32_t e : edges)
-      stiffness_counted = stiffness_counted &&
-                          s.body.springs[s.edge_at(e)].stiffness == static_cast<double>(s.cells.edge(e).size()) * k;
+      stiffness_counted =
+          stiffness_counted && s.body.springs[s.edge(e)].stiffness == static_cast<double>(s.cells.edge(e).size()) * k;
     neighbours += corners.size();
     const Totals after = totals_of(s.body);
     lost_mass.compare(lost(before.mass, after.mass), reference::rounded(s.share[c] * problem.mesh.cell(c).size()),
@@ -82,7 +82,7 @@ RemovalAnswers try_removals(const Problem& problem, int removals, std::uint64_t 
     for (const std::uint32_t side : sides) freed = freed && s.body.map.is_free<3>(s.places.side[side]);
     faces_freed += sides.size();
     for (std::uint32_t side = 0; side < s.places.side.size(); ++side)
-      if (s.cells.is_there(s.places.cell_of[s.places.side[side].index]))
+      if (s.cells.is_there(s.cell_of_side(side)))
         only_these = only_these && s.body.map.is_free<3>(s.places.side[side]) == !s.cells.is_joined(side);
   }
 

@@ -23,10 +23,10 @@ struct Place {
 
 /// The volume of the first cell as the body lies now, over that at rest.
 double stretch(const CutSubject& s) {
-  Mesh now = s.problem.mesh;
+  Mesh now = s.start->mesh;
   for (std::size_t k = 0; k < s.body.vertices.size(); ++k)
     now.points[s.body.vertices.point[k]] = s.body.vertices.position[k];
-  return reference::exact_measure(now, 0) / reference::exact_measure(s.problem.mesh, 0);
+  return reference::exact_measure(now, 0) / reference::exact_measure(s.start->mesh, 0);
 }
 
 }  // namespace
@@ -42,20 +42,20 @@ SharesAfterCuts try_dissociations(const Problem& problem, int dissociations, std
   bool stiffness_counted = true, state_kept = true, own_embeddings = true;
   int done = 0, vertices_apart = 0, edges_apart = 0;
   for (; done < dissociations; ++done) {
-    const auto side = s.joined_side(random);
+    const auto side = s.cells.joined_side(random);
     if (!side) break;
     const std::uint32_t other = s.cell_of_side(s.cells.opposite(*side));
     std::vector<Place> vertices, edges;
     for (const std::uint32_t k : s.corners_of(*side)) {
-      const std::uint32_t v = s.vertex_at(k);
-      vertices.push_back({k, s.same_corner(k, other), copy(s.cells.vertex(k))});
+      const std::uint32_t v = s.vertex(k);
+      vertices.push_back({k, s.cells.same_corner(k, other), copy(s.cells.vertex(k))});
       vertices.back().mass = s.body.vertices.mass[v];
       vertices.back().position = s.body.vertices.position[v];
       vertices.back().velocity = s.body.vertices.velocity[v];
     }
     for (const std::uint32_t k : s.edges_of(*side)) {
-      const Spring spring = s.body.springs[s.edge_at(k)];
-      edges.push_back({k, s.same_edge(k, other), copy(s.cells.edge(k)), 0.0, spring.stiffness, spring.damping});
+      const Spring spring = s.body.springs[s.edge(k)];
+      edges.push_back({k, s.cells.same_edge(k, other), copy(s.cells.edge(k)), 0.0, spring.stiffness, spring.damping});
     }
 
     follow(s.body, dissociate_face(s.body.map, s.places.side[*side]));
@@ -64,7 +64,7 @@ SharesAfterCuts try_dissociations(const Problem& problem, int dissociations, std
     for (const Place& p : vertices) {
       const Numbers here = copy(s.cells.vertex(p.here)), there = copy(s.cells.vertex(p.there));
       const bool apart = std::ranges::find(here, p.there) == here.end();
-      const std::uint32_t v = s.vertex_at(p.here), w = s.vertex_at(p.there);
+      const std::uint32_t v = s.vertex(p.here), w = s.vertex(p.there);
       const VertexColumns& columns = s.body.vertices;
       own_embeddings = own_embeddings && (v != w) == apart;
       vertices_apart += apart ? 1 : 0;
@@ -81,7 +81,7 @@ SharesAfterCuts try_dissociations(const Problem& problem, int dissociations, std
     for (const Place& p : edges) {
       const Numbers here = copy(s.cells.edge(p.here)), there = copy(s.cells.edge(p.there));
       const bool apart = std::ranges::find(here, p.there) == here.end();
-      const std::uint32_t e = s.edge_at(p.here), f = s.edge_at(p.there);
+      const std::uint32_t e = s.edge(p.here), f = s.edge(p.there);
       own_embeddings = own_embeddings && (e != f) == apart;
       edges_apart += apart ? 1 : 0;
       // a whole number times k is rounded once

@@ -3,7 +3,6 @@
 #include "benchmarks/cli/study_names.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
-#include "benchmarks/studies/foretold/foretold_study.h"
 #include "benchmarks/studies/models/model_advice_study.h"
 #include "benchmarks/studies/tradeoff/audit_study.h"
 #include "benchmarks/studies/tradeoff/recommend_study.h"
@@ -35,8 +34,8 @@ void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
     run_study(
         options, {.label = "recommend", .facts = {.seeds = {{"scenes and errors", options.seed}}}},
         [&](StudyLog& log) {
-          return options.long_motions ? foretold_study(options.seed, options.quick, log)
-                                      : audit_study(options.seed, options.quick, log);
+          return audit_study(options.long_motions ? AuditKind::long_motions : AuditKind::scenes, options.seed,
+                             options.quick, log);
         },
         outcome);
     return;

@@ -14,14 +14,17 @@ struct Extent {
   std::uint64_t long_scenes, long_errors;
   std::uint64_t endless_scenes;  // one error each
 };
-constexpr Extent full_extent{14, 3, 2, 2, 2}, quick_extent{2, 2, 0, 0, 0};
+// by kind: in full, and quick
+constexpr Extent extents[2][2]{{{14, 3, 2, 2, 2}, {2, 2, 0, 0, 0}}, {{13, 5, 0, 0, 0}, {2, 5, 0, 0, 0}}};
 
-/// Errors between 1e-2 and 1e-8, one in each of `count` equal parts on the logarithmic scale.
-std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
+const Extent& extent_of(AuditKind kind, bool quick) { return extents[kind == AuditKind::long_motions][quick]; }
+
+/// Errors from the largest to the smallest, one in each of `count` equal parts on the logarithmic scale.
+std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count, double largest, double smallest) {
   std::vector<double> errors;
   for (std::uint64_t k = 0; k < count; ++k) {
-    const double u = 0.5 * (random.next_signed() + 1.0);
-    errors.push_back(std::pow(10.0, -2.0 - 6.0 * (static_cast<double>(k) + u) / static_cast<double>(count)));
+    const double u = (static_cast<double>(k) + 0.5 * (random.next_signed() + 1.0)) / static_cast<double>(count);
+    errors.push_back(largest * std::pow(smallest / largest, u));
   }
   return errors;
 }
@@ -30,15 +33,17 @@ std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count) {
 
 double longest_sweep_run(double dearest_pick_s) { return std::max(2.2 * dearest_pick_s, 0.005); }
 
-AuditCases::AuditCases(std::uint64_t seed, bool quick) : seed_(seed), quick_(quick), random_(seed + 77) {}
+AuditCases::AuditCases(AuditKind kind, std::uint64_t seed, bool quick)
+    : kind_(kind), seed_(seed), quick_(quick), random_(seed + (kind == AuditKind::long_motions ? 177 : 77)) {}
 
 std::uint64_t AuditCases::size() const {
-  const Extent& extent = quick_ ? quick_extent : full_extent;
+  const Extent& extent = extent_of(kind_, quick_);
   return extent.scenes + extent.long_scenes + extent.endless_scenes;
 }
 
 AuditCase AuditCases::next() {
-  const Extent& extent = quick_ ? quick_extent : full_extent;
+  if (kind_ == AuditKind::long_motions) return next_long_motion();
+  const Extent& extent = extent_of(kind_, quick_);
   const std::uint64_t k = drawn_++;
   AuditCase drawn;
   drawn.check = k < extent.scenes                        ? AuditCheck::reference_and_sweep
@@ -52,10 +57,29 @@ AuditCase AuditCases::next() {
     options = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
   drawn.scene = random_scene(seed_, k, options);
   if (drawn.check == AuditCheck::costs_only)
-    drawn.errors = {std::sqrt(draw_errors(random_, 1)[0] * 1e-4)};
+    drawn.errors = draw_errors(random_, 1, 1e-3, 1e-6);
   else
-    drawn.errors = draw_errors(random_, drawn.check == AuditCheck::reference ? extent.long_errors : extent.errors);
+    drawn.errors =
+        draw_errors(random_, drawn.check == AuditCheck::reference ? extent.long_errors : extent.errors, 1e-2, 1e-8);
   return drawn;
+}
+
+AuditCase AuditCases::next_long_motion() {
+  // springs times duration times omega_max: a run makes two to twenty evaluations of some nanoseconds of each
+  const double work = quick_ ? 2e5 : 2e7;
+  const RandomSceneOptions options{.least_points = 60,
+                                   .most_points = 200,
+                                   .most_work = 1.3 * work,
+                                   .least_work = work,
+                                   .damped_work = 2.6,
+                                   .least_phase = 1e3,
+                                   .most_phase = 2e6,
+                                   .least_strain = 2e-4,
+                                   .most_strain = 1e-3,
+                                   .least_sag = 5e-4,
+                                   .most_sag = 5e-3,
+                                   .cuts = false};
+  return {random_scene(seed_, drawn_++, options), draw_errors(random_, extent_of(kind_, quick_).errors, 3e-5, 3e-7)};
 }
 
 }  // namespace dartboard

@@ -9,6 +9,14 @@
 
 namespace dartboard {
 
+/// `scenes`: those of any kind that a reference and a sweep can follow; longer ones without a sweep, and without a
+/// reference by other codes; at last some of which only the costs are known.
+///
+/// `long_motions` (`--long`): small bodies, of whose motion pilots see a hundredth at most: some 1e5 / omega_max,
+/// thousands of the slow periods. Strains and gravity are a fortieth of those of `scenes`, and nothing is cut: chaotic
+/// motions have no error to foretell, and what an event sets free shows in no pilot before it.
+enum class AuditKind { scenes, long_motions };
+
 /// What is done beside following the recommendations.
 enum class AuditCheck { reference_and_sweep, reference, costs_only };
 
@@ -18,22 +26,25 @@ struct AuditCase {
   AuditCheck check = AuditCheck::reference_and_sweep;
 };
 
-/// [s] How long a run of the sweep may take beside picks of which the dearest is predicted to take that long. What
-/// takes longer cannot be cheaper than it, but steps are powers of two.
+/// [s] How long a run of the sweep may take beside picks of which the dearest takes that long. What takes longer cannot
+/// be cheaper than it, but steps are powers of two.
 double longest_sweep_run(double dearest_pick_s);
 
-/// The cases of an audit, one after the other: scenes that a reference and a sweep can follow; longer ones without a
-/// sweep, and without a reference by other codes; at last one whose costs alone can be told. With `quick` a few small
-/// ones of the first kind.
+/// The cases of an audit, one after the other. With `quick` there are two small ones, of `scenes` with a sweep.
 class AuditCases {
  public:
-  AuditCases(std::uint64_t seed, bool quick);
+  AuditCases(AuditKind kind, std::uint64_t seed, bool quick);
 
   std::uint64_t size() const;
+  /// [s] That pilots are granted for a recommendation; 0: by its rule.
+  double budget_s() const { return kind_ == AuditKind::long_motions ? 0.03 : 0.0; }
   /// pre     fewer than size() were drawn
   AuditCase next();
 
  private:
+  AuditCase next_long_motion();
+
+  AuditKind kind_;
   std::uint64_t seed_;
   bool quick_;
   SplitMix64 random_;

@@ -1,15 +1,16 @@
 #pragma once
-// `dartboard recommend --audit`: unseen scenes, their recommendations, and what happens when they are followed.
-
-#include <cstdint>
+// `dartboard recommend --audit [--long]`: unseen scenes, their recommendations, and what happens when they are
+// followed.
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
+#include "benchmarks/studies/tradeoff/audit_plan.h"
 
 namespace dartboard {
 
-/// Recommend for scenes and errors drawn from a seed, follow the recommendations, and compare with certified
-/// references and with sweeps of all methods.
-Report audit_study(std::uint64_t seed, bool quick, StudyLog& log);
+/// Recommend for scenes and errors drawn from a seed, follow the recommendations, and compare with references and with
+/// sweeps of all methods. Of long motions pilots may take a twentieth of the run at most, and the references are codes
+/// that share nothing with ours.
+Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, StudyLog& log);
 
 }  // namespace dartboard

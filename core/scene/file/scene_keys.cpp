@@ -211,32 +211,17 @@ std::vector<SceneKey> keys_by_hand() {
       // ---- selections
       {.shape = vertex_selection, .name = "ids", .type = integers, .range = number,
        .help = "these points of the mesh, counted from 0 in the order of the file"},
-      {.shape = vertex_selection, .name = "box", .type = object, .of = box, .help = "the vertices in a box"},
+      {.shape = vertex_selection, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
       {.shape = vertex_selection, .name = "plane", .type = object, .of = plane,
-       .help = "the vertices on a plane or on the side that its normal points to"},
-      {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
+       .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
+      {.shape = vertex_selection, .name = "sphere", .type = object, .of = sphere,
+       .help = "the vertices in a sphere at rest"},
       {.shape = vertex_selection, .name = "around", .type = object, .of = around,
-       .help = "the vertices near a path, or near what a blade sweeps"},
-      {.shape = held, .name = "ids", .type = integers, .range = number,
-       .help = "these points of the mesh, counted from 0 in the order of the file"},
-      {.shape = held, .name = "box", .type = object, .of = box, .help = "the vertices in a box"},
-      {.shape = held, .name = "plane", .type = object, .of = plane,
-       .help = "the vertices on a plane or on the side that its normal points to"},
-      {.shape = held, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere"},
-      {.shape = held, .name = "around", .type = object, .of = around,
-       .help = "the vertices near a path, or near what a blade sweeps"},
+       .help = "the vertices that at rest are near a path, or near what a blade sweeps"},
       {.shape = held, .name = "axes", .type = choices, .least_size = 1, .choices = {"x", "y", "z"},
        .standard = "[\"x\", \"y\", \"z\"]",
        .help = "along which they are held; along the others they move freely. [\"x\"] makes a symmetry plane across x, "
                "[\"y\", \"z\"] a rail along x. What several selections hold adds up"},
-      {.shape = driven, .name = "ids", .type = integers, .range = number,
-       .help = "these points of the mesh, counted from 0 in the order of the file"},
-      {.shape = driven, .name = "box", .type = object, .of = box, .help = "the vertices in a box at rest"},
-      {.shape = driven, .name = "plane", .type = object, .of = plane,
-       .help = "the vertices that at rest are on a plane or on the side that its normal points to"},
-      {.shape = driven, .name = "sphere", .type = object, .of = sphere, .help = "the vertices in a sphere at rest"},
-      {.shape = driven, .name = "around", .type = object, .of = around,
-       .help = "the vertices that at rest are near a path, or near what a blade sweeps"},
       {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
        .help = "that they keep, one for all or linear in their place at rest"},
       {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
@@ -245,14 +230,6 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "time they stop at, and are held still from; left out, they move to the end"},
       {.shape = driven, .name = "reverse_every", .type = real, .unit = "s", .range = positive,
        .help = "time after which they turn round, again and again; left out, never"},
-      {.shape = force, .name = "ids", .type = integers, .range = number,
-       .help = "on these points of the mesh, counted from 0 in the order of the file"},
-      {.shape = force, .name = "box", .type = object, .of = box, .help = "on the vertices in a box at rest"},
-      {.shape = force, .name = "plane", .type = object, .of = plane,
-       .help = "on the vertices that at rest are on a plane or on the side that its normal points to"},
-      {.shape = force, .name = "sphere", .type = object, .of = sphere, .help = "on the vertices in a sphere at rest"},
-      {.shape = force, .name = "around", .type = object, .of = around,
-       .help = "on the vertices that at rest are near a path, or near what a blade sweeps"},
       {.shape = force, .name = "force", .type = point, .unit = "N",
        .help = "on all of them together, shared in proportion to their masses"},
       {.shape = force, .name = "pressure", .type = real, .unit = "Pa",
@@ -290,14 +267,6 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "two of /bodies, counted from 0; one twice is that body with itself"},
       {.shape = contact_pair, .name = "touch", .type = choice, .choices = {"yes", "no"}, .standard = "\"yes\"",
        .help = "whether they do"},
-      {.shape = contact_pair, .name = "pressure", .type = real, .unit = "Pa", .range = positive,
-       .help = "here; left out, that of /contact"},
-      {.shape = contact_pair, .name = "depth", .type = real, .unit = "m", .range = positive,
-       .help = "here; left out, that of /contact"},
-      {.shape = contact_pair, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
-       .help = "here; left out, that of /contact"},
-      {.shape = contact_pair, .name = "friction", .type = real, .range = not_negative,
-       .help = "here; left out, that of /contact"},
       {.shape = obstacle, .name = "plane", .type = object, .of = plane,
        .help = "all that is behind a plane: its normal points out of the obstacle"},
       {.shape = obstacle, .name = "sphere", .type = object, .of = sphere, .help = "a ball, of a radius above 0"},
@@ -483,22 +452,25 @@ std::vector<SceneKey> keys_by_hand() {
   // clang-format on
 }
 
-/// Shapes that have the keys of another one, too.
-struct SameKeys {
-  Shape shape, as;
-  std::string_view but;  // this one
-};
-constexpr SameKeys same_keys[] = {{Shape::one_body, Shape::body, ""}, {Shape::tissue, Shape::material, "viscosity"}};
-
 std::vector<SceneKey> make_keys() {
-  std::vector<SceneKey> keys = keys_by_hand();
-  const std::size_t by_hand = keys.size();
-  for (const SameKeys& same : same_keys)
-    for (std::size_t k = 0; k < by_hand; ++k)
-      if (keys[k].shape == same.as && keys[k].name != same.but) {
-        keys.push_back(keys[k]);
-        keys.back().shape = same.shape;
-      }
+  const std::vector<SceneKey> by_hand = keys_by_hand();
+  std::vector<SceneKey> keys;
+  // the keys of one shape under another, too: all but one, or those from one on
+  const auto add = [&](Shape shape, Shape as, std::string_view but = "", std::string_view from = "") {
+    bool is_left_out = !from.empty();
+    for (const SceneKey& key : by_hand) {
+      if (key.shape != as) continue;
+      if (key.name == from) is_left_out = false;
+      if (is_left_out || key.name == but) continue;
+      keys.push_back(key);
+      keys.back().shape = shape;
+    }
+  };
+  for (const Shape shape : {Shape::held, Shape::driven, Shape::force}) add(shape, Shape::vertex_selection);
+  keys.insert(keys.end(), by_hand.begin(), by_hand.end());
+  add(Shape::one_body, Shape::body);
+  add(Shape::tissue, Shape::material, "viscosity");
+  add(Shape::contact_pair, Shape::obstacle, "", "pressure");
   return keys;
 }
 

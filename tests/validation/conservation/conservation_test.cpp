@@ -179,25 +179,22 @@ TYPED_TEST(Conservation, NeitherMomentumNorEnergyChangesWithOneDissociation) {
 
 TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   const Problem start = moving_problem(kuhn_box(2, 2, 2, 0.125, 0.2, 3), soft, 3);
-  auto body = build_body<TypeParam, Held::by_every_dart>(start);
-  RemainingCells cells(start.mesh);
-  const MeshPlaces places(body, start.mesh, cells);
-  Views views;
-  views.rebuild(body);
+  Subject<TypeParam> at(start);
+  auto& body = at.body;
   // two faces around an inner edge: it comes apart, its ends do not
   std::uint32_t edge = 0;
-  while (cells.edge(edge).size() < 6) ++edge;
-  const Dart d = places.edge[edge], opposite = body.map.template alpha<2, 3, 2, 3, 2>(d);
+  while (at.cells.edge(edge).size() < 6) ++edge;
+  const Dart d = at.places.edge[edge], opposite = body.map.template alpha<2, 3, 2, 3, 2>(d);
   TopologyChange change;
   for (const Dart face : {d, opposite}) {
-    cells.dissociate(places.side_of[face.index]);
+    at.cells.dissociate(at.side(face));
     change.append(dissociate_face(body.map, face));
   }
-  follow(body, views, change);
+  follow(body, at.views, change);
   ASSERT_GE(change.edges.size(), 1u);
   ASSERT_TRUE(change.vertices.empty());
 
-  const auto motion = compare_rebuilt_motion(body, views.cells, start, places, cells, 10);
+  const auto motion = compare_rebuilt_motion(at, 10);
   EXPECT_EQ(motion.springs_side_by_side, change.edges.size());
   EXPECT_TRUE(motion.same_cells);
   EXPECT_TRUE(motion.same_bits);
@@ -206,7 +203,7 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   EXPECT_LT(motion.bound.position, 1e-9);
 
   body.springs.change(0, [](Spring& s) { s.stiffness *= 1.0 + 1e-9; });
-  EXPECT_FALSE(compare_rebuilt_motion(body, views.cells, start, places, cells, 10).same_bits);
+  EXPECT_FALSE(compare_rebuilt_motion(at, 10).same_bits);
 }
 
 // Nothing but the motion depends on gravity: only the bodies from scratch can tell.
@@ -225,18 +222,15 @@ TYPED_TEST(Conservation, FailsWhenTheBodyMovesOtherwiseThanOneFromScratch) {
 // Nothing is taken apart: the bound is that of the same body, but for its own slack of a thousandth.
 TYPED_TEST(Conservation, MeasuresTheMotionByTheBoundOfTheBodyFromScratch) {
   const Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 3);
-  auto body = build_body<TypeParam, Held::by_every_dart>(start);
-  const RemainingCells cells(start.mesh);
-  const MeshPlaces places(body, start.mesh, cells);
-  CellArrays arrays;
-  arrays.rebuild(body);
-  const auto motion = compare_rebuilt_motion(body, arrays, start, places, cells, 5);
+  Subject<TypeParam> at(start);
+  auto& body = at.body;
+  const auto motion = compare_rebuilt_motion(at, 5);
   const reference::StateBound bound =
-      reference::state_bound(rest_problem(body, start, places), {body.vertices.position, body.vertices.velocity}, 5);
+      reference::state_bound(rest_problem(body, start, at.places), {body.vertices.position, body.vertices.velocity}, 5);
   EXPECT_DOUBLE_EQ(motion.bound.position, 1.001 * bound.position);
   EXPECT_DOUBLE_EQ(motion.bound.velocity, 1.001 * bound.velocity);
   body.springs.change(0, [](Spring& s) { s.stiffness *= 1.01; });
-  const auto wrong = compare_rebuilt_motion(body, arrays, start, places, cells, 5);
+  const auto wrong = compare_rebuilt_motion(at, 5);
   EXPECT_GT(wrong.position, wrong.bound.position);
   EXPECT_GT(wrong.velocity, wrong.bound.velocity);
 }

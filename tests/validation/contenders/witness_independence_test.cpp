@@ -57,14 +57,10 @@ TEST(Witnesses, OfCellsDoNotFollowTheMap) {
 
 TEST(RebuildOracle, LeavesTheBodyThatItComparesAsItIs) {
   const Problem problem = moving_box();
-  const auto body = build_body<TetMap, Held::by_every_dart>(problem);
-  const RemainingCells cells(problem.mesh);
-  const MeshPlaces places(body, problem.mesh, cells);
-  CellArrays arrays;
-  arrays.rebuild(body);
-  const std::uint64_t before = body.state_hash();
-  EXPECT_TRUE(compare_rebuilt_motion(body, arrays, problem, places, cells, 5).same_bits);
-  EXPECT_EQ(body.state_hash(), before);
+  const Subject<TetMap> at(problem);
+  const std::uint64_t before = at.body.state_hash();
+  EXPECT_TRUE(compare_rebuilt_motion(at, 5).same_bits);
+  EXPECT_EQ(at.body.state_hash(), before);
 }
 
 }  // namespace

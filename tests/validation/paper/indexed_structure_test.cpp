@@ -27,7 +27,7 @@ TEST(IndexedStructure, IsNotRightWhereASpringEndsElsewhere) {
                                                     return followed;
                                                   });
   expect_no(answer);
-  EXPECT_TRUE(answer.measured.starts_with("operation 0: spring")) << answer.measured;
+  EXPECT_TRUE(answer.measured.starts_with("operation 0: ends of springs")) << answer.measured;
 }
 
 TEST(IndexedStructure, IsNotRightWhereASpringKeepsItsStiffness) {

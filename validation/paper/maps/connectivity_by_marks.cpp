@@ -32,10 +32,8 @@ ClaimAnswer try_marking(const Mesh& mesh, int series, std::uint64_t seed,
     Map3 map = body.map;
     RemainingCells cells(mesh);
     const MeshPlaces places(body, mesh, cells);
-    const auto sides = static_cast<std::uint32_t>(places.side.size());
     for (bool connected = true; connected;) {
-      std::uint32_t side = random.below(sides);
-      while (!cells.is_joined(side)) side = (side + 1) % sides;
+      const std::uint32_t side = cells.joined_side(random).value();
       dissociate_face(map, places.side[side]);
       cells.dissociate(side);
       connected = cells.count_components() == 1;

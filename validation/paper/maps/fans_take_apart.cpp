@@ -8,48 +8,10 @@
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
 #include "reference/dart_table.h"
-#include "validation/conservation/mesh_places.h"
+#include "validation/conservation/subjects.h"
 #include "validation/paper/maps/dart_table_of.h"
 
 namespace dartboard {
-namespace {
-
-/// Whether two cells at a mesh point hold together around it when some sides are dissociated.
-class Around {
- public:
-  Around(const Mesh& mesh, const RemainingCells& cells) : mesh_(mesh), cells_(cells) {
-    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c)
-      for (std::uint32_t s = cells.first_side(c); s < cells.first_side(c + 1); ++s) cell_of_.push_back(c);
-  }
-
-  std::uint32_t cell_of(std::uint32_t side) const { return cell_of_[side]; }
-
-  bool together(std::uint32_t point, std::uint32_t from, std::uint32_t to, const std::set<std::uint32_t>& apart) const {
-    std::vector<std::uint32_t> met{from};
-    for (std::size_t at = 0; at < met.size(); ++at) {
-      if (met[at] == to) return true;
-      for (std::uint32_t side = cells_.first_side(met[at]); side < cells_.first_side(met[at] + 1); ++side) {
-        if (!cells_.is_joined(side) || apart.contains(side) || !has(side, point)) continue;
-        const std::uint32_t next = cell_of_[cells_.opposite(side)];
-        if (std::ranges::find(met, next) == met.end()) met.push_back(next);
-      }
-    }
-    return false;
-  }
-
- private:
-  bool has(std::uint32_t side, std::uint32_t point) const {
-    const std::uint32_t c = cell_of_[side];
-    return std::ranges::any_of(sides_of(mesh_.kinds[c])[side - cells_.first_side(c)],
-                               [&](int k) { return mesh_.cell(c)[static_cast<std::size_t>(k)] == point; });
-  }
-
-  const Mesh& mesh_;
-  const RemainingCells& cells_;
-  std::vector<std::uint32_t> cell_of_;
-};
-
-}  // namespace
 
 FanOf core_fan() {
   return [](const TetMap& map, Dart d) { return fan(map, d); };
@@ -58,11 +20,8 @@ FanOf core_fan() {
 FanAnswers try_fans(const Mesh& mesh, const FanOf& fan) {
   Problem problem;
   problem.mesh = mesh;
-  const auto body = build_body<TetMap, Held::by_every_dart>(problem);
-  const TetMap& map = body.map;
-  const RemainingCells cells(mesh);
-  const MeshPlaces places(body, mesh, cells);
-  const Around around(mesh, cells);
+  const Subject<TetMap> s(problem);
+  const TetMap& map = s.body.map;
   const auto table = dart_table_of(map);
   const auto face = orbits(table, {0, 1, 3});
 
@@ -72,23 +31,23 @@ FanAnswers try_fans(const Mesh& mesh, const FanOf& fan) {
     bool witnessed, reported;
   };
   const auto part = [&](Dart d, const std::vector<Dart>& darts) {
-    std::set<std::uint32_t> apart;
-    for (const Dart e : darts)
-      for (const Dart side : {e, map.alpha<3>(e)}) apart.insert(places.side_of[side.index]);
-    const std::uint32_t side = places.side_of[d.index], point = mesh.nodes[places.corner_of[d.index]];
-    const bool together = around.together(point, around.cell_of(side), around.cell_of(cells.opposite(side)), apart);
+    const Dart across = map.alpha<3>(d);
+    RemainingCells left = s.cells;
+    for (const Dart e : darts) left.dissociate(s.side(e));
+    const auto whole = left.vertex(s.places.corner_of[d.index]);
+    const bool together = std::ranges::find(whole, s.places.corner_of[across.index]) != whole.end();
     TetMap cut = map;
     dissociate_all(cut, std::span<const Dart>(darts));
-    return Parted{!together, !same_cell<0>(cut, d, map.alpha<3>(d))};
+    return Parted{!together, !same_cell<0>(cut, d, across)};
   };
 
   std::size_t faces = 0, faces_that_part = 0, fans = 0, fans_that_part = 0, closed = 0, at_surface = 0;
   bool as_reported = true, as_written = true;
-  for (std::uint32_t side = 0; side < places.side.size(); ++side) {
-    if (!cells.is_joined(side) || cells.opposite(side) < side) continue;
+  for (std::uint32_t side = 0; side < s.places.side.size(); ++side) {
+    if (!s.cells.is_joined(side) || s.cells.opposite(side) < side) continue;
     ++faces;
     bool any = false;
-    Dart d = places.side[side];
+    Dart d = s.places.side[side];
     for (int corner = 0; corner < 3; ++corner, d = map.alpha<0, 1>(d)) {
       const Parted alone = part(d, {d});
       any = any || alone.witnessed;

@@ -5,17 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace dartboard {
 namespace {
 
-std::vector<AuditCase> quick_cases(std::uint64_t seed) {
-  AuditCases cases(seed, true);
+std::vector<AuditCase> quick_cases(AuditKind kind, std::uint64_t seed) {
+  AuditCases cases(kind, seed, true);
   std::vector<AuditCase> all;
   for (std::uint64_t k = 0; k < cases.size(); ++k) all.push_back(cases.next());
   return all;
 }
+
+constexpr AuditKind kinds[]{AuditKind::scenes, AuditKind::long_motions};
 
 const std::vector<Eigen::Vector3d>& start_of(const AuditCase& drawn) { return drawn.scene.motion.start.x; }
 
@@ -27,24 +30,21 @@ TEST(AuditSweep, GoesBeyondTheDearestPickByMoreThanOneHalvingAndHasTimeForTheSho
   EXPECT_LT(longest_sweep_run(0.0), 0.1);
 }
 
-TEST(AuditCases, AreTheSameForTheSameSeed) {
-  const auto once = quick_cases(5), again = quick_cases(5);
-  for (std::size_t k = 0; k < once.size(); ++k) {
-    EXPECT_EQ(start_of(once[k]), start_of(again[k])) << k;
-    EXPECT_EQ(once[k].errors, again[k].errors) << k;
-  }
-}
-
-TEST(AuditCases, AreOtherScenesAndOtherErrorsForAnotherSeed) {
-  const auto one = quick_cases(5), other = quick_cases(6);
-  for (std::size_t k = 0; k < one.size(); ++k) {
-    EXPECT_NE(start_of(one[k]), start_of(other[k])) << k;
-    EXPECT_NE(one[k].errors, other[k].errors) << k;
+TEST(AuditCases, AreTheSameForTheSameSeedAndOthersForAnother) {
+  for (const AuditKind kind : kinds) {
+    const auto once = quick_cases(kind, 5), again = quick_cases(kind, 5), other = quick_cases(kind, 6);
+    ASSERT_FALSE(once.empty());
+    for (std::size_t k = 0; k < once.size(); ++k) {
+      EXPECT_EQ(start_of(once[k]), start_of(again[k])) << k;
+      EXPECT_EQ(once[k].errors, again[k].errors) << k;
+      EXPECT_NE(start_of(once[k]), start_of(other[k])) << k;
+      EXPECT_NE(once[k].errors, other[k].errors) << k;
+    }
   }
 }
 
 TEST(AuditCases, AreAllDifferent) {
-  const auto all = quick_cases(5);
+  const auto all = quick_cases(AuditKind::scenes, 5);
   std::set<std::vector<double>> errors;
   for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_TRUE(errors.insert(all[k].errors).second) << k;
@@ -52,15 +52,32 @@ TEST(AuditCases, AreAllDifferent) {
   }
 }
 
-TEST(AuditCases, AskForErrorsOfEverySizeBetweenAHundredthAndAHundredMillionth) {
-  for (const AuditCase& drawn : quick_cases(5)) {
-    ASSERT_EQ(drawn.errors.size(), 2u);
-    // one in each half of the decades
-    EXPECT_LE(drawn.errors[0], 1e-2);
-    EXPECT_GT(drawn.errors[0], 0.99e-5);
-    EXPECT_LE(drawn.errors[1], 1.01e-5);
-    EXPECT_GT(drawn.errors[1], 0.99e-8);
+/// One in each of `parts` equal parts of the decades between two bounds.
+void expect_errors(const std::vector<double>& errors, std::size_t parts, double largest, double smallest) {
+  ASSERT_EQ(errors.size(), parts);
+  const auto bound = [&](std::size_t k) {
+    return largest * std::pow(smallest / largest, static_cast<double>(k) / static_cast<double>(parts));
+  };
+  for (std::size_t k = 0; k < parts; ++k) {
+    EXPECT_LE(errors[k], 1.01 * bound(k)) << k;
+    EXPECT_GE(errors[k], 0.99 * bound(k + 1)) << k;
   }
+}
+
+TEST(AuditCases, AskForErrorsOfEverySizeBetweenTheirBounds) {
+  for (const AuditCase& drawn : quick_cases(AuditKind::scenes, 5)) expect_errors(drawn.errors, 2, 1e-2, 1e-8);
+  for (const AuditCase& drawn : quick_cases(AuditKind::long_motions, 5)) expect_errors(drawn.errors, 5, 3e-5, 3e-7);
+}
+
+TEST(AuditCases, OfLongMotionsHaveNoEventsAndAreMoreThanFortyPairs) {
+  for (const AuditCase& drawn : quick_cases(AuditKind::long_motions, 5)) {
+    EXPECT_TRUE(drawn.scene.motion.events.empty());
+    EXPECT_EQ(drawn.check, AuditCheck::reference_and_sweep);
+  }
+  const AuditCases full(AuditKind::long_motions, 1, false);
+  EXPECT_GE(5 * full.size(), 40u);
+  EXPECT_GT(full.budget_s(), 0.0);
+  EXPECT_LE(full.budget_s(), 2.0);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 namespace dartboard {
 namespace {
 
+constexpr AuditKind scenes = AuditKind::scenes, long_motions = AuditKind::long_motions;
+
 AuditedPair good_pair() {
   AuditedPair p;
   p.scene = "a scene";
@@ -34,9 +36,20 @@ AuditedPair good_pair() {
   return p;
 }
 
-std::vector<Verdict> verdicts(const std::vector<AuditedPair>& pairs) {
+/// A run of 2 s, of whose motion the pilots saw an eightieth.
+AuditedPair good_prediction() {
+  AuditedPair p = good_pair();
+  p.seen_part = 0.0125;
+  p.audit.actual_s = 2.0;
+  p.audit.predicted_s = 100.0;  // at another speed of the machine: not looked at
+  p.audit.printed_s = 1.9;
+  p.audit.pilot_s = 0.05;
+  return p;
+}
+
+std::vector<Verdict> verdicts(const std::vector<AuditedPair>& pairs, AuditKind kind = scenes) {
   std::vector<Verdict> all;
-  for (const Claim& claim : audit_claims(pairs)) all.push_back(claim.verdict);
+  for (const Claim& claim : audit_claims(kind, pairs)) all.push_back(claim.verdict);
   return all;
 }
 
@@ -80,6 +93,9 @@ TEST(AuditClaims, NoRecommendationIsAMiss) {
   std::vector<AuditedPair> pairs(4, good_pair());
   for (AuditedPair& p : pairs) p.pick.clear();
   EXPECT_EQ(verdicts(pairs)[0], no);
+  pairs.assign(72, good_prediction());
+  for (std::size_t k = 0; k < 12; ++k) pairs[k].pick.clear();
+  EXPECT_EQ(verdicts(pairs, long_motions)[1], no);
 }
 
 TEST(AuditClaims, PairsBelowTheFloorOfTheReferenceSayNothingAboutErrors) {
@@ -111,11 +127,11 @@ TEST(AuditClaims, APickThatMissesItsErrorIsNotCheap) {
     else if (k < 9)
       pairs[k].floor = 10.0 * a.error;
   }
-  const Claim regret = audit_claims(pairs)[3];
+  const Claim regret = audit_claims(scenes, pairs)[3];
   EXPECT_EQ(regret.verdict, no);
   EXPECT_EQ(regret.measured, "1.400, 11 pairs; 9 left out, whose error was missed or cannot be told");
   pairs.resize(9);
-  EXPECT_EQ(audit_claims(pairs)[3].verdict, untold);
+  EXPECT_EQ(audit_claims(scenes, pairs)[3].verdict, untold);
 }
 
 TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
@@ -129,6 +145,72 @@ TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
   EXPECT_EQ(verdicts(pairs)[4], no);
 }
 
+// ---- long motions
+
+TEST(AuditedPair, IsForetoldIfItsRunCostsTwentyTimesItsPilots) {
+  AuditedPair p = good_prediction();
+  p.audit.pilot_s = 0.1;
+  EXPECT_TRUE(p.foretold());
+  p.audit.pilot_s = 0.101;
+  EXPECT_FALSE(p.foretold());
+}
+
+// Above 2 s pilots may take a tenth of the run, which a twentieth of it is: never more than the first rule allows.
+TEST(AuditedPair, IsForetoldByPilotsOfTwoSecondsOrATenthOfTheRun) {
+  AuditedPair p = good_prediction();
+  p.audit.actual_s = 100.0;
+  p.audit.pilot_s = 4.9;
+  EXPECT_TRUE(p.foretold());
+  p.audit.pilot_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(p.foretold());
+}
+
+TEST(AuditClaims, OfLongMotionsHoldWhenEverythingIsAsForetold) {
+  EXPECT_EQ(verdicts(std::vector(72, good_prediction()), long_motions), (std::vector{yes, yes, yes, yes}));
+  EXPECT_EQ(verdicts(std::vector(71, good_prediction()), long_motions), (std::vector{yes, open, open, yes}));
+}
+
+TEST(AuditClaims, OfLongMotionsFallShortOfFortyPairsThatAreNoPredictions) {
+  std::vector<AuditedPair> pairs(40, good_prediction());
+  pairs[7].audit.pilot_s = 0.2;
+  EXPECT_EQ(verdicts(pairs, long_motions)[0], no);
+  EXPECT_EQ(verdicts(std::vector(10, good_prediction()), long_motions)[0], untold);
+}
+
+TEST(AuditClaims, OfLongMotionsGoByHowManyMissTheirErrorAndTheirSeconds) {
+  std::vector<AuditedPair> pairs(72, good_prediction());
+  pairs[0].audit.actual_error = 2e-4;
+  pairs[1].audit.printed_s = 1.6;  // 20 % too little
+  EXPECT_EQ(verdicts(pairs, long_motions), (std::vector{yes, open, open, yes}));
+  for (std::size_t k = 0; k < 12; ++k) {
+    pairs[k].audit.actual_error = 2e-4;
+    pairs[20 + k].audit.printed_s = 2.4;
+  }
+  EXPECT_EQ(verdicts(pairs, long_motions), (std::vector{yes, no, no, yes}));
+}
+
+TEST(AuditClaims, OfLongMotionsLeaveOutRunsThatAreTooLongToFollow) {
+  std::vector<AuditedPair> pairs(75, good_prediction());
+  for (std::size_t k = 0; k < 3; ++k) {
+    pairs[k].pick.clear();
+    pairs[k].followed = false;
+  }
+  const std::vector<Claim> claims = audit_claims(long_motions, pairs);
+  EXPECT_EQ(claims[0].measured, "72 of 75 pairs; 3 too long to follow");
+  EXPECT_EQ(claims[1].verdict, yes);
+  EXPECT_EQ(audit_table(long_motions, pairs).rows()[0][4], "not followed");
+}
+
+TEST(AuditClaims, OfLongMotionsLeaveOutWhatWasNoPrediction) {
+  std::vector<AuditedPair> pairs(73, good_prediction());
+  pairs[0].audit.pilot_s = 1.0;
+  pairs[0].audit.actual_error = 1.0;
+  pairs[0].audit.printed_s = 100.0;
+  EXPECT_EQ(verdicts(pairs, long_motions), (std::vector{yes, yes, yes, yes}));
+}
+
+// ---- what is printed and drawn
+
 TEST(AuditTable, HasARowForEachPair) {
   std::vector<AuditedPair> pairs(3, good_pair());
   pairs[0].audit.best_cost = 320.0;
@@ -136,7 +218,8 @@ TEST(AuditTable, HasARowForEachPair) {
   pairs[1].audit.actual_error = 2e-4;
   pairs[1].swept = false;
   pairs[2].pick.clear();
-  const Table table = audit_table(pairs);
+  pairs[2].confidence.clear();
+  const Table table = audit_table(scenes, pairs);
   EXPECT_EQ(alignment(table), "lrlrlrrrrlrrll");
   ASSERT_EQ(table.rows().size(), 3u);
   EXPECT_EQ(labelled(table, 0), (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500",
@@ -150,22 +233,50 @@ TEST(AuditTable, HasARowForEachPair) {
             (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-", "certified"}));
 }
 
+TEST(AuditTable, SaysOfLongMotionsWhatWasMetMissedAndNotJudged) {
+  std::vector<AuditedPair> pairs(5, good_prediction());
+  pairs[0].warned = true;
+  pairs[1].audit.actual_error = 2e-4;
+  pairs[2].floor = 1e-3;
+  pairs[3].audit.pilot_s = 1.0;
+  pairs[4].pick.clear();
+  pairs[4].confidence.clear();
+  const Table table = audit_table(long_motions, pairs);
+  EXPECT_EQ(alignment(table), "lrlrlrrrrrlrl");
+  ASSERT_EQ(table.rows().size(), 5u);
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500", "met: yes",
+                 "actual / predicted error: 0.833", "seconds: 2", "printed / measured: 0.950", "run / pilots: 40.0",
+                 "seen: 1.25 %", "best of the sweep: verlet", "regret: 1.10",
+                 "confidence: asymptotic, errors grow exponentially"}));
+  EXPECT_EQ(table.rows()[1][4], "NO");
+  EXPECT_EQ(table.rows()[2][4], "not judged: the other codes differ by more");
+  EXPECT_EQ(table.rows()[2][3], "-");
+  EXPECT_EQ(table.rows()[3][4], "yes, but not counted");
+  EXPECT_EQ(table.rows()[4], (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-"}));
+}
+
 TEST(AuditScenes, HaveARowForEachScene) {
   std::vector<AuditedPair> pairs(3, good_pair());
   pairs[0].what = pairs[1].what = "a soft box";
   pairs[0].vertices = pairs[1].vertices = 27;
   pairs[0].omega_phase = pairs[1].omega_phase = 350.0;
   pairs[2].scene = "another";
-  const Table table = audited_scenes_table(pairs);
+  const Table table = audited_scenes_table(scenes, pairs);
   EXPECT_EQ(alignment(table), "llrr");
   ASSERT_EQ(table.rows().size(), 2u);
   EXPECT_EQ(labelled(table, 0),
             (Row{"scene: a scene", "what was drawn: a soft box", "vertices: 27", "T omega_max: 350"}));
   EXPECT_EQ(table.rows()[1][0], "another");
+  pairs[0].springs = 98;
+  pairs[0].floor = 2e-9;
+  EXPECT_EQ(labelled(audited_scenes_table(long_motions, pairs), 0),
+            (Row{"scene: a scene", "what was drawn: a soft box", "vertices: 27", "springs: 98", "T omega_max: 350",
+                 "the other codes differ by: 2.0e-10"}));
 }
 
 TEST(AuditSample, HoldsEveryFigureOfAPair) {
-  AuditedPair p = good_pair();
+  AuditedPair p = good_prediction();
   p.what = "a soft box";
   p.vertices = 27;
   p.springs = 98;
@@ -175,10 +286,10 @@ TEST(AuditSample, HoldsEveryFigureOfAPair) {
   p.audit.best_cost = 320.0;
   EXPECT_EQ(json_of(p), nlohmann::json::parse(R"({"scene": "a scene", "what": "a soft box", "vertices": 27,
     "springs": 98, "omega_phase": 350.0, "reference": "certified", "floor": 1e-12, "error": 1e-4, "pick": "rk4",
-    "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "told": true, "actual_error": 5e-5,
-    "predicted_error": 6e-5, "actual_evaluations": 400.0, "predicted_evaluations": 410.0, "actual_cost": 440.0,
-    "predicted_cost": 420.0, "actual_s": 6.0, "predicted_s": 5.5, "pilot_s": 0.6, "swept": true, "best": "verlet",
-    "best_cost": 320.0})"));
+    "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "seen_part": 0.0125, "warned": false, "foretold": true,
+    "told": true, "actual_error": 5e-5, "predicted_error": 6e-5, "actual_evaluations": 400.0,
+    "predicted_evaluations": 410.0, "actual_cost": 440.0, "predicted_cost": 420.0, "actual_s": 2.0,
+    "predicted_s": 100.0, "printed_s": 1.9, "pilot_s": 0.05, "swept": true, "best": "verlet", "best_cost": 320.0})"));
 }
 
 TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
@@ -187,7 +298,7 @@ TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
   pairs[0].audit.actual_error = 2.8;
   pairs[1].floor = std::numeric_limits<double>::infinity();
   pairs[1].audit.actual_error = std::numeric_limits<double>::quiet_NaN();
-  const Table table = audit_table(pairs);
+  const Table table = audit_table(scenes, pairs);
   EXPECT_EQ(table.rows()[0][3], "-");
   EXPECT_EQ(table.rows()[0][4], "not judged: the reference is no better than that");
   EXPECT_EQ(table.rows()[1][3], "-");
@@ -200,7 +311,7 @@ TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
 TEST(AuditPlot, PlacesEachPairByWhatItPromised) {
   std::vector<AuditedPair> pairs(2, good_pair());
   pairs[1].pick = "verlet";
-  const Plot plot = audit_plot(pairs, "of today");
+  const Plot plot = audit_plot(scenes, pairs, "of today");
   EXPECT_EQ(plot.title, "recommend, promised and met");
   EXPECT_EQ(plot.subtitle, "of today");
   EXPECT_TRUE(plot.x_axis.starts_with("predicted over measured time")) << plot.x_axis;
@@ -237,7 +348,7 @@ TEST(AuditPlot, KeepsWhatIsFarOffWithinThePictureAndLeavesOutWhatCannotBeTold) {
   pairs[1].audit.actual_error = 1e-12;
   pairs[2].floor = 1.0;
   pairs[3].pick.clear();
-  const Plot plot = audit_plot(pairs, "");
+  const Plot plot = audit_plot(scenes, pairs, "");
   ASSERT_EQ(plot.series.size(), 4u);
   const auto& points = plot.series.back().points;
   ASSERT_EQ(points.size(), 2u);
@@ -251,6 +362,20 @@ TEST(AuditPlot, KeepsWhatIsFarOffWithinThePictureAndLeavesOutWhatCannotBeTold) {
   EXPECT_GT(points[0].y, 1.0);
   EXPECT_LT(points[1].x, 0.85);
   EXPECT_LT(points[1].y, 1.0);
+}
+
+TEST(AuditPlot, PlacesLongMotionsThatCountByWhatWasSeenOfThem) {
+  std::vector<AuditedPair> pairs(3, good_prediction());
+  pairs[1].audit.actual_error = 1.0;  // far above
+  pairs[2].audit.pilot_s = 1.0;
+  const Plot plot = audit_plot(long_motions, pairs, "");
+  ASSERT_EQ(plot.series.size(), 2u);  // the line, and one method
+  ASSERT_EQ(plot.series[1].points.size(), 2u);
+  for (const auto& point : plot.series[1].points) {
+    EXPECT_GT(point.y, plot.y_low);
+    EXPECT_LT(point.y, plot.y_high);
+    EXPECT_EQ(point.x, 0.0125);
+  }
 }
 
 }  // namespace
