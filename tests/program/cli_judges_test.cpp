@@ -8,7 +8,7 @@
 
 #include "tests/support/program_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cli_judges_test {
 namespace {
 
 /// How many operations of each series were applied, were illegal, and could not be carried, or what else tells them.
@@ -43,4 +43,4 @@ TEST(ValidateConservation, DrawsOtherOperationsForAnotherSeedAndTheSameForTheSam
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cli_judges_test

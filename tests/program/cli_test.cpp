@@ -15,7 +15,7 @@
 #include "benchmarks/checkout/source_folder.h"
 #include "tests/support/program_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cli_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -517,4 +517,4 @@ TEST(Scene, SchemaIsJson) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cli_test

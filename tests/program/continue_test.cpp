@@ -10,7 +10,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/program_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::continue_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ TEST_F(Continue, TakesASceneOrAFolder) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::continue_test

@@ -15,7 +15,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/program_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::endings_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -214,4 +214,4 @@ TEST_F(Endings, OfTwoRunsInOneFolderOneGoesOn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::endings_test

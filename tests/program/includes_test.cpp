@@ -15,7 +15,7 @@
 #include "benchmarks/checkout/source_folder.h"
 #include "tests/support/program_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::includes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ TEST(Sources, HaveEachTagOfADocstringOnALineOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::includes_test

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace dartboard {
+namespace dartboard::one_definition_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(OneDefinition, OfOverloadsAndMembersAreDifferent) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::one_definition_test

@@ -10,7 +10,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::adjacency_graph_test {
 namespace {
 
 constexpr double u = 0x1p-53;
@@ -205,4 +205,4 @@ TEST(AdjacencyGraph, RefusesWhatIsNoProblem) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::adjacency_graph_test

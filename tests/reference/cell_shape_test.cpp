@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-namespace dartboard::reference {
+namespace dartboard::reference::cell_shape_test {
 namespace {
 
 using Nodes = std::set<int>;
@@ -61,4 +61,4 @@ TEST(CellShape, IsThatOfThePlainMesh) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::cell_shape_test

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace dartboard::reference {
+namespace dartboard::reference::closed_form_test {
 namespace {
 
 constexpr double u = 0x1p-53;
@@ -263,4 +263,4 @@ TEST(EulerFall, IsOffTheParabolaByHalfAStepOfVelocity) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::closed_form_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard::reference {
+namespace dartboard::reference::dart_table_test {
 namespace {
 
 constexpr auto gone = DartTable::no_dart;
@@ -65,4 +65,4 @@ TEST(PaperFan, StopsBeforeTheSurface) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::dart_table_test

@@ -9,7 +9,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::error_norms_test {
 namespace {
 
 // Two masses on a spring of length 2, and one checkpoint; the reference moves.
@@ -124,4 +124,4 @@ TEST_F(ErrorNorms, OfABodyAtRestAreInfiniteOnceItMoves) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::error_norms_test

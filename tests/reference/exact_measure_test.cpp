@@ -7,7 +7,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::exact_measure_test {
 namespace {
 
 TEST(ExactVolume, OfUnitCellsIsThatOfTheirFormulas) {
@@ -83,4 +83,4 @@ TEST(MeasureRounding, CoversTheMeasureOfThePlainMesh) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::exact_measure_test

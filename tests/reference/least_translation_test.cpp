@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace dartboard::reference {
+namespace dartboard::reference::least_translation_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -156,4 +156,4 @@ TEST(LeastTranslation, OfRandomPairsIsNoLongerThanAlongAnyDirectionAndPartsThem)
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::least_translation_test

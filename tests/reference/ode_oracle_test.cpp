@@ -18,7 +18,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::ode_oracle_test {
 namespace {
 
 struct Code {
@@ -414,4 +414,4 @@ TEST(OdeOracle, MeasuresDistancesByMassInEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::ode_oracle_test

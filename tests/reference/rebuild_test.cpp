@@ -9,7 +9,7 @@
 #include "core/plain/error.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::rebuild_test {
 namespace {
 
 constexpr double u = 0x1p-53;
@@ -111,4 +111,4 @@ TEST(Rebuild, RefusesCellsThatNameNoPointOrOneTwice) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::rebuild_test

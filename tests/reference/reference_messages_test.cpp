@@ -14,7 +14,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::reference_messages_test {
 namespace {
 
 std::string refusal(const std::function<void()>& action) {
@@ -201,4 +201,4 @@ TEST(ReferenceRefuses, StepsAndTolerancesThatAreNotPositive) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::reference_messages_test

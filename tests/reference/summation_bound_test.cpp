@@ -15,7 +15,7 @@
 #include "reference/adjacency_graph.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::summation_bound_test {
 namespace {
 
 using Long = long double;
@@ -251,4 +251,4 @@ TEST(SummationBound, RefusesAStateOfAnotherBody) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::summation_bound_test

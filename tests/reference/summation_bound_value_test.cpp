@@ -7,7 +7,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::summation_bound_value_test {
 namespace {
 
 constexpr double u = 0x1p-53, slack = 2 * 1.001;  // two implementations, and what is left out
@@ -134,4 +134,4 @@ TEST(StateBoundOfATetrahedron, GrowsNoFasterThanItsLipschitzConstantSays) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::summation_bound_value_test

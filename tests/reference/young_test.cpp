@@ -14,7 +14,7 @@
 #include "reference/rebuild.h"
 #include "reference/summation_bound.h"
 
-namespace dartboard {
+namespace dartboard::young_test {
 namespace {
 
 Problem elastic(Mesh mesh) {
@@ -60,4 +60,4 @@ TEST(YoungsModulus, IsRefusedByWitnessesThatKnowOneStiffnessForAll) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::young_test

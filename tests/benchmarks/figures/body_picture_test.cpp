@@ -14,7 +14,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::body_picture_test {
 namespace {
 
 Frame panel_of(Mesh mesh) {
@@ -372,4 +372,4 @@ TEST(Upright, LeavesWhatIsUprightOrHasNoUp) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_picture_test

@@ -9,7 +9,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::film_test {
 namespace {
 
 using moving::Json;
@@ -152,4 +152,4 @@ TEST_F(FilmFiles, AreNotDrawnWithoutGnuplotAndTheReasonIsTold) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::film_test

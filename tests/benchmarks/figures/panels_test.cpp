@@ -7,7 +7,7 @@
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::panels_test {
 namespace {
 
 using PanelsTest = FolderTest;
@@ -62,4 +62,4 @@ TEST_F(PanelsTest, APanelThatCannotBeDrawnIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::panels_test

@@ -10,7 +10,7 @@
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::plot_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ TEST(PlotText, TicksEndAtTheLastOne) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::plot_test

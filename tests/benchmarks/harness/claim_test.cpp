@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace dartboard {
+namespace dartboard::claim_test {
 namespace {
 
 Claim claim_with(Verdict verdict, std::string reason = "") {
@@ -186,4 +186,4 @@ TEST(Claim, AsTextIsAlignedWithTheLongestVerdict) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::claim_test

@@ -16,7 +16,7 @@
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::manifest_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST_F(ManifestTest, ReportsCommitAndChangesButNotResults) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::manifest_test

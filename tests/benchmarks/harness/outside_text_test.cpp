@@ -13,7 +13,7 @@
 #include "tests/hostile/hostile_names.h"
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::outside_text_test {
 namespace {
 
 TEST(JsonText, IsAsciiAndParsesWhateverTheBytes) {
@@ -88,4 +88,4 @@ TEST(Table, ShowsAnyNameOnOneLineAndInOneCell) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::outside_text_test

@@ -8,7 +8,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::paired_test {
 namespace {
 
 /// Three tasks "a", "b", "c" that count up from their restored state, and a log of what was called.
@@ -216,4 +216,4 @@ TEST(Sample, SurvivesTheWayThroughJson) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::paired_test

@@ -18,7 +18,7 @@ extern "C" int kill(pid_t pid, int signal) noexcept {
   return static_cast<int>(syscall(SYS_kill, pid, signal));
 }
 
-namespace dartboard {
+namespace dartboard::processes_test {
 namespace {
 
 std::vector<std::string> lines_of(const std::string& program, const std::vector<std::string>& arguments) {
@@ -115,4 +115,4 @@ TEST(Processes, RepeatThisExecutableWithTheArgumentsOfEachNumber) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::processes_test

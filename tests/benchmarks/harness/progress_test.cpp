@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::progress_test {
 namespace {
 
 TEST(TimeLeft, IsThatOfTheStepsLeftAtThePaceOfThoseDone) {
@@ -20,4 +20,4 @@ TEST(TimeLeft, IsNotToldBeforeThereIsSomethingToGoBy) {
 TEST(TimeLeft, IsNotToldAtTheEnd) { EXPECT_EQ(time_left(10, 10, 100.0), ""); }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::progress_test

@@ -10,7 +10,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/processes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::run_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ TEST_F(RunFolderTest, NewRunPathsOfProcessesThatStartAtOnceDoNotCollide) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::run_folder_test

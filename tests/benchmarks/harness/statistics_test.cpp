@@ -8,7 +8,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::statistics_test {
 namespace {
 
 /// 1, 2, ..., n: the k-th smallest value is k.
@@ -143,4 +143,4 @@ TEST(ShareInterval, IsRefusedOfNothing) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::statistics_test

@@ -4,7 +4,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::table_test {
 namespace {
 
 Table times() {
@@ -62,4 +62,4 @@ TEST(Table, RefusesARowOfAnotherLength) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::table_test

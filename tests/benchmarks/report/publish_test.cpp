@@ -10,7 +10,7 @@
 
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::publish_test {
 namespace {
 
 Claim claim(const std::string& id, Verdict verdict) {
@@ -186,4 +186,4 @@ TEST_F(Publish, DrawsThePictures) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::publish_test

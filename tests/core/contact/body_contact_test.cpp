@@ -19,7 +19,7 @@
 #include "tests/support/bodies/term_checks_for_tests.h"
 #include "tests/support/bodies/touching_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::body_contact_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -440,4 +440,4 @@ TEST(BodyContact, TellsItsDepths) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_contact_test

@@ -14,7 +14,7 @@
 #include "core/plain/random.h"
 #include "tests/support/bodies/touching_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::body_impulses_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -218,4 +218,4 @@ TEST(BodyImpulses, AreKeptInACheckpoint) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_impulses_test

@@ -11,7 +11,7 @@
 #include "core/plain/archive.h"
 #include "tests/support/bodies/touching_vertices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::contact_friction_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -225,4 +225,4 @@ TEST(ContactFriction, NeedsNoMoreMemoryInTheSteadyState) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_friction_test

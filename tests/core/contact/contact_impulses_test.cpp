@@ -10,7 +10,7 @@
 #include "core/plain/random.h"
 #include "tests/support/bodies/touching_vertices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::contact_impulses_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -190,4 +190,4 @@ TEST(ContactImpulses, TellWhetherAnythingHasChanged) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_impulses_test

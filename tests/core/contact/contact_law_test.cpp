@@ -8,7 +8,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::contact_law_test {
 namespace {
 
 ContactLaw law_of(int exponent, double restitution = 1.0) {
@@ -157,4 +157,4 @@ TEST(ContactLaw, IsRefusedWhereANumberMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_law_test

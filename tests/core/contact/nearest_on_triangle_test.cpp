@@ -9,7 +9,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::nearest_on_triangle_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -76,4 +76,4 @@ TEST(NearestOnTriangle, OfOneWithoutAreaIsOnItsEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::nearest_on_triangle_test

@@ -9,7 +9,7 @@
 #include "core/plain/error.h"
 #include "tests/support/bodies/term_checks_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::obstacle_contact_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -337,4 +337,4 @@ TEST(ObstacleContact, NeedsALawForEachObstacle) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::obstacle_contact_test

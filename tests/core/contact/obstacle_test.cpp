@@ -9,7 +9,7 @@
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::obstacle_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -119,4 +119,4 @@ TEST(Obstacle, IsRefusedWhereItHasNoInside) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::obstacle_test

@@ -7,7 +7,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::way_inside_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -96,4 +96,4 @@ TEST(WayInside, ThroughABlockPushesBothWays) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::way_inside_test

@@ -13,7 +13,7 @@
 #include "tests/support/bodies/term_checks_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::cell_springs_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -269,4 +269,4 @@ TEST(CellSprings, AreNoneInABodyOfTetrahedra) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cell_springs_test

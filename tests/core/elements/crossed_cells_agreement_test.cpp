@@ -10,7 +10,7 @@
 #include "core/meshes/formats/crossed_cells.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::crossed_cells_agreement_test {
 namespace {
 
 bool has_corner_of_another_hand(const std::vector<Eigen::Vector3d>& x, bool is_left_handed) {
@@ -52,4 +52,4 @@ TEST(CrossedCellsAndElements, AgreeOnRandomVolumes) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::crossed_cells_agreement_test

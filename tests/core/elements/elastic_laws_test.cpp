@@ -9,7 +9,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::elastic_laws_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -218,4 +218,4 @@ TYPED_TEST(ElasticLaw, IsNotStifferAtRestThanItsModulus) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::elastic_laws_test

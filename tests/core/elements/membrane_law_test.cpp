@@ -10,7 +10,7 @@
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::membrane_law_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -193,4 +193,4 @@ TEST(SurfacePolar, IsTheNearestOrthonormalPair) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::membrane_law_test

@@ -11,7 +11,7 @@
 #include "tests/support/bodies/membrane_body_for_tests.h"
 #include "tests/support/bodies/term_checks_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::membranes_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -301,4 +301,4 @@ TEST(MembraneShape, TellsACellThatIsFlatOrTurnedOver) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::membranes_test

@@ -8,7 +8,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::polar_factor_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -111,4 +111,4 @@ TEST(Cofactors, AreTheDeterminantTimesTheInverseTransposed) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::polar_factor_test

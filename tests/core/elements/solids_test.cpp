@@ -13,7 +13,7 @@
 #include "core/plain/random.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::solids_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -235,4 +235,4 @@ TEST(SolidShape, OfACellThatIsTurnedInsideOutHasANegativeVolume) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::solids_test

@@ -15,7 +15,7 @@
 #include "core/plain/random.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::strain_damping_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -386,4 +386,4 @@ TEST(StrainDamping, IsThatOfEachCellsMaterial) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::strain_damping_test

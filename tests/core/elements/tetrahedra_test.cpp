@@ -7,7 +7,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tetrahedra_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -144,4 +144,4 @@ TEST(RestShape, OfAFlatTetrahedronIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tetrahedra_test

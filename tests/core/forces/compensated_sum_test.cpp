@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace dartboard {
+namespace dartboard::compensated_sum_test {
 namespace {
 
 TEST(CompensatedSum, LosesNothingBesideALargeTermWhereverItStands) {
@@ -18,4 +18,4 @@ TEST(CompensatedSum, LosesNothingBesideALargeTermWhereverItStands) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::compensated_sum_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::one_minus_exp_test {
 namespace {
 
 TEST(OneMinusExp, IsThatOfLibm) {
@@ -16,4 +16,4 @@ TEST(OneMinusExp, IsThatOfLibm) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::one_minus_exp_test

@@ -14,7 +14,7 @@
 #include "core/operations/remove_volume.h"
 #include "core/topology/cells.h"
 
-namespace dartboard {
+namespace dartboard::springs_test {
 namespace {
 
 bool same(const Spring& a, const Spring& b) {
@@ -98,4 +98,4 @@ TEST(Springs, FollowCutsRemovalsAndRefinementWithAndWithoutDamping) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::springs_test

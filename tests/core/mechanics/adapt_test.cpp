@@ -16,7 +16,7 @@
 #include "tests/support/body_expectations.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::adapt_test {
 namespace {
 
 template <class Map>
@@ -170,4 +170,4 @@ TYPED_TEST(Adapt, LeavesABodyThatHasNoStateByMeshPoint) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::adapt_test

@@ -6,7 +6,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::embedding_test {
 namespace {
 
 template <class MapType, Held how>
@@ -117,4 +117,4 @@ TEST(EmbeddingOnTetMap, KeepsOnePlacePerCornerAndNotPerDart) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::embedding_test

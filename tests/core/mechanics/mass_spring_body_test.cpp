@@ -14,7 +14,7 @@
 #include "core/plain/error.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::mass_spring_body_test {
 namespace {
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;  // unit roundoff
@@ -243,4 +243,4 @@ TEST(BodyOfASurface, WeighsItsAreaTimesItsDensity) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mass_spring_body_test

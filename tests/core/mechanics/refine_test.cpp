@@ -20,8 +20,9 @@
 #include "core/walks/spring_forces.h"
 #include "tests/support/body_expectations.h"
 #include "tests/support/meshes_for_tests.h"
+#include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::refine_test {
 namespace {
 
 template <class Map>
@@ -34,12 +35,6 @@ Body<Map> box(int n) {
   problem.material = {.density = 1000.0, .stiffness = 4.0, .damping = 0.25, .viscosity = 0.5};
   for (const auto& p : problem.mesh.points) problem.initial_velocity.push_back(p.cwiseProduct(p));
   return build_body<Map, Held::by_every_dart>(problem);
-}
-
-template <class Map>
-Dart some_live_dart(const Map& map, SplitMix64& random) {
-  for (;;)
-    if (const Dart d{random.below(map.capacity())}; map.is_live(d)) return d;
 }
 
 template <class Map>
@@ -282,4 +277,4 @@ TYPED_TEST(Refine, RefusesABracingBelowZero) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::refine_test

@@ -16,7 +16,7 @@
 #include "core/topology/summary.h"
 #include "core/walks/cell_arrays.h"
 
-namespace dartboard {
+namespace dartboard::remove_face_test {
 namespace {
 
 using Body = MassSpringBody<Map2, Held::by_every_dart>;
@@ -196,4 +196,4 @@ TEST(RemoveFaceOfASheet, SeparatesTheFacesThatItHeldTogether) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::remove_face_test

@@ -17,7 +17,7 @@
 #include "core/views/element_nodes_view.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::several_materials_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -238,4 +238,4 @@ TEST(SeveralMaterials, AreRefusedWhereACellHasNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::several_materials_test

@@ -13,7 +13,7 @@
 #include "core/walks/runge_kutta_4.h"
 #include "tests/support/body_expectations.h"
 
-namespace dartboard {
+namespace dartboard::split_off_test {
 namespace {
 
 template <class Map>
@@ -140,4 +140,4 @@ TEST(SplitOffSheet, IsCutAlongEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::split_off_test

@@ -16,7 +16,7 @@
 #include "core/walks/spring_forces.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::young_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -25,7 +25,7 @@ constexpr double u = 0x1p-53;  // unit roundoff
 constexpr double young = 3000.0;
 
 template <class Map>
-MassSpringBody<Map, Held::by_every_dart> body_of(Mesh mesh) {
+MassSpringBody<Map, Held::by_every_dart> body_on(Mesh mesh) {
   Problem problem;
   problem.mesh = std::move(mesh);
   problem.material = {.density = 8.0, .damping = 0.25, .viscosity = 0.0, .young = young};
@@ -62,7 +62,7 @@ double stress_of_cubes(double s) {
 
 TEST(YoungsModulus, GivesAnEdgeTheVolumeOverTheSquareOfItsLength) {
   for (const Mesh& mesh : {regular_tetrahedron(), kuhn_grid(1, 1, 1, 0.5, 0.2, 3)}) {
-    const auto body = body_of<TetMap>(mesh);
+    const auto body = body_on<TetMap>(mesh);
     std::vector<double> expected(body.springs.size(), 0.0);
     for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
       std::vector<bool> met(body.springs.size(), false);
@@ -81,7 +81,7 @@ TEST(YoungsModulus, GivesAnEdgeTheVolumeOverTheSquareOfItsLength) {
 
 TEST(YoungsModulus, SharesDampingOutAsStiffnessWithTheMeanThatIsAskedFor) {
   const Mesh mesh = kuhn_grid(2, 1, 1, 0.5, 0.2, 3);
-  const auto body = body_of<TetMap>(mesh);
+  const auto body = body_on<TetMap>(mesh);
   double damping = 0.0;
   for (const Spring& s : body.springs) {
     EXPECT_NEAR(s.damping / s.stiffness, 0.25 / body.material.stiffness, 8 * u * 0.25 / body.material.stiffness);
@@ -96,7 +96,7 @@ TEST(YoungsModulus, SharesDampingOutAsStiffnessWithTheMeanThatIsAskedFor) {
 TEST(YoungsModulus, GivesTheStressOfItsClosedFormToMeshesOfAnySize) {
   for (const double s : {1.25, 1.0 + 0x1p-10, 0.75})
     for (const int n : {1, 2, 4}) {
-      auto body = body_of<TetMap>(kuhn_box(4 * n, n, n, 0.5 / n));
+      auto body = body_on<TetMap>(kuhn_box(4 * n, n, n, 0.5 / n));
       for (Vector3d& x : body.vertices.position) x.x() *= s;
       const double expected = stress_of_cubes(s), rounding = (static_cast<double>(body.springs.size()) + 24) * u;
       // where little is stretched, a length is off by u of itself and what is left of it by u / (s - 1)
@@ -112,7 +112,7 @@ TEST(YoungsModulus, GivesTheStressOfItsClosedFormToMeshesOfAnySize) {
 TEST(YoungsModulus, PullsAtTheEndOfABarOfAnyMeshAlike) {
   const double s = 1.25;
   for (const int n : {1, 2, 3}) {
-    auto body = body_of<TetMap>(kuhn_box(4 * n, n, n, 0.5 / n));
+    auto body = body_on<TetMap>(kuhn_box(4 * n, n, n, 0.5 / n));
     for (Vector3d& x : body.vertices.position) x.x() *= s;
     for (Vector3d& f : body.vertices.force) f.setZero();
     CellArrays arrays;
@@ -138,7 +138,7 @@ TEST(YoungsModulus, OfEquilateralTrianglesIsThatOfAnIsotropicSheet) {
   const double strain = 0x1p-14;
   Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
   for (const double sign : {1.0, -1.0}) {
-    auto body = body_of<Map2>(mesh);
+    auto body = body_on<Map2>(mesh);
     for (Vector3d& x : body.vertices.position) x.x() *= 1.0 + sign * strain;
     slope += sign * mean_stress(body) / (2.0 * strain);
   }
@@ -152,7 +152,7 @@ TEST(YoungsModulus, OfEquilateralTrianglesIsThatOfAnIsotropicSheet) {
 // end.
 TEST(YoungsModulus, IsSharedByThePartsOfACutAsTheirCellsHaveIt) {
   const Mesh mesh = two_tetrahedra();
-  auto body = body_of<TetMap>(mesh);
+  auto body = body_on<TetMap>(mesh);
   double before = 0.0, after = 0.0;
   for (const Spring& s : body.springs) before += s.stiffness;
   for (const Dart d : body.face_dart)
@@ -186,4 +186,4 @@ TEST(YoungsModulus, OfAChainIsThatOfItsLinksInSeries) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::young_test

@@ -11,7 +11,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 
-namespace dartboard {
+namespace dartboard::mesh_facts_test {
 namespace {
 
 Mesh one(CellKind kind, std::initializer_list<Eigen::Vector3d> points) {
@@ -112,4 +112,4 @@ TEST(MeshFacts, OfASheetWithAHoleHaveTwoBoundaryCurves) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_facts_test

@@ -24,7 +24,7 @@
 #define DARTBOARD_FUZZ_ROUNDS 1
 #endif
 
-namespace dartboard {
+namespace dartboard::mesh_fuzz_test {
 namespace {
 
 using namespace samples;
@@ -255,4 +255,4 @@ TEST_F(MeshFuzz, EveryPrefixOfAFileIsReadSoundlyOrRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_fuzz_test

@@ -7,7 +7,7 @@
 #include "benchmarks/checkout/source_folder.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::mesh_io_test {
 namespace {
 
 using namespace samples;
@@ -112,4 +112,4 @@ TEST_F(MeshIo, NeverWritesOverAFile) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_io_test

@@ -13,7 +13,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::mesh_reading_test {
 namespace {
 
 using namespace samples;
@@ -222,4 +222,4 @@ TEST_F(MeshFiles, OfEveryKindOfCellReadBackAsTheyWereWritten) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_reading_test

@@ -11,7 +11,7 @@
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 
-namespace dartboard {
+namespace dartboard::touching_test {
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
@@ -129,4 +129,4 @@ TEST(TouchingCells, AreToldByTheNumbersOfTheFile) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::touching_test

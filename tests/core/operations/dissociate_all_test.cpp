@@ -9,7 +9,7 @@
 #include "core/topology/check.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::dissociate_all_test {
 namespace {
 
 template <class Map>
@@ -78,4 +78,4 @@ TEST(DissociateAllOfASurface, SeparatesFacesAtTheirEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::dissociate_all_test

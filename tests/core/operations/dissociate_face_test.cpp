@@ -11,7 +11,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::dissociate_face_test {
 namespace {
 
 template <class Map>
@@ -163,4 +163,4 @@ TEST(DissociateEdge, FoldedOntoItselfSplitsNoEdge) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::dissociate_face_test

@@ -10,7 +10,7 @@
 #include "core/topology/summary.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::remove_volume_test {
 namespace {
 
 template <class Map>
@@ -88,4 +88,4 @@ TEST(RemoveVolumeOfHexahedra, InTheMiddleLeavesACavity) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::remove_volume_test

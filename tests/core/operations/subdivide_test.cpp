@@ -11,7 +11,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::subdivide_test {
 namespace {
 
 template <class Map>
@@ -109,4 +109,4 @@ TEST(SubdivideHexahedra, IsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::subdivide_test

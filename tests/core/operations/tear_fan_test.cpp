@@ -10,7 +10,7 @@
 #include "core/topology/check.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tear_fan_test {
 namespace {
 
 template <class Map>
@@ -90,4 +90,4 @@ TEST(FanOfHexahedra, OpenAtTheSurfaceIsTheSameFromTheDartOfEitherEdge) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tear_fan_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace dartboard {
+namespace dartboard::border_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -42,4 +42,4 @@ TEST(Border, OfAPlaneIsMeasuredAcrossItWhateverTheLengthOfItsNormal) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::border_test

@@ -9,7 +9,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::archive_test {
 namespace {
 
 struct Inner {
@@ -149,4 +149,4 @@ TEST(Archive, RefusesAFlagThatIsNeitherYesNorNo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::archive_test

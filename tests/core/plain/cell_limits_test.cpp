@@ -11,7 +11,7 @@
 #include "core/topology/generalized_map.h"
 #include "core/topology/storage/room.h"
 
-namespace dartboard {
+namespace dartboard::cell_limits_test {
 namespace {
 
 constexpr std::uint64_t numbers = std::uint64_t{1} << 32;
@@ -81,4 +81,4 @@ TEST(RequireRoom, LetsALastOneInAndRefusesTheNextWithItsNumberAndTheLimit) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cell_limits_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace dartboard {
+namespace dartboard::diagonals_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -101,4 +101,4 @@ TEST(Diagonals, LeaveEdgesAsTheyAreWhereACellHasNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::diagonals_test

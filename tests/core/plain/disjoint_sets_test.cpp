@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::disjoint_sets_test {
 namespace {
 
 TEST(DisjointSets, AreKnownByTheirLowestItem) {
@@ -28,4 +28,4 @@ TEST(DisjointSets, AreOneFewerForEachJoinOfTwo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::disjoint_sets_test

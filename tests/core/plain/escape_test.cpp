@@ -10,7 +10,7 @@
 
 #include "tests/hostile/hostile_names.h"
 
-namespace dartboard {
+namespace dartboard::escape_test {
 namespace {
 
 constexpr std::size_t drawn = 3000;
@@ -206,4 +206,4 @@ TEST(Shortened, CountsLettersAndCutsBetweenThem) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::escape_test

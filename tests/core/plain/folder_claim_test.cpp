@@ -12,7 +12,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/processes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::folder_claim_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST_F(FolderClaimTest, GoesToOneOfTwoProcessesThatStartAtOnce) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::folder_claim_test

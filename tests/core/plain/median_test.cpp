@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dartboard {
+namespace dartboard::median_test {
 namespace {
 
 TEST(Median, IsTheMiddleOfAnOddCountInAnyOrder) {
@@ -22,4 +22,4 @@ TEST(Median, IsTheMeanOfTheTwoInTheMiddleOfAnEvenCount) {
 TEST(Median, OfNothingIsNoNumber) { EXPECT_TRUE(std::isnan(median_of({}))); }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::median_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace dartboard {
+namespace dartboard::nan_maximum_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -36,4 +36,4 @@ TEST(NanMaximum, OfSeveralKeepsOneWhereverItStands) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::nan_maximum_test

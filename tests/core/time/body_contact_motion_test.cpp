@@ -17,7 +17,7 @@
 #include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/bodies/touching_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::body_contact_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -355,4 +355,4 @@ TEST(BodyContactMotion, HasBitsThatKnowNothingOfMargins) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_contact_motion_test

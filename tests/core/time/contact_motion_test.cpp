@@ -18,7 +18,7 @@
 #include "core/views/skin.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::contact_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -342,4 +342,4 @@ TEST(ContactMotion, SticksByEveryIntegrator) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_motion_test

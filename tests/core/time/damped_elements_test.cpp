@@ -20,7 +20,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::damped_elements_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -456,4 +456,4 @@ TEST(DampedElements, PassOnTheWorkOfDrivenVertices) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::damped_elements_test

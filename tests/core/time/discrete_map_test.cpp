@@ -11,7 +11,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::discrete_map_test {
 namespace {
 
 using reference::Swing;
@@ -179,4 +179,4 @@ TEST(DiscreteMap, OfAFallIsAParabolaFromOrderTwoOn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::discrete_map_test

@@ -13,7 +13,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::element_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -205,4 +205,4 @@ TEST(ElementMotion, KnowsTheWorkOfDrivenVertices) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::element_motion_test

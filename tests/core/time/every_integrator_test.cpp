@@ -14,7 +14,7 @@
 #include "tests/support/integrator_memory.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::every_integrator_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -254,4 +254,4 @@ INSTANTIATE_TEST_SUITE_P(All, EveryIntegrator, testing::ValuesIn(names()), [](co
 });
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::every_integrator_test

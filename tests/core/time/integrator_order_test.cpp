@@ -14,7 +14,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::integrator_order_test {
 namespace {
 
 using Body = MassSpringBody<TetMap, Held::by_every_dart>;
@@ -154,4 +154,4 @@ TEST(IntegratorOrderFromRest, FlattersSymplecticEulerInItsVelocities) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::integrator_order_test

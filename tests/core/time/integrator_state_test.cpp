@@ -11,7 +11,7 @@
 #include "core/time/solve/stop_request.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::integrator_state_test {
 namespace {
 
 std::string stored(Integrator& integrator) {
@@ -180,4 +180,4 @@ TEST(IntegratorStateOf, AStepGivenUpIsThatOfBeforeUnlessTheFactorWasReplaced) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::integrator_state_test

@@ -19,7 +19,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::integrators_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -240,4 +240,4 @@ TEST(ClassicalRungeKutta, HasTheBitsOfTheOneOverWalks) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::integrators_test

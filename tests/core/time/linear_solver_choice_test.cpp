@@ -9,7 +9,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::linear_solver_choice_test {
 namespace {
 
 SpringArrays moving_cube() {
@@ -96,4 +96,4 @@ TEST(LinearSolverChoice, OfAnExplicitMethodOrOfNoSuchSolverIsRefusedWithThoseTha
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::linear_solver_choice_test

@@ -11,7 +11,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::mass_scaling_test {
 namespace {
 
 constexpr int exponents[] = {-600, 300, 600};  // squares of what is scaled by 2^600 are beyond the doubles
@@ -100,4 +100,4 @@ TEST(MassScaling, ChangesNoBitOfTheLongestStableStep) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mass_scaling_test

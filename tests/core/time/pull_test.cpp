@@ -14,7 +14,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::pull_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -126,4 +126,4 @@ TEST(Pull, ThatIsNoNumberIsNamedBeforeARun) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::pull_test

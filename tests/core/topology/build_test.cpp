@@ -13,7 +13,7 @@
 #include "core/topology/check.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::build_test {
 namespace {
 
 using Counts = std::array<std::size_t, 4>;
@@ -229,4 +229,4 @@ TEST(BuildMap, SewsAMoebiusStrip) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::build_test

@@ -9,7 +9,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cells_test {
 namespace {
 
 template <class Map>
@@ -121,4 +121,4 @@ TEST(CellWalks, TellWhetherTwoDartsShareACell) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cells_test

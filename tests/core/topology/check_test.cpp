@@ -6,7 +6,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::check_test {
 namespace {
 
 template <class Map>
@@ -172,4 +172,4 @@ TEST(CheckOfTetrahedra, NamesAFaceByAnyOfItsDarts) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::check_test

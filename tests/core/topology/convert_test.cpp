@@ -9,7 +9,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::convert_test {
 namespace {
 
 TEST(ToGeneral, KeepsEveryAlphaUnderTheSameNumbers) {
@@ -113,4 +113,4 @@ TEST(Isomorphism, IsFoundAfterAStartThatFails) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::convert_test

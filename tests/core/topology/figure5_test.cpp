@@ -19,7 +19,7 @@
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
 
-namespace dartboard {
+namespace dartboard::figure5_test {
 namespace {
 
 using Pairs = std::vector<std::pair<unsigned, unsigned>>;
@@ -119,4 +119,4 @@ TEST(Figure5, TwoFreeDartsFormTheBoundary) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::figure5_test

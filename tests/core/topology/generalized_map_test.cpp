@@ -10,7 +10,7 @@
 #include "core/plain/error.h"
 #include "tests/support/topology_message_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::generalized_map_test {
 namespace {
 
 TEST(GeneralizedMap, ANewMapHasNoDarts) {
@@ -236,4 +236,4 @@ TEST(MapHash, TellsInWhichOrderDeadSlotsWillBeUsedAgain) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::generalized_map_test

@@ -7,7 +7,7 @@
 
 #include "core/topology/generalized_map.h"
 
-namespace dartboard {
+namespace dartboard::mark_test {
 namespace {
 
 Map2 darts(int n) {
@@ -175,4 +175,4 @@ TEST(Mark, UnmarksEveryDartWhenTheEpochsBeginAgain) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mark_test

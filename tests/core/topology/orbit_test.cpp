@@ -10,7 +10,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::orbit_test {
 namespace {
 
 // Maps to walk on: with sewn and free faces, and with a dead cell in the middle of the slots.
@@ -153,4 +153,4 @@ TEST(Involutions, NameTheCellsAndTheLinesThatASewTreatsAlike) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::orbit_test

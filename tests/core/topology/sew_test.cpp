@@ -14,7 +14,7 @@
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
 
-namespace dartboard {
+namespace dartboard::sew_test {
 namespace {
 
 // An independent answer to "can a and b be i-sewn": follow the commuting involutions from the pair (a, b) and ask for a
@@ -226,4 +226,4 @@ TEST(SewOnTetMap, DoesAsOnMap3DartByDart) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::sew_test

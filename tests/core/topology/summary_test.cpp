@@ -12,7 +12,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::summary_test {
 namespace {
 
 using Counts = std::vector<std::size_t>;
@@ -200,4 +200,4 @@ TEST(Components, AreTheSameOnBothStorages) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::summary_test

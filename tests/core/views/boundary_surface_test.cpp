@@ -9,7 +9,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::boundary_surface_test {
 namespace {
 
 template <class Body>
@@ -240,4 +240,4 @@ TEST(BoundaryOfAClosedSurface, IsEmpty) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::boundary_surface_test

@@ -9,7 +9,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::component_labels_test {
 namespace {
 
 // The paper's way: walk along all alpha-links, and see which cells were met.
@@ -296,4 +296,4 @@ TYPED_TEST(ComponentsOf, DifferentPartitionsAreNotEqual) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::component_labels_test

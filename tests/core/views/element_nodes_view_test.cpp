@@ -19,7 +19,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::element_nodes_view_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -452,4 +452,4 @@ TEST(ElementsOnAMap, AreSolidCellsOfAMaterialThatExists) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::element_nodes_view_test

@@ -11,7 +11,7 @@
 #include "tests/support/bodies/term_checks_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::inner_edges_view_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -236,4 +236,4 @@ TEST(Bending, OfSecondNeighboursIsSharedByACutAlongThem) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::inner_edges_view_test

@@ -13,7 +13,7 @@
 #include "tests/support/bodies/membrane_body_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::membrane_nodes_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -250,4 +250,4 @@ TEST(MembranesOnAMap, AreFlatNowhereAndOfTheirOwnModel) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::membrane_nodes_test

@@ -19,7 +19,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::skin_solids_view_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -296,4 +296,4 @@ TEST(SkinSolidsOfASurface, AreNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::skin_solids_view_test

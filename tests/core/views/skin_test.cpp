@@ -17,7 +17,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::skin_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -386,4 +386,4 @@ TEST(SkinOfABody, IsNotThatOfAnother) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::skin_test

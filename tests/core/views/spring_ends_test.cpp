@@ -6,7 +6,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::spring_ends_test {
 namespace {
 
 // CellArrays finds the ends by covering the map.
@@ -61,4 +61,4 @@ TEST(SpringEndsOfASurface, FollowEveryOperationUntilNothingIsLeft) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::spring_ends_test

@@ -14,7 +14,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
 
-namespace dartboard {
+namespace dartboard::stored_body_test {
 namespace {
 
 template <class Map>
@@ -121,4 +121,4 @@ TEST(StoredBody, GivesNoGenerationTwice) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stored_body_test

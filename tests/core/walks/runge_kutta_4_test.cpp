@@ -13,7 +13,7 @@
 #include "core/walks/dart_coverage.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::runge_kutta_4_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -207,4 +207,4 @@ TEST(RungeKutta4, RefusesABodyWithForcesThatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::runge_kutta_4_test

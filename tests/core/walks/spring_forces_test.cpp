@@ -11,7 +11,7 @@
 #include "core/walks/embedding_lists.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::spring_forces_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -187,4 +187,4 @@ TEST(Acceleration, OfAFixedVertexIsZero) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::spring_forces_test

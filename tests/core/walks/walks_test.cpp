@@ -13,7 +13,7 @@
 #include "core/walks/runge_kutta_4.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::walks_test {
 namespace {
 
 constexpr auto one = Held::by_one_dart;
@@ -218,4 +218,4 @@ TEST(EmbeddingList, CanBeEmptiedAndFilledAgain) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::walks_test

@@ -9,7 +9,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::cgal_body_test {
 namespace {
 
 Problem of(Mesh mesh) {
@@ -133,4 +133,4 @@ TEST(CgalBody, RefusesAStateOfAnotherBody) {
 TEST(CgalVersion, IsNamed) { EXPECT_NE(cgal_version().find('.'), std::string::npos); }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::cgal_body_test

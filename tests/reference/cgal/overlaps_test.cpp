@@ -10,7 +10,7 @@
 #include "reference/least_translation.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::overlaps_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -167,4 +167,4 @@ TEST(Overlaps, RefuseACornerThatIsNotThereAndAPlaceThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::overlaps_test

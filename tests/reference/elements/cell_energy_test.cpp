@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace dartboard::reference {
+namespace dartboard::reference::cell_energy_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -79,4 +79,4 @@ TEST(TetrahedronEnergy, DoesNotDependOnTheOrderOfTheCorners) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::cell_energy_test

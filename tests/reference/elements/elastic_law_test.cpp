@@ -8,7 +8,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::elastic_law_test {
 namespace {
 
 using Matrix = Matrix3<long double>;
@@ -125,4 +125,4 @@ TEST(WitnessLaw, DoesNotKnowARotationWhereTwoStretchesAddUpToNothing) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::elastic_law_test

@@ -9,7 +9,7 @@
 #include "core/plain/random.h"
 #include "reference/elements/cell_energy.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::elastic_point_test {
 namespace {
 
 Material solid() { return {.density = 1.0, .young = 10.0, .poisson = 0.3, .model = Model::neo_hookean}; }
@@ -165,4 +165,4 @@ TEST(ElasticPoint, HasSixStrainsThatMeetAMultipleOfThemselves) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::elastic_point_test

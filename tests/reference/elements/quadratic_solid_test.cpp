@@ -9,7 +9,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::quadratic_solid_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ TEST(QuadraticSolid, TakesTetrahedraAlone) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::quadratic_solid_test

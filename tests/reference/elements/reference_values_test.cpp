@@ -7,7 +7,7 @@
 #include "reference/elements/elastic_point.h"
 #include "reference/elements/quadratic_solid.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::reference_values_test {
 namespace {
 
 Eigen::MatrixXd stiffness_of_points(const ElementValues& values, Model model) {
@@ -47,4 +47,4 @@ TEST(WitnessElements, OfTenNodesHaveTheMatricesThatAnotherCodeHas) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::reference_values_test

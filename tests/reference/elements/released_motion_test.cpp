@@ -8,7 +8,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "reference/elements/quadratic_solid.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::released_motion_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -67,4 +67,4 @@ TEST(ReleasedMotion, IsThatOfAllModesOfABentBar) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::released_motion_test

@@ -8,7 +8,7 @@
 #include "reference/ode_codes.h"
 #include "reference/schemes/network_state.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::explicit_schemes_test {
 namespace {
 
 /// Four points, one of them held, six springs of several strengths, off their rest lengths; dampers and viscosity.
@@ -78,4 +78,4 @@ TEST(ExplicitSchemes, KnowTheirNames) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::explicit_schemes_test

@@ -6,7 +6,7 @@
 #include "reference/adjacency_graph.h"
 #include "reference/closed_form.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::extended_motion_test {
 namespace {
 
 Problem box() {
@@ -91,4 +91,4 @@ TEST(Distance, OfStatesThatAreNoneIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::extended_motion_test

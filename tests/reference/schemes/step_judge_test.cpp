@@ -8,7 +8,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard::reference {
+namespace dartboard::reference::step_judge_test {
 namespace {
 
 /// A mass of 1 kg on a spring of 4 N/m and rest length 1 at a wall, along x: all methods have a closed form there.
@@ -186,4 +186,4 @@ TEST(StepJudge, SaysWhenAStepShowsNothingOfItsMethod) {
 TEST(StepJudge, RefusesNamesThatItDoesNotKnow) { EXPECT_THROW(StepJudge("rk5", oscillator()), InputError); }
 
 }  // namespace
-}  // namespace dartboard::reference
+}  // namespace dartboard::reference::step_judge_test

@@ -12,7 +12,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "validation/cgal/map_twin.h"
 
-namespace dartboard {
+namespace dartboard::cgal_topology_tasks_test {
 namespace {
 
 using reference::kuhn_grid;
@@ -123,4 +123,4 @@ TEST(CgalMapBytes, GrowWithTheMesh) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cgal_topology_tasks_test

@@ -9,7 +9,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "validation/topology/topology_report.h"
 
-namespace dartboard {
+namespace dartboard::cgal_twin_test {
 namespace {
 
 using Counts = std::vector<std::size_t>;
@@ -290,4 +290,4 @@ TEST(CompareTwins, SeesPartitionsThatDifferThoughTheirCountsDoNot) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cgal_twin_test

@@ -14,7 +14,7 @@
 #include "core/topology/storage/hash.h"
 #include "core/topology/summary.h"
 
-namespace dartboard {
+namespace dartboard::delaunay_ball_test {
 namespace {
 
 std::uint64_t hash_of(const Mesh& mesh) {
@@ -123,4 +123,4 @@ TEST(DelaunayMeshes, AreSmall) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::delaunay_ball_test

@@ -9,7 +9,7 @@
 #include "validation/conservation/conservation_ledger.h"
 #include "validation/conservation/conserved_sums.h"
 
-namespace dartboard {
+namespace dartboard::conservation_bounds_test {
 namespace {
 
 constexpr double u = 0x1p-53;
@@ -124,4 +124,4 @@ TEST(Drift, MayGrowAsTheRootOfTheOperations) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_bounds_test

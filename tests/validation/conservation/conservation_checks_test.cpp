@@ -8,7 +8,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 
-namespace dartboard {
+namespace dartboard::conservation_checks_test {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
@@ -90,4 +90,4 @@ TEST(ConservationChecksOfABody, NameASpringThatEndsElsewhereInAView) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_checks_test

@@ -10,7 +10,7 @@
 
 #include "validation/conservation/conserved_sums.h"
 
-namespace dartboard {
+namespace dartboard::conservation_ledger_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -58,4 +58,4 @@ TEST(Drift, KeepsATotalThatIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_ledger_test

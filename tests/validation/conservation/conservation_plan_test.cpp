@@ -11,7 +11,7 @@
 #include "tests/support/conservation_rows_for_tests.h"
 #include "validation/conservation/conservation.h"
 
-namespace dartboard {
+namespace dartboard::conservation_plan_test {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
@@ -109,4 +109,4 @@ TEST(MovingProblem, ObeysItsSeed) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_plan_test

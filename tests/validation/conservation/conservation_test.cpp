@@ -13,7 +13,7 @@
 #include "validation/conservation/conserved_sums.h"
 #include "validation/conservation/rebuild_oracle.h"
 
-namespace dartboard {
+namespace dartboard::conservation_test {
 namespace {
 
 // no sum of these is exact
@@ -282,4 +282,4 @@ TEST(TwofoldSums, KeepWhatAnAdditionLoses) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_test

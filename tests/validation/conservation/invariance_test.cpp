@@ -23,7 +23,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/rotation_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::invariance_test {
 namespace {
 
 template <class Map>
@@ -443,4 +443,4 @@ TYPED_TEST(Invariance, TheSameFacesOfASeamTearInAnyNumbering) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::invariance_test

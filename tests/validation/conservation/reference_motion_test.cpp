@@ -7,7 +7,7 @@
 #include "core/operations/remove_volume.h"
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::reference_motion_test {
 namespace {
 
 /// A body of all kinds of cells that has lost some of them, and some faces.
@@ -64,4 +64,4 @@ TEST(ReferenceMotion, IsNotThatOfABodyWithAVertexTooHeavyOrFree) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::reference_motion_test

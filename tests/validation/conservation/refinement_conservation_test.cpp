@@ -18,7 +18,7 @@
 #include "validation/conservation/refinement_effects.h"
 #include "validation/conservation/subdivided_cells.h"
 
-namespace dartboard {
+namespace dartboard::refinement_conservation_test {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
@@ -371,4 +371,4 @@ TEST(SubdividedCells, ShareMassAndStiffnessAndKeepTheirVolume) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::refinement_conservation_test

@@ -9,7 +9,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 
-namespace dartboard {
+namespace dartboard::remaining_cells_test {
 namespace {
 
 using Counts = std::array<std::size_t, 4>;
@@ -69,4 +69,4 @@ TEST(RemainingCellsOfACube, HaveTheAreasOfTheirSides) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::remaining_cells_test

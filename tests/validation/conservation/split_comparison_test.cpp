@@ -10,7 +10,7 @@
 #include "core/operations/dissociate_all.h"
 #include "tests/support/conservation_rows_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::split_comparison_test {
 namespace {
 
 constexpr std::array checks{Check::split_cells, Check::split_sums, Check::split_bits};
@@ -79,4 +79,4 @@ TYPED_TEST(SplitComparison, FailsWhenASpringOfThePartHasOtherEnds) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::split_comparison_test

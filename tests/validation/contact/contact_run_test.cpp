@@ -4,7 +4,7 @@
 
 #include "validation/contact/contact_scenes.h"
 
-namespace dartboard {
+namespace dartboard::contact_run_test {
 namespace {
 
 constexpr std::size_t looks = 12;
@@ -51,4 +51,4 @@ TEST(ContactRun, SeesMomentumThatIsNotKept) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_run_test

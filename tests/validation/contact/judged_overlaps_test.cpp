@@ -9,7 +9,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/scene/body/simulated_body.h"
 
-namespace dartboard {
+namespace dartboard::judged_overlaps_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -131,4 +131,4 @@ TEST(OverlapTally, CountsByDepthAndKeepsTheDeepest) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::judged_overlaps_test

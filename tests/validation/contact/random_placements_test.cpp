@@ -4,7 +4,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 
-namespace dartboard {
+namespace dartboard::random_placements_test {
 namespace {
 
 const Mesh& box() {
@@ -66,4 +66,4 @@ TEST(RandomPlacements, AddUp) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::random_placements_test

@@ -10,7 +10,7 @@
 #include "reference/summation_bound.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::motion_agreement_test {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -143,4 +143,4 @@ TEST(CompareMotion, StopsTheOthersWhereTheBoundIsInfinite) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::motion_agreement_test

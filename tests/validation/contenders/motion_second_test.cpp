@@ -7,7 +7,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "reference/adjacency_graph.h"
 
-namespace dartboard {
+namespace dartboard::motion_second_test {
 namespace {
 
 Problem swinging_box() {
@@ -73,4 +73,4 @@ TEST(SecondOfMotion, StopsWhoStandsStillAndWhoHasNoNumbers) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::motion_second_test

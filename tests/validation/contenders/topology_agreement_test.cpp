@@ -9,7 +9,7 @@
 #include "core/plain/error.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::topology_agreement_test {
 namespace {
 
 // The unit cube of six tetrahedra around its diagonal.
@@ -86,4 +86,4 @@ TEST(CompareCounts, AskCgal) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::topology_agreement_test

@@ -10,7 +10,7 @@
 #include "validation/contenders/contenders.h"
 #include "validation/topology/topology_report.h"
 
-namespace dartboard {
+namespace dartboard::witness_independence_test {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
@@ -64,4 +64,4 @@ TEST(RebuildOracle, LeavesTheBodyThatItComparesAsItIs) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::witness_independence_test

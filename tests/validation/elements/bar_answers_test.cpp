@@ -4,7 +4,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::bar_answers_test {
 namespace {
 
 constexpr BarModel springs{}, hexahedra{Model::neo_hookean, CellKind::hexahedron};
@@ -80,4 +80,4 @@ TEST(BarAnswers, ErrorsAreSharesOfTheTruth) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bar_answers_test

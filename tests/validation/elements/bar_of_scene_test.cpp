@@ -5,7 +5,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::bar_of_scene_test {
 namespace {
 
 struct Parts {
@@ -88,4 +88,4 @@ TEST(BarOfScene, RefusesWhatIsNoBarHeldAtOneEnd) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bar_of_scene_test

@@ -6,7 +6,7 @@
 
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::bar_run_test {
 namespace {
 
 struct Bent {
@@ -96,4 +96,4 @@ TEST(BarMethods, StartFromStepsThatAreStable) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bar_run_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dartboard {
+namespace dartboard::cantilever_test {
 namespace {
 
 // Near rest all laws are Hooke's: the same stiffness, to the third order of nothing.
@@ -52,4 +52,4 @@ TEST(Cantilever, OfQuadraticElementsIsThatOfAnotherCode) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cantilever_test

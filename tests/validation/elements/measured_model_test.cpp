@@ -4,7 +4,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::measured_model_test {
 namespace {
 
 TEST(BarMeshes, AreAsFineAsFactorsAllow) {
@@ -43,4 +43,4 @@ TEST(MeasuredModel, IsSteppedSoThatItsErrorIsItsOwn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::measured_model_test

@@ -7,7 +7,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::model_advice_test {
 namespace {
 
 ModelTrend trend(double coarse, double fine) {
@@ -65,4 +65,4 @@ TEST(ModelAdvice, SaysWhyThereIsNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::model_advice_test

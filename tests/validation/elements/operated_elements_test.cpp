@@ -4,7 +4,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 
-namespace dartboard {
+namespace dartboard::operated_elements_test {
 namespace {
 
 const ElementOperationsPlan brief{.operations = 400, .check_every = 50, .seed = 7};
@@ -70,4 +70,4 @@ TEST(OperatedElements, AreTheSameForTheSameSeedAndOthersForAnother) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::operated_elements_test

@@ -10,7 +10,7 @@
 #include "validation/elements/cantilever.h"
 #include "validation/statics/linearised.h"
 
-namespace dartboard {
+namespace dartboard::reference_values_test {
 namespace {
 
 /// Matrices of a body of one cell as it is simulated, by the points of its mesh.
@@ -91,4 +91,4 @@ TEST(PublishedCantilevers, AreNearThoseOfQuadraticTetrahedra) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::reference_values_test

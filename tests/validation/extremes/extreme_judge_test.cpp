@@ -9,7 +9,7 @@
 #include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/extreme_run.h"
 
-namespace dartboard {
+namespace dartboard::extreme_judge_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -236,4 +236,4 @@ TEST(Extremes, CallsARunAtAnOffsetSilentThatEndsElsewhere) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extreme_judge_test

@@ -10,7 +10,7 @@
 
 #include "validation/stability/frequency_oracle.h"
 
-namespace dartboard {
+namespace dartboard::extreme_matrix_test {
 namespace {
 
 using Values = std::vector<std::string>;
@@ -177,4 +177,4 @@ TEST(ExtremeNumbers, MultiplyMassesAsFarUpAsDown) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extreme_matrix_test

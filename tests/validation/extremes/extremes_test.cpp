@@ -13,7 +13,7 @@
 #include "core/time/explicit/frozen_damping.h"
 #include "validation/extremes/extreme_run.h"
 
-namespace dartboard {
+namespace dartboard::extremes_test {
 namespace {
 
 std::size_t count(const std::vector<ExtremeCell>& cells, ExtremeOutcome outcome) {
@@ -149,4 +149,4 @@ TEST(FrozenDamping, EndsForInfinitelyMuchOfIt) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extremes_test

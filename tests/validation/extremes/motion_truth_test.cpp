@@ -5,7 +5,7 @@
 #include "core/time/integrators.h"
 #include "validation/extremes/extreme_run.h"
 
-namespace dartboard {
+namespace dartboard::motion_truth_test {
 namespace {
 
 SpringColumns after(const char* integrator, SpringColumns body, double h, int steps) {
@@ -85,4 +85,4 @@ TEST(MotionTruth, IsResolvedWhereNothingMovesAndNothingShould) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::motion_truth_test

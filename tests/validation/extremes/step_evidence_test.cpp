@@ -14,7 +14,7 @@
 #include "validation/judges/wrong_integrators.h"
 #include "validation/scenes/elastic_solid.h"
 
-namespace dartboard {
+namespace dartboard::step_evidence_test {
 namespace {
 
 struct Trial {
@@ -269,4 +269,4 @@ TEST(NetworkOf, KnowsNoBodiesThatTheWitnessesCannotMove) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_evidence_test

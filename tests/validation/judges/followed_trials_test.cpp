@@ -6,7 +6,7 @@
 
 #include "tests/support/ticking_clock_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::followed_trials_test {
 namespace {
 
 // An undamped chain along its line: without dampers there is nothing to lose, and springs pull as their linearisation.
@@ -26,4 +26,4 @@ TEST(FollowedTrial, SeesWrongIntegratorsWhoseRunMissesTheError) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::followed_trials_test

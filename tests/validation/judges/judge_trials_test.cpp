@@ -6,7 +6,7 @@
 
 #include "validation/extremes/extreme_run.h"
 
-namespace dartboard {
+namespace dartboard::judge_trials_test {
 namespace {
 
 ExtremeCell ended(std::vector<double> end, std::uint64_t steps = 100) {
@@ -96,4 +96,4 @@ TEST(TryOrder, SeesWrongIntegratorsInTheOrdersThatTheyShow) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::judge_trials_test

@@ -8,7 +8,7 @@
 #include "core/time/system/energy.h"
 #include "validation/extremes/extreme_run.h"
 
-namespace dartboard {
+namespace dartboard::wrong_integrators_test {
 namespace {
 
 double distance(const SpringColumns& a, const SpringColumns& b) {
@@ -100,4 +100,4 @@ TEST(WrongIntegrators, DriftByAMillionth) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::wrong_integrators_test

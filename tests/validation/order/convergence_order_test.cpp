@@ -16,7 +16,7 @@
 #include "validation/order/discrete_exact.h"
 #include "validation/order/force_gradient.h"
 
-namespace dartboard {
+namespace dartboard::convergence_order_test {
 namespace {
 
 OrderStudy study_of(int theory, const std::vector<double>& x, const std::vector<double>& v) {
@@ -283,4 +283,4 @@ TEST(CutJump, IsSeenWhenMassIsLost) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::convergence_order_test

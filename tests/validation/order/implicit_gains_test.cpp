@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace dartboard {
+namespace dartboard::implicit_gains_test {
 namespace {
 
 // The equations are solved to rounding, so that the energy walks by some 1e-16 a step.
@@ -26,4 +26,4 @@ TEST(KeptFactor, SavesTenFactorisationsOutOfElevenForLessThanTheErrorOfTheStep) 
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::implicit_gains_test

@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::embeddings_held_test {
 namespace {
 
 using One = MassSpringBody<Map3, Held::by_one_dart>;
@@ -33,4 +33,4 @@ TEST(EmbeddingsHeld, IsNotAnsweredByABodyThatDoesNotMove) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::embeddings_held_test

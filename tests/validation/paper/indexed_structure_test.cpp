@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::indexed_structure_test {
 namespace {
 
 TEST(IndexedStructure, FollowsEveryOperation) { expect_yes(translate_operations(small_tetrahedral_problem(), 80, 2)); }
@@ -41,4 +41,4 @@ TEST(IndexedStructure, IsNotRightWhereASpringKeepsItsStiffness) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::indexed_structure_test

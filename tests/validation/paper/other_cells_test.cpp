@@ -5,7 +5,7 @@
 #include "tests/validation/paper/paper_problem_for_tests.h"
 #include "validation/paper/moves_as_reference.h"
 
-namespace dartboard {
+namespace dartboard::other_cells_test {
 namespace {
 
 TEST(OtherCells, AreCutAndMovedLikeTetrahedra) { expect_yes(try_other_cells(mixed_box(2, 2, 2, 0.1), 60, 1)); }
@@ -26,4 +26,4 @@ TEST(MovesAsReference, WithinTenSpreads) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::other_cells_test

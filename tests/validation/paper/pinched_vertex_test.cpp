@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::pinched_vertex_test {
 namespace {
 
 TEST(PinchedVertex, IsAQuasiManifoldThatMoves) {
@@ -19,4 +19,4 @@ TEST(PinchedVertex, IsNoneInAManifold) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::pinched_vertex_test

@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::removals_share_test {
 namespace {
 
 using Body = LiveBody<Map3>;
@@ -74,4 +74,4 @@ TEST(Removals, FreeNoOtherFace) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::removals_share_test

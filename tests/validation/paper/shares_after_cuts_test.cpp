@@ -5,7 +5,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::shares_after_cuts_test {
 namespace {
 
 using Body = LiveBody<Map3>;
@@ -129,4 +129,4 @@ TEST(SharesAfterCuts, AreNotAnsweredWhereNothingCameApart) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::shares_after_cuts_test

@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::uncut_body_test {
 namespace {
 
 using Body = MassSpringBody<Map3, Held::by_every_dart>;
@@ -37,4 +37,4 @@ TEST(UncutBody, HasNotWhereStiffnessGoesFromOneEdgeToAnother) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::uncut_body_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::worst_share_test {
 namespace {
 
 double share_of(double is, double should_be, double bound) {
@@ -32,4 +32,4 @@ TEST(WorstShare, OfWhatHasNoBoundOrIsNoNumberIsNotWithin) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::worst_share_test

@@ -11,7 +11,7 @@
 #include "validation/recommend/recommendation_audit.h"
 #include "validation/scenes/random_scenes.h"
 
-namespace dartboard {
+namespace dartboard::audit_judge_test {
 namespace {
 
 /// The error of so many steps of Verlet, without the help of any study.
@@ -136,4 +136,4 @@ TEST(RandomSceneSeeds, DrawOtherScenes) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::audit_judge_test

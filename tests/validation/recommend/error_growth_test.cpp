@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace dartboard {
+namespace dartboard::error_growth_test {
 namespace {
 
 /// Of t from 1/n to 1.
@@ -74,4 +74,4 @@ TEST(ErrorGrowth, IsNotExponentialForOneJump) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::error_growth_test

@@ -11,7 +11,7 @@
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/candidate_pilots.h"
 
-namespace dartboard {
+namespace dartboard::pilots_test {
 namespace {
 
 Candidate candidate(const char* name, bool implicit) {
@@ -305,4 +305,4 @@ TEST(GrowthWithTime, IsThePowerThatTheLargestErrorFollows) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::pilots_test

@@ -12,7 +12,7 @@
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/recommendation_audit.h"
 
-namespace dartboard {
+namespace dartboard::recommend_test {
 namespace {
 
 /// Eight seconds, a checkpoint at each.
@@ -383,4 +383,4 @@ TEST(Recommend, ANonsensicalErrorIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::recommend_test

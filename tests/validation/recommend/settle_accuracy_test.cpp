@@ -12,7 +12,7 @@
 #include "core/scene/run/scene_verdict.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::settle_accuracy_test {
 namespace {
 
 using namespace moving;
@@ -153,4 +153,4 @@ TEST(SettleAccuracy, ScenesOfTheProjectThatAskForOneEndAsTheyExpect) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::settle_accuracy_test

@@ -6,7 +6,7 @@
 
 #include "reference/error_norms.h"
 
-namespace dartboard {
+namespace dartboard::other_codes_test {
 namespace {
 
 TEST(OtherCodes, FindAMotionThatIsKnownExactly) {
@@ -28,4 +28,4 @@ TEST(OtherCodes, AreMadeFinerUntilTheyAgree) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::other_codes_test

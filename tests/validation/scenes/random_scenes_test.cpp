@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace dartboard {
+namespace dartboard::random_scenes_test {
 namespace {
 
 const RandomSceneOptions small{.most_points = 200, .most_work = 2e4};
@@ -35,4 +35,4 @@ TEST(RandomScene, CoversWhatChangesTheChoice) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::random_scenes_test

@@ -11,7 +11,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/ticking_clock_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::scene_features_test {
 namespace {
 
 // A chain of 8 masses of 0.01 kg on springs of 50 N/m, 0.1 m apart, for 64 radians of its fastest mode.
@@ -87,4 +87,4 @@ TEST(StiffScene, IsCriticallyDampedAtItsFastestModeWhereItIsDamped) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_features_test

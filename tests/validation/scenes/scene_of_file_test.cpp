@@ -7,7 +7,7 @@
 #include "tests/support/moving_box.h"
 #include "validation/scenes/scene_stage.h"
 
-namespace dartboard {
+namespace dartboard::scene_of_file_test {
 namespace {
 
 using namespace moving;
@@ -132,4 +132,4 @@ TEST(FindScene, TakesFilesAndNamesOfTheStudy) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_of_file_test

@@ -10,7 +10,7 @@
 #include "reference/error_norms.h"
 #include "tests/support/ticking_clock_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::scene_reference_test {
 namespace {
 
 reference::CertifiedMotion codes_that_agree() {
@@ -97,4 +97,4 @@ TEST(SelfConverged, IsConfirmedWhereThereIsTime) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_reference_test

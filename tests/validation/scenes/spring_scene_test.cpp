@@ -16,7 +16,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::spring_scene_test {
 namespace {
 
 SpringScene box() {
@@ -199,4 +199,4 @@ TEST(SpringScene, RefusesEventsThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::spring_scene_test

@@ -16,7 +16,7 @@
 #include "validation/solvers/solver_accuracy.h"
 #include "validation/solvers/solver_bodies.h"
 
-namespace dartboard {
+namespace dartboard::solver_judges_test {
 namespace {
 
 TEST(IndefiniteCellJudge, CallsAMatrixThatPassedAsSolvedUndiagnosed) {
@@ -143,4 +143,4 @@ TEST(SpreadScales, CoversTheDecadesThatItNames) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::solver_judges_test

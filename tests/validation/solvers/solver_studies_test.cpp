@@ -15,7 +15,7 @@
 #include "validation/solvers/solver_accuracy.h"
 #include "validation/solvers/solver_bodies.h"
 
-namespace dartboard {
+namespace dartboard::solver_studies_test {
 namespace {
 
 TEST(DissociationPairs, HaveOneVertexMoreAndTheSameMassAndStiffness) {
@@ -167,4 +167,4 @@ TEST(Crossover, ComparesWithTheStepsThatMeetTheError) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::solver_studies_test

@@ -10,7 +10,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::amplification_study_test {
 namespace {
 
 TEST(Amplification, IsThatOfTheClosedFormsForEveryIntegrator) {
@@ -75,4 +75,4 @@ TEST(Amplification, OfAMethodWithoutAClosedFormIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::amplification_study_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::detection_study_test {
 namespace {
 
 TEST(Detection, FollowsWithin64StepsWhereverTheEnergyPassesTheBound) {
@@ -42,4 +42,4 @@ TEST(Detection, HoldsWhereARunIsPredictedAndNotLongAboveTheBound) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::detection_study_test

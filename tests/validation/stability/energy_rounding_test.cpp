@@ -12,7 +12,7 @@
 #include "core/time/integrators.h"
 #include "validation/scenes/extreme_bodies.h"
 
-namespace dartboard {
+namespace dartboard::energy_rounding_test {
 namespace {
 
 // Five points over two decades, each the root of a mean over 64 starts, 9 % of scatter: the slope scatters by 0.05, and
@@ -88,4 +88,4 @@ TEST(EnergyRounding, IsThatOfTheStateWithItsDigitsAfterSoManySteps) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::energy_rounding_test

@@ -9,7 +9,7 @@
 
 #include "reference/closed_form.h"
 
-namespace dartboard {
+namespace dartboard::frequency_oracle_test {
 namespace {
 
 TEST(FrequencyOracle, IsThatOfTheChainInClosedForm) {
@@ -61,4 +61,4 @@ TEST(FrequencyOracle, LeavesFixedVerticesOut) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::frequency_oracle_test

@@ -9,7 +9,7 @@
 #include "validation/stability/energy_rounding.h"
 #include "validation/tradeoff/rounding_floor.h"
 
-namespace dartboard {
+namespace dartboard::rounding_judges_test {
 namespace {
 
 std::vector<RoundingGrowth::Point> powers(double exponent) {
@@ -121,4 +121,4 @@ TEST(RoundingFloorJudge, CountsTheWayOfTheCentreOfMass) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::rounding_judges_test

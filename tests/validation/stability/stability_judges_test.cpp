@@ -15,7 +15,7 @@
 #include "validation/stability/stability_limits.h"
 #include "validation/stability/stability_map.h"
 
-namespace dartboard {
+namespace dartboard::stability_judges_test {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -177,4 +177,4 @@ TEST(FrequencyOracle, ProvesNothingWhereItMissesTheLargest) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stability_judges_test

@@ -4,7 +4,7 @@
 
 #include "validation/cgal/delaunay_ball.h"
 
-namespace dartboard {
+namespace dartboard::stability_limits_test {
 namespace {
 
 TEST(StabilityLimits, AreWithinTheirToleranceOfTheory) {
@@ -32,4 +32,4 @@ TEST(StabilityLimits, OnAMeshAreWhereLanczosPutsThemBeforeAndAfterCuts) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stability_limits_test

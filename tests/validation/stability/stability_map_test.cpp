@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dartboard {
+namespace dartboard::stability_map_test {
 namespace {
 
 StabilityMap small_map(const char* name) {
@@ -52,4 +52,4 @@ TEST(StabilityMap, BeginsWithNoDamping) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stability_map_test

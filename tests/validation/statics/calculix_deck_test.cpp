@@ -9,7 +9,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::calculix_deck_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -171,4 +171,4 @@ TEST(CalculixDisplacements, AreRefusedWhereTheyAreNotThoseOfAllNodes) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::calculix_deck_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::newton_matrices_test {
 namespace {
 
 // With the exact tangent residuals fall quadratically; projected, or warped, by a factor, where they fall.
@@ -27,4 +27,4 @@ TEST(NewtonRuns, AreShortestWithTheExactTangent) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::newton_matrices_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dartboard {
+namespace dartboard::static_problem_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -60,4 +60,4 @@ TEST(DisplacementsApart, IsTheLargestDistanceOverTheLargestDisplacement) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::static_problem_test

@@ -11,7 +11,7 @@
 #include "validation/elements/clamped_bar.h"
 #include "validation/statics/linearised.h"
 
-namespace dartboard {
+namespace dartboard::static_rest_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -95,4 +95,4 @@ TEST(StaticRest, SaysWhereItIsNotFound) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::static_rest_test

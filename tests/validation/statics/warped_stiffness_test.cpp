@@ -9,7 +9,7 @@
 #include "validation/statics/linearised.h"
 #include "validation/statics/static_problem.h"
 
-namespace dartboard {
+namespace dartboard::warped_stiffness_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -58,4 +58,4 @@ TEST(WarpedStiffness, IsOfTetrahedraAlone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::warped_stiffness_test

@@ -9,7 +9,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "validation/topology/topology_fuzz.h"
 
-namespace dartboard {
+namespace dartboard::lockstep_judge_test {
 namespace {
 
 /// Map3 twice, the second one lying.
@@ -240,4 +240,4 @@ TEST(CompareIsomorphism, SaysNoOfATwinThatHasOneFaceMoreApart) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::lockstep_judge_test

@@ -11,7 +11,7 @@
 #include "validation/stability/stability_limits.h"
 #include "validation/tradeoff/work_precision.h"
 
-namespace dartboard {
+namespace dartboard::seeds_test {
 namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
@@ -84,4 +84,4 @@ TEST(Seeds, DrawTheOrderOfTheContenders) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::seeds_test

@@ -8,7 +8,7 @@
 #include "core/topology/build.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::topology_claims_test {
 namespace {
 
 void expect_holds(const ClaimAnswer& answer) { EXPECT_TRUE(answer.holds) << answer.measured; }
@@ -65,4 +65,4 @@ TEST(TopologyClaims, DrawTheirOperationsFromTheSeed) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::topology_claims_test

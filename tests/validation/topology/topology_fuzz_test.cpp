@@ -10,7 +10,7 @@
 #include "core/topology/sew.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::topology_fuzz_test {
 namespace {
 
 FuzzPlan plan(ScriptStorage storage, ScriptOracles oracles, std::uint64_t seed, std::size_t operations) {
@@ -250,4 +250,4 @@ TEST(Shrink, KeepsASingleLine) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::topology_fuzz_test

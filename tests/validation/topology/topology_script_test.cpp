@@ -7,7 +7,7 @@
 
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::topology_script_test {
 namespace {
 
 const std::string header = "dartboard-topology-script 1\nmesh kuhn grid\nstorage tetrahedral\noracles both\n";
@@ -99,4 +99,4 @@ TEST(TopologyScript, SurvivesAFile) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::topology_script_test

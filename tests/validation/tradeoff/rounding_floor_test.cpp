@@ -9,7 +9,7 @@
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/pilots.h"
 
-namespace dartboard {
+namespace dartboard::rounding_floor_test {
 namespace {
 
 /// Of a run whose steps are too short for anything but rounding to show.
@@ -62,4 +62,4 @@ TEST(RoundingFloor, CountsTheStagesThatRoundPositions) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::rounding_floor_test

@@ -11,7 +11,7 @@
 #include "validation/scenes/order_scenes.h"
 #include "validation/tradeoff/cvode_adams.h"
 
-namespace dartboard {
+namespace dartboard::work_precision_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -400,4 +400,4 @@ TEST(WorkPrecisionEnds, WhereAMethodCannotBecomeUseful) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::work_precision_test

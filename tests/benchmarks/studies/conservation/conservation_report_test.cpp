@@ -8,7 +8,7 @@
 
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::conservation_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -121,4 +121,4 @@ TEST(ConservationJson, CallsExactWhatHasNoBoundOrNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conservation_report_test

@@ -10,7 +10,7 @@
 #include "benchmarks/studies/contact/contact_study.h"
 #include "tests/support/claims_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::contact_report_test {
 namespace {
 
 ContactResults good_results() {
@@ -120,4 +120,4 @@ TEST(ContactStudy, HoldsAndSaysSo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_report_test

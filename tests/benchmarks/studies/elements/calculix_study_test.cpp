@@ -8,7 +8,7 @@
 #include "benchmarks/studies/elements/elements_study.h"
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::calculix_study_test {
 namespace {
 
 /// Displacements as CalculiX prints them, each times `factor`.
@@ -68,4 +68,4 @@ TEST(CalculixStudy, TellsHowFarEachBeamIsApart) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::calculix_study_test

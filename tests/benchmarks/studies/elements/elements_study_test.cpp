@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::elements_study_test {
 namespace {
 
 /// What a sound study finds, in round numbers.
@@ -70,4 +70,4 @@ TEST(ElementsStudy, SaysWhatAModelMissesAndWhatItCosts) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::elements_study_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::newton_study_test {
 namespace {
 
 std::vector<NewtonRun> sound() {
@@ -48,4 +48,4 @@ TEST(NewtonStudy, FallsShortOfNothing) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::newton_study_test

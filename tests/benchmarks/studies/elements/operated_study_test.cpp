@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::operated_study_test {
 namespace {
 
 OperatedBody sound() {
@@ -53,4 +53,4 @@ TEST(OperatedStudy, TellsWhatWasDoneToEachBody) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::operated_study_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace dartboard {
+namespace dartboard::extremes_figures_test {
 namespace {
 
 void expect_point(const PlotSeries::Point& p, double x, double y) {
@@ -208,4 +208,4 @@ TEST(RoundingFigure, IsEmptyWhereNothingWasMeasured) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extremes_figures_test

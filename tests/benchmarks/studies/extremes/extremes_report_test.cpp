@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::extremes_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -262,4 +262,4 @@ TEST(ExtremesTables, BelongToTheStudiesThatWereMade) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extremes_report_test

@@ -11,7 +11,7 @@
 #include "tests/support/claims_for_tests.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::extremes_tables_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -318,4 +318,4 @@ TEST(ExtremesJson, HoldsEveryFigureOfTheStudies) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::extremes_tables_test

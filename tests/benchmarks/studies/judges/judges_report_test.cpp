@@ -7,7 +7,7 @@
 
 #include "benchmarks/harness/exit_codes.h"
 
-namespace dartboard {
+namespace dartboard::judges_report_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -89,4 +89,4 @@ TEST(JudgesReport, HoldsEveryFigureAsJson) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::judges_report_test

@@ -9,7 +9,7 @@
 #include "benchmarks/studies/models/models_study.h"
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::models_report_test {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -235,4 +235,4 @@ TEST(ModelTimes, AreOfTheSameStepsInEachRound) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::models_report_test

@@ -13,7 +13,7 @@
 #include "tests/support/claims_for_tests.h"
 #include "tests/support/timings_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::bench_reports_test {
 namespace {
 
 using Ids = std::vector<std::string>;
@@ -335,4 +335,4 @@ TEST(StudyOperations, TimeEveryPhaseOfEveryOperation) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bench_reports_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/claims_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::order_report_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -122,4 +122,4 @@ TEST(OrderClaims, FallShortOfAKeptFactorWithAnotherMotion) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::order_report_test

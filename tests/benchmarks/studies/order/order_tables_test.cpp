@@ -9,7 +9,7 @@
 #include "tests/support/claims_for_tests.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::order_tables_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -180,4 +180,4 @@ TEST(OrderJson, HoldsEveryFigure) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::order_tables_test

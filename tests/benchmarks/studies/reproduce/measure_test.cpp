@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::measure_test {
 namespace {
 
 // what a contender's run of so many steps took
@@ -33,4 +33,4 @@ TEST(PerStep, KeepsWhoseSampleItIs) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::measure_test

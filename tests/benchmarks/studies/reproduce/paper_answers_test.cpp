@@ -9,7 +9,7 @@
 #include "benchmarks/studies/reproduce/reproduce_report.h"
 #include "tests/support/claims_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::paper_answers_test {
 namespace {
 
 TEST(PaperAnswers, HoldOnThePapersBodyButForWhatWasSaidToBeImpossible) {
@@ -50,4 +50,4 @@ TEST(PaperAnswers, AreGivenToAllSentencesInTheOrderOfThePaper) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::paper_answers_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dartboard {
+namespace dartboard::real_time_test {
 namespace {
 
 using Frames = std::vector<FrameTime>;
@@ -54,4 +54,4 @@ TEST(RealTime, IsMeasuredOnBodiesThatGrowUntilAFrameTakesTooLong) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::real_time_test

@@ -13,7 +13,7 @@
 #include "tests/support/tables_for_tests.h"
 #include "validation/contenders/contenders.h"
 
-namespace dartboard {
+namespace dartboard::reproduce_report_test {
 namespace {
 
 using Body = MassSpringBody<Map3, Held::by_every_dart>;
@@ -395,4 +395,4 @@ TEST(ReproduceTables, HaveThePapersTimesBesideOurs) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::reproduce_report_test

@@ -15,7 +15,7 @@
 #include "core/scene/plan/measured_plan.h"
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::ablation_study_test {
 namespace {
 
 TEST(PlainLoop, MovesWithTheBitsOfTheIntegrator) {
@@ -139,4 +139,4 @@ TEST(Ablation, HandsOutEachTaskOfEachRoundAndItsLoopsAgree) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::ablation_study_test

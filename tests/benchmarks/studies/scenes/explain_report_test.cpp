@@ -9,7 +9,7 @@
 
 #include "benchmarks/harness/table.h"
 
-namespace dartboard {
+namespace dartboard::explain_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -197,4 +197,4 @@ TEST(ExplainJson, HoldsWhatWasMeasuredAndWhatNoItemPlans) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::explain_report_test

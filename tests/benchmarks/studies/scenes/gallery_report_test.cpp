@@ -9,7 +9,7 @@
 #include "core/plain/escape.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::gallery_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,4 +87,4 @@ TEST(GalleryJson, HoldsEveryFigureOfAScene) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::gallery_report_test

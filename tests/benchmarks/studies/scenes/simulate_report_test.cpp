@@ -13,7 +13,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::simulate_report_test {
 namespace {
 
 /// A box that has moved three steps, and a result that has no two figures alike.
@@ -183,4 +183,4 @@ TEST_F(SimulateReport, InJsonHoldsNothingWhereNothingWasExpected) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::simulate_report_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::simulation_json_test {
 namespace {
 
 const Diagnostics telling{.time = 1,
@@ -57,4 +57,4 @@ TEST(SimulationJson, HasNullForWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::simulation_json_test

@@ -16,7 +16,7 @@
 #include "validation/scenes/scene_features.h"
 #include "validation/scenes/scene_of_file.h"
 
-namespace dartboard {
+namespace dartboard::step_agreement_test {
 namespace {
 
 using namespace moving;
@@ -172,4 +172,4 @@ TEST(StepAgreement, GalleryScenesWithAnAccuracyRunWithoutAWarning) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_agreement_test

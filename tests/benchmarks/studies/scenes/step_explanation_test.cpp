@@ -11,7 +11,7 @@
 #include "core/scene/run/simulation.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::step_explanation_test {
 namespace {
 
 using namespace moving;
@@ -244,4 +244,4 @@ TEST(StepExplanation, RefusesContactWhichNoSpringIsToBlameFor) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_explanation_test

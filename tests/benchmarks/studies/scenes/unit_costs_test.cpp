@@ -13,7 +13,7 @@
 #include "core/time/system/accelerations.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::unit_costs_test {
 namespace {
 
 using namespace moving;
@@ -128,4 +128,4 @@ TEST(UnitCosts, AreMeasuredForWhatASceneHas) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::unit_costs_test

@@ -12,7 +12,7 @@
 #include "tests/support/claims_for_tests.h"
 #include "tests/support/solver_times_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::solver_report_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -223,4 +223,4 @@ TEST(TimeImplicitStep, StepsWithEverySolver) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::solver_report_test

@@ -12,7 +12,7 @@
 #include "tests/support/solver_times_for_tests.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::solver_tables_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -355,4 +355,4 @@ TEST(CrossoverPlot, HasRoomForThePredictionWhichMayBeTheLowestOrTheHighest) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::solver_tables_test

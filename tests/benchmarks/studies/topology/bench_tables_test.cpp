@@ -11,7 +11,7 @@
 #include "tests/support/tables_for_tests.h"
 #include "tests/support/timings_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::bench_tables_test {
 namespace {
 
 /// A ratio that was the same in all of so many processes.
@@ -338,4 +338,4 @@ TEST(AblationPlot, HasARowForEachFeatureFromTheTop) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bench_tables_test

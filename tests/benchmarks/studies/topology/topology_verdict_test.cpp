@@ -8,7 +8,7 @@
 
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::topology_verdict_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -107,4 +107,4 @@ TEST(TopologyVerdictJson, HoldsEveryFigure) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::topology_verdict_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace dartboard {
+namespace dartboard::audit_plan_test {
 namespace {
 
 std::vector<AuditCase> quick_cases(AuditKind kind, std::uint64_t seed) {
@@ -81,4 +81,4 @@ TEST(AuditCases, OfLongMotionsHaveNoEventsAndAreMoreThanFortyPairs) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::audit_plan_test

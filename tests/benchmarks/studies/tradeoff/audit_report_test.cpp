@@ -7,7 +7,7 @@
 
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::audit_report_test {
 namespace {
 
 constexpr AuditKind scenes = AuditKind::scenes, long_motions = AuditKind::long_motions;
@@ -379,4 +379,4 @@ TEST(AuditPlot, PlacesLongMotionsThatCountByWhatWasSeenOfThem) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::audit_report_test

@@ -12,7 +12,7 @@
 #include "benchmarks/figures/plot.h"
 #include "tests/support/folder_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::plot_places_test {
 namespace {
 
 struct Spot {
@@ -134,4 +134,4 @@ TEST_F(PlotPlaces, OfFieldColoursGoFromBlueBelowToRedAbove) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::plot_places_test

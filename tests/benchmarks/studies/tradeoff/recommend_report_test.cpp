@@ -9,7 +9,7 @@
 
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::recommend_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -245,4 +245,4 @@ TEST(RecommendFollowed, IsInTheJsonToo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::recommend_report_test

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace dartboard {
+namespace dartboard::tradeoff_report_test {
 namespace {
 
 WorkPoint point(Standing standing) {
@@ -47,4 +47,4 @@ TEST(TradeoffTrouble, IsAReferenceThatCannotTellAHundredthOfAnEdge) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tradeoff_report_test

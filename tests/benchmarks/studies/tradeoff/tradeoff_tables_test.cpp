@@ -11,7 +11,7 @@
 #include "core/plain/escape.h"
 #include "tests/support/tables_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tradeoff_tables_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -200,4 +200,4 @@ TEST(TradeoffSummary, HoldsTheWinnersAndWhatTheyRestOn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tradeoff_tables_test

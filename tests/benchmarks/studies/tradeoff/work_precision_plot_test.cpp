@@ -9,7 +9,7 @@
 
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::work_precision_plot_test {
 namespace {
 
 WorkPoint run_of(const std::string& contender, std::uint64_t steps, double error, double cost, Standing standing) {
@@ -214,4 +214,4 @@ TEST(WorkPrecisionDiagram, OfFailuresAloneHasAxesAllTheSame) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::work_precision_plot_test

@@ -7,7 +7,7 @@
 #include "benchmarks/figures/gnuplot.h"
 #include "benchmarks/studies/tradeoff/work_precision_plot.h"
 
-namespace dartboard {
+namespace dartboard::work_precision_runs_test {
 namespace {
 
 WorkPoint run_of(const std::string& contender, std::uint64_t steps, double error, double cost) {
@@ -70,4 +70,4 @@ TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::work_precision_runs_test

@@ -11,7 +11,7 @@
 
 #include "core/plain/random.h"
 
-namespace dartboard {
+namespace dartboard::cell_size_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -106,4 +106,4 @@ TEST(CellSize, KnowsKindsByTheirCorners) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cell_size_test

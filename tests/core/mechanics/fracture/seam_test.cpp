@@ -15,7 +15,7 @@
 #include "core/walks/cell_arrays.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::seam_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -289,4 +289,4 @@ TEST(SeamOfASurface, OfPointsWithoutAnInteriorEdgeIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::seam_test

@@ -15,7 +15,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/rotation_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::stress_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -471,4 +471,4 @@ TEST(PrincipalStressOfABody, IsNegativeUnderPressureFromAllSides) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stress_test

@@ -4,7 +4,7 @@
 
 #include "core/mechanics/fracture/seam.h"
 
-namespace dartboard {
+namespace dartboard::sweep_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -39,4 +39,4 @@ TEST(CrossesSweep, NotByASegmentThatEndsBeforeIt) {
 TEST(CrossesSweep, NotByASegmentThatPassesByALeg) { EXPECT_FALSE(crosses({0.5, -1, 0.5}, {2.5, 0.5, 0.5})); }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::sweep_test

@@ -9,7 +9,7 @@
 #include "core/operations/tear_fan.h"
 #include "tests/support/torn_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tearing_choice_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -107,4 +107,4 @@ TYPED_TEST(TearingChoice, LeavesThePartsOfAVertexToTheNextCall) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tearing_choice_test

@@ -19,7 +19,7 @@
 #include "tests/support/rotation_for_tests.h"
 #include "tests/support/torn_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tearing_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -390,4 +390,4 @@ TYPED_TEST(Tearing, OfAnEmptyBodyIsNothing) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tearing_test

@@ -8,7 +8,7 @@
 #include "tests/support/meshes/binary_mesh_samples.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::binary_variants_test {
 namespace {
 
 using namespace samples;
@@ -147,4 +147,4 @@ TEST(CellTags, AreTheRegionsOfTetGen) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::binary_variants_test

@@ -13,7 +13,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::crossed_cells_test {
 namespace {
 
 using namespace samples;
@@ -207,4 +207,4 @@ TEST(CrossedCells, AreListedWhereTheyAreKept) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::crossed_cells_test

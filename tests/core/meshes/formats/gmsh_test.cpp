@@ -3,7 +3,7 @@
 #include "core/meshes/gmsh/gmsh_elements.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::gmsh_test {
 namespace {
 
 using namespace samples;
@@ -117,4 +117,4 @@ TEST(Gmsh, RefusesSectionsBeforeTheFormatIsKnown) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::gmsh_test

@@ -5,7 +5,7 @@
 #include "tests/support/meshes/mesh_samples.h"
 #include "tests/support/meshes/meshb_samples.h"
 
-namespace dartboard {
+namespace dartboard::medit_binary_test {
 namespace {
 
 using namespace samples;
@@ -145,4 +145,4 @@ TEST(MeditBinary, RefusesPointsThatAreNotThereOrTwiceInACell) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::medit_binary_test

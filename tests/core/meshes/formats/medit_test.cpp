@@ -4,7 +4,7 @@
 
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::medit_test {
 namespace {
 
 using namespace samples;
@@ -88,4 +88,4 @@ TEST(Medit, RefusesAnUnknownSectionInsteadOfLosingCells) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::medit_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::mesh_check_test {
 namespace {
 
 using namespace samples;
@@ -160,4 +160,4 @@ TEST(MeshCheck, NotesPointsThatCoincideAsInATornBody) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_check_test

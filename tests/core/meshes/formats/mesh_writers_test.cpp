@@ -5,7 +5,7 @@
 #include "tests/support/meshes/mesh_samples.h"
 #include "tests/support/meshes/writer_samples.h"
 
-namespace dartboard {
+namespace dartboard::mesh_writers_test {
 namespace {
 
 using namespace samples;
@@ -226,4 +226,4 @@ TEST(OffPoints, HaveNormalsWhereTheNIsNoSmallLetterBeforeCapitals) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_writers_test

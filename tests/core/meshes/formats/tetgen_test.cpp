@@ -2,7 +2,7 @@
 
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::tetgen_test {
 namespace {
 
 using namespace samples;
@@ -50,4 +50,4 @@ TEST(TetGen, RefusesMoreOrFewerCellsThanAnnounced) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tetgen_test

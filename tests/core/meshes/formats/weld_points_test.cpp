@@ -8,7 +8,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::weld_points_test {
 namespace {
 
 using namespace samples;
@@ -141,4 +141,4 @@ TEST(MessagesOfAMesh, NamePointsByTheirNumbersInTheFile) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::weld_points_test

@@ -17,7 +17,7 @@
 #include "core/topology/storage/hash.h"
 #include "core/topology/summary.h"
 
-namespace dartboard {
+namespace dartboard::mesh_generators_test {
 namespace {
 
 using Counts = std::vector<std::size_t>;
@@ -366,4 +366,4 @@ TEST(Generators, RefuseNumbersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_generators_test

@@ -5,7 +5,7 @@
 #include "tests/support/meshes/binary_mesh_samples.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::surfaces_test {
 namespace {
 
 using namespace samples;
@@ -166,4 +166,4 @@ TEST(Off, RefusesMoreOrFewerPolygonsThanAnnounced) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::surfaces_test

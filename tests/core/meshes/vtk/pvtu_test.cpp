@@ -6,7 +6,7 @@
 #include "tests/support/meshes/mesh_samples.h"
 #include "tests/support/meshes/pvtu_samples.h"
 
-namespace dartboard {
+namespace dartboard::pvtu_test {
 namespace {
 
 using namespace samples;
@@ -154,4 +154,4 @@ TEST_F(Pvtu, RefusesPiecesThatAreNotThereTwiceThereOrNoGrids) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::pvtu_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::vtk_legacy_test {
 namespace {
 
 using namespace samples;
@@ -123,4 +123,4 @@ TEST(VtkLegacy, RefusesATruncatedFile) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::vtk_legacy_test

@@ -5,7 +5,7 @@
 #include "tests/support/meshes/mesh_samples.h"
 #include "tests/support/meshes/vtk_polygon_samples.h"
 
-namespace dartboard {
+namespace dartboard::vtk_polydata_test {
 namespace {
 
 using namespace samples;
@@ -52,4 +52,4 @@ TEST(VtkPolyData, RefusesListsOfAGrid) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::vtk_polydata_test

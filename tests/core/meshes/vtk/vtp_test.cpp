@@ -3,7 +3,7 @@
 #include "tests/support/meshes/mesh_samples.h"
 #include "tests/support/meshes/vtk_polygon_samples.h"
 
-namespace dartboard {
+namespace dartboard::vtp_test {
 namespace {
 
 using namespace samples;
@@ -86,4 +86,4 @@ TEST(Vtp, RefusesAFileWithoutPieces) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::vtp_test

@@ -3,7 +3,7 @@
 #include "core/meshes/text/base64.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::vtu_test {
 namespace {
 
 using namespace samples;
@@ -84,4 +84,4 @@ TEST(Base64, RefusesIncompleteGroupsAndStrayPadding) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::vtu_test

@@ -6,7 +6,7 @@
 #include "tests/support/meshes/binary_mesh_samples.h"
 #include "tests/support/meshes/mesh_samples.h"
 
-namespace dartboard {
+namespace dartboard::vtu_variants_test {
 namespace {
 
 using namespace samples;
@@ -102,4 +102,4 @@ TEST(XmlText, HasNoDocumentType) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::vtu_variants_test

@@ -5,7 +5,7 @@
 #include "core/plain/error.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::blade_test {
 namespace {
 
 using namespace moving;
@@ -78,4 +78,4 @@ TEST(Blade, ThatSweepsNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::blade_test

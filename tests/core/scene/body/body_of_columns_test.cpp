@@ -8,7 +8,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 
-namespace dartboard {
+namespace dartboard::body_of_columns_test {
 namespace {
 
 Problem moving(Mesh mesh) {
@@ -79,4 +79,4 @@ TEST(BodyOfColumns, RefusesAnEvent) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_of_columns_test

@@ -10,7 +10,7 @@
 #include "core/scene/plan/mesh_tally.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::bounded_cut_test {
 namespace {
 
 using namespace moving;
@@ -90,4 +90,4 @@ TEST(BoundedCut, InASurfaceReachesItsEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bounded_cut_test

@@ -13,7 +13,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::chain_test {
 namespace {
 
 using namespace moving;
@@ -104,4 +104,4 @@ TEST(Chain, WorksWithEveryIntegratorAndDrivenEnds) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::chain_test

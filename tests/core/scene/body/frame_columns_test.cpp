@@ -16,7 +16,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::frame_columns_test {
 namespace {
 
 using namespace moving;
@@ -368,4 +368,4 @@ TEST(FrameSprings, WithoutLengthAtRestHaveAnInfiniteStrain) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::frame_columns_test

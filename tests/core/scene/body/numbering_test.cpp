@@ -16,7 +16,7 @@
 #include "core/plain/random.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::numbering_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST(Numbering, DoesNotMatterToTheMotionButForRounding) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::numbering_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::release_test {
 namespace {
 
 using namespace moving;
@@ -102,4 +102,4 @@ TEST(Release, BesideARefinementIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::release_test

@@ -10,7 +10,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::scene_event_choices_test {
 namespace {
 
 using namespace moving;
@@ -141,4 +141,4 @@ TEST(SceneEvents, TearNoMoreVerticesAtATimeThanTheSceneAllows) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_event_choices_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::scene_events_test {
 namespace {
 
 using namespace moving;
@@ -192,4 +192,4 @@ TEST(SceneEvents, DrawsOtherCellsForAnotherSeedAndTheSameForTheSame) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_events_test

@@ -15,7 +15,7 @@
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/run/simulation.h"
 
-namespace dartboard {
+namespace dartboard::bad_scenes_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ TEST(BadScenes, AreEachRefusedWithAMessageThatNamesFileAndKey) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bad_scenes_test

@@ -21,7 +21,7 @@
 #include "core/topology/cells.h"
 #include "reference/exact_sides.h"
 
-namespace dartboard {
+namespace dartboard::exact_borders_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -193,4 +193,4 @@ TEST(ExactBorders, OfPlanesCutTheFacesBetweenCellsThatIntegersSeparate) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::exact_borders_test

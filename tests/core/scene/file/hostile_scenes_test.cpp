@@ -13,7 +13,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::hostile_scenes_test {
 namespace {
 
 using namespace moving;
@@ -105,4 +105,4 @@ TEST_F(HostileProbes, LeaveAHeaderOfOneLineWithSixColumnsEach) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::hostile_scenes_test

@@ -12,7 +12,7 @@
 #include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
 
-namespace dartboard {
+namespace dartboard::load_mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ TEST(CrossedScene, IsRefusedWithSpringsAsWithElements) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::load_mesh_test

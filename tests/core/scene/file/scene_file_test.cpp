@@ -15,7 +15,7 @@
 #include "core/scene/file/strict_json.h"
 #include "core/scene/run/event_clock.h"
 
-namespace dartboard {
+namespace dartboard::scene_file_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -394,4 +394,4 @@ TEST(SceneFile, GivesContactsTheDefaultsOfTheirPage) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_file_test

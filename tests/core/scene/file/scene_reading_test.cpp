@@ -7,7 +7,7 @@
 #include "core/scene/file/scene_file.h"
 #include "core/scene/file/scene_problem.h"
 
-namespace dartboard {
+namespace dartboard::scene_reading_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -279,4 +279,4 @@ TEST(SceneReading, MakesAProblemOfWhatItSays) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_reading_test

@@ -7,7 +7,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 
-namespace dartboard {
+namespace dartboard::selection_test {
 namespace {
 
 const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 4, 0}};
@@ -103,4 +103,4 @@ TEST(Selection, HoldsAWholeLayerWhereverRoundingPutsItsPoints) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::selection_test

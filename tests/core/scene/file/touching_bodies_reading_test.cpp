@@ -12,7 +12,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::touching_bodies_reading_test {
 namespace {
 
 using namespace moving;
@@ -108,4 +108,4 @@ TEST(FirstCells, AreWhereEachBodyBegins) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::touching_bodies_reading_test

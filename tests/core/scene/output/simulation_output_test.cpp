@@ -18,7 +18,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::simulation_output_test {
 namespace {
 
 /// The values of an array of a .vtu file, by its name.
@@ -359,4 +359,4 @@ TEST_F(SceneOutputTest, PutsRowsOfDiagnosticsAndOfProbesInFilesOfTheirOwnInTheir
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::simulation_output_test

@@ -18,7 +18,7 @@
 #include "core/scene/output/scene_output.h"
 #include "core/scene/output/write_pvd.h"
 
-namespace dartboard {
+namespace dartboard::write_vtu_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -186,4 +186,4 @@ TEST(SceneOutput, RefusesAFolderThatHoldsSomething) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::write_vtu_test

@@ -16,7 +16,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
-namespace dartboard {
+namespace dartboard::scene_plan_test {
 namespace {
 
 using namespace moving;
@@ -290,4 +290,4 @@ TEST(ScenePlan, MovesABodyWithoutZeroColumnsWithTheBitsOfOneWithThem) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_plan_test

@@ -14,7 +14,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::checkpoint_test {
 namespace {
 
 using namespace moving;
@@ -199,4 +199,4 @@ TEST_F(CheckpointTest, OfAMeshThatHasChangedSinceIsRefused) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::checkpoint_test

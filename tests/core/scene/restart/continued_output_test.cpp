@@ -12,7 +12,7 @@
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/meshes_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::continued_output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ TEST_F(ContinuedOutput, OfADamagedFolderIsRefusedAndNothingIsChanged) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::continued_output_test

@@ -10,7 +10,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::continued_run_test {
 namespace {
 
 using namespace moving;
@@ -297,4 +297,4 @@ TEST(ContinuedRun, FromACheckpointOfTheKeyIsTheSame) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::continued_run_test

@@ -15,7 +15,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::applied_forces_test {
 namespace {
 
 using namespace moving;
@@ -289,4 +289,4 @@ TEST(AppliedForces, ArePlannedToTheByteAndLeftOutWhereNoKeyAsksForThem) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::applied_forces_test

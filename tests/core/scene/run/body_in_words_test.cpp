@@ -6,7 +6,7 @@
 
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::body_in_words_test {
 namespace {
 
 using namespace moving;
@@ -30,4 +30,4 @@ TEST(InWords, ABoxIsItsSizeMassEdgesAndSprings) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::body_in_words_test

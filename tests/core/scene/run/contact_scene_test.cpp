@@ -17,7 +17,7 @@
 #include "tests/support/plan_memory.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::contact_scene_test {
 namespace {
 
 using namespace moving;
@@ -495,4 +495,4 @@ TEST(ContactScene, PutsItsObstaclesBackAfterADivergence) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::contact_scene_test

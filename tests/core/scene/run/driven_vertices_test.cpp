@@ -13,7 +13,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::driven_vertices_test {
 namespace {
 
 using namespace moving;
@@ -210,4 +210,4 @@ TEST(DrivenVertices, DoNotHideAnUnstableStep) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::driven_vertices_test

@@ -14,7 +14,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
-namespace dartboard {
+namespace dartboard::element_scene_test {
 namespace {
 
 using namespace moving;
@@ -351,4 +351,4 @@ TEST(ElementScene, RefinesABodyOfTetrahedraBesideOneOfHexahedra) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::element_scene_test

@@ -11,7 +11,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::event_jumps_test {
 namespace {
 
 using namespace moving;
@@ -160,4 +160,4 @@ TEST(Simulation, WatchesTheEventsThatOnlyDissociateWhileItIsAskedTo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::event_jumps_test

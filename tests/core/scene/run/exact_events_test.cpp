@@ -7,7 +7,7 @@
 #include "core/scene/run/simulation.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::exact_events_test {
 namespace {
 
 using namespace moving;
@@ -130,4 +130,4 @@ TEST(ExactEvents, LeaveAnIntegratorItsOrder) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::exact_events_test

@@ -16,7 +16,7 @@
 #include "core/scene/run/simulation.h"
 #include "tests/support/bodies/corner_body.h"
 
-namespace dartboard {
+namespace dartboard::gallery_physics_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -592,4 +592,4 @@ TEST(GalleryPhysics, IsExpectedOfEveryScene) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::gallery_physics_test

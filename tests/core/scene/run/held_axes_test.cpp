@@ -12,7 +12,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::held_axes_test {
 namespace {
 
 using namespace moving;
@@ -199,4 +199,4 @@ TEST(HeldAxes, AreSaidInSelectionsAndFrames) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::held_axes_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::hung_box_test {
 namespace {
 
 using namespace moving;
@@ -55,4 +55,4 @@ TEST(HungBox, CutAlikeGoesSidewaysAsItsMeshSays) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::hung_box_test

@@ -7,7 +7,7 @@
 #include "core/scene/run/scene_run.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::last_good_state_test {
 namespace {
 
 using namespace moving;
@@ -59,4 +59,4 @@ TEST(LastGoodState, IsNotHandedOutAfterALaterOne) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::last_good_state_test

@@ -16,7 +16,7 @@
 #include "tests/support/plan_memory.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::membrane_scene_test {
 namespace {
 
 using namespace moving;
@@ -296,4 +296,4 @@ TEST(MembraneScene, IsPlannedToTheByteAndSaysThatNothingResistsBending) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::membrane_scene_test

@@ -11,7 +11,7 @@
 #include "core/scene/run/scene_run.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::probes_test {
 namespace {
 
 using namespace moving;
@@ -179,4 +179,4 @@ TEST(Probes, RefuseAPointThatTheMeshDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::probes_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::scene_verdict_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -240,4 +240,4 @@ TEST(Scenes, OfTheProjectEndAsTheyExpect) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_verdict_test

@@ -8,7 +8,7 @@
 #include "core/scene/run/free_shapes.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::scene_warnings_test {
 namespace {
 
 using namespace moving;
@@ -70,4 +70,4 @@ TEST(SceneWarnings, OfATearThatNeverHappensSayHowFarTheStressIsFromIt) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scene_warnings_test

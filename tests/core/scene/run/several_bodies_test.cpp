@@ -16,7 +16,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
-namespace dartboard {
+namespace dartboard::several_bodies_test {
 namespace {
 
 using namespace moving;
@@ -366,4 +366,4 @@ TEST(SceneBodies, AreSelectedByPlaceAndNotByNumber) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::several_bodies_test

@@ -7,7 +7,7 @@
 #include "core/scene/run/scene_run.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::simulation_sums_test {
 namespace {
 
 using namespace moving;
@@ -214,4 +214,4 @@ TEST(Simulation, TakesBackAStepThatTheIntegratorCouldNotTake) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::simulation_sums_test

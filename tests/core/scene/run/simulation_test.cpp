@@ -17,7 +17,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::simulation_test {
 namespace {
 
 using namespace moving;
@@ -517,4 +517,4 @@ TEST(Simulation, GoesBackToTheLastGoodStateWhenTheMotionDiverges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::simulation_test

@@ -16,7 +16,7 @@
 #include "tests/support/plan_memory.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::springs_beside_edges_scene_test {
 namespace {
 
 using namespace moving;
@@ -279,4 +279,4 @@ TEST(SpringsBesideEdges, StandBesideElementsInOtherCells) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::springs_beside_edges_scene_test

@@ -9,7 +9,7 @@
 #include "core/time/solve/stop_request.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::stopped_run_test {
 namespace {
 
 using namespace moving;
@@ -97,4 +97,4 @@ TEST(StoppedRun, HandsItsLastStateOutOnce) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stopped_run_test

@@ -15,7 +15,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/recorded_run.h"
 
-namespace dartboard {
+namespace dartboard::touching_bodies_test {
 namespace {
 
 using namespace moving;
@@ -454,4 +454,4 @@ TEST(TouchingBodies, LimitTheStepByTheirStiffness) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::touching_bodies_test

@@ -13,7 +13,7 @@
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
-namespace dartboard {
+namespace dartboard::young_scene_test {
 namespace {
 
 using namespace moving;
@@ -104,4 +104,4 @@ TEST(YoungsModulus, SharesStiffnessAnewWhereABodyIsCutAndRefined) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::young_scene_test

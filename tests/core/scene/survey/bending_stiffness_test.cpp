@@ -5,7 +5,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::bending_stiffness_test {
 namespace {
 
 using namespace moving;
@@ -109,4 +109,4 @@ TEST(StiffBodies, AreToldByHowMuchAndByWhatHelps) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::bending_stiffness_test

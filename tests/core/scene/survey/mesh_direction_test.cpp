@@ -6,7 +6,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::mesh_direction_test {
 namespace {
 
 using namespace moving;
@@ -40,4 +40,4 @@ TEST(MeshDirection, IsSaidOfOneAndAHalfAndMoreWithTheKeyThatHelps) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::mesh_direction_test

@@ -8,7 +8,7 @@
 #include "core/scene/plan/scene_plan.h"
 #include "tests/support/moving_box.h"
 
-namespace dartboard {
+namespace dartboard::selection_counts_test {
 namespace {
 
 using namespace moving;
@@ -140,4 +140,4 @@ TEST(SelectionCounts, OfACutOfASurfaceNameItsEdges) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::selection_counts_test

@@ -13,7 +13,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::compensated_state_test {
 namespace {
 
 constexpr const char* compensated[]{"verlet-compensated", "blanes-moan-4-compensated"};
@@ -128,4 +128,4 @@ TEST(CompensatedState, LeavesNothingToWarnOfInTinySteps) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::compensated_state_test

@@ -9,7 +9,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::frozen_damping_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -147,4 +147,4 @@ TEST(FrozenDamping, LeavesFixedVerticesAloneAndSpringsWithoutLength) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::frozen_damping_test

@@ -15,7 +15,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::step_size_control_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -329,4 +329,4 @@ TEST_F(Adaptive, SaysWhenTheFirstStepIsNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_size_control_test

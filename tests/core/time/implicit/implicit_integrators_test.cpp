@@ -16,7 +16,7 @@
 #include "core/time/system/energy.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::implicit_integrators_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -365,4 +365,4 @@ TEST(ImplicitIntegrators, RoundPositionsFarFromTheOriginAndNothingMore) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::implicit_integrators_test

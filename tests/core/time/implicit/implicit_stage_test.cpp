@@ -8,7 +8,7 @@
 #include "core/time/system/energy.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::implicit_stage_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -186,4 +186,4 @@ TEST(ImplicitStage, ZeroLengthSpringIsPulledApartWhereItsEndsAreMoved) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::implicit_stage_test

@@ -15,7 +15,7 @@
 #include "core/time/system/energy.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::newton_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -248,4 +248,4 @@ TYPED_TEST(Projecting, IsDoneFromTheBeginningWhereThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::newton_test

@@ -11,7 +11,7 @@
 #include "core/time/integrators.h"
 #include "core/views/views.h"
 
-namespace dartboard {
+namespace dartboard::own_force_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -105,4 +105,4 @@ TEST(OwnForce, IsSteppedByImplicitMethodsUntilTheBodyHasLanded) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::own_force_test

@@ -17,7 +17,7 @@
 #include "reference/closed_form.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::scheme_test {
 namespace {
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;  // unit roundoff
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(All, MeasuredLimit, testing::ValuesIn(all_explicit()), 
 });
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::scheme_test

@@ -12,7 +12,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::step_limit_test {
 namespace {
 
 constexpr double damping_ratios[]{0.0, 0.05, 0.3, 0.97, 1.0, 1.2, 3.0, 10.0};
@@ -232,4 +232,4 @@ TEST(StepLimit, OfWhatOnlyDecaysIsBracketedByItsRates) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_limit_test

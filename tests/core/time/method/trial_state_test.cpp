@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-namespace dartboard {
+namespace dartboard::trial_state_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -76,4 +76,4 @@ TEST(StepCode, HasANameOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::trial_state_test

@@ -9,7 +9,7 @@
 #include "core/time/solve/cholesky_implementation.h"
 #include "tests/support/step_matrices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cholesky_costs_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -146,4 +146,4 @@ TEST(BackwardError, IsRelativeToEntriesOnBothSidesOfTheDiagonal) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cholesky_costs_test

@@ -8,7 +8,7 @@
 #include "core/time/solve/cholesky.h"
 #include "tests/support/step_matrices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cholesky_rows_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -243,4 +243,4 @@ TEST(BackwardError, IsTheResidualOverWhatItCouldBe) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cholesky_rows_test

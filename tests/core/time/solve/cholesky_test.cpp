@@ -8,7 +8,7 @@
 #include "core/time/system/nan_proof.h"
 #include "tests/support/step_matrices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cholesky_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -327,4 +327,4 @@ TEST(Cholesky, KeepsItsFactorWhenATermIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cholesky_test

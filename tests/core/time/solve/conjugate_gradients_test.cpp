@@ -6,7 +6,7 @@
 
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::conjugate_gradients_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -189,4 +189,4 @@ TEST(ConjugateGradients, FactorOfANearbyMatrixSolvesInFewerIterationsThanTheDiag
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::conjugate_gradients_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::step_solver_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -225,4 +225,4 @@ TEST(StepSolver, NamesTheVertexWithoutAPivotAndTheOneThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::step_solver_test

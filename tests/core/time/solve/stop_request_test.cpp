@@ -11,7 +11,7 @@
 #include "core/time/solve/cholesky.h"
 #include "tests/support/step_matrices_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::stop_request_test {
 namespace {
 
 std::atomic<bool> wanted = false;
@@ -117,4 +117,4 @@ TEST(StopRequest, AFactorisationThatIsGivenUpLeavesNoFactorAndCanBeRepeated) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stop_request_test

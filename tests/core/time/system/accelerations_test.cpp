@@ -10,7 +10,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::accelerations_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -138,4 +138,4 @@ TEST(FrequencyBound, LooksAtVerticesThatMove) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::accelerations_test

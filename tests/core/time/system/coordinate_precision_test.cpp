@@ -9,7 +9,7 @@
 #include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::coordinate_precision_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -132,4 +132,4 @@ TEST(CoordinatePrecision, IsThatOfSpringsWhereAllVerticesOfAnElementHaveSome) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::coordinate_precision_test

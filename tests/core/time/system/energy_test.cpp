@@ -7,7 +7,7 @@
 
 #include "tests/support/spring_arrays_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::energy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -64,4 +64,4 @@ TEST(Momentum, LosesNothingBesideALargeTerm) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::energy_test

@@ -10,7 +10,7 @@
 #include "core/walks/spring_forces.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tangent_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -212,4 +212,4 @@ TEST(NodePattern, ParallelSpringsShareAnEntryAndRowsAscend) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tangent_test

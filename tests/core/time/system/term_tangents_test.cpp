@@ -9,7 +9,7 @@
 #include "core/time/system/energy.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::term_tangents_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +148,4 @@ TEST(TermsOfASystem, ActBesideItsSprings) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::term_tangents_test

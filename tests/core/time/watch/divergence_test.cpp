@@ -14,7 +14,7 @@
 #include "core/time/watch/stable_step.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::divergence_test {
 namespace {
 
 constexpr const char* explicit_methods[]{"symplectic-euler", "verlet", "blanes-moan-4", "rk4", "dormand-prince-54"};
@@ -432,4 +432,4 @@ TEST(Divergence, OfNothingIsNone) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::divergence_test

@@ -11,7 +11,7 @@
 #include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::preflight_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -112,4 +112,4 @@ TEST(Preflight, WarnsOfRoundingZeroLengthsAndDenormals) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::preflight_test

@@ -13,7 +13,7 @@
 #include "tests/support/random_operations.h"
 #include "tests/support/spring_bodies_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::stable_step_test {
 namespace {
 
 const Scheme& scheme(const char* name) { return make_integrator(name)->scheme(); }
@@ -446,4 +446,4 @@ TEST(StableStep, HoldsOverFortyDecades) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::stable_step_test

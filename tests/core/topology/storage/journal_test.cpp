@@ -10,7 +10,7 @@
 #include "core/topology/check.h"
 #include "core/topology/sew.h"
 
-namespace dartboard {
+namespace dartboard::journal_test {
 namespace {
 
 // One random operation on a map of tetrahedra: a birth, a death, a face sewn or unsewn. Refusals change nothing.
@@ -198,4 +198,4 @@ TEST(TetMapJournal, WritesTwoChangesForASewnFace) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::journal_test

@@ -18,7 +18,7 @@
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/topology_message_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::tet_table_test {
 namespace {
 
 template <class A, class B>
@@ -192,4 +192,4 @@ TEST(TetMapDarts, AFaceIsNotLinkedToItselfByATurn) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::tet_table_test

@@ -5,7 +5,7 @@
 #include "core/topology/build.h"
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::connectivity_by_marks_test {
 namespace {
 
 TEST(ConnectivityByMarks, IsLostWhereTheCellsDoNotHangTogether) {
@@ -24,4 +24,4 @@ TEST(ConnectivityByMarks, IsThereInOneBodyAndNotInTwo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::connectivity_by_marks_test

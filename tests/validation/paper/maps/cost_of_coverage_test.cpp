@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::cost_of_coverage_test {
 namespace {
 
 std::vector<Mesh> bodies() { return {tetrahedron_ball(1, 1.0), tetrahedron_ball(2, 1.0), tetrahedron_ball(3, 1.0)}; }
@@ -30,4 +30,4 @@ TEST(CostOfCoverage, IsNotAnsweredWhereDartsAreNotLookedAtOrBodiesAreAlike) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::cost_of_coverage_test

@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::fans_take_apart_test {
 namespace {
 
 Mesh body() { return tetrahedron_ball(2, 1.0); }
@@ -54,4 +54,4 @@ TEST(FansTakeApart, IsNotSeldomOfOneFaceWhereItAlwaysIs) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::fans_take_apart_test

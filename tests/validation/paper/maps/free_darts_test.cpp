@@ -6,7 +6,7 @@
 #include "core/topology/build.h"
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::free_darts_test {
 namespace {
 
 TEST(FreeDarts, AreTheBoundary) {
@@ -54,4 +54,4 @@ TEST(FreeDarts, AreFreeForNothingElse) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::free_darts_test

@@ -6,7 +6,7 @@
 #include "core/topology/build.h"
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::orbits_come_apart_test {
 namespace {
 
 Map3 solid() { return build_map<Map3>(kuhn_box(2, 2, 2, 1.0)).map; }
@@ -51,4 +51,4 @@ TEST(OrbitsComeApart, NotWhereNoneDoesOrAllDo) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::orbits_come_apart_test

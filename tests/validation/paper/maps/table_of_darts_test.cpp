@@ -4,7 +4,7 @@
 
 #include "tests/validation/paper/paper_problem_for_tests.h"
 
-namespace dartboard {
+namespace dartboard::table_of_darts_test {
 namespace {
 
 TEST(TableOfDarts, IsThatOfFig5) { expect_yes(is_fig_5(map_of_fig_5())); }
@@ -29,4 +29,4 @@ TEST(TableOfDarts, IsNotWhereACellIsAnother) {
 }
 
 }  // namespace
-}  // namespace dartboard
+}  // namespace dartboard::table_of_darts_test
