@@ -355,7 +355,7 @@ class ReadBack(unittest.TestCase):
 
     def test_diagnostics_have_the_rows_that_the_scene_asks_for(self):
         self.assertEqual([float(row["time [s]"]) for row in self.run_.diagnostics],
-                         self.times(self.story.scene["output"]["diagnostics_every_steps"]))
+                         self.times(self.story.scene["output"]["diagnostics_every"]["steps"]))
 
     def test_no_two_columns_of_the_diagnostics_are_alike(self):
         # what makes the test of sums see columns that are exchanged; masses and counts of cells are alike in places
@@ -373,7 +373,7 @@ class ReadBack(unittest.TestCase):
 
     def test_probes_are_the_vertices_of_their_points(self):
         self.assertEqual([float(row["time [s]"]) for row in self.run_.probes],
-                         self.times(self.story.scene["output"]["probes_every_steps"]))
+                         self.times(self.story.scene["output"]["probes_every"]["steps"]))
         gone = 0
         for row in self.run_.probes:
             network = self.networks[self.frame_at(row["time [s]"])]

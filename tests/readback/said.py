@@ -95,7 +95,7 @@ class Said(unittest.TestCase):
 
     def test_the_last_lines_say_what_was_written_and_where(self):
         out = os.path.join(self.folder, "written")
-        said = self.print_(box(output={"frames_every_steps": 2, "probes": [{"name": "a", "vertex": 0}]}), "--out", out)
+        said = self.print_(box(output={"frames_every": {"steps": 2}, "probes": [{"name": "a", "vertex": 0}]}), "--out", out)
         self.assertIn("\n3 frames, frames.pvd, diagnostics.csv, probes.csv written to %s.\n" % out, said.stdout)
         self.assertEqual(sorted(os.listdir(out)), ["diagnostics.csv", "frame_000000.vtu", "frame_000001.vtu",
                                                    "frame_000002.vtu", "frames.pvd", "manifest.json", "probes.csv",
@@ -188,7 +188,7 @@ class Said(unittest.TestCase):
         # 6, where 2.8 is stable.
         scene = box(material={"density": 1, "stiffness": 5e5}, step=0.0005, duration=1.0,
                     initial_velocity={"linear": [[1, 0, 0], [0, 0, 0], [0, 0, 0]]},
-                    output={"frames_every_steps": 1, "diagnostics_every_steps": 1})
+                    output={"frames_every": {"steps": 1}, "diagnostics_every": {"steps": 1}})
         run = self.run_(scene)
         end = run.printed["divergence"]
         self.assertEqual((run.status, run.printed["holds"], run.printed["expected"]), (1, False, []))

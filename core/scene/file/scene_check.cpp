@@ -136,6 +136,7 @@ class Checker {
         return each(key, value, path, 0, many,
                     [&](const Json& part, const std::string& at) { return object(part, key.of, at); });
       case ValueType::real_or_object:
+        if (!value.is_object() && !value.is_number()) fail(path, is_instead(value), expectation(key));
         return value.is_object() ? object(value, key.of, path) : number(key, value, path, false);
       case ValueType::point_or_object: break;
     }

@@ -92,16 +92,17 @@ class Reader {
       scene.events.push_back(event(json.at("events")[k], fmt::format("/events/{}", k), scene));
     require_consistent(scene);
     const Json& output = json.at("output");
-    const auto take = [&output](const char* key, auto& into) {
-      if (output.contains(key)) into = output.at(key).get<typename std::decay_t<decltype(into)>::value_type>();
+    const auto take_every = [&output](const char* key, auto& time, auto& steps) {
+      if (!output.contains(key)) return;
+      if (const Json& every = output.at(key); every.is_number())
+        time = every.get<double>();
+      else
+        steps = every.at("steps").get<std::uint64_t>();
     };
-    take("frames_every", scene.output.frame_time);
-    take("frames_every_steps", scene.output.frame_steps);
-    take("diagnostics_every", scene.output.diagnostic_time);
-    take("diagnostics_every_steps", scene.output.diagnostic_steps);
-    take("probes_every", scene.output.probe_time);
-    take("probes_every_steps", scene.output.probe_steps);
-    take("checkpoint", scene.output.checkpoint_time);
+    take_every("frames_every", scene.output.frame_time, scene.output.frame_steps);
+    take_every("diagnostics_every", scene.output.diagnostic_time, scene.output.diagnostic_steps);
+    take_every("probes_every", scene.output.probe_time, scene.output.probe_steps);
+    if (output.contains("checkpoint")) scene.output.checkpoint_time = output.at("checkpoint").get<double>();
     const auto has_field = [&fields = output.at("fields")](const char* name) {
       return std::ranges::find(fields, Json(name)) != fields.end();
     };

@@ -383,10 +383,8 @@ std::vector<SceneKey> keys_by_hand() {
                "have no springs"},
 
       // ---- output and expectations
-      {.shape = output, .name = "frames_every", .type = real, .unit = "s", .range = positive,
-       .help = "time between frames; the first and the last state are always written"},
-      {.shape = output, .name = "frames_every_steps", .type = integer, .range = count_from_1,
-       .help = "steps between frames"},
+      {.shape = output, .name = "frames_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
+       .help = "from one frame to the next, or {\"steps\": 10}; the first and the last state are always written"},
       {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs", "contact"},
        .standard = "[\"held\", \"stress\"]",
        .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
@@ -397,20 +395,18 @@ std::vector<SceneKey> keys_by_hand() {
                "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
                "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
                "inside [m]"},
-      {.shape = output, .name = "diagnostics_every", .type = real, .unit = "s", .range = positive,
-       .help = "time between rows of diagnostics; the first and the last state always get one"},
-      {.shape = output, .name = "diagnostics_every_steps", .type = integer, .range = count_from_1,
-       .help = "steps between rows of diagnostics"},
+      {.shape = output, .name = "diagnostics_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
+       .help = "from one row of diagnostics to the next, or {\"steps\": 10}; the first and the last state always get one"},
       {.shape = output, .name = "probes", .type = objects, .of = probe, .standard = "[]",
        .help = "vertices whose motion is recorded in probes.csv"},
-      {.shape = output, .name = "probes_every", .type = real, .unit = "s", .range = positive,
-       .help = "time between rows of probes; left out, that of the diagnostics"},
-      {.shape = output, .name = "probes_every_steps", .type = integer, .range = count_from_1,
-       .help = "steps between rows of probes"},
+      {.shape = output, .name = "probes_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
+       .help = "from one row of probes to the next, or {\"steps\": 10}; left out, as the diagnostics"},
       {.shape = output, .name = "checkpoint", .type = real, .unit = "s", .range = positive,
        .help = "time between checkpoints, each in place of the last: all that 'dartboard simulate --continue' needs to go "
                "on with the same bits, in a file of the run's folder. One is also left where such a run ends. Left out, "
                "one is left only by a run that is interrupted"},
+      {.shape = cadence, .name = "steps", .type = integer, .range = count_from_1, .required = true,
+       .help = "of the scene, whatever they take"},
       {.shape = probe, .name = "name", .type = text, .required = true, .help = "heads its columns; no two the same"},
       {.shape = probe, .name = "vertex", .type = integer, .range = number,
        .help = "this point of the mesh, counted from 0 in the order of the file"},
@@ -550,6 +546,7 @@ std::span<const ShapeHelp> scene_shapes() {
        "Which tetrahedra become smaller ones. Mass and momentum stay; a bracing above 0 makes the body a little "
        "stiffer, and without it a vertex at a centre moves freely."},
       {Shape::output, "output", "What is recorded. None of it changes a bit of the trajectory."},
+      {Shape::cadence, "cadence", "A number of steps in place of a time."},
       {Shape::probe, "probe",
        "One vertex, wherever it goes: its position and velocity. Of a vertex that comes apart it follows the part that "
        "keeps its number; once that is removed, the fields are empty."},
@@ -597,9 +594,6 @@ std::span<const SceneRule> scene_rules() {
       {excludes, Shape::dissociate, {"blade", "within"}},
       {exactly_one, Shape::within, {"box", "sphere", "around", "polygon"}},
       {exactly_one, Shape::tear, {"vertex", "near"}},
-      {at_most_one, Shape::output, {"frames_every", "frames_every_steps"}},
-      {at_most_one, Shape::output, {"diagnostics_every", "diagnostics_every_steps"}},
-      {at_most_one, Shape::output, {"probes_every", "probes_every_steps"}},
       {at_most_one, Shape::expect, {"components", "components_at_least"}},
   };
   return rules;

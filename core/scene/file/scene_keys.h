@@ -49,6 +49,7 @@ enum class Shape {
   stress,
   refine,
   output,
+  cadence,
   probe,
   expect,
   expected_place,

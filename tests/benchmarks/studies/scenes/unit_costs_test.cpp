@@ -87,7 +87,7 @@ TEST(UnitCosts, OfAForceEvaluationAreItsTime) {
 
 TEST(UnitCosts, ChargeOutputAsOftenAsItIsDue) {
   Json scene = moving_box();  // ten steps
-  scene["output"] = Json::parse(R"({"frames_every_steps": 4})");
+  scene["output"] = Json::parse(R"({"frames_every": {"steps": 4}})");
   const ScenePlan plan = timed(scene, {.frame = 100, .row = 10});
   EXPECT_EQ(ns_of(plan, Part::frames), 100 * 4 / 10.0);      // at 0, 4, 8 and 10
   EXPECT_EQ(ns_of(plan, Part::diagnostics), 10 * 2 / 10.0);  // at 0 and 10

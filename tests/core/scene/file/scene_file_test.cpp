@@ -87,7 +87,7 @@ TEST(SceneFile, TakesOneVelocityForAllOrOneLinearInPlace) {
 
 TEST(SceneFile, CountsOutputInStepsWhicheverWayItIsGiven) {
   Json json = smallest();
-  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every_steps", 7}};
+  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every", {{"steps", 7}}}};
   EXPECT_EQ(parse(json).output.frame_steps, 2u);
   EXPECT_EQ(parse(json).output.diagnostic_steps, 7u);
 }
@@ -96,7 +96,7 @@ TEST(SceneFile, MayAskForAnAccuracyInsteadOfAStep) {
   Json json = smallest();
   json.erase("step");
   json["accuracy"] = 1e-3;
-  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every_steps", 7}, {"fields", {"springs"}}};
+  json["output"] = {{"frames_every", 0.5}, {"diagnostics_every", {{"steps", 7}}}, {"fields", {"springs"}}};
   SceneFile scene = parse(json);
   EXPECT_EQ(scene.accuracy, 1e-3);
   EXPECT_EQ(scene.step, 0.0);

@@ -185,8 +185,8 @@ TEST(SceneReading, OfStressAndRefinement) {
 }
 
 TEST(SceneReading, OfOutputAndProbes) {
-  const SceneFile steps = with("output", R"({"frames_every_steps": 2, "diagnostics_every_steps": 3,
-      "probes_every_steps": 4, "probes": [{"name": "a", "vertex": 5}, {"name": "b", "near": [6, 7, 8]}]})");
+  const SceneFile steps = with("output", R"({"frames_every": {"steps": 2}, "diagnostics_every": {"steps": 3},
+      "probes_every": {"steps": 4}, "probes": [{"name": "a", "vertex": 5}, {"name": "b", "near": [6, 7, 8]}]})");
   EXPECT_EQ(steps.output.frame_steps, 2u);
   EXPECT_EQ(steps.output.diagnostic_steps, 3u);
   EXPECT_EQ(steps.output.probe_steps, 4u);

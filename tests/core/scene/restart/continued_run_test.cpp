@@ -18,7 +18,7 @@ using namespace recorded;
 
 Json recorded_scene(Json scene) {
   scene["output"] = Json::parse(R"({
-    "frames_every_steps": 3, "diagnostics_every_steps": 2, "probes_every_steps": 1,
+    "frames_every": {"steps": 3}, "diagnostics_every": {"steps": 2}, "probes_every": {"steps": 1},
     "fields": ["held", "stress", "displacement", "springs"],
     "probes": [{"name": "corner", "vertex": 0}, {"name": "inside", "near": [0.125, 0.125, 0.125]}]})");
   return scene;

@@ -263,7 +263,7 @@ TEST(AppliedForces, GoOnWithTheSameBitsWhereARunIsInterrupted) {
   scene["events"] =
       Json::parse(R"([{"at": 0.005, "dissociate": {"plane": {"point": [0, 0.125, 0], "normal": [0, 1, 0]}}}])");
   scene["integrator"] = "bdf2";
-  scene["output"] = Json::parse(R"({"diagnostics_every_steps": 1})");
+  scene["output"] = Json::parse(R"({"diagnostics_every": {"steps": 1}})");
   const SceneFile file = parse(scene);
   const recorded::RecordedRun one = recorded::whole(file);
   for (std::uint64_t n = 1; n < 10; ++n) recorded::expect_same(recorded::in_two(file, n), one);

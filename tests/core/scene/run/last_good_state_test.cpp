@@ -49,7 +49,7 @@ TEST(LastGoodState, IsTheLastFrame) {
 
 TEST(LastGoodState, IsNotHandedOutAfterALaterOne) {
   Json json = slowly_unstable();
-  json["output"] = {{"frames_every_steps", 1}, {"diagnostics_every_steps", 1}};
+  json["output"] = {{"frames_every", {{"steps", 1}}}, {"diagnostics_every", {{"steps", 1}}}};
   const SceneFile scene = parse(json);
   Simulation simulation(scene);
   Keeper keeper;

@@ -85,7 +85,7 @@ TEST(Probes, AreRecordedWithTheDiagnosticsOrAtTimesOfTheirOwn) {
   scene["output"]["diagnostics_every"] = 0.004;
   const Rows together = rows_of(scene);
   EXPECT_EQ(together.times(), (std::vector<double>{0, 0.004, 0.008, 0.01}));
-  scene["output"]["probes_every_steps"] = 5;
+  scene["output"]["probes_every"]["steps"] = 5;
   const Rows apart = rows_of(scene);
   EXPECT_EQ(apart.times(), (std::vector<double>{0, 0.005, 0.01}));
   EXPECT_EQ(apart.diagnosed, together.diagnosed);

@@ -147,7 +147,7 @@ TEST(Verdict, BoundsTheKineticEnergyAtTheEnd) {
 TEST(Verdict, BoundsTheDriftOfTheEnergyInAnyRowOfTheDiagnostics) {
   Json scene = moving_box();
   scene["material"]["viscosity"] = scene["material"]["damping"] = 0;
-  scene["output"]["diagnostics_every_steps"] = 1;
+  scene["output"]["diagnostics_every"]["steps"] = 1;
   scene["duration"] = 0.2;
   // explicit Euler multiplies the energy of an oscillation by 1 + (h omega)^2 in each step, Verlet keeps it
   scene["integrator"] = "explicit-euler";

@@ -27,7 +27,7 @@ struct Times : RunWatcher {
 SceneFile implicit_scene() {
   Json scene = moving_box();
   scene["integrator"] = "backward-euler";
-  scene["output"] = Json::parse(R"({"frames_every_steps": 2, "diagnostics_every_steps": 3})");
+  scene["output"] = Json::parse(R"({"frames_every": {"steps": 2}, "diagnostics_every": {"steps": 3}})");
   return parse(scene);
 }
 
