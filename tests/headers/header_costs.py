@@ -27,7 +27,11 @@ YARDSTICK = "Eigen/Dense"
 
 def command_of_core(build):
     """How a source of core is compiled, without its names."""
-    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+    commands = os.path.join(build, "compile_commands.json")
+    if not os.path.exists(commands):
+        print("header_costs: %s is not there; expected the folder of a configured build" % commands, file=sys.stderr)
+        sys.exit(2)
+    with open(commands, encoding="utf-8") as file:
         entries = json.load(file)
     entry = next(e for e in entries if e["file"].endswith("/core/mechanics/adapt.cpp"))
     words = entry["command"].split()

@@ -39,7 +39,7 @@ def configure(tree, build):
     subprocess.run(["g++", "-std=c++20", "-O2", "-c", switch + ".cpp", "-o", switch + ".o"], check=True)
     subprocess.run(["cmake", "-S", tree, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG -w -fno-diagnostics-color -include %s.h" % switch,
-                    "-DCMAKE_CXX_STANDARD_LIBRARIES=%s.o" % switch, "-DDARTBOARD_PRECOMPILE=ON",
+                    "-DCMAKE_CXX_STANDARD_LIBRARIES=%s.o" % switch, "-DDARTBOARD_TOGETHER=ON",
                     "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"], check=True, stdout=subprocess.DEVNULL)
 
 
