@@ -67,7 +67,7 @@ class RungeKutta4 {
  private:
   // The acceleration, leaving the force sum empty for the next stage.
   static Eigen::Vector3d take_acceleration(VertexColumns& v, const Eigen::Vector3d& gravity, std::uint32_t i) {
-    const Eigen::Vector3d a = acceleration(v, gravity, i);
+    Eigen::Vector3d a = acceleration(v, gravity, i);
     v.force[i].setZero();
     return a;
   }

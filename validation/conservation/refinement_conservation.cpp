@@ -167,7 +167,7 @@ class Run : public OperationRun<RefinedSubject<Map>, RefinementChecks<Map>> {
   }
 
   RefinementMeans put_in_the_middle(const VertexColumns& old, const std::vector<std::uint32_t>& corners) {
-    const RefinementMeans m(old, corners);
+    RefinementMeans m(old, corners);
     const VertexColumns& v = at_.body.vertices;
     ledger_.within(Check::put_in_the_middle, (v.position.back() - m.x).norm(), m.off, m.absolute_x.norm(),
                    v.position.back().norm(), m.x.norm());

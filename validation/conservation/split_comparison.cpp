@@ -21,7 +21,7 @@ void move(LiveBody<Map>& body, const CellArrays& arrays, double h) {
 
 /// The numbers of the body's vertices (edges) at the given darts, ascending, each once.
 template <class Number>
-std::vector<std::uint32_t> numbers_at(std::vector<Dart> darts, Number&& number) {
+std::vector<std::uint32_t> numbers_at(const std::vector<Dart>& darts, Number&& number) {
   std::vector<std::uint32_t> numbers;
   for (const Dart d : darts) numbers.push_back(number(d));
   std::sort(numbers.begin(), numbers.end());

@@ -30,7 +30,7 @@ class Checker {
     Json complete = Json::object();
     for (const SceneKey& key : scene_keys()) {
       if (key.shape != shape) continue;
-      const std::string name(key.name), here = path + "/" + name;
+      const std::string name(key.name), here = fmt::format("{}/{}", path, name);
       if (value.contains(name))
         complete[name] = checked(key, value.at(name), here);
       else if (key.required)
@@ -74,7 +74,7 @@ class Checker {
   }
 
   Json choices(const SceneKey& key, const Json& value, const std::string& path) const {
-    const Json words = each(key, value, path, key.least_size, many, [&](const Json& word, const std::string& at) {
+    Json words = each(key, value, path, key.least_size, many, [&](const Json& word, const std::string& at) {
       require_choice(key, word, at);
       return word;
     });
@@ -103,7 +103,7 @@ class Checker {
     if (rule.kind == SceneRule::needs_object && given.size() > 1 && given[0] == rule.keys[0])
       for (std::size_t k = 1; k < given.size(); ++k)
         if (const std::string key(given[k]); !value.at(key).is_object())
-          fail(path + "/" + key, fmt::format("is {} beside '{}'", shown(value.at(key)), given[0]),
+          fail(fmt::format("{}/{}", path, key), fmt::format("is {} beside '{}'", shown(value.at(key)), given[0]),
                fmt::format("an object ({})", help_of(find(rule.shape, key)->of).name));
     if (rule.kind == SceneRule::excludes && given.size() > 1 && given[0] == rule.keys[0])
       fail(path, "has " + quoted(given), fmt::format("'{}' without the others", rule.keys[0]));
