@@ -73,6 +73,12 @@ NetworkSums sums_of(const SpringNetwork& network, const PointState& state, const
         (state.x[s.b].cast<long double>() - state.x[s.a].cast<long double>()).norm() - s.rest_length;
     sums.elastic += static_cast<long double>(s.stiffness) * longer * longer / 2;
   }
+  std::vector<long double> places;
+  if (!network.elements.empty())
+    for (const Eigen::Vector3d& p : state.x)
+      for (const double coordinate : p) places.push_back(coordinate);
+  for (const ElasticPoint& point : network.elements)
+    if (point.is_elastic) sums.elastic += point.volume * energy_density(point.law, deformation(point, places.data()));
   return sums;
 }
 

@@ -125,6 +125,10 @@ void check(const NetworkMotion& motion) {
     for (const std::uint32_t i : event.from)
       if (i >= points) throw InputError(fmt::format("event at {} s: a point comes from point {} of {}", t, i, points));
     points = event.network.point_count();
+    for (const NetworkEvent::Drive& drive : event.drives)
+      if (drive.point >= points || !drive.velocity.allFinite())
+        throw InputError(fmt::format("event at {} s: drives point {} of {} at {} m/s", t, drive.point, points,
+                                     drive.velocity.norm()));
   }
 }
 

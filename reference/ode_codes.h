@@ -13,9 +13,15 @@ namespace dartboard::reference {
 /// At `time` the network becomes another one: point i of it was point from[i] before, and takes its position and
 /// velocity. Points that nobody came from are gone.
 struct NetworkEvent {
+  /// A point that moves at another velocity from then on.
+  struct Drive {
+    std::uint32_t point;
+    Eigen::Vector3d velocity;  // [m/s]
+  };
   double time;  // [s]
   SpringNetwork network;
   std::vector<std::uint32_t> from;
+  std::vector<Drive> drives{};
 };
 
 /// An initial value problem with topological events, from time 0 to the last checkpoint.

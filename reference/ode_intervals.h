@@ -35,15 +35,18 @@ std::vector<Real> flat(const PointState& state, const Eigen::Vector3d& centre) {
   return y;
 }
 
-/// The state of the points `from`, in that order.
+/// The state after an event.
 template <class Real>
-std::vector<Real> taken_over(const std::vector<Real>& y, const std::vector<std::uint32_t>& from) {
+std::vector<Real> taken_over(const std::vector<Real>& y, const NetworkEvent& event) {
   const std::size_t half = y.size() / 2;
   std::vector<Real> next;
-  next.reserve(6 * from.size());
+  next.reserve(6 * event.from.size());
   for (const std::size_t part : {std::size_t{0}, half})
-    for (const std::uint32_t i : from)
+    for (const std::uint32_t i : event.from)
       for (std::size_t k = 0; k < 3; ++k) next.push_back(y[part + 3 * i + k]);
+  for (const NetworkEvent::Drive& drive : event.drives)
+    for (std::size_t k = 0; k < 3; ++k)
+      next[3 * (event.from.size() + drive.point) + k] = Real(drive.velocity[static_cast<Eigen::Index>(k)]);
   return next;
 }
 
@@ -62,7 +65,7 @@ void run_intervals(const NetworkMotion& motion, const Eigen::Vector3d& centre, C
       state[i] += static_cast<long double>(centre[static_cast<Eigen::Index>(i % 3)]);
   };
   for (std::size_t interval = 0; interval <= motion.events.size() && next < motion.checkpoints.size(); ++interval) {
-    if (interval > 0) y = taken_over(y, motion.events[interval - 1].from);
+    if (interval > 0) y = taken_over(y, motion.events[interval - 1]);
     auto solver = make_solver(motion.network_of(interval), y, t);
     const bool last = interval == motion.events.size();
     const double end = last ? motion.checkpoints.back() : motion.events[interval].time;

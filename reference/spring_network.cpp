@@ -93,6 +93,10 @@ void check(const SpringNetwork& network) {
   const std::size_t n = network.point_count();
   if (network.fixed.size() != n)
     throw InputError(fmt::format("{} points, {} of them told fixed or not", n, network.fixed.size()));
+  for (const std::size_t size : {network.pull.size(), network.held_axes.size()})
+    if (size != 0 && size != n) throw InputError(fmt::format("a column of {} for {} points", size, n));
+  for (const Eigen::Vector3d& pull : network.pull)
+    if (!pull.allFinite()) throw InputError("a pull that is not finite");
   for (std::size_t i = 0; i < n; ++i)
     if (!(network.mass[i] > 0.0) || !std::isfinite(network.mass[i]))
       throw InputError(fmt::format("point {} has a mass of {}, expected a positive one", i, network.mass[i]));
@@ -117,6 +121,7 @@ void check(const SpringNetwork& network) {
 }
 
 double mean_rest_length(const SpringNetwork& network) {
+  if (network.edge > 0.0) return network.edge;
   if (network.springs.empty()) return 1.0;
   double sum = 0.0;
   for (const Spring& s : network.springs) sum += s.rest_length;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/plain/held_axes.h"
 #include "core/plain/problem.h"
 #include "reference/elements/elastic_point.h"
 #include "reference/rebuild.h"
@@ -20,8 +21,11 @@ struct SpringNetwork {
   std::vector<std::uint8_t> fixed;  // by point; 1: keeps its velocity whatever acts on it
   std::vector<Spring> springs;      // any order; several may join the same two points
   std::vector<ElasticPoint> elements{};
-  double viscosity = 0.0;            // [1/s]
-  Eigen::Vector3d gravity{0, 0, 0};  // [m/s^2]
+  double viscosity = 0.0;               // [1/s]
+  Eigen::Vector3d gravity{0, 0, 0};     // [m/s^2]
+  std::vector<Eigen::Vector3d> pull{};  // [m/s^2] of each point, in addition to gravity; empty where nothing pulls
+  std::vector<HeldAxes> held_axes{};    // of each point, along which it keeps its velocity; empty where none does
+  double edge = 0.0;                    // [m] the unit of errors; 0: the mean rest length of the springs
 
   std::size_t point_count() const { return mass.size(); }
 };
@@ -35,7 +39,7 @@ SpringNetwork spring_network(const Problem& problem);
 ///         spring or an element that names no point, a spring that names one twice, a number that is not finite
 void check(const SpringNetwork& network);
 
-/// Mean rest length of the springs [m]; 1 when that is zero or there are none.
+/// The unit of errors [m]: `edge`, or the mean rest length of the springs; 1 where both are zero.
 double mean_rest_length(const SpringNetwork& network);
 
 /// The fastest rate [1/s] at which a state near x changes: the largest omega of the undamped network, its springs taken
@@ -91,9 +95,11 @@ class NetworkRates {
     for (std::size_t i = 0; i < network_->point_count(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         Real& a = dv[3 * i + k];
+        const auto axis = static_cast<Eigen::Index>(k);
         a = network_->fixed[i] ? Real(0)
-                               : a * inverse_mass_[i] - viscosity_ * v[3 * i + k] +
-                                     Real(network_->gravity[static_cast<Eigen::Index>(k)]);
+                               : a * inverse_mass_[i] - viscosity_ * v[3 * i + k] + Real(network_->gravity[axis]);
+        if (!network_->pull.empty() && !network_->fixed[i]) a += Real(network_->pull[i][axis]);
+        if (!network_->held_axes.empty() && holds(network_->held_axes[i], static_cast<int>(k))) a = Real(0);
       }
   }
 

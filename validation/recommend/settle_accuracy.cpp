@@ -72,6 +72,15 @@ void from_json(const nlohmann::json& json, SettledAccuracy& s) {
 double step_fitting_times(const SceneFile& scene, double largest) {
   std::vector<double> times;
   for (const SceneEvent& event : scene.events) times.push_back(event.from);
+  for (const SceneDrive& drive : scene.driven) {
+    times.push_back(drive.from);
+    if (drive.until) times.push_back(*drive.until);
+    if (drive.reverse_every) times.push_back(*drive.reverse_every);
+  }
+  for (const SceneForce& force : scene.forces) {
+    times.push_back(force.from);
+    if (force.until) times.push_back(*force.until);
+  }
   for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time, scene.output.probe_time})
     if (every && *every < scene.duration) times.push_back(*every);
   const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));

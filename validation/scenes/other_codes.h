@@ -10,6 +10,7 @@ namespace dartboard {
 /// could mend it.
 ///
 /// The states are Odeint's. The floor is ten times the distance between the two; of a chaotic motion that is large.
+/// pre  the scene is not beyond the references
 SceneReference reference_by_other_codes(const TradeoffScene& scene, double accepted);
 
 }  // namespace dartboard

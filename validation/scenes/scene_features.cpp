@@ -31,9 +31,40 @@ double gershgorin(const reference::SpringNetwork& network) {
   return std::sqrt(largest);
 }
 
+/// Frequencies and damping of springs alone, by interval, the points of each where they were at the start; rates of
+/// decay are not frequencies.
+void look_at_networks(const TradeoffScene& scene, SceneFeatures& f) {
+  const reference::SpringNetwork& start = scene.motion.network;
+  std::vector<Eigen::Vector3d> x = scene.motion.start.x;
+  for (std::size_t k = 0; k <= scene.motion.events.size(); ++k) {
+    if (k > 0) {
+      std::vector<Eigen::Vector3d> next;
+      for (const std::uint32_t from : scene.motion.events[k - 1].from) next.push_back(x[from]);
+      x = std::move(next);
+    }
+    reference::SpringNetwork network = scene.motion.network_of(k);
+    network.viscosity = 0.0;
+    for (reference::Spring& s : network.springs) s.damping = 0.0;
+    f.omega_low = std::max(f.omega_low, reference::fastest_rate(network, x));
+    f.omega_high = std::max(f.omega_high, gershgorin(network));
+  }
+  if (!(f.omega_low > 0.0)) f.omega_low = f.omega_high = 1.0 / scene.duration;
+  for (const reference::Spring& s : start.springs)
+    if (s.stiffness > 0.0) f.damping_ratio = std::max(f.damping_ratio, 0.5 * f.omega_low * s.damping / s.stiffness);
+  f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
+}
+
+/// The same of any body, by what limits its step.
+void look_at_limits(SceneFeatures& f) {
+  for (const StableStep& limit : f.limits) {
+    f.omega_low = std::max(f.omega_low, limit.lower);
+    f.omega_high = std::max(f.omega_high, limit.upper);
+    f.damping_ratio = std::max(f.damping_ratio, limit.damping_ratio().upper);
+  }
+}
+
 /// At the start, and after each event that happens later.
 std::vector<StableStep> limits_of(const TradeoffScene& scene) {
-  if (scene.limits) return {*scene.limits};
   SceneStage stage(scene);
   std::vector<StableStep> limits;
   const auto look = [&] { limits.push_back(StableStepEstimate().refresh(stage.system(), stage.motion().x)); };
@@ -55,28 +86,15 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock, std
   f.vertices = start.point_count();
   f.springs = start.springs.size();
   f.events = scene.motion.events.size();
-  // by interval, the points of each where they were at the start; rates of decay are not frequencies
-  std::vector<Eigen::Vector3d> x = scene.motion.start.x;
-  for (std::size_t k = 0; k <= scene.motion.events.size(); ++k) {
-    if (k > 0) {
-      std::vector<Eigen::Vector3d> next;
-      for (const std::uint32_t from : scene.motion.events[k - 1].from) next.push_back(x[from]);
-      x = std::move(next);
-    }
-    reference::SpringNetwork network = scene.motion.network_of(k);
-    network.viscosity = 0.0;
-    for (reference::Spring& s : network.springs) s.damping = 0.0;
-    f.omega_low = std::max(f.omega_low, reference::fastest_rate(network, x));
-    f.omega_high = std::max(f.omega_high, gershgorin(network));
-  }
-  // without springs, the scale of time is that of the scene
+  f.limits = limits_of(scene);
+  if (scene.beyond_references.empty() && start.elements.empty())
+    look_at_networks(scene, f);
+  else
+    look_at_limits(f);
+  // without springs and elements, the scale of time is that of the scene
   if (!(f.omega_low > 0.0)) f.omega_low = f.omega_high = 1.0 / scene.duration;
-  for (const reference::Spring& s : start.springs)
-    if (s.stiffness > 0.0) f.damping_ratio = std::max(f.damping_ratio, 0.5 * f.omega_low * s.damping / s.stiffness);
-  f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
   f.phase = scene.duration * f.omega_low;
 
-  f.limits = limits_of(scene);
   SceneStage stage(scene);
   const SpringSystem system = stage.system();
   std::vector<Eigen::Vector3d> a(f.vertices);

@@ -11,6 +11,10 @@
 namespace dartboard {
 
 SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
+  if (scene.frozen) {
+    frozen_.emplace(*scene.frozen);
+    return;
+  }
   if (scene.body) {
     body_ = scene.body->body;
     ends_.rebuild(*body_);
@@ -29,21 +33,25 @@ SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
 }
 
 SpringSystem SceneStage::system() const {
+  if (frozen_) return frozen_->body().system();
   if (body_) return system_of(*body_, ends_);
   return columns_.system();
 }
 
 Motion SceneStage::motion() {
+  if (frozen_) return frozen_->body().motion();
   if (body_) return {body_->vertices.position, body_->vertices.velocity};
   return columns_.motion();
 }
 
 PointState SceneStage::state() const {
+  if (frozen_) return {frozen_->body().vertices().position, frozen_->body().vertices().velocity};
   if (body_) return {body_->vertices.position, body_->vertices.velocity};
   return {columns_.x, columns_.v};
 }
 
 void SceneStage::pass_event() {
+  if (frozen_) return frozen_->pass();
   const std::vector<Dart>& faces = scene_->body->faces.at(next_event_++);
   ends_.apply(*body_, adapt(*body_, dissociate_all(body_->map, std::span<const Dart>(faces))));
 }

@@ -32,7 +32,8 @@ class SceneStage {
  private:
   const TradeoffScene* scene_;
   std::size_t next_event_ = 0;
-  std::optional<TetBody> body_;  // one of the two
+  std::optional<FrozenBody> frozen_;  // one of the three
+  std::optional<TetBody> body_;
   SpringEndsView ends_;
   SpringColumns columns_;
 };

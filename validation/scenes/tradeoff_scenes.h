@@ -3,30 +3,31 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/time/method/step_limit.h"
+#include "validation/frozen/frozen_scene.h"
 #include "validation/scenes/spring_scene.h"
 
 namespace dartboard {
 
-/// A scene, ready to be run many times: a body on its map, or point masses and springs alone. A `SceneFile` becomes
-/// one, too (scene_of_file.h); of a table's, no file could say the closed form.
+/// A scene, ready to be run many times: a scene file, a body of the table's on its map, or point masses and springs
+/// alone. Of a table's, no file could say the closed form.
 struct TradeoffScene {
   std::string name, what;
-  std::optional<PreparedScene> body;                          // none: what moves is motion.network, without events
+  std::shared_ptr<const FrozenScene> frozen{};                // of a scene file (scene_of_file.h)
+  std::optional<PreparedScene> body{};                        // without both, what moves is motion.network
   reference::NetworkMotion motion;                            // for references; that of the body where there is one
+  std::string beyond_references{};                            // "membranes": what `motion` holds only the masses of
   std::function<std::vector<PointState>()> closed_form = {};  // the exact states at the checkpoints, where known
   double duration = 1.0;                                      // [s]
   double fastest_rate = 0.0;                                  // [1/s] reference::fastest_rate, the largest over time
   double edge = 1.0;                                          // [m] mean rest length at the start
   std::vector<std::string> omissions = {};                    // what the scene leaves out, in plain sentences
-  // what limits the step of the simulation that the scene stands for; none: of the body or the network themselves
-  std::optional<StableStep> limits = {};
 };
 
 struct TradeoffEntry {

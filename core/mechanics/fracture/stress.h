@@ -53,7 +53,7 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
 /// The volumes of all vertices [m^3] (of a surface their areas), by vertex number.
 struct VertexVolumes {
   std::span<const double> mass;              // [kg]
-  double density;                            // where all cells have this one, volumes at rest are masses over it
+  double density = 0.0;                      // where all cells have this one, volumes at rest are masses over it
   std::span<const double> rest_of_vertex{};  // where densities differ
   std::span<const double> now{};  // of a body of springs; the forces of elements say what theirs have grown by
 

@@ -281,7 +281,7 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   if (counts_.cells == 0) frame.links = ends_;
   frame.material = cell_material_;
   std::vector<double> room;
-  fill_columns(frame, fields, vertices_, system(), volumes(room));
+  fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});
   if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
   return frame;
 }

@@ -217,7 +217,8 @@ class BodyOnMap final : public SimulatedBody {
     if constexpr (n == 3) add_refined_facets(frame);
     frame.material = body_.cell_material;
     VolumeRoom room;
-    fill_columns(frame, fields, body_.vertices, system(), vertex_volumes(body_, corners(), room));
+    fill_columns(frame, fields, body_.vertices, system(),
+                 fields.stress ? vertex_volumes(body_, corners(), room) : VertexVolumes{});
     if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
     return frame;
   }

@@ -21,7 +21,7 @@ ReadyRelease::ReadyRelease(VertexColumns& vertices, const Release& release, cons
   points_.shrink_to_fit();
 }
 
-std::size_t ReadyRelease::apply() {
+std::size_t ReadyRelease::apply(EventTargets*) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
     if (!std::ranges::binary_search(points_, vertices_.point[k])) continue;

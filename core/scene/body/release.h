@@ -18,9 +18,10 @@ class ReadyRelease final : public ReadyEvent {
   /// throws  InputError "PATH: ..." if none that is selected is fixed
   ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path);
 
-  /// returns  vertices let go
+  /// returns  vertices let go; their points are chosen at the start, and none is added to the targets
   /// cost     O(vertices log(points))
-  std::size_t apply() override;
+  std::size_t apply(EventTargets*) override;
+  std::size_t repeat(const EventTargets&) override { return apply(nullptr); }
   std::size_t bytes() const override;
 
  private:

@@ -29,26 +29,44 @@ namespace {
   throw InputError(fmt::format("{}: {}; expected {}", path, found, expected));
 }
 
-/// Dissociated facets of a change: faces of a solid, edges of a surface.
-template <class Map>
-std::size_t facets(const TopologyChange& change) {
-  return Map::dimension == 3 ? change.faces.size() : change.edges.size();
+void add(EventTargets* taken, std::span<const Dart> darts) {
+  if (taken != nullptr)
+    for (const Dart d : darts) taken->push_back(d.index);
 }
 
+/// An event that takes facets apart, and nothing else.
 template <class Map>
-std::size_t follow_dissociation(BodyOnMap<Map>& on, const TopologyChange& change) {
-  if (change.empty()) return 0;
-  on.follow(change);
-  return facets<Map>(change);
-}
+class Dissociation : public ReadyEvent {
+ public:
+  explicit Dissociation(BodyOnMap<Map>& on) : on_(on) {}
+  std::size_t repeat(const EventTargets& taken) override {
+    std::vector<Dart> seam;
+    for (const std::uint32_t index : taken) seam.push_back(Dart{index});
+    return dissociate(seam, nullptr);
+  }
+
+ protected:
+  std::size_t dissociate(std::span<const Dart> seam, EventTargets* taken) {
+    add(taken, seam);
+    const TopologyChange change = dissociate_all(on_.body().map, seam);
+    if (change.empty()) return 0;
+    on_.follow(change);
+    return facets_of(change);
+  }
+  static std::size_t facets_of(const TopologyChange& change) {
+    return Map::dimension == 3 ? change.faces.size() : change.edges.size();
+  }
+
+  BodyOnMap<Map>& on_;
+};
 
 // ---- dissociate
 
 template <class Map>
-class ReadyFaces : public ReadyEvent {
+class ReadyFaces : public Dissociation<Map> {
  public:
   ReadyFaces(BodyOnMap<Map>& on, const std::vector<std::vector<std::uint32_t>>& faces, const std::string& path)
-      : on_(on) {
+      : Dissociation<Map>(on) {
     constexpr std::size_t points = Map::dimension;
     for (std::size_t k = 0; k < faces.size(); ++k) {
       if (faces[k].size() != points)
@@ -64,12 +82,12 @@ class ReadyFaces : public ReadyEvent {
     }
   }
   std::optional<std::size_t> facets() const override { return found_.size(); }
-  std::size_t apply() override {
+  std::size_t apply(EventTargets* taken) override {
     const Map& map = on_.body().map;
     std::vector<Dart> live;  // a face of a removed cell is on the boundary already: nothing to separate
     for (const DartId id : found_)
       if (map.is_live(id.dart) && map.id(id.dart) == id) live.push_back(id.dart);
-    return follow_dissociation(on_, dissociate_all(on_.body().map, live));
+    return this->dissociate(live, taken);
   }
   std::size_t bytes() const override { return bytes_of(found_); }
 
@@ -81,7 +99,7 @@ class ReadyFaces : public ReadyEvent {
       return edges_of_points(on_.body(), std::span(&points, 1));
   }
 
-  BodyOnMap<Map>& on_;
+  using Dissociation<Map>::on_;
   std::vector<DartId> found_;
 };
 
@@ -94,12 +112,12 @@ std::vector<Dart> seam_on(const BodyOnMap<Map>& on, const PlaneSelection& plane)
 }
 
 template <class Map>
-class ReadyPlane : public ReadyEvent {
+class ReadyPlane : public Dissociation<Map> {
  public:
   ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane, const std::optional<CutRegion>& within)
-      : on_(on), plane_(plane), within_(within) {}
+      : Dissociation<Map>(on), plane_(plane), within_(within) {}
   std::optional<std::size_t> facets() const override { return seam().size(); }
-  std::size_t apply() override { return follow_dissociation(on_, dissociate_all(on_.body().map, seam())); }
+  std::size_t apply(EventTargets* taken) override { return this->dissociate(seam(), taken); }
 
  private:
   std::vector<Dart> seam() const {
@@ -111,23 +129,23 @@ class ReadyPlane : public ReadyEvent {
     return all;
   }
 
-  BodyOnMap<Map>& on_;
+  using Dissociation<Map>::on_;
   PlaneSelection plane_;
   std::optional<CutRegion> within_;
 };
 
 template <class Map>
-class ReadyBlade : public ReadyEvent {
+class ReadyBlade : public Dissociation<Map> {
  public:
-  ReadyBlade(BodyOnMap<Map>& on, const BladeSweep& blade) : on_(on), blade_(blade) {}
+  ReadyBlade(BodyOnMap<Map>& on, const BladeSweep& blade) : Dissociation<Map>(on), blade_(blade) {}
   std::optional<std::size_t> facets() const override { return seam().size(); }
-  std::size_t apply() override { return follow_dissociation(on_, dissociate_all(on_.body().map, seam())); }
+  std::size_t apply(EventTargets* taken) override { return this->dissociate(seam(), taken); }
   std::size_t bytes() const override { return bytes_of(blade_.path); }
 
  private:
   std::vector<Dart> seam() const { return facets_on_sweep(on_.body(), blade_.path, blade_.depth); }
 
-  BodyOnMap<Map>& on_;
+  using Dissociation<Map>::on_;
   BladeSweep blade_;
 };
 
@@ -210,17 +228,28 @@ class ReadyRemoval : public ReadyEvent {
   ReadyRemoval(BodyOnMap<Map>& on, const CellSelection& selection, const std::string& path)
       : on_(on), chooser_(on, selection, path) {}
 
-  std::size_t apply() override {
-    auto& body = on_.body();
-    const std::vector<std::uint32_t> cells = chooser_.choose();
-    if (cells.empty()) return 0;
+  std::size_t apply(EventTargets* taken) override {
     // darts and not numbers: these change when the body follows
     std::vector<Dart> darts;
+    for (const std::uint32_t k : chooser_.choose()) darts.push_back(on_.body().cell_dart[k]);
+    add(taken, darts);
+    return remove(darts);
+  }
+  std::size_t repeat(const EventTargets& taken) override {
+    std::vector<Dart> darts;
+    for (const std::uint32_t index : taken) darts.push_back(Dart{index});
+    return remove(darts);
+  }
+  void state(Archive& archive) override { chooser_.state(archive); }
+  std::size_t bytes() const override { return chooser_.bytes(); }
+
+ private:
+  /// The cells of these darts.
+  std::size_t remove(std::span<const Dart> darts) {
+    if (darts.empty()) return 0;
+    auto& body = on_.body();
     double mass = 0.0;
-    for (const std::uint32_t k : cells) {
-      darts.push_back(body.cell_dart[k]);
-      mass += body.cell_mass[k];
-    }
+    for (const Dart d : darts) mass += body.cell_mass[body.cell(body.map, d)];
     TopologyChange change;
     for (const Dart d : darts) {
       if constexpr (Map::dimension == 3)
@@ -230,12 +259,9 @@ class ReadyRemoval : public ReadyEvent {
     }
     on_.follow(change);
     on_.count_removed(mass);
-    return cells.size();
+    return darts.size();
   }
-  void state(Archive& archive) override { chooser_.state(archive); }
-  std::size_t bytes() const override { return chooser_.bytes(); }
 
- private:
   BodyOnMap<Map>& on_;
   CellChooser<Map> chooser_;
 };
@@ -262,11 +288,28 @@ class ReadyRefinement : public ReadyEvent {
   ReadyRefinement(BodyOnMap<Map>& on, const Refine& refine, const std::string& path)
       : on_(on), refine_(refine), path_(path), chooser_(on, refine.cells, path + "/cells") {}
 
-  std::size_t apply() override {
+  std::size_t apply(EventTargets* taken) override {
+    const auto& body = on_.body();
+    std::vector<Dart> darts;
+    for (const std::uint32_t k : chooser_.choose())
+      if (is_tetrahedron(body.map, body.cell_dart[k])) darts.push_back(body.cell_dart[k]);
+    add(taken, darts);
+    return refine(darts);
+  }
+  std::size_t repeat(const EventTargets& taken) override {
+    std::vector<Dart> darts;
+    for (const std::uint32_t index : taken) darts.push_back(Dart{index});
+    return refine(darts);
+  }
+  void state(Archive& archive) override { chooser_.state(archive); }
+  std::size_t bytes() const override { return chooser_.bytes(); }
+
+ private:
+  /// The tetrahedra of these darts.
+  std::size_t refine(std::span<const Dart> darts) {
     auto& body = on_.body();
     std::vector<DartId> chosen;
-    for (const std::uint32_t k : chooser_.choose())
-      if (is_tetrahedron(body.map, body.cell_dart[k])) chosen.push_back(body.map.id(body.cell_dart[k]));
+    for (const Dart d : darts) chosen.push_back(body.map.id(d));
     std::size_t count = 0;
     for (const DartId id : chosen) {
       if (!body.map.is_live(id.dart) || body.map.id(id.dart) != id) continue;  // subdivided with a neighbour
@@ -277,10 +320,7 @@ class ReadyRefinement : public ReadyEvent {
     }
     return count;
   }
-  void state(Archive& archive) override { chooser_.state(archive); }
-  std::size_t bytes() const override { return chooser_.bytes(); }
 
- private:
   /// At rest; of equal ones, the edge with the lowest number.
   Edge longest_edge(Dart cell) const {
     const auto& body = on_.body();
@@ -316,22 +356,22 @@ class ReadyRefinement : public ReadyEvent {
 // ---- tear; of solids only
 
 template <class Map>
-class ReadyTear : public ReadyEvent {
+class ReadyTear : public Dissociation<Map> {
  public:
-  ReadyTear(BodyOnMap<Map>& on, const Tear& tear, const std::string& path) : on_(on), tear_(tear) {
+  ReadyTear(BodyOnMap<Map>& on, const Tear& tear, const std::string& path) : Dissociation<Map>(on), tear_(tear) {
     const auto* point = std::get_if<std::uint32_t>(&tear.vertex);
     if (point != nullptr && *point >= on.body().vertices.size())  // one vertex for each point at the start
       fail(path + "/vertex", fmt::format("is {}", *point),
            fmt::format("a point of the mesh, less than {}", on.body().vertices.size()));
   }
 
-  std::size_t apply() override {
-    auto& body = on_.body();
+  std::size_t apply(EventTargets* taken) override {
+    const auto& body = on_.body();
     const auto vertex = chosen();
     if (!vertex) return 0;
     const Dart start = starting_face(body, *vertex, tear_.direction);
     if (start == no_dart) return 0;  // a vertex of a single cell
-    return follow_dissociation(on_, tear_fan(body.map, start));
+    return this->dissociate(fan(body.map, start), taken);
   }
 
  private:
@@ -355,25 +395,28 @@ class ReadyTear : public ReadyEvent {
     return best;
   }
 
-  BodyOnMap<Map>& on_;
+  using Dissociation<Map>::on_;
   Tear tear_;
 };
 
 template <class Map>
-class ReadyStress : public ReadyEvent {
+class ReadyStress : public Dissociation<Map> {
  public:
   ReadyStress(BodyOnMap<Map>& on, const TearWhereStressed& tear, const std::string& path)
-      : on_(on), rule_{tear.threshold} {
+      : Dissociation<Map>(on), rule_{tear.threshold} {
     if (tear.most_per_step) rule_.most_per_step = *tear.most_per_step;
     if (!tear.seam) return;
     const std::vector<Dart> faces = seam_on(on, *tear.seam);
     if (faces.empty()) fail(path + "/plane", "has no two cells on different sides", "a seam through the body at rest");
     filter_ = [&map = on.body().map, seam = FaceSet(on.body().map, faces)](Dart d) { return seam.contains(map, d); };
   }
-  std::size_t apply() override {
-    return tear_where_stressed(
-               on_.body(), on_.ends(), rule_, filter_, [this](const TopologyChange& change) { on_.follow(change); },
-               stress_, on_.system().terms, on_.corners())
+  std::size_t apply(EventTargets* taken) override {
+    const auto follow = [this, taken](const TopologyChange& change) {
+      for (const DissociatedCell& face : change.faces) add(taken, std::span(&face.kept, 1));
+      on_.follow(change);
+    };
+    return tear_where_stressed(on_.body(), on_.ends(), rule_, filter_, follow, stress_, on_.system().terms,
+                               on_.corners())
         .faces;
   }
   // of a seam, a bit for each face slot of a cell
@@ -382,7 +425,7 @@ class ReadyStress : public ReadyEvent {
   }
 
  private:
-  BodyOnMap<Map>& on_;
+  using Dissociation<Map>::on_;
   TearRule rule_;
   FaceFilter filter_;
   std::vector<Eigen::Matrix3d> stress_;

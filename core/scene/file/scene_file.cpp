@@ -551,34 +551,19 @@ class Reader {
     for (const SceneFile::Tissue& tissue : scene.tissues()) {
       if (tissue.material.model == Model::springs) continue;
       if (scene.is_chain()) fail(tissue.path + "/poisson", "stands beside /body/generate/chain", "cells");
-      if (scene.accuracy)
-        fail("/accuracy",
-             fmt::format("stands beside {}/poisson: the codes it compares with know springs alone", tissue.path),
-             "'step' in its place");
     }
-    if (const std::string key(scene.key_beside_edges()); !key.empty()) {
-      if (scene.is_chain()) fail(key, "stands beside /body/generate/chain, which has no cells", "cells");
-      if (scene.accuracy)
-        fail("/accuracy", fmt::format("stands beside {}: the codes it compares with know springs of edges alone", key),
-             "'step' in its place");
-    }
+    if (const std::string key(scene.key_beside_edges()); !key.empty() && scene.is_chain())
+      fail(key, "stands beside /body/generate/chain, which has no cells", "cells");
     if (scene.has_contact()) {
       if (scene.is_chain()) fail("/contact", "stands beside /body/generate/chain, which has no surface", "cells");
       if (scene.accuracy)
-        fail("/accuracy", "stands beside /contact: the codes it compares with know no obstacles",
+        fail("/accuracy", "cannot be combined with /contact, through which no run is compared with another",
              "'step' in its place");
     }
     if (!scene.touches.empty() && scene.integrator == "energy-momentum")
       fail(scene.touches.front().path,
            "stands beside the integrator \"energy-momentum\", whose forces are not there where depths have kinks",
            "another integrator, or obstacles alone");
-    if (scene.accuracy && scene.holds_axes())
-      fail("/accuracy", "is given where /fixed has 'axes', which the codes it compares with do not know",
-           "'step' in its place");
-    if (scene.accuracy && scene.tissues().size() > 1)
-      fail("/accuracy",
-           fmt::format("stands beside {}: the codes it compares with know one material", scene.tissues()[1].path),
-           "'step' in its place");
     if (scene.exact_events && !scene.driven.empty())
       fail("/event_times", "is \"exact\" beside /driven, which turns at steps alone", "\"steps\"");
     for (const SceneForce& force : scene.forces)
@@ -589,16 +574,8 @@ class Reader {
       for (const SceneForce& force : scene.forces)
         if (force.pressure)
           fail(force.path + "/pressure", "stands beside /body/generate/chain, which has no faces", "'force'");
-    if (scene.accuracy) {
-      // a step is found by comparison with references, which know neither
-      const char* unknown = scene.is_chain()        ? "/body/generate/chain"
-                            : !scene.driven.empty() ? "/driven"
-                            : !scene.forces.empty() ? "/forces"
-                                                    : nullptr;
-      if (unknown != nullptr) fail("/accuracy", fmt::format("stands beside {}", unknown), "'step' in its place");
-      if (scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
-        fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
-    }
+    if (scene.accuracy && scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
+      fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
     const SceneEvent *seam = nullptr, *refinement = nullptr, *release = nullptr;
     for (const SceneEvent& event : scene.events) {
       if (scene.is_chain() && changes_topology(event.action))

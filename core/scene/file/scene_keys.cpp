@@ -75,9 +75,9 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
-               "none is named; not for a chain, nor with driven vertices or forces. The choice rests on timings: it may differ from "
-               "machine to machine and from run to run, and the hash with it; 'simulate' prints the 'integrator' and "
-               "'step' that settle it"},
+               "none is named; not with contact. The choice rests on timings: it may differ from machine to machine "
+               "and from run to run, and the hash with it; 'simulate' prints the 'integrator' and 'step' that settle "
+               "it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = names_of(integrators()),

@@ -27,7 +27,7 @@ class AppliedForces {
 
   /// Set what is due after n steps.
   ///
-  /// pre      called for n = 0, 1, 2 ... in turn
+  /// pre      called for 0, then for ascending n, whenever something is due
   /// returns  whether any has begun or ended since the last call
   /// cost     O(forces), and O(vertices + points pulled at) where one begins or ends
   bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);

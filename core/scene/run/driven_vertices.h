@@ -28,7 +28,7 @@ class DrivenVertices {
 
   /// Set the velocities that are due after n steps.
   ///
-  /// pre      called for n = 0, 1, 2 ... in turn
+  /// pre      called for 0, then for ascending n, whenever something is due
   /// returns  whether any has changed since the last call
   /// cost     O(drives), and O(vertices) where one starts, turns or ends
   bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity);

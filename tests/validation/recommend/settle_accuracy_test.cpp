@@ -48,6 +48,42 @@ TEST(StepFittingTimes, DividesTheTimesOfEventsAndOutputToo) {
   EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 9);
 }
 
+TEST(StepFittingTimes, DividesTheTimesOfDrivesAndForces) {
+  Json json = accurate_box(1e-3);
+  json["driven"] = Json::parse(R"([{"ids": [0], "velocity": [1, 0, 0], "from": 0.02, "until": 0.08, "reverse_every": 0.03}])");
+  EXPECT_EQ(step_fitting_times(parse(json), 0.012), 0.1 / 10);
+  json.erase("driven");
+  json["forces"] = Json::parse(R"([{"ids": [1], "force": [1, 0, 0], "from": 0.02, "until": 0.05}])");
+  EXPECT_EQ(step_fitting_times(parse(json), 0.03), 0.1 / 10);
+}
+
+TEST(SettleAccuracy, IsMetByBodiesThatHaveMoreThanSprings) {
+  const char* const patches[] = {
+      R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null}})",
+      R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null},
+          "body": {"generate": {"box": {"kind": "hexahedra", "pattern": null}}}})",
+      R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})",
+      R"({"driven": [{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}, "velocity": [0.5, 0, 0], "reverse_every": 0.025}]})",
+      R"({"forces": [{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}, "force": [20, 0, 0], "until": 0.05}],
+          "events": [{"at": 0.02, "remove": {"ids": [5]}}]})"};
+  for (const char* patch : patches) {
+    Json json = accurate_box(1e-3);
+    json.merge_patch(Json::parse(patch));
+    SceneFile scene = parse(json), fine = scene;
+    ASSERT_TRUE(settle_accuracy(scene, ticking()));
+    fine.integrator = "blanes-moan-4";
+    fine.step = 0.1 / 4000;  // which all times of these scenes are multiples of
+    Simulation simulation(scene), certain(fine);
+    run(simulation);
+    run(certain);
+    const auto &x = simulation.body().vertices().position, &exact = certain.body().vertices().position;
+    ASSERT_EQ(x.size(), exact.size());
+    double sum = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - exact[k]).squaredNorm();
+    EXPECT_LT(std::sqrt(sum / static_cast<double>(x.size())), 2e-3 * 0.15) << patch;
+  }
+}
+
 TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
   SceneFile scene = parse(accurate_box(1e-4)), fine = scene;
   const auto settled = settle_accuracy(scene, ticking());

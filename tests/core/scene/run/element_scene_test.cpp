@@ -88,12 +88,6 @@ TEST(ElementScene, NamesTheKeyOfAMaterialThatIsNone) {
   scene = of_elements();
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 2, "spacing": 1}}})");
   EXPECT_EQ(refusal(scene), "file: /material/poisson: stands beside /body/generate/chain; expected cells");
-  scene = of_elements();
-  scene.erase("step");
-  scene["accuracy"] = 1e-3;
-  EXPECT_EQ(refusal(scene),
-            "file: /accuracy: stands beside /material/poisson: the codes it compares with know springs "
-            "alone; expected 'step' in its place");
 }
 
 Json damped(Json scene, double ratio = 0.05, double frequency = 4.0) {

@@ -198,13 +198,6 @@ TEST(SceneRegions, NameTheKeyThatIsWrong) {
             "\"corotational\" or \"springs\"");
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 2, "spacing": 1}}})");
   EXPECT_EQ(refusal(scene), "file: /regions: stand beside /body/generate/chain, which has no cells; expected none");
-  scene = with_region(left_half, heavy);
-  scene.erase("step");
-  scene["accuracy"] = 1e-3;
-  EXPECT_EQ(
-      refusal(scene),
-      "file: /accuracy: stands beside /regions/0/material: the codes it compares with know one material; expected "
-      "'step' in its place");
 }
 
 // ---- marks of cells in a mesh file

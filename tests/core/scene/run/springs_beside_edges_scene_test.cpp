@@ -63,13 +63,6 @@ TEST(SpringsBesideEdges, NameTheKeyThatFitsNoCell) {
   scene = with(moving_box(), "diagonals", "faces");
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 3, "spacing": 1}}})");
   EXPECT_EQ(refusal(scene), "file: /diagonals: stands beside /body/generate/chain, which has no cells; expected cells");
-  scene = block("hexahedra");
-  scene.erase("step");
-  scene["accuracy"] = 1e-3;
-  EXPECT_EQ(
-      refusal(scene),
-      "file: /accuracy: stands beside /diagonals: the codes it compares with know springs of edges alone; expected "
-      "'step' in its place");
   EXPECT_EQ(refusal(with(moving_box(), "bending", Json::parse(rigid))),
             "file: /bending: stands beside a solid, whose cells do not bend at edges; expected a surface");
   EXPECT_EQ(refusal(sheet("quadrilaterals", rigid)),

@@ -1,0 +1,135 @@
+// Frozen scenes: their runs have the bits of simulations, and operate on the same cells by every method.
+
+#include "validation/frozen/frozen_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/scene/file/scene_problem.h"
+#include "core/time/integrators.h"
+#include "tests/support/moving_box.h"
+#include "validation/scenes/scene_of_file.h"
+#include "validation/scenes/scene_stage.h"
+
+namespace dartboard::frozen_scene_test {
+namespace {
+
+using namespace moving;
+
+// 64 steps of 2^-10 s: times are exact
+Json exact_box() {
+  Json scene = moving_box();
+  scene["step"] = 0x1p-10;
+  scene["duration"] = 0x1p-4;
+  scene["gravity"] = {0, 0.5, -2};
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}])");
+  return scene;
+}
+
+/// The box with other keys, or without those that are null.
+Json changed(const char* patch) {
+  Json scene = exact_box();
+  scene.merge_patch(Json::parse(patch));
+  return scene;
+}
+
+/// The last state, by vertex number.
+PointState run_as_simulation(const Json& json) {
+  Simulation simulation(parse(json));
+  run(simulation);
+  const VertexColumns& v = simulation.body().vertices();
+  return {v.position, v.velocity};
+}
+
+PointState run_as_study(const TradeoffScene& scene, const std::string& integrator, std::uint64_t steps = 64) {
+  const TimedRun run = run_timed(scene, *make_integrator(integrator), {.steps = steps}, [] { return 0; });
+  EXPECT_TRUE(run.result.ok()) << integrator << ": " << to_string(run.result);
+  return run.states.back();
+}
+
+struct Kind {
+  const char* name;
+  const char* patch;
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+
+class FrozenSceneBits : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(FrozenSceneBits, AreThoseOfTheSimulationWithTheSameIntegratorAndStep) {
+  for (const char* integrator : {"rk4", "verlet", "blanes-moan-4", "baraff-witkin"}) {
+    Json json = changed(GetParam().patch);
+    json["integrator"] = integrator;
+    const PointState simulated = run_as_simulation(json), studied = run_as_study(scene_of_file(parse(json)), integrator);
+    EXPECT_EQ(simulated.x, studied.x) << integrator;
+    EXPECT_EQ(simulated.v, studied.v) << integrator;
+  }
+}
+
+const Kind kinds[] = {
+    {"springs", "{}"},
+    {"faces", R"({"events": [{"at": 0.015625, "dissociate": {"points": [[0, 1, 13], [0, 4, 13]]}}]})"},
+    {"tear", R"({"events": [{"at": 0.03125, "tear": {"vertex": 13, "direction": [1, 0, 0]}},
+                            {"at": 0.0, "dissociate": {"points": [[0, 1, 13]]}}]})"},
+    {"plane", R"({"events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
+    {"removal", R"({"events": [{"from": 0.0078125, "every": 0.0078125, "until": 0.05,
+                                "remove": {"random": {"count": 2, "seed": 3}}}]})"},
+    {"refinement", R"({"events": [{"at": 0.0078125, "refine": {"cells": {"ids": [3, 40]}}},
+                                  {"at": 0.015625, "refine": {"cells": {"ids": [3]}, "at": "centre"}},
+                                  {"at": 0.03125, "remove": {"ids": [3]}}]})"},
+    {"release", R"({"events": [{"at": 0.015625, "release": {"plane": {"point": [0, 0, 0.06], "normal": [0, 0, -1]}}}]})"},
+    {"drives", R"({"driven": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "velocity": [0.5, 0, 0.25],
+                               "from": 0.0078125, "until": 0.046875, "reverse_every": 0.015625}]})"},
+    {"forces", R"({"forces": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "force": [0.5, 0, 0.25],
+                               "from": 0.0078125, "until": 0.046875}],
+                   "events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
+    {"elements", R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null},
+                     "events": [{"at": 0.03125, "dissociate": {"points": [[0, 1, 13], [0, 4, 13]]}}]})"},
+    {"hexahedra", R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null},
+                      "body": {"generate": {"box": {"kind": "hexahedra", "pattern": null}}},
+                      "events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
+    {"two materials", R"({"regions": [{"cells": {"box": {"min": [-1, -1, -1], "max": [1, 1, 0.126]}},
+                                       "material": {"density": 500, "stiffness": 16, "damping": 0.5}}],
+                          "events": [{"at": 0.03125, "remove": {"ids": [5]}}]})"},
+    {"surface", R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125, "kind": "quadrilaterals"}, "box": null}},
+                    "events": [{"at": 0.03125, "remove": {"ids": [3]}}]})"},
+    {"membrane", R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125}, "box": null}},
+                     "material": {"density": 2, "stiffness": null, "young": 300, "poisson": 0.3, "damping": null}})"},
+    {"chain", R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})"},
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, FrozenSceneBits, ::testing::ValuesIn(kinds),
+                         [](const auto& kind) { return std::to_string(kind.index); });
+
+TEST(FrozenScene, TearsWhatAnAccurateRunTearsByEveryMethodAndStep) {
+  const TradeoffScene scene = scene_of_file(parse(changed(
+      R"({"material": {"damping": 0}, "initial_velocity": {"linear": [[8, 0, 0], [0, 0, 0], [0, 0, 0]]},
+          "events": [{"tear_where_stressed": {"threshold": 60}}]})")));
+  ASSERT_FALSE(scene.motion.events.empty());
+  const std::size_t vertices = scene.motion.events.back().network.point_count();
+  EXPECT_GT(vertices, scene.motion.network.point_count());
+  for (const char* integrator : {"rk4", "backward-euler"})
+    EXPECT_EQ(run_as_study(scene, integrator, 16).x.size(), vertices) << integrator;
+  ASSERT_EQ(scene.omissions.size(), 1u);
+  EXPECT_EQ(scene.omissions[0], "/events/0 tears what it tears in one accurate run, at the times of that run.");
+}
+
+TEST(FrozenScene, LooksAtTheBodyInEveryStepOnlyWhereThereIsOne) {
+  Json json = changed(R"({"step": null, "accuracy": 1e-2, "events": [{"tear_where_stressed": {"threshold": 1}}]})");
+  const TradeoffScene scene = scene_of_file(parse(json));
+  EXPECT_TRUE(scene.motion.events.empty());
+  ASSERT_EQ(scene.omissions.size(), 1u);
+  EXPECT_EQ(scene.omissions[0],
+            "/events/0 is left out: it looks at the body in every step, and none has been chosen.");
+}
+
+TEST(FrozenScene, NamesTheEventThatItsBodyDoesNotHave) {
+  try {
+    scene_of_file(parse(changed(R"({"events": [{"at": 0.03125, "remove": {"ids": [480]}}]})")));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "file: /events/0/remove/ids/0: is 480; expected a cell of the mesh, less than 48");
+  }
+}
+
+}  // namespace
+}  // namespace dartboard::frozen_scene_test

@@ -1,0 +1,162 @@
+#include "validation/frozen/frozen_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/plain/cell_materials.h"
+#include "core/plain/nan_maximum.h"
+#include "reference/rebuild.h"
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A body in the mesh of its cells now, every vertex where its point is at rest.
+Mesh mesh_at_rest(const FrozenScene& scene, const Frame& frame) {
+  Mesh mesh = frame.mesh;
+  for (std::size_t k = 0; k < mesh.points.size(); ++k)
+    mesh.points[k] = scene.problem.mesh.points[static_cast<std::size_t>(frame.mesh_point[k])];
+  return mesh;
+}
+
+/// The cells of one material; all points.
+Mesh cells_of(const Mesh& mesh, const CellMaterials& materials, const std::vector<std::uint32_t>& mesh_cell,
+              MaterialNumber number) {
+  Mesh part;
+  part.points = mesh.points;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    if (materials.number(mesh_cell[c]) == number) part.add_cell(mesh.kinds[c], mesh.cell(c));
+  return part;
+}
+
+void add_links(const Problem& problem, reference::SpringNetwork& network) {
+  const Material& material = problem.material;
+  const auto& points = problem.mesh.points;
+  for (std::uint32_t k = 0; k + 1 < points.size(); ++k) {
+    const double length = (points[k + 1] - points[k]).norm();
+    const double share = material.young > 0.0 ? material.young / length / material.stiffness : 1.0;
+    network.springs.push_back({k, k + 1, share * material.stiffness, share * material.damping, length});
+    for (const std::uint32_t end : {k, k + 1}) network.mass[end] += material.density * length / 2;
+  }
+}
+
+void add_cells(const FrozenScene& scene, const Frame& frame, reference::SpringNetwork& network) {
+  const Mesh mesh = mesh_at_rest(scene, frame);
+  const CellMaterials materials = scene.problem.cell_materials();
+  const auto all = materials.all();
+  for (std::size_t number = 0; number < all.size(); ++number) {
+    const Mesh part = cells_of(mesh, materials, frame.mesh_cell, static_cast<MaterialNumber>(number));
+    if (part.cell_count() == 0) continue;
+    reference::Rebuilt rebuilt = reference::rebuild(part, all[number]);
+    for (std::size_t k = 0; k < rebuilt.mass.size(); ++k) network.mass[k] += rebuilt.mass[k];
+    if (all[number].model == Model::springs) {
+      network.springs.insert(network.springs.end(), rebuilt.springs.begin(), rebuilt.springs.end());
+      continue;
+    }
+    for (std::size_t c = 0; c < part.cell_count(); ++c)
+      for (reference::ElasticPoint& point : reference::elastic_points(part, c, all[number]))
+        network.elements.push_back(std::move(point));
+  }
+}
+
+/// Places that tell, when they are copied or averaged, which of some vertices they come from: (k, k^2, 0) of vertex k.
+void mark_places(std::span<Vector3d> x) {
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = Vector3d(static_cast<double>(k), static_cast<double>(k * k), 0.0);
+}
+
+/// Of a copy, the vertex itself; of a vertex that refinement has put between two, the first of them.
+std::uint32_t origin_of(const Vector3d& x, std::size_t vertices) {
+  const double k = std::round(x.x() - std::sqrt(std::max(0.0, x.y() - x.x() * x.x())));
+  return static_cast<std::uint32_t>(std::clamp(k, 0.0, static_cast<double>(vertices - 1)));
+}
+
+}  // namespace
+
+std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
+  if (file.has_contact()) return "contact";
+  if (!file.key_beside_edges().empty()) return "springs that are no edges";
+  if (file.has_elements() && mesh.dimension() == 2) return "membranes";
+  const auto known = [](CellKind kind) { return kind == CellKind::tetrahedron || kind == CellKind::hexahedron; };
+  if (file.has_elements() && !std::ranges::all_of(mesh.kinds, known)) return "elements of these cells";
+  for (const SceneEvent& event : file.events)
+    if (std::holds_alternative<Refine>(event.action)) return "refinement";
+  return {};
+}
+
+double mean_edge(const Mesh& mesh) {
+  double sum = 0.0;
+  if (mesh.cell_count() == 0) {
+    for (std::size_t k = 0; k + 1 < mesh.points.size(); ++k) sum += (mesh.points[k + 1] - mesh.points[k]).norm();
+    return sum > 0.0 ? sum / static_cast<double>(mesh.points.size() - 1) : 1.0;
+  }
+  const reference::Rebuilt edges = reference::rebuild(mesh, Material{});
+  for (const reference::Spring& edge : edges.springs) sum += edge.rest_length;
+  return sum > 0.0 ? sum / static_cast<double>(edges.springs.size()) : 1.0;
+}
+
+reference::SpringNetwork network_of(const FrozenScene& scene, const SimulatedBody& body) {
+  const VertexColumns& v = body.vertices();
+  reference::SpringNetwork network;
+  network.edge = mean_edge(scene.problem.mesh);
+  if (!beyond_references(scene.file, scene.problem.mesh).empty()) {
+    network.mass.assign(v.mass.begin(), v.mass.end());
+  } else {
+    network.mass.assign(v.size(), 0.0);
+    scene.problem.mesh.cell_count() == 0 ? add_links(scene.problem, network)
+                                         : add_cells(scene, body.frame({}), network);
+  }
+  network.fixed.assign(v.fixed.begin(), v.fixed.end());
+  network.fixed.resize(v.size(), 0);
+  network.held_axes.assign(v.held_axes.begin(), v.held_axes.end());
+  network.pull.assign(v.pull.begin(), v.pull.end());
+  network.viscosity = scene.problem.material.viscosity;
+  network.gravity = scene.problem.surroundings.gravity;
+  return network;
+}
+
+FrozenMotion motion_of(const FrozenScene& scene, std::size_t checkpoints) {
+  FrozenBody moved(scene);
+  SimulatedBody& body = moved.body();
+  FrozenMotion made;
+  reference::NetworkMotion& motion = made.motion;
+  const bool is_beyond = !beyond_references(scene.file, scene.problem.mesh).empty();
+  const auto network_now = [&] {
+    reference::SpringNetwork network = network_of(scene, body);
+    if (is_beyond) return network;
+    std::vector<Vector3d> at_rest;
+    for (const std::uint32_t point : body.vertices().point) at_rest.push_back(scene.problem.mesh.points[point]);
+    made.fastest_rate = max_or_nan(made.fastest_rate, reference::fastest_rate(network, at_rest));
+    return network;
+  };
+  motion.network = network_now();
+  const Motion start = body.motion();
+  motion.start = {{start.x.begin(), start.x.end()}, {start.v.begin(), start.v.end()}};
+  for (std::size_t c = 1; c <= checkpoints; ++c)
+    motion.checkpoints.push_back(scene.file.duration * static_cast<double>(c) / static_cast<double>(checkpoints));
+  for (const FrozenChange& change : scene.changes) {
+    if (change.time == 0.0) continue;
+    const std::size_t before = body.vertices().size();
+    mark_places(body.motion().x);
+    moved.pass();
+    reference::NetworkEvent event{.time = change.time, .network = network_now(), .from = {}};
+    for (const Vector3d& x : body.motion().x) event.from.push_back(origin_of(x, before));
+    // the others go on as they move by then
+    for (std::uint32_t k = 0; k < event.network.point_count(); ++k)
+      if (event.network.fixed[k] != 0) event.drives.push_back({k, body.motion().v[k]});
+    motion.events.push_back(std::move(event));
+  }
+  if (is_beyond) {
+    FrozenBody at_start(scene);
+    made.fastest_rate = fastest_rate(at_start.body());
+    for (std::size_t k = 0; k < motion.events.size(); ++k) {
+      at_start.pass();
+      made.fastest_rate = max_or_nan(made.fastest_rate, fastest_rate(at_start.body()));
+    }
+  }
+  check(motion);
+  return made;
+}
+
+}  // namespace dartboard

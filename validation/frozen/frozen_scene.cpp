@@ -1,0 +1,220 @@
+#include "validation/frozen/frozen_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/plain/error.h"
+#include "core/plain/nan_maximum.h"
+#include "core/scene/file/step_times.h"
+#include "core/time/explicit/dormand_prince_54.h"
+#include "core/time/watch/stable_step.h"
+#include "validation/frozen/frozen_motion.h"
+
+namespace dartboard {
+namespace {
+
+// [edges] per step, of the run that finds what events operate on
+constexpr double tolerance = 1e-8;
+
+/// Why an event cannot take place alike in every run, or leaves the motion as it is; empty when it takes part.
+std::string reason_to_omit(const SceneEvent& event, const SceneFile& file) {
+  if (event.from >= file.duration) return "it happens at the end, and changes no motion";
+  if (event.from != event.until && !event.every && !(file.step > 0.0))
+    return "it looks at the body in every step, and none has been chosen";
+  return {};
+}
+
+bool depends_on_positions(const CellSelection& cells) {
+  return !std::holds_alternative<IdSelection>(cells) && !std::holds_alternative<RandomSelection>(cells);
+}
+
+bool depends_on_positions(const SceneEvent& event) {
+  if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) return dissociate->faces.index() != 0;
+  if (const auto* remove = std::get_if<Remove>(&event.action)) return depends_on_positions(remove->cells);
+  if (const auto* refine = std::get_if<Refine>(&event.action)) return depends_on_positions(refine->cells);
+  return !std::holds_alternative<Release>(event.action);
+}
+
+/// The unit of the times of drives and forces, which counts steps elsewhere: so short that it is exact.
+double tick(const SceneFile& file) { return 0x1p-40 * file.duration; }
+
+/// A time at which something may change: an event, or what drives and pulls.
+struct Moment {
+  double time;
+  std::optional<std::size_t> event;
+};
+
+/// From, from + every, ... up to until, each a product, and before the end of the scene.
+void add_times(double from, double until, double every, double duration, const std::optional<std::size_t>& event,
+               std::vector<Moment>& moments) {
+  for (double k = 0.0;; ++k) {
+    const double time = from + k * every;
+    if (!(time < duration) || time > until * (1.0 + 0x1p-51)) return;
+    moments.push_back({time, event});
+    if (from == until) return;
+  }
+}
+
+/// Ascending; at one time events come first, in the order of the scene.
+std::vector<Moment> moments_of(const SceneFile& file) {
+  std::vector<Moment> moments;
+  for (std::size_t e = 0; e < file.events.size(); ++e) {
+    const SceneEvent& event = file.events[e];
+    if (event.from == event.until || event.every) {
+      add_times(event.from, event.until, event.every.value_or(0.0), file.duration, e, moments);
+      continue;
+    }
+    for (std::uint64_t n = step_of_time(event.from, file.step); n <= step_until(event.until, file.step); ++n)
+      if (const double time = static_cast<double>(n) * file.step; time < file.duration) moments.push_back({time, e});
+  }
+  const auto add_change = [&](double time) { add_times(time, time, 0.0, file.duration, {}, moments); };
+  for (const SceneDrive& drive : file.driven) {
+    const double until = drive.until.value_or(file.duration);
+    add_change(drive.from);
+    add_change(until);
+    if (drive.reverse_every) add_times(drive.from, until, *drive.reverse_every, file.duration, {}, moments);
+  }
+  for (const SceneForce& force : file.forces) {
+    add_change(force.from);
+    if (force.until) add_change(*force.until);
+  }
+  std::ranges::stable_sort(moments, [](const Moment& a, const Moment& b) {
+    return a.time != b.time ? a.time < b.time : a.event.has_value() && !b.event.has_value();
+  });
+  return moments;
+}
+
+/// Drives and forces of a body at a time; true where any has changed.
+bool drive(SimulatedBody& body, DrivenVertices& driven, AppliedForces& forces, std::uint64_t ticks) {
+  const std::span<const std::uint32_t> point = body.vertices().point;
+  const bool moved = driven.apply(ticks, point, body.motion().v);
+  return forces.apply(ticks, point, body.pull()) || moved;
+}
+
+/// The body on its way from change to change, to find what each of them operates on.
+class Scout {
+ public:
+  explicit Scout(const FrozenScene& scene)
+      : scene_(scene),
+        body_(make_simulated_body(scene.problem, scene.needs)),
+        edge_(mean_edge(scene.problem.mesh)),
+        rate_(fastest_rate(*body_)) {
+    for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
+    driven_ = DrivenVertices(scene.file, scene.problem.mesh.points, tick(scene.file));
+    forces_ = AppliedForces(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file));
+    done_.assign(events_.size(), 0);
+  }
+
+  /// All that changes before the end.
+  std::vector<FrozenChange> changes() {
+    const std::vector<Moment> moments = moments_of(scene_.file);
+    const auto depends = [this](const Moment& m) {
+      return m.event && depends_on_positions(scene_.file.events[*m.event]);
+    };
+    const auto last = std::find_if(moments.rbegin(), moments.rend(), depends).base();
+    std::vector<FrozenChange> found;
+    for (auto moment = moments.begin(); moment != moments.end();) {
+      const double time = moment->time;
+      if (moment < last) go_to(time);
+      FrozenChange change{.time = time};
+      for (; moment != moments.end() && moment->time == time; ++moment)
+        if (moment->event) operate(*moment->event, change);
+      const bool driven = drive(*body_, driven_, forces_, step_of_time(time, tick(scene_.file)));
+      if (change.operations.empty() && !driven) continue;
+      integrator_.restart();
+      found.push_back(std::move(change));
+    }
+    return found;
+  }
+
+  /// Operations of an event, all its times together.
+  std::size_t done(std::size_t event) const { return done_[event]; }
+
+ private:
+  void operate(std::size_t event, FrozenChange& change) {
+    FrozenChange::Operation operation{event, {}};
+    const std::size_t made = events_[event]->apply(&operation.targets);
+    done_[event] += made;
+    if (made > 0) change.operations.push_back(std::move(operation));
+  }
+
+  void go_to(double time) {
+    if (time <= time_) return;
+    // as in run_timed: the error of a velocity that belongs to one of a position
+    const Tolerance allowed{tolerance * edge_, tolerance * edge_ * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
+    const StepResult result = integrator_.advance(body_->system(), body_->motion(), time - time_, allowed);
+    if (!result.ok())
+      throw SolverError(fmt::format("/events: the motion up to {:.6g} s ends with {}", time, to_string(result)));
+    time_ = time;
+  }
+
+  const FrozenScene& scene_;
+  std::unique_ptr<SimulatedBody> body_;
+  std::vector<std::unique_ptr<ReadyEvent>> events_;
+  std::vector<std::size_t> done_;
+  DrivenVertices driven_;
+  AppliedForces forces_;
+  DormandPrince54 integrator_;
+  double edge_, rate_, time_ = 0.0;
+};
+
+/// What a frozen event is about, where that is not what the scene says.
+std::string omission_of(const SceneEvent& event, std::size_t operations) {
+  if (operations == 0) return fmt::format("{} is left out: it changes nothing.", event.path);
+  if (std::holds_alternative<TearWhereStressed>(event.action))
+    return fmt::format("{} tears what it tears in one accurate run, at the times of that run.", event.path);
+  if (depends_on_positions(event) && event.until > 0.0)
+    return fmt::format("{} takes what it takes in one accurate run, wherever the vertices are in others.", event.path);
+  return {};
+}
+
+}  // namespace
+
+double fastest_rate(const SimulatedBody& body) {
+  const StableStep limits = StableStepEstimate().refresh(body.system(), body.vertices().position);
+  double rate = max_or_nan(limits.upper, limits.viscous_rate.upper);
+  if (limits.damping_rate.upper < Scheme::unlimited) rate = max_or_nan(rate, limits.damping_rate.upper);
+  return rate;
+}
+
+FrozenScene freeze(const SceneFile& file, const Problem& problem) {
+  FrozenScene scene{.file = file, .problem = problem, .needs = {}, .changes = {}, .omissions = {}};
+  scene.file.output = {};
+  scene.file.probes.clear();
+  scene.file.expect = {};
+  if (scene.file.integrator.empty()) scene.file.integrator = "rk4";  // needed for nothing here
+  std::erase_if(scene.file.events, [&](const SceneEvent& event) {
+    const std::string reason = reason_to_omit(event, file);
+    if (!reason.empty()) scene.omissions.push_back(fmt::format("{} is left out: {}.", event.path, reason));
+    return !reason.empty();
+  });
+  scene.needs = needs_of(scene.file, problem).body;
+  Scout scout(scene);
+  scene.changes = scout.changes();
+  for (std::size_t e = 0; e < scene.file.events.size(); ++e)
+    if (std::string omission = omission_of(scene.file.events[e], scout.done(e)); !omission.empty())
+      scene.omissions.push_back(std::move(omission));
+  return scene;
+}
+
+FrozenBody::FrozenBody(const FrozenScene& scene)
+    : scene_(scene),
+      body_(make_simulated_body(scene.problem, scene.needs)),
+      driven_(scene.file, scene.problem.mesh.points, tick(scene.file)),
+      forces_(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file)) {
+  for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
+  while (next_ < scene.changes.size() && scene.changes[next_].time == 0.0) pass();
+}
+
+void FrozenBody::pass() {
+  const FrozenChange& change = scene_.changes.at(next_++);
+  for (const FrozenChange::Operation& operation : change.operations)
+    events_[operation.event]->repeat(operation.targets);
+  drive(*body_, driven_, forces_, step_of_time(change.time, tick(scene_.file)));
+}
+
+}  // namespace dartboard
