@@ -1,5 +1,5 @@
 #pragma once
-// The folder that one run leaves behind: raw samples, manifest, claims and tables.
+// The folder that each run writes: raw samples, manifest, claims and tables.
 
 #include <filesystem>
 #include <fstream>
@@ -30,8 +30,8 @@ class JsonLines {
   std::ofstream stream_;
 };
 
-/// A folder that belongs to one run. All files but JSON Lines appear whole or not at all: they are written beside their
-/// place and renamed into it.
+/// A folder that belongs to one run. All files but JSON Lines appear whole or not at all: they are written next to
+/// their final place and renamed into it.
 class RunFolder {
  public:
   /// Creates the folder, and those above it.
