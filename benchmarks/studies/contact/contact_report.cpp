@@ -14,7 +14,7 @@ namespace {
 // overlap by a part of a face before one is inside: a third of its height each, which is more than the least altitude
 // of a cell by what cells differ.
 constexpr double most_unfelt = 0.75;
-// A sample is in contact with one cell, so that of the pairs there some have their contact a cell beside them.
+// A sample is in contact with one cell, so that for some of the pairs found there the contact lies in a neighbour cell.
 constexpr double least_share = 0.95;
 constexpr std::size_t deep_class = 3;  // from 0.6 of the least altitude on
 static_assert(OverlapTally::classes == 10);

@@ -14,7 +14,7 @@ namespace dartboard {
 
 struct ElementsPlan {
   bool quick = false;  // coarser meshes, fewer rounds
-  // What makes displacements of a deck, as run_calculix does; empty: CalculiX is not asked.
+  // Makes the displacements of a deck, as run_calculix does; empty: CalculiX is not asked.
   std::function<std::string(const std::string& deck)> calculix{};
   std::string calculix_version{};
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff --models` says: claims, tables, a sentence and a picture.
+// The report of `dartboard tradeoff --models`: claims, tables, a sentence and a picture.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
