@@ -36,7 +36,7 @@ Claim claim(std::string id, std::string text, std::string target, std::string me
   return made;
 }
 
-/// An operation must keep to a bound on every body; the 99th percentiles are told.
+/// An operation must keep to a bound on every body; the 99th percentiles are reported.
 Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies, const std::string& id,
               const std::vector<std::string>& names, double bound_us) {
   std::string measured, tails;

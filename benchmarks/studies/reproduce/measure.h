@@ -1,5 +1,5 @@
 #pragma once
-// Timing the contenders on one scene: the plan, the child processes that carry it out, and the samples they send back.
+// Timing of the contenders on one scene: the plan, the child processes that carry it out, and the samples they return.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard validate topology` says of a mesh.
+// The verdict of `dartboard validate topology` on a mesh.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +21,7 @@ struct FuzzSeries {
   double operations_per_s = 0.0;
 };
 
-/// All that was asked of one mesh.
+/// All results on one mesh.
 struct TopologyVerdict {
   std::string name;
   std::size_t darts = 0;
