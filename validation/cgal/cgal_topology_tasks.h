@@ -23,7 +23,7 @@ struct TopologyWork {
 struct TopologyTask {
   std::string figure;                  // "vertex-orbit"
   std::function<std::uint64_t()> run;  // returns its result
-  std::function<void()> restore;       // puts the map back and reads it through, so that what fits the caches is there
+  std::function<void()> restore;       // puts the map back and reads it through, to fill the caches with it
 };
 
 /// The figures

@@ -22,7 +22,7 @@ inline ContactLaw contact_law(int exponent, double restitution, double friction)
   return law;
 }
 
-/// Vertices in contact, in gravity, and joined by springs if it has any: velocity Verlet around the impulses.
+/// Vertices in contact, in gravity, and joined by springs if there are any: velocity Verlet around the impulses.
 struct TouchingVertices {
   static constexpr double mass = 0.25, area = 0.03;  // [kg] of one, [m^2] of its sample
 
