@@ -61,7 +61,7 @@ class Contact:
                            area * pressure * share ** (p - 1), (p - 1) * area * pressure / allowed * share ** (p - 2))
 
     def energy(self, network, time, x=None):
-        """The same, and a bound on its rounding: depths are differences of coordinates."""
+        """The energy, and a bound on its rounding: depths are differences of coordinates."""
         x = network.frame.x if x is None else x
         found = list(self.touching(network, x, time))
         return (math.fsum(e for *_, e, _, _ in found), SUM * math.fsum(f * np.abs(x).max() for *_, f, _ in found))

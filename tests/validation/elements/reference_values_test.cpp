@@ -75,7 +75,7 @@ TEST(PublishedCantilevers, AreThoseOfTheCommittedNumbers) {
   EXPECT_EQ(found, 3u);
 }
 
-// Of quadratic tetrahedra twice as fine the beam is within a percent of that of 27-node hexahedra, all six frequencies.
+// With quadratic tetrahedra twice as fine the beam is within a percent of that with 27-node hexahedra, six frequencies.
 TEST(PublishedCantilevers, AreNearThoseOfQuadraticTetrahedra) {
   std::size_t found = 0;
   const nlohmann::json values = reference_values();
