@@ -26,7 +26,7 @@ Interrupt::Interrupt() {
   }
 }
 
-// The default is not restored once a signal was caught: an impatient user must be able to end what follows.
+// The default is not restored once a signal was caught: an impatient user must be able to end the rest.
 Interrupt::~Interrupt() {
   if (asked()) return;
   for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);

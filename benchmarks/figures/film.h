@@ -20,7 +20,7 @@ struct FilmFrame {
   Eigen::AlignedBox2d box;
 };
 
-/// A run as it is seen at its start and at evenly spaced times to its end; what is inside the body is not kept.
+/// A run as it is seen at its start and at evenly spaced times to its end; the inside of the body is not kept.
 class Film {
  public:
   static constexpr std::uint64_t most_frames = 120;

@@ -1,6 +1,6 @@
 #pragma once
-// The manifest of a run: what was run, from which inputs, built how, on what kind of machine. It is meant to be
-// published, so it holds no host name and no absolute path.
+// The manifest of a run: the command, its inputs, the build, the kind of machine. It is meant to be published, so it
+// holds no host name and no absolute path.
 
 #include <cstdint>
 #include <filesystem>

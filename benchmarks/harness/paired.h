@@ -60,7 +60,7 @@ struct Figure {
 /// "1.04 [1.02, 1.07] at 96.9 %".
 std::string to_string(const Figure& figure);
 
-/// How long a task takes relative to the baseline.
+/// The time of a task relative to the baseline.
 struct Ratio {
   std::string task, baseline;
   Figure cpu, wall;

@@ -65,7 +65,7 @@ class RunFolder {
 /// throws  IoError if it cannot be created
 std::filesystem::path new_run_path(const std::filesystem::path& results, std::string_view label);
 
-/// Where runs without --out leave their folders: in the working folder.
+/// The folder for runs without --out: in the working folder.
 inline constexpr const char* default_results = "dartboard-results";
 
 /// `out`, or a new folder for a run of that label in `default_results`.

@@ -18,7 +18,7 @@ namespace dartboard {
 template <class Map>
 using LiveBody = MassSpringBody<Map, Held::by_every_dart>;
 
-/// What a body and its views reported of a change of the map.
+/// The changes that a body and its views reported for a change of the map.
 struct Followed {
   ChangedEmbeddings embeddings;
   ComponentChange components;

@@ -51,7 +51,7 @@ struct TwofoldSum {
 
   void add(double term) {
     const double sum = high + term, part = sum - high;
-    low += (high - (sum - part)) + (term - part);  // what the addition lost, exactly
+    low += (high - (sum - part)) + (term - part);  // the exact rounding error of the addition
     high = sum;
     magnitude += std::abs(term);
   }

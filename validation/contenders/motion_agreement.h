@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// How one contender compares with the first one.
+/// The comparison of one contender with the first one.
 struct MotionAgreement {
   std::string id;
   std::uint64_t hash = 0;            // of the contender's state after the steps

@@ -27,7 +27,7 @@ struct JudgeTrial {
   double share() const { return asked() == 0 ? 1.0 : static_cast<double>(seen) / static_cast<double>(asked()); }
 };
 
-/// How close sound runs come to the bound of their scheme's steps.
+/// The distance of sound runs from the bound of their scheme's steps.
 struct SchemeSlack {
   std::string integrator;
   std::uint64_t runs = 0;

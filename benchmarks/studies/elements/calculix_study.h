@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// How far one beam is from that of CalculiX.
+/// The distance of one beam from that of CalculiX.
 struct CalculixAnswer {
   std::string what;
   bool large = false;

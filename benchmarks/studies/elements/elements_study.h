@@ -42,7 +42,7 @@ std::vector<Claim> claims_of(const ElementsResults& results);
 Table errors_table(const ElementsResults& results);
 Table references_table(const ElementsResults& results);
 Table costs_table(const ElementsResults& results);
-/// Which model is nearer to the truth for the same work, in words.
+/// The model nearer to the truth for the same work, in words.
 std::string in_words(const ElementsResults& results);
 
 Report elements_study(const ElementsPlan& plan, StudyLog& log);

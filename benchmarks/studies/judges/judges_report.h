@@ -22,7 +22,7 @@ Table judges_table(const JudgesResults& results);
 /// The studies that run integrators, or seem to, and do not judge them: they are not expected to see a wrong one.
 Table others_table();
 
-/// A row for each judge and part, a column for each way of being wrong: seen of those asked.
+/// A row for each judge and part, a column for each way of being wrong: number seen of those tried.
 Table trials_table(const JudgesResults& results);
 
 /// Every case in which a wrong integrator was not distinguished from a right one.

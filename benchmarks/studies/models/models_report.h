@@ -20,7 +20,7 @@ Table points_table(const ModelsResults& results);
 Table reigns_table(const ModelsResults& results);
 Table truths_table(const ModelsResults& results);
 
-/// Which model is the cheapest above which error, and which below it.
+/// The cheapest model above and below each error.
 std::string in_words(const ModelsResults& results);
 
 /// Error against processor time per simulated second: a row of panels for each ratio, a panel for each question.

@@ -150,7 +150,7 @@ std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::s
                            "a step with a dissociation and all views over one without, " + body, "<= 2",
                            fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, 2.0)));
   }
-  // the paper's claim, by what one operation costs
+  // the paper's claim, by the cost of one operation
   Values rebuild;
   for (const BodySample& s : r.bodies.at("liver564")) rebuild.push_back(1e3 * milliseconds(s.rebuild_ns[0]));
   Values removal;

@@ -26,7 +26,7 @@ std::vector<Claim> claims_of(const OperationFigures& figures, const std::vector<
 
 Table operations_table(const OperationFigures& figures, const std::vector<std::string>& bodies);
 Table views_table(const OperationFigures& figures, const std::vector<std::string>& bodies);
-/// What the figures are based on.
+/// The basis of the figures.
 std::string operations_note();
 
 }  // namespace dartboard

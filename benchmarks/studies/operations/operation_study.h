@@ -24,7 +24,7 @@ struct OperationSample {
   std::string body, operation;
   int process = 0;
   std::vector<std::vector<std::int64_t>> ns;  // wall time [ns] of each, by phase; the clock's own time is in it
-  std::int64_t cpu_ns = 0;                    // processor time of all together, with what prepares them
+  std::int64_t cpu_ns = 0;                    // processor time of all together, including their preparation
 };
 void to_json(nlohmann::json& json, const OperationSample& sample);
 void from_json(const nlohmann::json& json, OperationSample& sample);

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's sentences on maps, operations and embeddings, asked of its body in its situations: validation/paper.
+// The paper's sentences on maps, operations and embeddings, tested on its body in its situations: validation/paper.
 
 #include <string_view>
 #include <vector>

@@ -14,7 +14,7 @@ namespace dartboard {
 /// arrays built again, all the paper's way.
 inline constexpr double frame_s = 1.0 / 60.0;
 
-/// How many steps of that size a frame takes.
+/// The number of steps of that size in a frame.
 int steps_of_frame(double h);
 
 /// Processor time of one frame of a body of so many tetrahedra.

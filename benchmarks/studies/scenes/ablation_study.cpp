@@ -31,8 +31,8 @@ Json bare_scene() {
     "initial_velocity": {"linear": [[0, -0.5, 0], [0.5, 0, 0], [0, 0, 0]]}})");
 }
 
-/// A feature that a scene may ask for: what it adds to the scene, and the variant of the scene without it where that is
-/// not the scene with all others.
+/// A feature that a scene may have: its addition to the scene, and the variant of the scene without it if that is not
+/// the scene with all others.
 struct Feature {
   std::string name;
   std::function<void(AblationVariant&, Json&)> add;

@@ -33,7 +33,7 @@ std::vector<Claim> claims_of(const AblationFigures& figures);
 
 Table features_table(const AblationFigures& figures);
 Table staircase_table(const AblationFigures& figures);
-/// What the figures are based on.
+/// The basis of the figures.
 std::string features_note();
 
 /// A row for each feature, with its time along the axis and its bytes as text.

@@ -21,7 +21,7 @@ struct UnitCosts {
   double solver = 0.0;  // a step of an implicit method, all in all, in place of the above
   double detector = 0.0, speed_check = 0.0;
   // after operations
-  double look = 0.0;  // at the stable step, and what detector and integrator begin anew
+  double look = 0.0;  // at the stable step, and for the restart of detector and integrator
   // events
   double stress = 0.0;                                              // of all vertices, once
   double by_place = 0.0;                                            // to ask each cell where it is

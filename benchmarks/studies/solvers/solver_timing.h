@@ -30,7 +30,7 @@ struct SolverTimes {
   Figure time_ms(const std::string& task) const;       // and its interval over the rounds
 };
 
-/// How large the normwise backward error of a solution by a factor may be, after so many updates of rank one.
+/// Bound on the normwise backward error of a solution by a factor, after so many updates of rank one.
 ///
 /// Higham, theorem 10.4: (A + E) x = b with |E| <= gamma_{3n+1} |L| |L'|, and the norm of |L| |L'| is at most the trace
 /// of A, which is at most n times the norm of A. An update is as backward stable as a factorisation and counts as one.

@@ -45,7 +45,7 @@ Table figures_table(const TopologyFigures& figures);
 Table scaling_table(const TopologyFigures& figures);
 /// Other programs, measured once by others on another machine (a shared virtual one, +-30 %): context and no more.
 Table peers_table();
-/// What the figures are based on.
+/// The basis of the figures.
 std::string figures_note();
 
 }  // namespace dartboard

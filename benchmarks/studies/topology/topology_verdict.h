@@ -44,7 +44,7 @@ Table summary_table(const std::vector<TopologyVerdict>& verdicts);
 nlohmann::ordered_json to_json(const Disagreement& disagreement);
 nlohmann::ordered_json to_json(const TopologyVerdict& verdict);
 
-/// What differs, at rest and during the operations, with the script and the command that replays it; empty if nothing.
+/// The differences, at rest and during the operations, with the script and the command that replays it; empty if none.
 std::string disagreements_text(const TopologyVerdict& verdict);
 
 }  // namespace dartboard

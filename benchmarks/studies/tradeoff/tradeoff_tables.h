@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// The errors asked about: 0.1, 0.01, ... down to the floor of the reference.
+/// The errors of the tables: 0.1, 0.01, ... down to the floor of the reference.
 std::vector<double> decades(const WorkPrecision& study);
 
 /// For each error the cheapest method, and how much more the next one and CVODE cost.
