@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t longest_message = 2000;  // letters
 
-// CLI11 would answer "a subcommand is required" to a misspelt one.
+// CLI11 would answer "a subcommand is required" to a misspelt verb.
 void require_known_verb(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string verbs;
@@ -34,7 +34,7 @@ void require_known_verb(const CLI::App& app, int argc, char** argv) {
   throw InputError(fmt::format("there is no verb '{}'; the verbs are {}", argv[1], verbs));
 }
 
-/// What was printed may still wait in a buffer, for a disk that is full or a reader that is gone.
+/// Printed text may still wait in a buffer, for a disk that is full or a reader that is gone.
 /// returns  `exit_code`, or that of a failure when standard output did not take everything
 int written_out(int exit_code) {
   if (exit_code > 128) {  // ended by a signal, perhaps because the terminal is gone
@@ -44,7 +44,7 @@ int written_out(int exit_code) {
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
-  if (exit_code == exit_io) return exit_io;  // said already
+  if (exit_code == exit_io) return exit_io;  // reported already
   const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
   tell(stderr, "dartboard: standard output cannot be written{}\n", reason);
   return exit_io;
@@ -87,7 +87,7 @@ int run(int argc, char** argv) {
   } catch (const InputError& error) {
     tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
     return exit_usage;
-  } catch (const std::exception& error) {  // IoError, and what the system throws when a disk or a process fails
+  } catch (const std::exception& error) {  // IoError, and exceptions of the system when a disk or a process fails
     tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
     return exit_io;
   }
@@ -97,7 +97,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const int exit_code = written_out(run(argc, argv));
-  // a factorisation that was given up still works on what the end of the process would take from it
+  // an abandoned factorisation may still use memory that the end of the process would free
   if (work_left_behind()) std::_Exit(exit_code);
   return exit_code;
 }

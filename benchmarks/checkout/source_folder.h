@@ -1,5 +1,5 @@
 #pragma once
-// Where the files that belong to the project are: its meshes, scenes and values.
+// The folder of the project's files: its meshes, scenes and values.
 
 #include <filesystem>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the verbs of the command line share.
+// Declarations shared by all verbs of the command line.
 
 #include <CLI/App.hpp>
 #include <cstdint>
@@ -15,14 +15,14 @@ struct Outcome {
   std::string command_line;
 };
 
-/// A picture that was asked for and could not be drawn, for the reason given, if there is one: exit_io where all else
-/// is well. What disagrees, or was interrupted, keeps its own exit code, which says more.
+/// Records that a requested picture could not be drawn, with the reason if it is known: exit_io if all else is well. A
+/// run that disagrees or was interrupted keeps its own exit code, which says more.
 inline void picture_missing(Outcome& outcome, const std::string& trouble) {
   if (!trouble.empty() && outcome.exit_code == exit_agrees) outcome.exit_code = exit_io;
 }
 
-/// A check for options: a finite number above 0. CLI11's own prints the limits of a double to who gets it wrong, and
-/// lets NaN pass.
+/// A check for options: a finite number above 0. CLI11's own check prints the limits of a double in its error message
+/// and accepts NaN.
 CLI::Validator positive_number();
 
 }  // namespace dartboard

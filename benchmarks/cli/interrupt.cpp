@@ -12,7 +12,7 @@ Interrupt::Interrupt() {
   struct sigaction action {};
   action.sa_handler = [](int signal) {
     interrupted_by = signal;
-    // the second one, of whatever kind, meets the default
+    // the second signal, of either kind, meets the default
     struct sigaction standard {};
     standard.sa_handler = SIG_DFL;
     for (const int each : signals) sigaction(each, &standard, nullptr);
@@ -21,12 +21,12 @@ Interrupt::Interrupt() {
   for (const int each : signals) sigaddset(&action.sa_mask, each);
   for (std::size_t k = 0; k < signals.size(); ++k) {
     sigaction(signals[k], nullptr, &before_[k]);
-    // in the background of a script Ctrl-C means another; under nohup nobody minds a lost terminal
+    // a script's Ctrl-C is not meant for its background jobs; nohup ignores a lost terminal
     if (before_[k].sa_handler != SIG_IGN) sigaction(signals[k], &action, nullptr);
   }
 }
 
-// Not given back once one has been used: an impatient user must be able to end what follows.
+// The default is not restored once a signal was caught: an impatient user must be able to end the rest.
 Interrupt::~Interrupt() {
   if (asked()) return;
   for (std::size_t k = 0; k < signals.size(); ++k) sigaction(signals[k], &before_[k], nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// Ctrl-C, and other polite requests to end, that end a run in good order.
+// Ctrl-C and other polite requests to end: they end a run in good order.
 
 #include <signal.h>
 
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// While one is alive, the first SIGINT, SIGTERM or SIGHUP is only noted, and a factorisation that takes long is given
-/// up; the next ends the process at once, as it does without.
+/// While an Interrupt is alive, the first SIGINT, SIGTERM or SIGHUP is only noted, and a long factorisation is given
+/// up; the second ends the process at once, as it does without an Interrupt.
 /// pre  one at a time
 class Interrupt {
  public:
@@ -20,7 +20,7 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   static bool asked();
-  /// What a shell reports of a process that this signal ended: 128 and its number.
+  /// The exit status that a shell reports for a process ended by this signal: 128 and its number.
   static int exit_code();
 
  private:

@@ -8,10 +8,10 @@
 
 namespace dartboard {
 
-/// Notices of a file are told on standard error when it is read.
+/// Notices about a file are printed on standard error when it is read.
 MeshSource find_mesh(const std::string& name);
 
-/// Those that generators and CGAL make, and the files of benchmarks/meshes.
+/// The meshes that generators and CGAL make, and the files of benchmarks/meshes.
 std::vector<MeshSource> all_meshes();
 
 }  // namespace dartboard

@@ -26,7 +26,7 @@ void check_common_options(CLI::App& app) {
     option->check(not_empty);
   for (CLI::Option* option : app.get_options([](const CLI::Option* o) { return o->check_lname("steps"); }))
     option->check(whole_number(1000000000000));
-  // as in scenes: numbers that every reader of JSON has exactly
+  // as in scenes: numbers that every reader of JSON reads exactly
   for (CLI::Option* option : app.get_options([](const CLI::Option* o) { return o->check_lname("seed"); }))
     option->check(whole_number((std::uint64_t{1} << 53) - 1));
 }

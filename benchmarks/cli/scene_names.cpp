@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those that are a slip of the keys away or hold the word; all where there are none.
+/// Names that differ by a slip of the keys or contain the word; all names if there are none.
 std::vector<std::string> near_names(const std::vector<std::string>& names, const std::string& word) {
   std::vector<std::string> near;
   for (const std::string& name : names)
@@ -60,7 +60,7 @@ SceneFile read_named_scene(const std::string& given) {
   for (const BodySource& body : scene.bodies()) {
     if (!body.loaded) continue;
     for (const std::string& notice : body.loaded->notices)
-      if (!notice.starts_with("skipped "))  // of a lower dimension, and no part of a body: `mesh info` tells them
+      if (!notice.starts_with("skipped "))  // cells of a lower dimension, no part of a body: `mesh info` reports them
         tell(stderr, "notice: {}/mesh: {}\n", body.path, notice);
   }
   return scene;

@@ -18,13 +18,13 @@ std::filesystem::path gallery_folder();
 /// The names of the scene files in a folder, without their ending, in alphabetical order.
 std::vector<std::string> scene_names(const std::filesystem::path& folder = gallery_folder());
 
-/// The file meant: the one that is there, else the scene of that name in the gallery.
+/// The file meant: the file of that path if there is one, else the scene of that name in the gallery.
 ///
-/// throws  InputError for a name that neither has, IoError for a path; both list what is near, of the gallery and of
-///         the `others` that the verb knows
+/// throws  InputError for a name found in neither place, IoError for a path; both list similar names, of the gallery
+///         and of the `others` that the verb knows
 std::filesystem::path scene_file(const std::string& given, std::span<const std::string> others = {});
 
-/// The scene in it; what was noticed while its mesh was read is told on stderr.
+/// The scene in that file; notices about its mesh are printed on stderr.
 ///
 /// throws  as scene_file and read_scene
 SceneFile read_named_scene(const std::string& given);

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene may be called where it is studied: tradeoff, recommend.
+// Names of scenes for the verbs that study them: tradeoff, recommend.
 
 #include <algorithm>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// The name of a scene of the study as it is, else the file that `scene_file` finds.
+/// A name of a study scene as it is, else the file that `scene_file` finds.
 inline std::string study_scene_or_file(const std::string& given) {
   std::vector<std::string> names;
   for (const TradeoffEntry& entry : tradeoff_scenes()) names.emplace_back(entry.name);

@@ -1,5 +1,5 @@
 #pragma once
-// What the verbs that run a study share: options, and the way from a study to an exit status.
+// Code shared by the verbs that run a study: options, and the way from a study to an exit status.
 
 #include <CLI/App.hpp>
 #include <cstdint>
@@ -18,12 +18,12 @@ struct StudyOptions {
   std::uint64_t seed = 1;
 };
 
-/// What help says of the options; an option without a text does not exist.
+/// Help texts of the options; an option without a text does not exist.
 struct StudyTexts {
-  std::string quick{};       // what it leaves out
-  std::string seed{};        // what it is of
-  bool keeps_folder = true;  // also without --out
-  std::string out{};         // instead of what is said of a folder anyway
+  std::string quick{};       // what --quick leaves out
+  std::string seed{};        // what --seed is the seed of
+  bool keeps_folder = true;  // a folder is written even without --out
+  std::string out{};         // replaces the usual text of --out
 };
 void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& texts);
 
@@ -35,7 +35,7 @@ std::shared_ptr<Options> study_options(CLI::App& verb, const StudyTexts& texts) 
   return options;
 }
 
-/// Run a study and publish what it finds; `how` lacks only what the options and the command line say.
+/// Run a study and publish its report; `how` is complete but for the options and the command line.
 void run_study(const StudyOptions& options, Publication how, const std::function<Report(StudyLog&)>& study,
                Outcome& outcome);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The few pictures that are kept of a run.
+// The few pictures of a run that are kept.
 
 #include <cstdint>
 #include <vector>

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr std::array component_colours{0x7ba7d9u, 0xe0b15au, 0x86bf7cu, 0xb18cc8u, 0x5fb8b3u, 0xd98ba5u, 0xa8a878u};
 constexpr std::uint32_t inside_colour = 0xc8503c;
-// The viewer stands to the right of -y, a little above; `up` is z as the viewer sees it.
+// The viewer stands to the right of -y, a little above; `up` is z as seen by the viewer.
 const Vector3d toward_viewer = Vector3d(0.45, -0.8, 0.4).normalized();
 const Vector3d rightward = Vector3d(0, 0, 1).cross(toward_viewer).normalized();
 const Vector3d up = toward_viewer.cross(rightward);
@@ -58,7 +58,7 @@ std::vector<Facet> facets_of(const Mesh& mesh) {
   return all;
 }
 
-// The points of the mesh that facets go by: their own, or those of the face of the mesh in which they lie.
+// The points of the mesh by which facets are compared: their own, or those of the face of the mesh that contains them.
 class Origins {
  public:
   explicit Origins(const Frame& panel) : panel_(panel) {
@@ -66,7 +66,7 @@ class Origins {
       lies_in_.try_emplace(sorted(Key(facet.points.begin(), facet.points.end())),
                            sorted(Key(facet.lies_in.begin(), facet.lies_in.end())));
   }
-  // With a vertex that refinement made among them, of a facet within a cell of the mesh.
+  // For a facet inside a cell of the mesh, the points include a vertex made by refinement.
   Key of(const Facet& facet) const {
     Key points;
     for (const std::uint32_t k : facet.nodes) points.push_back(static_cast<std::uint32_t>(panel_.mesh_point[k]));
@@ -182,7 +182,7 @@ std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first) {
     const bool was_inside = !skin.contains(origins.of(facet));
     const std::uint32_t component = panel.component[facet.cell];
     const std::uint32_t colour = was_inside ? inside_colour : component_colours[component % component_colours.size()];
-    // lit from the side that is seen
+    // lit from the visible side
     const double side = normal.dot(toward_viewer) < 0.0 ? -1.0 : 1.0;
     const double cosine = normal.norm() > 0.0 ? side * normal.normalized().dot(toward_light) : 0.0;
     // in steps: an animated GIF has 256 colours, and takes the nearest of these, of whatever hue, for others

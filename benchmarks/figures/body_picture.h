@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a body as it moves: what a scene did, seen from the side, drawn by gnuplot.
+// Pictures of a body as it moves: the effect of a scene, seen from the side, drawn by gnuplot.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -21,23 +21,23 @@ struct BodyStrip {
 /// A facet of the surface as it is drawn: corners in the plane of the picture, and its colour.
 struct DrawnFacet {
   std::vector<Eigen::Vector2d> corners;  // [m]; two of them: a line
-  double depth = 0.0;                    // of its middle, towards the viewer
+  double depth = 0.0;                    // of the middle of the facet, towards the viewer
   std::uint32_t colour = 0;              // 0xrrggbb
 };
 
-/// The same bodies turned so that `up` is z, which pictures show upwards; as they are where `up` is z already, or zero.
+/// The same bodies turned so that `up` is z, which pictures show upwards; unchanged if `up` is z already, or zero.
 std::vector<Frame> upright(std::span<const Frame> panels, const Eigen::Vector3d& up);
 
-/// What is seen of a body from the front, a little from the right and above, z upwards: its boundary, the farthest
-/// facet first. Each component has a colour of its own, and facets that were inside the body of `first` another one.
+/// The visible facets of a body, from the front, a little from the right and above, z upwards: its boundary, the
+/// farthest facet first. Each component has its own colour; facets that were inside the body of `first` have another.
 std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first);
 
-/// What a body takes up in the plane of the picture [m]; empty for an empty body.
+/// The extent of a body in the plane of the picture [m]; empty for an empty body.
 Eigen::AlignedBox2d seen_box(const Frame& panel);
 
-/// What pictures of one body at several times have in common.
+/// The properties that pictures of one body at several times have in common.
 struct PictureArea {
-  Eigen::AlignedBox2d all;     // [m] what the body takes up at any of the times
+  Eigen::AlignedBox2d all;     // [m] the extent of the body over all times
   Eigen::Vector2d size{0, 0};  // [m] of each picture
   bool follows = false;        // the body moves far beyond its size, and each picture has it in the middle
 
@@ -45,7 +45,7 @@ struct PictureArea {
     return follows && !box.isEmpty() ? box.center() : all.center();
   }
 };
-/// A body that is flat as seen from here gets some room all the same: `thinnest` of the larger extent.
+/// A body that looks flat from this side still gets some room: `thinnest` of the larger extent.
 PictureArea picture_area(std::span<const Eigen::AlignedBox2d> boxes, double thinnest);
 
 /// Facets as gnuplot's polygons, each with a darker rim, moved by `shift` [m], for so many pixels per metre.
@@ -55,7 +55,7 @@ std::string polygons_of(std::span<const DrawnFacet> facets, const Eigen::Vector2
 /// drawn from.
 ///
 /// Where the body moves far beyond its size, each panel follows it.
-/// returns what went wrong, as `draw` does
+/// returns a sentence on what went wrong, as `draw` does
 /// throws  IoError when the files cannot be written
 std::string draw_bodies(std::span<const Frame> panels, const std::string& title, const std::filesystem::path& folder,
                         const std::string& name, const std::string& gnuplot = "gnuplot");

@@ -72,7 +72,7 @@ std::string draw_film(std::span<const FilmFrame> frames, const std::string& titl
   write_plot_file(folder / data.file(), data.text());
   write_plot_file(folder / (name + ".gnuplot"), script + "unset output\n");
   std::string trouble = run_gnuplot(gnuplot, folder, name);
-  if (trouble.empty()) {  // ten times as large as the film
+  if (trouble.empty()) {  // together these are ten times as large as the film
     std::error_code ignored;
     for (const std::string& used : {data.file(), name + ".gnuplot"}) std::filesystem::remove(folder / used, ignored);
   }

@@ -13,19 +13,19 @@
 
 namespace dartboard {
 
-/// What is seen of a body at one time.
+/// The visible facets of a body at one time.
 struct FilmFrame {
   double time = 0.0;  // [s]
   std::vector<DrawnFacet> facets;
   Eigen::AlignedBox2d box;
 };
 
-/// A run as it is seen at its start and at evenly spaced times to its end; what is inside the body is not kept.
+/// A run as it is seen at its start and at evenly spaced times to its end; the inside of the body is not kept.
 class Film {
  public:
   static constexpr std::uint64_t most_frames = 120;
 
-  /// `up` is what shows upwards, as in `upright`.
+  /// `up` is the direction that is shown upwards, as in `upright`.
   Film(const Simulation& simulation, std::uint64_t steps, const Eigen::Vector3d& up);
 
   void stepped(const Simulation& simulation);
@@ -43,11 +43,11 @@ class Film {
   std::vector<FilmFrame> frames_;
 };
 
-/// Draw frames one after the other at one scale, each with its time; `name`.gif, and the data and script it is drawn
-/// from.
+/// Draw frames one after the other at one scale, each with its time; writes `name`.gif with its data and its
+/// script.
 ///
-/// It is as fast as the motion, but for one of less than 4 or more than 12 seconds. Where the body moves far beyond its
-/// size, the picture follows it.
+/// The film is as fast as the motion, except for motions of less than 4 or more than 12 seconds. Where the body moves
+/// far beyond its size, the picture follows it.
 /// returns what went wrong, as `draw` does
 /// throws  IoError when the files cannot be written
 std::string draw_film(std::span<const FilmFrame> frames, const std::string& title, const std::filesystem::path& folder,

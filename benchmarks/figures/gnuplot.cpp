@@ -16,13 +16,13 @@
 namespace dartboard {
 namespace {
 
-// "#rrggbb" and how much of it shows, as gnuplot's #aarrggbb, where 00 is solid.
+// "#rrggbb" and the opacity, as gnuplot's #aarrggbb, where 00 is solid.
 std::string colour(const PlotSeries& series) {
   const int clear = static_cast<int>(std::lround(255.0 * (1.0 - series.opacity)));
   return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
 }
 
-/// Of a text in UTF-8.
+/// Length of a text in UTF-8.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -45,7 +45,7 @@ std::string quoted_title(const std::string& text, int width, double font, int li
     else if (broken.size() < static_cast<std::size_t>(lines))
       broken.push_back(word);
     else {
-      // words go until the dots fit
+      // words are removed until the dots fit
       while (letters(line) + 4 > most && line.find(' ') != std::string::npos) line.erase(line.rfind(' '));
       line += " ...";
       break;
@@ -102,7 +102,7 @@ void write_plot_file(const std::filesystem::path& file, const std::string& text)
 std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name) {
   std::string said;
   try {
-    // in that folder, as a path with a slash: no command, no option and no pipe can be made of a name
+    // in that folder, as a path with a slash: a name then acts as no command, no option and no pipe
     run_program(
         gnuplot, {"./" + name + ".gnuplot"}, [&](std::string_view line) { said += fmt::format(" {}", line); },
         Stderr::as_output, folder);

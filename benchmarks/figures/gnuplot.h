@@ -1,5 +1,5 @@
 #pragma once
-// gnuplot as a child process, and what scripts for it have in common.
+// gnuplot as a child process, and text that its scripts have in common.
 
 #include <filesystem>
 #include <string>
@@ -8,27 +8,27 @@
 
 namespace dartboard {
 
-/// Text in a file of data, where gnuplot runs nothing but knows double quotes alone.
+/// Text in a data file, where gnuplot runs nothing and treats only double quotes specially.
 std::string data_string(const std::string& text);
 
-/// A file in the folder that the script runs in, as a script names it; never a pipe, as a name that begins with "<" or
-/// "|" would be.
+/// A file in the folder that the script runs in, as a script names it; never a pipe, which gnuplot would open for a
+/// name that begins with "<" or "|".
 std::string plot_source(const std::string& file);
 
 /// The title of a picture of that width [pixels] and font [points], as an expression of gnuplot: broken between words
-/// into at most `lines` lines, shortened with "..." where these do not hold it.
+/// into at most `lines` lines, shortened with "..." if it is longer.
 std::string quoted_title(const std::string& text, int width, double font, int lines = 3);
 
 /// ... using 1:2 with ...: a series drawn from its data ("figure.dat" index 3), with its labels if it has some.
 std::string plot_element(const PlotSeries& series, const std::string& data);
 
-/// The data of all that one picture shows, in one file beside it: blocks, which gnuplot calls by their index.
+/// All data of one picture in one file next to it: blocks, which gnuplot refers to by their index.
 class DataBlocks {
  public:
   explicit DataBlocks(const std::string& name) : name_(name) {}
-  /// Another block under a comment: lines of numbers, without an empty one.
+  /// Adds another block under a comment: lines of numbers, without an empty one.
   ///
-  /// returns what a script calls it by
+  /// returns the expression by which a script refers to it
   std::string add(const std::string& what, const std::string& lines);
   const std::string& text() const { return text_; }
   std::string file() const { return name_ + ".dat"; }

@@ -30,8 +30,8 @@ struct Panel {
   std::string key{};  // gnuplot's place of the legend: "bottom left"; empty: none
 };
 
-/// Values of fields from `field_low` to `field_high` go from blue through white to red; what lies beyond has the colour
-/// of the end.
+/// Values of fields from `field_low` to `field_high` go from blue through white to red; values beyond have the colour
+/// of that end.
 struct Panels {
   std::string title;
   int columns = 2;

@@ -1,5 +1,5 @@
 #pragma once
-// Diagrams on logarithmic axes, drawn by gnuplot from files that stay beside the picture.
+// Diagrams on logarithmic axes, drawn by gnuplot from files that stay next to the picture.
 
 #include <filesystem>
 #include <string>
@@ -12,7 +12,7 @@ struct PlotSeries {
   std::string title;  // in the legend; empty: not in it
   struct Point {
     double x, y;
-    std::string label{};  // beside the point
+    std::string label{};  // next to the point
   };
   std::vector<Point> points;
   std::string colour;  // "#rrggbb"
@@ -29,10 +29,10 @@ struct Plot {
   std::string title, subtitle, x_axis, y_axis;
   double x_low = 1.0, x_high = 10.0, y_low = 1.0, y_high = 10.0;
   std::vector<PlotSeries> series;  // drawn in this order
-  double y_last_tick = 0.0;        // none above it; 0: everywhere
-  double shaded_below = 0.0;       // of y; 0: nothing is
+  double y_last_tick = 0.0;        // the last tick on the y axis; 0: ticks everywhere
+  double shaded_below = 0.0;       // y below this is shaded; 0: nothing is
   std::string shaded_label{};
-  // Names in place of the numbers 1, 2 ... up the y axis, which is even then; along x plain numbers, for ratios.
+  // Names in place of the numbers 1, 2 ... up the y axis, whose steps are then even; along x plain numbers, for ratios.
   std::vector<std::string> rows{};
   int width = 1400, height = 900;  // pixels of the PNG
 };

@@ -59,7 +59,7 @@ bool is_number(const Figure& figure) {
   return !std::isnan(figure.median) && !std::isnan(figure.interval.low) && !std::isnan(figure.interval.high);
 }
 
-/// `worse` and `better`: does that end of the interval keep the bound?
+/// `worse` and `better` say whether that end of the interval keeps the bound.
 Met told_by(const Figure& figure, bool worse, bool better) {
   if (!is_number(figure)) return Met::no;
   if (!figure.interval.reached) return Met::open;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers in JSON, which has neither NaN nor infinity.
+// Numbers in JSON: it has neither NaN nor infinity.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

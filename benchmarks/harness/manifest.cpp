@@ -81,19 +81,19 @@ json libraries(const std::map<std::string, std::string>& known_to_caller) {
   return versions;
 }
 
-/// A function of a library that this program has loaded, directly or not; null if there is none of that name.
+/// A function of a library that this program has loaded, directly or not; null if no function has that name.
 template <class Function>
 Function* loaded(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// The BLAS that the dynamic linker chose: the package manager can exchange it without a new build.
+/// The BLAS chosen by the dynamic linker: the package manager can exchange it without a new build.
 json blas() {
   json result{{"name", nullptr}, {"threads", nullptr}};
   if (auto* config = loaded<char*()>("openblas_get_config")) result["name"] = config();
   if (auto* threads = loaded<int()>("openblas_get_num_threads")) result["threads"] = threads();
   if (!result["name"].is_null()) return result;
-  // another one: the folder of its library says which ("blas/libblas.so.3.11.0" is the reference)
+  // another BLAS: the folder of its library identifies it ("blas/libblas.so.3.11.0" is the reference)
   result["name"] = or_null(library_of(dlsym(RTLD_DEFAULT, "dgemm_")));
   return result;
 }
@@ -109,7 +109,7 @@ std::optional<std::string> cpu_model() {
   return std::nullopt;
 }
 
-/// "L1 Data": "32K", ... as seen by the first core.
+/// "L1 Data": "32K", ... of the first core.
 json caches() {
   json sizes = json::object();
   for (int i = 0; i < 16; ++i) {
@@ -166,9 +166,9 @@ std::string published_word(const std::string& word) {
   return starts_path ? word.substr(0, slash) + published_path(word.substr(slash)) : word;
 }
 
-/// What git prints, or nothing if it fails.
+/// The output of git, or nothing if it fails.
 std::optional<std::vector<std::string>> git(const fs::path& folder, std::vector<std::string> arguments) {
-  // without optional locks: a measurement must not get in the way of someone's commit
+  // without optional locks: a measurement must not disturb a commit of the user
   arguments.insert(arguments.begin(), {"--no-optional-locks", "-C", folder.string()});
   std::vector<std::string> lines;
   try {
@@ -213,7 +213,7 @@ std::string file_hash(const fs::path& file) {
       hash ^= static_cast<unsigned char>(block[static_cast<std::size_t>(i)]);
       hash *= 0x100000001b3;
     }
-  // a folder opens, and only then cannot be read
+  // a folder can be opened, but not read
   if (stream.bad()) throw IoError(fmt::format("{}: cannot be read, expected a file", file.string()));
   return fmt::format("fnv1a64:{:016x}", hash);
 }

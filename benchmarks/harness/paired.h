@@ -24,8 +24,8 @@ struct TimedTask {
 struct PairedOptions {
   int rounds = 20;         // a multiple of the number of tasks puts each task in each place equally often
   int warmup = 2;          // rounds before them, run alike but not reported
-  int process = 0;         // which process of the study this is
-  std::uint64_t seed = 1;  // of the order of the tasks
+  int process = 0;         // the number of this process within the study
+  std::uint64_t seed = 1;  // seeds the order of the tasks
 };
 
 /// One run of one task. As JSON, the hash is a string of 16 hexadecimal digits: many readers of JSON round numbers of
@@ -45,7 +45,7 @@ void from_json(const nlohmann::json& json, Sample& sample);
 /// Run every task once per round, each from its restored state, and hand each sample to `sink` once it is measured.
 ///
 /// A block is as many rounds as there are tasks. It starts from an order drawn from (seed, process) and rotates it by
-/// one each round: each task takes each place once per block, and who runs after whom changes from block to block.
+/// one each round: each task takes each place once per block, and its predecessor changes from block to block.
 ///
 /// throws  InputError for no task, two tasks of one name, rounds < 1 or warmup < 0; and whatever a task throws
 void run_rounds(std::span<const TimedTask> tasks, const PairedOptions& options,
@@ -60,7 +60,7 @@ struct Figure {
 /// "1.04 [1.02, 1.07] at 96.9 %".
 std::string to_string(const Figure& figure);
 
-/// How long a task takes relative to the baseline.
+/// The time of a task relative to the baseline.
 struct Ratio {
   std::string task, baseline;
   Figure cpu, wall;
@@ -84,7 +84,7 @@ void to_json(nlohmann::json& json, const Ratio& ratio);
 /// throws  InputError if either task is missing from a round, occurs twice in it, or the baseline took no time
 Ratio paired_ratio(std::span<const Sample> samples, std::string_view task, std::string_view baseline);
 
-/// The absolute times of a task [ns], to be printed beside its ratio and never compared across machines.
+/// The absolute times of a task [ns], to be printed next to its ratio and never compared across machines.
 struct Times {
   double cpu_median = 0.0, wall_median = 0.0;  // median over processes of the median over rounds
   double cpu_min = 0.0, wall_min = 0.0;        // over all samples
@@ -100,12 +100,12 @@ Times times_of(std::span<const Sample> samples, std::string_view task);
 /// throws  InputError if there is no sample of the task
 Figure cpu_figure(std::span<const Sample> samples, std::string_view task);
 
-/// The different state hashes that a task left, ascending; more than one means that it does not repeat itself.
+/// The different state hashes that a task left, ascending; more than one means that the task is not reproducible.
 std::vector<std::uint64_t> hashes_of(std::span<const Sample> samples, std::string_view task);
 
-/// Of tasks that start from the same state in every round: each has left one and the same state, in all processes.
+/// For tasks that start from the same state in every round: each must leave one and the same state, in all processes.
 ///
-/// throws  SolverError that names the first task that has not: what was timed is not what was compared before
+/// throws  SolverError that names the first task that does not: the work timed is then not the work compared before
 void check_repeats(std::span<const Sample> samples);
 
 }  // namespace dartboard

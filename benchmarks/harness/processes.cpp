@@ -16,7 +16,7 @@
 namespace dartboard {
 namespace {
 
-/// Both ends of a pipe; children inherit neither unless told to.
+/// Both ends of a pipe; children inherit neither by default.
 class Pipe {
  public:
   Pipe() {
@@ -41,7 +41,7 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// Where the three standard streams of a child lead, and the folder that it runs in.
+/// The targets of a child's three standard streams, and the folder that it runs in.
 class Surroundings {
  public:
   Surroundings(int standard_output, Stderr errors, const std::filesystem::path& folder) {
@@ -126,12 +126,12 @@ void read_lines(int descriptor, const LineSink& on_line) {
   if (!rest.empty()) on_line(rest);
 }
 
-/// Like run_program, but what the child finds as its own name may differ from its path.
+/// Like run_program, but the name that the child sees as its own may differ from its path.
 void run(const std::string& path, const std::string& name, const std::vector<std::string>& arguments,
          const LineSink& on_line, Stderr errors, const std::filesystem::path& folder = {}) {
   Pipe pipe;
   Child child(spawn(path, name, arguments, Surroundings(pipe.write_end(), errors, folder)));
-  // the end of the output shows only once no writer is left, ourselves included
+  // the end of the output is only seen once no writer is left, this process included
   pipe.close_write_end();
   read_lines(pipe.read_end(), on_line);
   const int status = child.wait();

@@ -17,7 +17,7 @@ namespace {
 constexpr std::int64_t terminal_period_ns = 100'000'000;
 constexpr std::int64_t log_period_ns = 2'000'000'000;
 
-/// A terminal that can rewrite a line, which an editor's "dumb" one cannot.
+/// A terminal that can rewrite a line; an editor's "dumb" one cannot.
 bool is_terminal() {
   const char* kind = std::getenv("TERM");
   return isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
@@ -61,7 +61,7 @@ std::string time_left(std::size_t done, std::size_t total, double elapsed_s) {
 void Progress::print(std::string_view detail) {
   const std::int64_t now = steady_wall_ns();
   const double elapsed_s = 1e-9 * static_cast<double>(now - start_ns_);
-  // the first step may prepare what the others use, so they are timed by themselves
+  // the first step may prepare data that the others use, so they are timed by themselves
   const std::string left =
       done_ < 2 ? "" : time_left(done_ - 1, total_ - 1, 1e-9 * static_cast<double>(now - first_ns_));
   const std::string counted =
@@ -77,7 +77,7 @@ void Progress::print(std::string_view detail) {
     while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0U) == 0x80U) --end;
     line.resize(end);
   }
-  // back to the first column, then erase what is left of the line before
+  // back to the first column, then erase the rest of the earlier line
   fmt::print(stderr, "\r{}\033[K", line);
   std::fflush(stderr);
   line_open_ = true;

@@ -8,8 +8,8 @@
 
 namespace dartboard {
 
-/// Counts steps up to `total`, and says how long the rest will take; counts alone where the total is not known and 0. A
-/// log gets at most one line every two seconds, a terminal ten updates a second; the last step is always shown.
+/// Counts steps up to `total`, and says how long the rest will take; with a total of 0 (unknown) it only counts. A log
+/// gets at most one line every two seconds, a terminal ten updates a second; the last step is always shown.
 class Progress {
  public:
   Progress(std::string label, std::size_t total, bool quiet = false);
@@ -18,9 +18,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more step is done; `detail` says in a few words which.
+  /// One more step is done; `detail` names it in a few words.
   void advance(std::string_view detail = "");
-  /// Print at once how many are done, and what is being done.
+  /// Print at once how many steps are done, and the present one.
   void show(std::string_view detail);
 
  private:
@@ -32,7 +32,7 @@ class Progress {
   std::int64_t start_ns_, first_ns_ = 0, next_print_ns_ = 0;
 };
 
-/// ", about 40 s left", once there is something to go by: half a second and a step.
+/// ", about 40 s left", once half a second and one step have passed; else nothing.
 std::string time_left(std::size_t done, std::size_t total, double elapsed_s);
 
 }  // namespace dartboard

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The library would print null for a NaN, and a reader could not tell it from a missing value.
+/// The library would print null for a NaN, which a reader could not distinguish from a missing value.
 void check_finite(const nlohmann::json& value, const std::string& pointer) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
     throw InputError(fmt::format("{}: {} is not finite, JSON cannot hold it", pointer, value.get<double>()));
@@ -93,7 +93,7 @@ fs::path new_run_path(const fs::path& results, std::string_view label) {
   std::error_code error;
   fs::create_directories(results, error);
   fs::path path = results / first;
-  // made by nobody else: that is what true says
+  // true means that this process made the folder, and no other
   for (int n = 2; !error && !fs::create_directory(path, error); ++n) path = results / fmt::format("{}-{}", first, n);
   if (error) throw IoError(fmt::format("{}: cannot be created: {}", path.string(), error.message()));
   return path;

@@ -1,5 +1,5 @@
 #pragma once
-// The folder that one run leaves behind: raw samples, manifest, claims and tables.
+// The folder that each run writes: raw samples, manifest, claims and tables.
 
 #include <filesystem>
 #include <fstream>
@@ -30,8 +30,8 @@ class JsonLines {
   std::ofstream stream_;
 };
 
-/// A folder that belongs to one run. All files but JSON Lines appear whole or not at all: they are written beside their
-/// place and renamed into it.
+/// A folder that belongs to one run. All files but JSON Lines appear whole or not at all: they are written next to
+/// their final place and renamed into it.
 class RunFolder {
  public:
   /// Creates the folder, and those above it.
@@ -65,7 +65,7 @@ class RunFolder {
 /// throws  IoError if it cannot be created
 std::filesystem::path new_run_path(const std::filesystem::path& results, std::string_view label);
 
-/// Where runs without --out leave their folders: in the working folder.
+/// The folder for runs without --out: in the working folder.
 inline constexpr const char* default_results = "dartboard-results";
 
 /// `out`, or a new folder for a run of that label in `default_results`.

@@ -29,7 +29,7 @@ double quantile_of_sorted(std::span<const double> values, double p) {
   return part == 0.0 ? values[below] : std::lerp(values[below], values[below + 1], part);
 }
 
-/// The chance that at most `good` of `all` that are drawn are good where a share of them is.
+/// The chance that at most `good` of `all` that are drawn are good, if this share of the population is.
 double chance_of_at_most(std::size_t good, std::size_t all, double share) {
   const auto n = static_cast<double>(all);
   double sum = 0.0;
@@ -82,9 +82,9 @@ Interval median_interval(std::span<const double> sample, double confidence) {
 Interval share_interval(std::size_t good, std::size_t all, double confidence) {
   require_confidence(confidence);
   if (all == 0 || good > all) throw InputError(fmt::format("there is no share of {} in {}", good, all));
-  // each end leaves half of what is allowed: the share at which so many, or more (or fewer), are just that unlikely
+  // each end is allowed half of the error: the share at which so many, or more (or fewer), are just that unlikely
   const double beyond = (1.0 - confidence) / 2.0;
-  // what is good in one direction is not in the other
+  // bad ones counted from one side are good ones from the other
   const double low = good == 0 ? 0.0 : 1.0 - share_with_chance(all - good, all, beyond);
   const double high = good == all ? 1.0 : share_with_chance(good, all, beyond);
   return {low, high, confidence, true};

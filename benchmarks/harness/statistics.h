@@ -1,5 +1,5 @@
 #pragma once
-// The statistics of the reports: order statistics only, since times are skewed and no distribution is known for them.
+// Statistics of the reports: order statistics only, since times are skewed and no distribution is known for them.
 
 #include <cstddef>
 #include <span>
@@ -32,8 +32,8 @@ struct Interval {
 /// throws  InputError unless 0 < confidence < 1
 Interval median_interval(std::span<const double> sample, double confidence = 0.95);
 
-/// The interval of Clopper and Pearson for the share of a population of which `good` of `all` that were drawn are good:
-/// it covers that share at least so often, whatever it is.
+/// The interval of Clopper and Pearson for the share of good ones in a population, of which `all` were drawn and `good`
+/// of these are good: it covers that share at least so often, whatever the share is.
 ///
 /// throws  InputError unless good <= all, 0 < all and 0 < confidence < 1
 Interval share_interval(std::size_t good, std::size_t all, double confidence = 0.95);
@@ -43,7 +43,7 @@ std::string to_string(const Interval& interval);
 
 /// Flags the values that lie further than `threshold` scaled median absolute deviations from the median.
 ///
-/// Flags are for the reader: no figure leaves a flagged value out. The scale 1.4826 makes the deviation that of a
+/// Flags are for the reader: flagged values stay in all figures. The scale 1.4826 makes the deviation that of a
 /// normal distribution. When more than half of the values are equal, the deviation is zero and every other value is
 /// flagged.
 std::vector<bool> outliers(std::span<const double> sample, double threshold = 3.5);

@@ -35,7 +35,7 @@ struct NamedTable {
   std::string name{}, heading{};  // "frequencies", "Highest frequencies of meshes, by Lanczos"
   Table table;
   std::string note{};   // below it
-  std::string study{};  // that it is of, where a report has several: "limits"
+  std::string study{};  // the study it belongs to, where a report has several: "limits"
 };
 
 /// GitHub's Markdown, its source aligned too; a bar within a cell is escaped, a line break becomes <br>.

@@ -1,5 +1,5 @@
 #pragma once
-// What verbs print. All of it passes here, so that no string from outside can act on a terminal.
+// Output of the verbs. All of it passes here, so that no string from outside can act on a terminal.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The bodies of the paper that tests and benchmarks share.
+// The bodies of the paper, shared by tests and benchmarks.
 
 #include <filesystem>
 #include <functional>

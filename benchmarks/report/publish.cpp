@@ -94,7 +94,7 @@ class Publisher : public StudyLog {
     for (const std::string& trouble : report.troubles) tell(stderr, "{}\n", trouble);
   }
 
-  /// A folder within that of the run, or that itself, and what has gone there; that of the run has all claims.
+  /// A folder within that of the run, or that itself, and its content so far; the run's own has all claims.
   struct Part {
     RunFolder folder;
     std::map<std::string, JsonLines> lines{};
@@ -139,7 +139,7 @@ class Publisher : public StudyLog {
   const Publication& how_;
   std::optional<RunFolder> folder_;
   nlohmann::json manifest_;
-  std::map<std::string, Part> parts_;  // by name; that of the run has none
+  std::map<std::string, Part> parts_;  // by name; that of the run is ""
   std::unique_ptr<Progress> progress_;
   Report all_;  // claims, disagreements and troubles of all parts
 };

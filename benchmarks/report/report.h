@@ -1,5 +1,5 @@
 #pragma once
-// What a study found: the same whether it is printed, written, drawn, compared or tested.
+// The findings of a study: the same whether they are printed, written, drawn, compared or tested.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,16 +25,16 @@ struct Picture {
 struct Report {
   bool silent = false;               // written and counted, but not shown
   std::string opening{};             // a paragraph before the tables
-  std::vector<NamedTable> tables{};  // those without a name are shown, and no file is made of them
+  std::vector<NamedTable> tables{};  // tables without a name are shown, but not written to a file
   std::vector<Claim> claims{};
   std::vector<Picture> pictures{};
   std::vector<std::pair<std::string, std::string>> pages{};                  // file names and texts
   std::vector<std::pair<std::string, nlohmann::ordered_json>> data_files{};  // file names and values
-  nlohmann::ordered_json facts = nlohmann::ordered_json::object();           // of the run, for its manifest
-  nlohmann::ordered_json numbers{};          // for programs; null where claims and tables say it all
+  nlohmann::ordered_json facts = nlohmann::ordered_json::object();           // on the run, for its manifest
+  nlohmann::ordered_json numbers{};          // for programs; null where claims and tables hold them all
   std::vector<std::string> disagreements{};  // each in words, beyond the claims that fall short
-  std::vector<std::string> troubles{};       // pictures that were asked for and could not be made
-  std::string sentence{};                    // the finding; empty: what `in_words` says of the claims
+  std::vector<std::string> troubles{};       // requested pictures that could not be made
+  std::string sentence{};                    // the finding; empty: the words of `in_words` on the claims
 };
 
 /// 1 where something disagrees or a claim falls short or surprises, else 0.

@@ -1,5 +1,5 @@
 #pragma once
-// Where a study says what it does while it works. It knows of no terminal, no file and no exit status.
+// The log through which a study reports its progress. It knows of no terminal, no file and no exit status.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -10,21 +10,21 @@
 
 namespace dartboard {
 
-/// This one keeps everything to itself, which is what tests mostly want.
+/// This base class discards everything, which suits most tests.
 class StudyLog {
  public:
   virtual ~StudyLog() = default;
 
-  /// A sentence on what comes next; ends the work that was begun.
+  /// Announces the next task in a sentence; ends the work that was begun.
   virtual void say(const std::string& /*sentence*/) {}
-  /// Something measured. It is kept at once, so that a run that dies keeps what it had.
+  /// Records a measurement. It is kept at once, so that a run that dies keeps its samples.
   virtual void sample(const nlohmann::json& /*sample*/, const std::string& /*file*/ = "samples.jsonl",
                       const std::string& /*folder*/ = "") {}
-  /// Work of that many steps begins, ends the work before it; and one more step of it is done.
+  /// `begin` starts work of that many steps and ends the work before it; `advance` says that one more step is done.
   virtual void begin(const std::string& /*label*/, std::size_t /*steps*/) {}
   virtual void advance(std::string_view /*detail*/ = "") {}
-  /// A part of the report that is complete: shown, written and counted now, whatever becomes of the rest. A folder that
-  /// is named lies within that of the run, and keeps the claims of its parts, too.
+  /// A part of the report that is complete: shown, written and counted now, whatever becomes of the rest. A folder
+  /// named here lies within that of the run, and keeps the claims of its parts, too.
   virtual void finished(const Report& /*part*/, const std::string& /*folder*/ = "") {}
 };
 

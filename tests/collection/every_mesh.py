@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Take every mesh of a collection through `mesh info`, `simulate`, `validate topology` and `validate conservation`.
 
-    every_mesh.py PROGRAM               the meshes of own_meshes.py, of which it is known what each must come to; and all
+    every_mesh.py PROGRAM               the meshes of own_meshes.py, with a known outcome for each; and all
                                         in the folders that DARTBOARD_MESHES names, as PATH names its own
     every_mesh.py PROGRAM FOLDER...     all the meshes in these folders
 
-Every verb has to agree, or say in words why it cannot; the bodies that it speaks of have to be the same. Meshes with the
+Every verb has to agree, or give a reason in words why it cannot; all must report the same bodies. Meshes with the
 same bits are validated once. Prints a table of meshes, verbs, outcomes and seconds. Ends with 1 when an outcome is wrong.
 
 Standard library only.
@@ -24,7 +24,7 @@ import time
 import own_meshes
 
 STEPS = 10
-LONGEST = 300  # seconds of one verb; a mesh of one's own may be large
+LONGEST = 300  # seconds for one verb; a user's mesh may be large
 
 
 class Refused(Exception):
@@ -32,11 +32,11 @@ class Refused(Exception):
 
 
 class Wrong(Exception):
-    """A disagreement, or none of the two."""
+    """A disagreement, or neither of the two."""
 
 
 def run(program, folder, arguments):
-    """What the program prints as JSON."""
+    """The JSON that the program prints."""
     try:
         done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True, timeout=LONGEST,
                               stdin=subprocess.DEVNULL)

@@ -1,4 +1,4 @@
-"""The meshes that the suite takes through every verb: small ones, each with something that meshes of people have."""
+"""The meshes that the suite takes through every verb: small ones, each with a feature of meshes that users have."""
 
 import itertools
 import math
@@ -11,7 +11,7 @@ MEDIT = {"triangle": "Triangles", "quadrilateral": "Quadrilaterals", "tetrahedro
 
 
 def kuhn_cube(at):
-    """Six tetrahedra around a diagonal, by the numbers that `at` gives to corners (i, j, k)."""
+    """Six tetrahedra around a diagonal; `at` numbers the corners (i, j, k)."""
     cells = []
     for order in itertools.permutations(range(3)):
         corner, path = [0, 0, 0], [at(0, 0, 0)]
@@ -39,7 +39,7 @@ def box(shape, cube, keep=lambda *place: True):
 
 
 def grid(columns, rows, place, close=None):
-    """Triangles of a sheet; `close` says which corner takes the place of one beyond the last column."""
+    """Triangles of a sheet; `close` gives the corner that replaces one beyond the last column."""
     number, cells = {}, []
     close = close or (lambda i, j: (i, j))
     at = lambda i, j: number.setdefault(close(i, j), len(number))
@@ -60,7 +60,7 @@ def band(columns, twisted):
 
 
 def apart(*bodies):
-    """Bodies side by side in one mesh, with the points that each has."""
+    """Bodies next to each other in one mesh, with the points of each."""
     points, cells = [], []
     for more, its_cells in bodies:
         first = len(points)
@@ -70,7 +70,7 @@ def apart(*bodies):
 
 
 def tetrahedra(*cells):
-    """On the moment curve, where any four points are the corners of a tetrahedron."""
+    """Points on the moment curve, where any four are the corners of a tetrahedron."""
     count = 1 + max(map(max, cells))
     return [(t, t * t, t ** 3) for t in (p / count for p in range(count))], [("tetrahedron", list(c)) for c in cells]
 
@@ -199,7 +199,7 @@ def write_surface_formats(folder):
             file.write(text)
 
 
-# ---- meshes that are refused, with a part of what is said
+# ---- meshes that are refused, with a part of the message
 
 def refused():
     points, cells = tetrahedra((0, 1, 2, 3), (0, 1, 2, 4))

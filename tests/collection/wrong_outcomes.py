@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""A program that gets meshes wrong is found out by every_mesh.py.
+"""A program with wrong results for meshes is detected by every_mesh.py.
 
     wrong_outcomes.py PROGRAM
 
-It is the program itself behind a script that changes what it says, or how it ends.
+It is the program itself behind a script that changes its output, or its exit status.
 """
 
 import os

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Do runs end in the same bits whatever compiler and flags the program was built with?
 
-Builds `state_hashes` once for each row of a table, in folders of its own, runs it twice, and compares what it prints
+Builds `state_hashes` once for each row of a table, in folders of its own, runs it twice, and compares its output
 with the pinned hashes. Writes determinism.md and determinism.json. Builds are kept in the work folder, so that an
-interrupted table goes on where it was. Some 25 minutes of one core with two compilers.
+interrupted table is continued. Some 25 minutes of one core with two compilers.
 """
 
 import argparse
@@ -64,7 +64,7 @@ def build(options, compiler, row):
 
 
 def hashes(program, *arguments, **environment):
-    """What the program prints, by name of the run. Status 1 says that some hash is not the pinned one."""
+    """The hashes that the program prints, by name of the run. Status 1 means that some hash differs from the pinned one."""
     result = output([str(program), *arguments], env={**os.environ, **environment})
     if result.returncode not in (0, 1) or result.stderr:
         sys.exit(f"{program} ended with status {result.returncode}:\n{result.stderr}")
@@ -118,7 +118,7 @@ def main():
             right = right and first == again and (pinned or not protected)
             print(f"{version}, {name}: {'equal' if pinned else 'DIFFERS'}", flush=True)
             if blas is None and protected:
-                # What takes no supernodal factor must not see which kernels the BLAS has chosen.
+                # Runs without a supernodal factor must not depend on the kernels that the BLAS has chosen.
                 other = {"OPENBLAS_CORETYPE": "Nehalem"}
                 blas = {"library": blas_of(program), "simplicial_sees_kernels": hashes(program, **other)[0] != first,
                         "supernodal_sees_kernels":

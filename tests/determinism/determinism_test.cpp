@@ -1,4 +1,4 @@
-// The same bits everywhere: walks, storages, repeated runs, and every preset, because the numbers are pinned.
+// The same bits everywhere: for walks, storages, repeated runs, and every preset, because the numbers are pinned.
 
 #include <gtest/gtest.h>
 

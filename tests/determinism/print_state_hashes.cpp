@@ -1,4 +1,4 @@
-// Prints the hash that each run ends in, "HASH NAME" a line; with --supernodal that of the run that depends on the
+// Prints the hash of the end of each run, "HASH NAME" a line; with --supernodal that of the run that depends on the
 // BLAS.
 
 #include <cstdio>

@@ -38,7 +38,7 @@ using Eigen::Vector3d;
 
 // ---- bodies
 
-// A body with all its views, which follow what is done to it.
+// A body with all its views, which follow its changes.
 template <class Map>
 struct Moving {
   MassSpringBody<Map, Held::by_every_dart> body;
@@ -111,7 +111,7 @@ const Vector3d middle(0.075, 0.075, 0.0749);
 
 // ---- runs
 
-// A cut in the middle of the motion: the integrator starts again with what it kept, an implicit one updates its factor.
+// A cut in the middle of the motion: the integrator restarts with its memory, an implicit one updates its factor.
 std::uint64_t cut_while_moving(std::unique_ptr<Integrator> integrator, int steps, double h) {
   Moving<TetMap> moving(small_box(), std::move(integrator));
   moving.steps(steps, h);
@@ -142,7 +142,7 @@ std::uint64_t adaptive_run() {
   return moving.end();
 }
 
-// A bar that hangs from its end tears under its weight wherever the stress asks for it, and is measured meanwhile.
+// A bar that hangs from its end tears under its weight where the stress is high enough, and is measured meanwhile.
 template <class Map>
 std::uint64_t torn_by_weight() {
   Problem problem = turning(kuhn_box(2, 2, 8, 0.02, 0.2, 1));

@@ -1,5 +1,5 @@
 #pragma once
-// Runs that must end in the same bits everywhere, each with the hash that it ends in.
+// Runs that must end in the same bits everywhere, each with the hash of its end.
 
 #include <cstdint>
 #include <functional>
@@ -8,17 +8,17 @@
 
 namespace dartboard {
 
-/// A body that moves, most of them while they are cut, torn, eroded or refined; the hash is of all that its motion
+/// A moving body, in most runs cut, torn, eroded or refined while it moves; the hash is of everything that the motion
 /// depends on: positions, velocities, masses, springs and their ends.
 struct HashedRun {
   std::string name;
   std::function<std::uint64_t()> run;
-  // What it ends in. It changes only when the run or the order of its sums does: say so in the commit.
+  // The hash of the end. It changes only when the run or the order of its sums does: say so in the commit.
   std::uint64_t pinned;
 };
 
-/// On generated meshes and on the paper's body; all integrators; both storages. Their hashes are equal where no cell
-/// goes away and none is added: the numbers that cells get then depend on the storage.
+/// On generated meshes and on the paper's body; all integrators; both storages. Hashes of both storages are equal where
+/// no cell is removed or added: otherwise the numbers of cells depend on the storage.
 std::span<const HashedRun> hashed_runs();
 
 /// Implicit integration with a supernodal factor, whose bits are those of the BLAS: nothing is pinned.

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What a list of faults asks to be compiled again, for CMake: two lists in its own notation, one a line.
+"""The files that a list of faults makes to be compiled again, for CMake: two lists in its own notation, one a line.
 
     faulty_files.py SOURCE_ROOT FAULT_LIST FOLDER...
 
 The files that hold a fault; then the sources among the folders that hold one, or include a file that does. All other
-sources say the same with and without the faults, so that their objects can be taken as they are.
+sources are the same with and without the faults, so that their objects can be taken as they are.
 
 Standard library only.
 """

@@ -4,7 +4,7 @@
     make_faulty_tree.py SOURCE_ROOT FAULT_LIST OUTPUT
 
 The switch is the environment variable DARTBOARD_FAULT: the number of the fault that is on (or of two, with a comma), or
-unset. The sources themselves know nothing of this. Files whose text would not change are left alone, so that only what changed is compiled
+unset. The sources themselves know nothing of this. Files whose text would not change are left alone, so that only changed ones are compiled
 again. A snippet that is not found exactly once is an error: whoever changes the line changes the fault with it.
 
 A list is blocks of `key: value` lines, parted by empty lines; lines that begin with # are comments.
@@ -12,15 +12,15 @@ A list is blocks of `key: value` lines, parted by empty lines; lines that begin 
     fault:   what is wrong, as a phrase
     file:    where, from the root of the project
     right:   a snippet of the file that occurs once in it, or in `in`; statements end in ; or }
-    wrong:   what stands there instead with the fault on
+    wrong:   what replaces it with the fault on
     in:      (optional) a longer snippet that occurs once in the file and holds `right`
     claim:   (optional) the claims of claims.json that this fault is about, as patterns: update-*
 
-and who notices, one of
+and how it is noticed, one of
 
     killer:  the full name of the gtest that fails
     run:     the arguments of a run of the whole program that ends with 0 while nothing is wrong; {scenes} is the folder
-             of scenes beside the list, {out} a fresh folder
+             of scenes next to the list, {out} a fresh folder
     says:    with `run`: what that run prints with the fault on, and not without it
     status:  (optional) with `run`: the exit status with the fault on [1]
     hides:   the name of another fault that has a `run`: this one is in the judge, and with both on that run no longer
@@ -89,7 +89,7 @@ class Fault:
         return None
 
     def place(self, text):
-        """Where `right` begins and ends in the text of the file."""
+        """The positions of `right` in the text of the file: begin and end."""
         begin = self._find_once(text, self.context, self.file)
         begin += self._find_once(self.context, self.right, "its 'in' line")
         return begin, begin + len(self.right)
@@ -104,7 +104,7 @@ class Fault:
 
 
 def number_of(name):
-    """FNV-1a, 31 bits: a fault that comes or goes leaves the numbers of the others, and so their copies, as they are."""
+    """FNV-1a, 31 bits: adding or removing a fault keeps the numbers of the others, and so their copies."""
     number = 2166136261
     for byte in name.encode():
         number = (number ^ byte) * 16777619 & 0xFFFFFFFF
@@ -169,7 +169,7 @@ def with_faults(text, faults):
     if stale:
         raise Mistake("\n".join(stale))
     # from the smallest to the largest, so that one that encloses others finds them done
-    edits = []  # of the text as it is now: begin, end, what stands there
+    edits = []  # in the present text: begin, end, replacement
     for (begin, end), group in sorted(places.items(), key=lambda item: item[0][1] - item[0][0]):
         inside = [e for e in edits if begin <= e[0] and e[1] <= end]
         if any(e[0] < end and begin < e[1] and e not in inside for e in edits):
@@ -209,7 +209,7 @@ def main(source_root, fault_list, output):
     of_file = {}
     for fault in read_faults(fault_list):
         of_file.setdefault(fault.file, []).append(fault)
-    # all or nothing: a mistake must not leave a tree that is half new
+    # all or nothing: a mistake must not leave a tree that is partly new
     texts, mistakes = {"fault.h": SWITCH}, []
     for path, faults in sorted(of_file.items()):
         try:
@@ -223,7 +223,7 @@ def main(source_root, fault_list, output):
         raise Mistake("adapt %s to the new sources\n%s" % (fault_list, "\n".join(mistakes)))
     for path, text in texts.items():
         write_if_changed(os.path.join(output, path), text)
-    # a copy of what holds a fault no more would still be found before the file itself
+    # a copy of a file that holds no fault any more would still be found before the file itself
     for folder, _, names in os.walk(output):
         for name in names:
             if os.path.relpath(os.path.join(folder, name), output) not in texts:

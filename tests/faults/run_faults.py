@@ -5,13 +5,13 @@
     run_faults.py SUITE FAULT_LIST WORD...    only the faults whose name contains a word
 
 A fault with a `killer` is run with that test and no other. It is killed by a failure, by a crash, by running out of
-memory or by not ending: all are seen by whoever runs the suite. One that reads or writes what is not its own may be
-lucky: a fault that the test passes is run twice more, and the report says so where that told. A fault with a `run` is given to the whole program,
-`dartboard_seeded` beside the suite: the arguments must end with 0 while no fault is on, and with the fault on print what
+memory or by not ending: each is visible to a user of the suite. A fault that accesses foreign memory may pass by
+luck: if the test passes, the fault is run twice more, and the report says so if that made a difference. A fault with a `run` is given to the whole program,
+`dartboard_seeded` next to the suite: the arguments must end with 0 while no fault is on, and with the fault on print what
 the block `says` and end with its `status`, nothing else. A fault that `hides` another is run with that one: it is noticed
 when the other one's run does not end so.
 
-What a block may hold is told by make_faulty_tree.py.
+make_faulty_tree.py describes the keys of a block.
 
 Standard library only.
 """
@@ -29,12 +29,12 @@ import time
 
 from make_faulty_tree import Mistake, read_faults
 
-MEMORY_KIB = 4 << 20  # of address space: a fault may ask for all there is
+MEMORY_KIB = 4 << 20  # of address space: a fault may request without limit
 TRIES = 3
 
 
 class Result:
-    """What came of one run. `killer` is who noticed something, or None: then `how` may tell why that is not enough."""
+    """The result of one run. `killer` is the one that noticed something, or None: then `how` may say why that is not enough."""
 
     def __init__(self, killer, how, seconds):
         self.killer, self.how, self.seconds = killer, how, seconds
@@ -53,7 +53,7 @@ def execute(command, number, limit, folder=None):
                        GTEST_COLOR="no", RC_PARAMS="seed=1")  # random properties draw the same every time
     limits = "ulimit -c 0; ulimit -v %d; exec \"$0\" \"$@\"" % MEMORY_KIB
     start = time.monotonic()
-    # a session of its own: what the process has started ends with it
+    # a session of its own: its child processes end with it
     process = subprocess.Popen(["/bin/sh", "-c", limits, *command], env=environment, cwd=folder, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     try:
@@ -116,7 +116,7 @@ class Program:
 
 
 def limit_for(seconds):
-    """For what took so long alone: several run at once, and the machine may be busy."""
+    """For a run that took so long: several run at once, and the machine may be busy."""
     return 60 + 4 * seconds
 
 
@@ -127,7 +127,7 @@ def in_parallel(function, items):
 
 
 def sound_runs(program, faults):
-    """Every run of the list without a fault, by its arguments. They must end with 0 and say nothing of what is sought."""
+    """Every run of the list without a fault, by its arguments. They must end with 0 and print nothing that the blocks seek."""
     arguments = sorted({f.run for f in faults if f.run})
     runs = dict(zip(arguments, in_parallel(lambda a: program.run(a, 0, 600), arguments)))
     for a in arguments:
@@ -183,7 +183,7 @@ def main(suite, fault_list, *words):
     alone = sound.seconds + sum(ended.seconds for ended in runs.values())
     print("%d of %d seeded faults killed in %.0f s (%.1f s without a fault): %s" %
           (len(faults) - len(survivors), len(faults), time.monotonic() - start, alone, table_of_rooms(faults)))
-    # last, where who reads the end of a log finds them
+    # last, where a reader of the log's end finds them
     for fault, how in survivors:
         print("SURVIVED: %d, %s\n     %s: %s with\n     %s\n     in place of\n     %s" %
               (fault.number, fault.name, fault.file, how or "%s passes" % fault.killer,

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What the headers of the hot rooms cost whoever includes them, in seconds of processor, beside their budgets.
+"""The cost of the headers of the hot rooms for their users, in seconds of processor, compared with their budgets.
 
     header_costs.py BUILD [--all]       BUILD is a configured folder, build/release
 
 Each header of budgets.txt is compiled alone, as a source of core is (its flags, its precompiled header), without code
-being generated; what an empty source takes is subtracted. The least of three runs counts. Budgets are seconds on the
+being generated; the time of an empty source is subtracted. The least of three runs counts. Budgets are seconds on the
 machine on which the yardstick, Eigen/Dense without a precompiled header, took the seconds in the first line of
-budgets.txt, and are scaled by what it takes here.
+budgets.txt, and are scaled by the seconds that it takes here.
 
---all lists every header of core by its cost, without budgets: what deserves one.
+--all lists every header of core by its cost, without budgets: to see which ones deserve one.
 
 Exit status: 0 all within their budgets, 1 some are not, 2 the command line."""
 
@@ -26,7 +26,7 @@ YARDSTICK = "Eigen/Dense"
 
 
 def command_of_core(build):
-    """How a source of core is compiled, without its names."""
+    """The command that compiles a source of core, without file names."""
     commands = os.path.join(build, "compile_commands.json")
     if not os.path.exists(commands):
         print("header_costs: %s is not there; expected the folder of a configured build" % commands, file=sys.stderr)

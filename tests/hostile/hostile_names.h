@@ -1,5 +1,5 @@
 #pragma once
-// Names that somebody might give to something, hoping that a program acts on them.
+// Names that an attacker might choose, to make a program act on them.
 
 #include <random>
 #include <string>
@@ -43,7 +43,7 @@ inline std::vector<std::string> hostile_names() {
           std::string(100000, '`')};
 }
 
-/// Bytes drawn from those that some language acts on, from all others, and from letters beyond ASCII.
+/// Random bytes: some with a meaning in some language, some of any value, and some letters beyond ASCII.
 inline std::string drawn_name(std::mt19937& random) {
   static const std::string active = "`$(){}'\"\\<>|&;%@=+-*_~[]!#^,.:/\n\r\t\x1b\x07 ";
   static const std::vector<std::string> beyond{"\xc3\xa9",     "\xc2\x9b",         "\xe2\x80\xae", "\xe2\x80\xa8",
@@ -58,7 +58,7 @@ inline std::string drawn_name(std::mt19937& random) {
   return name;
 }
 
-/// The list, and so many that are drawn.
+/// The list, and that many random names.
 inline std::vector<std::string> many_hostile_names(std::size_t drawn) {
   std::vector<std::string> names = hostile_names();
   std::mt19937 random(14);

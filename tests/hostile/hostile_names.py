@@ -3,8 +3,8 @@
 
     hostile_names.py PROGRAM
 
-Nothing may run (no file `canary` appears), nothing may be written beside the folder given, nothing that a terminal acts
-on may be printed, and what is written must parse: JSON, XML, CSV.
+Nothing may run (no file `canary` appears), nothing may be written outside the folder given, nothing that a terminal acts
+on may be printed, and written files must parse: JSON, XML, CSV.
 """
 
 import csv
@@ -76,7 +76,7 @@ def check(holds, what):
 
 
 def check_text(data, where):
-    """UTF-8, and nothing in it but line breaks that acts on a terminal."""
+    """UTF-8, and nothing in it but line breaks that a terminal acts on."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -137,7 +137,7 @@ class Runner:
             elif name.endswith(".md"):
                 check(not re.search(r"(?<!\\)<[a-zA-Z/!]", text.replace("<br>", "")), f"{which}: {name} holds a tag")
             elif name.endswith(".gnuplot"):
-                # strings of ours alone stand in double quotes, where backquotes are run
+                # only strings of our own are in double quotes, where backquotes are run
                 for quoted in re.findall(r"'[^'\n]*'|\"[^\"\n]*\"", text):
                     check(quoted[0] == "'" or "`" not in quoted, f"{which}: {name}: {quoted}")
 
@@ -178,7 +178,7 @@ def scenes(run):
 
 
 def studies(run):
-    """tradeoff and recommend name files and pages after the file of a scene, and tell its text."""
+    """tradeoff and recommend name files and pages after the file of a scene, and print its text."""
     folder = os.path.join(run.folder, "`touch canary` $(x) <b> é")
     os.mkdir(folder)
     file = write(os.path.join(folder, "`touch canary`; <b> ..=1 'x'.json"), cube(ALL_IN_ONE))
@@ -217,11 +217,11 @@ def region_names(run):
 
 
 def errors(run):
-    """What is refused is told without acting on anything."""
+    """Refusals are printed without acting on anything."""
     for name in NAMES[:-2] + [ALL_IN_ONE, NAMES[-1]]:
         plain = name.replace("\0", "")
         if len(plain) > 1000:
-            plain = plain[:1000]  # of an argument
+            plain = plain[:1000]  # for an argument
         run(plain or "x", statuses=(2,))
         run("simulate", plain, statuses=(2, 3))
     name = ALL_IN_ONE.replace("\0", "")

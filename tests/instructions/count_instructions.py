@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Count the instructions of each section of the driver under callgrind, and hold them to the committed counts.
+"""Count the instructions of each section of the driver under callgrind, and compare them with the committed counts.
 
 It fails when it is more than 4 %
 above the committed count, and also when it is more than 10 % below: then the improvement is to be committed
-(--update), or it could be lost again unseen. Shared libraries of another version may move a count by a few parts in a
-thousand (malloc, memcpy), which is what the 4 % are for; another compiler may move it by far more, so with another than
-the counts were made with the test is skipped (exit status 77).
+(--update), or it could be lost again unnoticed. Shared libraries of another version may change a count by a few parts in a
+thousand (malloc, memcpy), hence the 4 %; another compiler may change it by far more, so with a compiler other than that
+of the counts the test is skipped (exit status 77).
 """
 
 import argparse

@@ -24,7 +24,7 @@ using namespace dartboard;
 
 namespace {
 
-/// The elements of a mesh, stretched. Built within the section that asks for them, so that others count what they did.
+/// The elements of a mesh, stretched. Built within the section that needs them, so that others count their own work.
 struct Elements {
   MassSpringBody<TetMap, Held::by_every_dart> body;
   TetrahedronNodesView view;

@@ -29,7 +29,7 @@ def copy_of_repository(source, tree):
 
 
 def configure(tree, build):
-    """-O1: what takes long is compiling. Like the release preset it has no assertions."""
+    """-O1: compiling takes most of the time. Like the release preset it has no assertions."""
     os.makedirs(build, exist_ok=True)
     switch = os.path.join(build, "mutant_switch")
     with open(switch + ".h", "w", encoding="utf-8") as file:
@@ -49,7 +49,7 @@ def lines_of(mutant, text):
 
 
 def guilty(output, tree, texts, mutants, ran_in="."):
-    """The mutants at the lines that errors name, from where the compiler ran; or, of an error elsewhere, at the lines that
+    """The mutants at the lines that errors name, from where the compiler ran; or, for an error elsewhere, at the lines that
     it came from.
 
     Returns {mutant id: message} and the errors that name no mutant."""
@@ -65,7 +65,7 @@ def guilty(output, tree, texts, mutants, ran_in="."):
         for k, error in enumerate(errors):
             ids = at.get((name(error[1]), int(error[2])), [])
             if not ids:
-                # what led there: the lines before it back to the last error, and the notes after it
+                # the context of the error: the lines before it back to the last error, and the notes after it
                 begin = errors[k - 1].end() if k else 0
                 end = errors[k + 1].start() if k + 1 < len(errors) else len(block)
                 for file, line in PLACE.findall(block[begin:end]):
@@ -78,7 +78,7 @@ def guilty(output, tree, texts, mutants, ran_in="."):
 
 
 def check_headers(build, tree, texts, mutants, say):
-    """Most sources include most headers: what fails in one of these is found in one unit instead of in all."""
+    """Most sources include most headers: an error in one of these is found in one unit instead of in all."""
     out = {}
     while True:
         headers = sorted({m["file"] for m in mutants if m["file"].endswith(".h") and m["id"] not in out})
@@ -101,7 +101,7 @@ def check_headers(build, tree, texts, mutants, say):
 
 
 def build_all(build, tree, texts, mutants, say, targets=("all",)):
-    """Builds what compiles. Returns {id of a mutant that does not: what the compiler said}."""
+    """Builds the mutants that compile. Returns {id of a mutant that does not: the compiler's message}."""
     out = check_headers(build, tree, texts, mutants, say)
     while True:
         left = [m for m in mutants if m["id"] not in out]

@@ -1,4 +1,4 @@
-"""What a working tree has changed since a revision, and a build of it that shares the compiler's cache with others."""
+"""The changes of a working tree since a revision, and a build of it that shares the compiler's cache with others."""
 
 import os
 import re
@@ -59,7 +59,7 @@ def units_of(root, files):
 
 
 def refresh(source, tree):
-    """Make the tree what the source is, and leave files alone that are: what has changed is newer than what was built."""
+    """Make the tree equal to the source, and leave equal files alone: what has changed is newer than what was built."""
     names = git(source, "ls-files", "-z", "--cached", "--others", "--exclude-standard").split("\0")
     names = {name for name in names if name and os.path.isfile(os.path.join(source, name))}
     for folder, folders, files in os.walk(tree):
@@ -83,7 +83,7 @@ def refresh(source, tree):
 
 
 def configure(tree):
-    """The release preset, so that all but what is touched comes from the compiler's cache. Returns its build folder."""
+    """The release preset, so that all but the touched objects come from the compiler's cache. Returns its build folder."""
     build = os.path.join(tree, "build", "release")
     os.makedirs(build, exist_ok=True)
     switch = os.path.join(build, "mutant_switch")

@@ -27,7 +27,7 @@ def shares(sites, count):
 
 
 def key_of(file, line_text, edits, text):
-    """What names a mutant as long as its line and its change stay, wherever the line and the file move to."""
+    """A name of a mutant that stays as long as its line and its change stay, wherever the line and the file move to."""
     changes = "|".join("%s>%s" % (text[begin:end].decode(), new) for begin, end, new in edits)
     return hashlib.sha256("\n".join([os.path.basename(file), line_text, changes]).encode()).hexdigest()[:12]
 

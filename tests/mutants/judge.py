@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 import time
 
-MEMORY = 4 << 30  # of address space: a mutant may ask for all there is
+MEMORY = 4 << 30  # of address space: a mutant may request without limit
 FILE = 256 << 20  # of one file, for the same reason
 
 
@@ -36,7 +36,7 @@ def tests_of(build, left_out):
 
 
 def limited():
-    os.setsid()  # so that children go with it
+    os.setsid()  # so that its children end with it
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (FILE, FILE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -63,7 +63,7 @@ def run(tests, limit, mutant=0, reached=None):
         except subprocess.TimeoutExpired:
             how = "does not end within %.0f s" % limit
         try:
-            os.killpg(process.pid, signal.SIGKILL)  # and what it left behind
+            os.killpg(process.pid, signal.SIGKILL)  # and its remaining processes
         except ProcessLookupError:
             pass
         process.wait()
@@ -102,7 +102,7 @@ def sound_runs(tests, workers, say):
 
 
 def affinity(test_name, mutant):
-    """Tests are named after what they test: how much of the file's name is in the test's."""
+    """Tests are named after the code that they test: how much of the file's name is in the test's."""
     words = os.path.splitext(os.path.basename(mutant["file"]))[0].split("_")
     name = test_name.lower()
     return sum(word in name for word in words) / len(words)

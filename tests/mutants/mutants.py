@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
 """What share of wrong programs does the suite kill? Wrong programs of one change each, drawn from a seed.
 
-    mutants.py --seed 2 --count 400 --work DIR      draw, build, run, report; goes on where it was interrupted
+    mutants.py --seed 2 --count 400 --work DIR      draw, build, run, report; continues where it was interrupted
     mutants.py --work DIR --report                  the report of what has been judged so far
     mutants.py --work DIR --budget 3600             run survivors with the tests that were too slow before
     mutants.py --work DIR --since REVISION          some 40 changes in the lines that differ from it, anew each time
 
 The changes are drawn over all sources of core, reference, validation and benchmarks, each place alike (sites.py,
 draw.py). A copy of the repository is built once with all of them in it behind one switch (schemata.py, build.py). Every
-test is run once as it is, which tells the mutants that it reaches; each mutant is then run with those tests, likeliest
+test is run once as it is, which shows the mutants that it reaches; each mutant is then run with those tests, likeliest
 and quickest first, until one fails (judge.py). Nothing outside DIR is written.
 
-With --since, which is what one uses every day (./dartboard test --mutants REVISION), the copy is built as the release
-preset is, so that all but what is touched comes from the compiler's cache, and the tests of the quick suite are run.
+With --since, for everyday use (./dartboard test --mutants REVISION), the copy is built as the release
+preset is, so that all but the touched objects come from the compiler's cache, and the tests of the quick suite are run.
 
 DIR ends with report.md (shares by room, with intervals), survivors/ROOM.md, sample.jsonl, results.jsonl. Mutants that
 are no wrong programs are set aside one by one in equivalent.txt, with the reason.
@@ -40,9 +40,9 @@ import report
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 ROOMS = ["core", "reference", "validation", "benchmarks"]
-# not run: what builds copies of its own, what counts instructions, and the tests of this tool
+# not run: tests that build copies of their own, that count instructions, and those of this tool
 LEFT_OUT = r"^(SeededFaults|instructions|Mutants|OneDefinition)"
-SLOW = r"^(verbs|faults|long|lint)$"  # labels of what is no part of the quick suite
+SLOW = r"^(verbs|faults|long|lint)$"  # labels of tests outside the quick suite
 
 
 def say(text):
@@ -119,7 +119,7 @@ def drawn(work, source, seed, count, jobs):
 
 
 def drawn_since(work, source, revision, count, seed, jobs):
-    """The same of the lines that differ from a revision."""
+    """The same for the lines that differ from a revision."""
     for name in ("sample.jsonl", "tests.json", "dropped.json", "results.jsonl"):
         if work.has(name):
             os.remove(work.path(name))
@@ -166,7 +166,7 @@ def first_of_each_room(sample, dropped, shares):
 
 
 def judged(work, sample, tests, sound, jobs, budget):
-    """Judges what has not been judged, or ran out of a smaller budget; results are appended one by one."""
+    """Judges the mutants not judged yet, or stopped by a smaller budget; results are appended one by one."""
     done = {result["id"]: result for result in (work.read("results.jsonl") if work.has("results.jsonl") else [])}
     todo = [m for m in sample if m["id"] not in done or done[m["id"]]["not_run"] and done[m["id"]]["budget"] < budget]
     lock, start = threading.Lock(), time.monotonic()

@@ -1,4 +1,4 @@
-"""What was killed, by room, with an interval."""
+"""The killed mutants, by room, with an interval."""
 
 import math
 
@@ -60,7 +60,7 @@ def counts(mutants, results, dropped, equivalents, room_of):
 
 
 def counted(row):
-    """What the share is of: all that was drawn, what does not compile or is not reached too, but what no test can kill."""
+    """The base of the share: all drawn mutants, including those that do not compile or are not reached, except equivalents."""
     return row.get("drawn", 0) - row.get("equivalent", 0) - row.get("not judged yet", 0)
 
 
@@ -73,7 +73,7 @@ def row_of(name, row, sites):
 
 
 def weighted(rows, sites):
-    """The share over all rooms, each weighed by its sites: small rooms are drawn from more often than is their share."""
+    """The share over all rooms, weighted by their sites: small rooms are drawn from more often than their share."""
     judged = {room: counted(row) for room, row in rows.items()}
     total = sum(sites[room] for room, n in judged.items() if n)
     if not total:
@@ -101,7 +101,7 @@ def table(mutants, results, dropped, equivalents, sites_of_room):
 
 
 def survivors(mutants, results, dropped, equivalents, tests_of=None):
-    """Markdown by room: what was changed, and how much of the suite ran over it without a word."""
+    """Markdown by room: the changes that passed, and how much of the suite ran over each unnoticed."""
     by_room = {}
     for mutant in mutants:
         kind = outcome(mutant, results, dropped, equivalents)

@@ -1,7 +1,7 @@
 """All mutants in one program: each change behind a switch that is read when the program starts.
 
 An expression becomes `(on(n) ? (wrong) : (right))`, a statement `{ if (on(n)) { wrong } else { right } }`. Lines keep
-their numbers, so that what a compiler says of the copy holds for the source.
+numbers, so that the compiler's messages on the copy hold for the source.
 """
 
 import os
@@ -44,7 +44,7 @@ constexpr auto plain(T&& x) {
 }  // namespace dartboard_mutants
 """
 
-# Linked into every program. A table that is shared memory keeps what was reached when a program crashes or has children.
+# Linked into every program. A table in shared memory keeps the record of reached mutants when a program crashes or has children.
 SWITCH_CPP = """#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -118,11 +118,11 @@ def replaced(text, edits):
     return text
 
 
-prefix = b""  # of every file that has mutants, where the switch is not included by the command line
+prefix = b""  # for every file with mutants, if the command line does not include the switch
 
 
 def write_tree(tree, texts, mutants):
-    """Writes the files that differ from what is there. `texts` holds the sources without mutants."""
+    """Writes the files that differ from those there. `texts` holds the sources without mutants."""
     of_file = {}
     for mutant in mutants:
         of_file.setdefault(mutant["file"], []).append(mutant)

@@ -63,7 +63,7 @@ class Finder:
             self.visit(cursor, None)
         self.done |= shown
 
-    # what stands where
+    # what is at which place
 
     def name_of(self, file):
         """A file's name from the root of the project, or the empty name."""
@@ -417,7 +417,7 @@ class Finder:
         if not body:
             return
         if self.snippet(begin, end).startswith("throw"):
-            # without it a function may end without a value, which compilers take for a promise that it never does
+            # without it a function may end without a value, and compilers assume that it never does
             if parent.kind != K.IF_STMT:
                 return
         self.note("dropped", [[(begin, end + 1, "")]], statement=True)
@@ -466,7 +466,7 @@ WALKED = set()  # files of the project that this process has walked
 
 
 def parse(file, command, prelude=None):
-    """The syntax tree of a source, and what clang has against it."""
+    """The syntax tree of a source, and clang's errors."""
     ahead = ["-include-pch", prelude] if prelude else []
     try:
         unit = clang.Index.create(excludeDecls=True).parse(file, args=ahead + arguments_of(command))

@@ -1,4 +1,4 @@
-// Verbs that judge: what they draw is drawn from the seed.
+// Verbs that judge: their random choices depend on the seed alone.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace dartboard::cli_judges_test {
 namespace {
 
-/// How many operations of each series were applied, were illegal, and could not be carried, or what else tells them.
+/// The numbers of operations of each series that were applied, illegal, and not carried, or other marks of the choices.
 std::string drawn(const std::string& arguments, const std::vector<std::string>& keys) {
   const Answer answer = run(arguments, "2>/dev/null");
   EXPECT_EQ(answer.status, 0) << answer.out;

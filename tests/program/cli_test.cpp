@@ -1,4 +1,4 @@
-// The command line as a user meets it: what it prints and how it exits.
+// The command line as a user meets it: its output and its exit status.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const std::string binary = program_path();
 const std::string liver = source_folder().string() + "/benchmarks/meshes/liver564.mesh";
 
-// A file that is gone when the test is over.
+// A file that is removed at the end of the test.
 struct TemporaryFile {
   fs::path path;
   TemporaryFile(const std::string& name, const std::string& text)
@@ -214,7 +214,7 @@ TEST(LongReproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
   const Answer answer = run("reproduce --part paper --quick --json --out " + out.string(), "2>/dev/null");
   const auto json = nlohmann::json::parse(answer.out);
   EXPECT_TRUE(json.at("gates_passed").get<bool>());
-  bool surprises = false;  // on a busy machine a time may be another than the known one
+  bool surprises = false;  // on a busy machine a time may differ from the known one
   for (const auto& claim : json.at("claims")) {
     EXPECT_NE(claim.at("measured"), "") << claim;
     EXPECT_NE(claim.at("verdict"), "falls short") << claim;
@@ -339,7 +339,7 @@ TEST(CommandLine, TakesScenesOfTheGalleryByName) {
   EXPECT_EQ(run("scene --check sheet_cut.json").status, 0);
 }
 
-// Two cubes beside each other.
+// Two cubes next to each other.
 TEST(Scene, CheckCountsTheCellsOfTheBodyAndTheSteps) {
   const TemporaryFile scene("two.json", R"({"name": "x", "step": 0.001, "duration": 0.01,
     "body": {"generate": {"box": {"cells": [2, 1, 1], "spacing": 1, "kind": "hexahedra"}}}})");

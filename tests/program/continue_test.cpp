@@ -1,4 +1,4 @@
-// A run that is gone on with by the program: every file in its folder is that of one run.
+// A run continued by the program: every file in its folder is that of one run.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class Continue : public FolderTest {
   void leave_scene(const json& scene) const { std::ofstream(folder_ / "scene.json") << scene.dump(); }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// The files of a run that do not tell when and how it ran.
+  /// The files of a run that do not depend on when and how it ran.
   std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder_ / out))
@@ -48,7 +48,7 @@ class Continue : public FolderTest {
     for (const auto& [name, text] : a) EXPECT_TRUE(b.contains(name) && b.at(name) == text) << name;
     EXPECT_EQ(a.size(), b.size());
   }
-  /// Interrupted as soon as a file is there.
+  /// Interrupts the run as soon as a file is there.
   int interrupted_at(const std::string& file, const std::string& out) const {
     const pid_t child = fork();
     if (child == 0) {
@@ -85,7 +85,7 @@ TEST_F(Continue, LeavesTheFilesOfOneRun) {
   EXPECT_TRUE(manifest.contains("finished"));
 }
 
-// Wherever the signal meets it; without the key it leaves a checkpoint too, unless a step had just got a new factor.
+// Wherever the signal arrives; without the key it leaves a checkpoint too, unless a step had just got a new factor.
 TEST_F(Continue, GoesOnWhereARunWasInterrupted) {
   json scene = eventful_scene();
   scene["integrator"] = "rk4";
@@ -94,7 +94,7 @@ TEST_F(Continue, GoesOnWhereARunWasInterrupted) {
   leave_scene(scene);
   ASSERT_EQ(run("simulate " + path("scene.json") + " --seed 5 --out " + path("one")).status, 0);
   EXPECT_FALSE(fs::exists(folder_ / "one" / "checkpoint")) << "it was not interrupted";
-  // on a busy machine a run may be over before the signal meets it
+  // on a busy machine a run may be over before the signal arrives
   for (int attempt = 0; attempt < 20 && interrupted_at("frame_000001.vtu", "two") != 130; ++attempt)
     fs::remove_all(folder_ / "two");
   ASSERT_TRUE(fs::exists(folder_ / "two" / "checkpoint"));

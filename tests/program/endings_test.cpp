@@ -1,4 +1,4 @@
-// How a run ends that somebody ends, that cannot draw, or that meets another one: the real program, in real processes.
+// Endings of a run that is stopped, that cannot draw, or that meets another one: the real program, in real processes.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -34,7 +34,7 @@ class Endings : public FolderTest {
     std::ofstream(folder_ / "short.json") << short_run;
   }
 
-  /// The program in the folder of the test; what it prints goes into files there.
+  /// The program in the folder of the test; its output goes into files there.
   pid_t start(std::vector<std::string> arguments, const std::string& path = "") const {
     const pid_t child = fork();
     if (child != 0) return child;
@@ -54,7 +54,7 @@ class Endings : public FolderTest {
     waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  /// Until the file is there; false if the process has ended before.
+  /// Waits until the file is there; false if the process has ended before.
   bool waits_for(const std::string& file, pid_t child) const {
     while (!fs::exists(folder_ / file)) {
       siginfo_t info{};
@@ -90,8 +90,8 @@ double cpu_seconds(pid_t process) {
 }
 
 // Factoring takes some 5 s here: a block of n nodes takes about n^2 operations of 3 x 3 numbers, and this one has
-// 30,000. Processor time tells it on a machine that is busy, too. A second is promised; what comes before the
-// factorisation may take another one under sanitizers.
+// 30,000. Processor time shows it on a busy machine, too. A second is the guarantee; the work before the factorisation
+// may take another one under sanitizers.
 TEST_F(Endings, AFactorisationIsNotWaitedFor) {
   std::ofstream(folder_ / "stiff.json") << R"({"name": "stiff", "integrator": "backward-euler",
     "body": {"generate": {"box": {"cells": [30, 30, 30], "spacing": 0.01, "kind": "hexahedra"}}},
@@ -157,7 +157,7 @@ TEST_F(Endings, WithoutCalculixItSaysWhichPackageHasIt) {
   EXPECT_EQ(text("printed.txt"), "");
 }
 
-// A program of that name that says of every node that it moves by a metre.
+// A program of that name that reports a displacement of a metre for every node.
 TEST_F(Endings, ACalculixThatDisagreesIsADisagreementAndLeavesNoFiles) {
   fs::create_directories(folder_ / "bin");
   fs::create_directories(folder_ / "scratch");

@@ -1,4 +1,4 @@
-// The direction of the architecture, read from the sources: who may include whom.
+// The direction of the architecture, read from the sources: allowed includes between folders.
 
 #include <gtest/gtest.h>
 
@@ -46,8 +46,8 @@ using Files = std::vector<std::string>;
 
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().generic_string(); }
 
-// Which folders each may include beside itself and core/plain, as the CMakeLists.txt of the rooms say: a line of them
-// reads "core/views: core/forces core/mechanics".
+// The folders that each may include besides itself and core/plain, as the CMakeLists.txt of the rooms say: a line of
+// them reads "core/views: core/forces core/mechanics".
 std::map<std::string, std::set<std::string>> rules() {
   std::map<std::string, std::set<std::string>> seen;
   std::ifstream file(folders_file());
@@ -86,7 +86,7 @@ TEST(Includes, MakeUseOfEachFolderThatMayBeSeen) {
   EXPECT_EQ(idle, Files{});
 }
 
-/// Of the folders of one room: those that see another whose name begins otherwise than allowed.
+/// Among the folders of one room: those that see another whose name begins otherwise than allowed.
 Files strays(const std::string& room, const std::vector<std::string>& allowed) {
   Files found;
   for (const auto& [folder, seen] : rules())
@@ -127,7 +127,7 @@ TEST(Rooms, AreOfASizeThatOneSeesAtAGlance) {
   EXPECT_EQ(large, Files{});
 }
 
-/// Files below `room` but the `allowed` ones that hold one of some words.
+/// Files below `room`, except the `allowed` ones, that contain one of some words.
 Files users_of(const std::string& room, const std::vector<std::string>& words, const Files& allowed) {
   const fs::path root = source_folder();
   Files users;
@@ -142,7 +142,7 @@ Files users_of(const std::string& room, const std::vector<std::string>& words, c
   return users;
 }
 
-// What is printed, and what is written as JSON, has been made harmless on its way; nothing goes through a shell.
+// Printed text and JSON have been made harmless on their way; nothing goes through a shell.
 TEST(Sources, PrintThroughTellAlone) {
   EXPECT_EQ(users_of("benchmarks", {"fmt::print(", "std::cout <<", "std::cerr", "printf(", "fputs("},
                      {"benchmarks/harness/tell.h", "benchmarks/harness/progress.cpp"}),
@@ -151,7 +151,7 @@ TEST(Sources, PrintThroughTellAlone) {
     EXPECT_EQ(users_of(room, {"fmt::print(", "std::cout", "std::cerr", " printf("}, {}), Files{}) << room;
 }
 TEST(Sources, WriteJsonThroughJsonTextAlone) {
-  // of numbers, and of a scene made in memory
+  // for numbers, and for a scene made in memory
   EXPECT_EQ(users_of("benchmarks", {".dump("},
                      {"benchmarks/harness/json_text.h", "benchmarks/studies/scenes/ablation_study.cpp"}),
             Files{});

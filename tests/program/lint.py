@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Does the linter say nothing of what was changed last?   lint.py CLANG_TIDY BUILD_FOLDER [--all]
+"""Has the linter no complaint about the sources changed last?   lint.py CLANG_TIDY BUILD_FOLDER [--all]
 
-Reading one source takes it some ten seconds, all of them an hour. So it reads the twenty changed last, as git tells, a
+Reading one source takes it some ten seconds, all of them an hour. So it reads the twenty changed last, according to git, a
 header by the source of its name: a test of the preset lint. With --all every one: its target lint_all. It reads
 them without precompiled headers, so it also finds a source that does not include what it uses.
 """

@@ -13,7 +13,7 @@ using Words = std::vector<std::string>;
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// The words and signs of a source, less comments, directives and what is quoted.
+// The words and signs of a source, without comments, directives and quoted text.
 Words words_of(std::string_view text) {
   Words words;
   bool line_begins = true;
@@ -76,7 +76,7 @@ std::string joined(Words::const_iterator begin, Words::const_iterator end) {
   return text;
 }
 
-// The place after the bracket that closes the one at `open`.
+// The position after the bracket that closes the one at `open`.
 template <class Iterator>
 Iterator past_brackets(Iterator open, Iterator end, const char* opening, const char* closing) {
   int depth = 0;
@@ -103,7 +103,7 @@ Words bare(const Words& head) {
   return words;
 }
 
-// What the declaration that ends before a brace or semicolon defines; empty if nothing that others could define.
+// The name defined by the declaration before a brace or semicolon; empty if no other source could define it.
 std::string name_of(const Words& declaration, bool has_body) {
   const Words head = bare(declaration);
   const auto begin = head.begin(), end = head.end();
@@ -121,7 +121,7 @@ std::string name_of(const Words& declaration, bool has_body) {
       const auto stop = std::find_if(name, end, [](const auto& w) { return is_one_of(w, {":", "final"}); });
       return joined(name, stop);
     }
-    if (paren != end && paren != begin && paren < equals) {  // a function: from its name to the end of its parameters
+    if (paren != end && paren != begin && paren < equals) {  // a function: its name up to the end of its parameters
       auto open = paren;
       if (open[-1] == "operator" && open + 2 < end) open += 2;  // operator()
       auto name = std::find(begin, open, "operator");
@@ -182,7 +182,7 @@ void add_definitions(std::string_view text, const std::string& file, Definitions
       }
       note(true);
       k = past_brackets(k, words.end(), "{", "}") - 1;
-      // what a list begins goes on until its semicolon; members and initialisers of constructors too
+      // a list goes on until its semicolon; members and initialisers of constructors too
       if (k + 1 == words.end() || !is_one_of(k[1], {",", "{", ";", "."})) head.clear();
       if (k + 1 != words.end() && k[1] == ";") {
         head.clear();

@@ -1,5 +1,5 @@
-// A name means one thing in the whole program: two types of one name, in two sources that never see one another,
-// compile and link, and then share constructors, destructors and whatever else the linker believes to be the same.
+// A name has one meaning in the whole program: two types of one name, in two sources that never see one another,
+// compile and link, and then share constructors, destructors and whatever else the linker takes for the same.
 
 #include "tests/program/one_definition.h"
 #include "benchmarks/checkout/source_folder.h"
@@ -27,7 +27,7 @@ std::string names(const Definitions& definitions) {
   return text;
 }
 
-// What two files or more define, each in its own way.
+// The names that two files or more define, each in its own way.
 std::string repeated(const Definitions& definitions) {
   std::string text;
   for (const auto& [name, files] : definitions) {

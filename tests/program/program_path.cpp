@@ -2,7 +2,7 @@
 
 namespace dartboard {
 
-// The build defines both for this source alone: they differ between checkouts, and so would everything compiled with
+// The build defines both for this source alone: they differ between checkouts, and so would every object compiled with
 // them.
 const std::string& program_path() {
   static const std::string path = DARTBOARD_BINARY;

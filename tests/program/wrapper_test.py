@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the script ./dartboard does before any program is built.
+"""The script ./dartboard before any program is built.
 
     wrapper_test.py PROGRAM
 

@@ -1,6 +1,6 @@
 """The bodies of the read-back scenes: points and cells made here, and written with meshio for the program to read.
 
-Every body is skewed and has other sizes along x, y and z, so that no two axes, points or cells can be taken for each
+Every body is skewed and has other sizes along x, y and z, so that no two axes, points or cells can be mistaken for each
 other. Cells are (kind, points), kinds and their order of points as meshio has them.
 """
 
@@ -9,8 +9,8 @@ import math
 import meshio
 import numpy as np
 
-# The faces of each kind of volume, each seen counter-clockwise from outside, in the order of points that meshio has; a
-# polygon is its own face.
+# The faces of each kind of volume, each seen counter-clockwise from outside, in the order of points of meshio; a polygon is its own
+# face.
 FACES = {
     "tetra": [(0, 1, 3), (1, 2, 3), (2, 0, 3), (0, 2, 1)],
     "pyramid": [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
@@ -58,8 +58,8 @@ def fan_measure(points, nodes_of_faces):
 
 
 def polygon_vector(points, nodes):
-    """The vector area of a polygon: its size is the area where it is plane, and it does not depend on the corner that
-    one begins with where it is not."""
+    """The vector area of a polygon: its size is the area if it is plane, and it does not depend on the first corner
+    if it is not."""
     return sum(np.cross(points[nodes[k]] - points[nodes[0]], points[nodes[k + 1]] - points[nodes[0]])
                for k in range(1, len(nodes) - 1)) / 2
 
@@ -92,7 +92,7 @@ def solid():
     cells = []
     for j in range(2):
         for i in range(3):
-            # one tetrahedron for each way along three edges from the lowest corner of the brick to its highest
+            # one tetrahedron for each path along three edges from the lowest corner of the brick to its highest
             for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)):
                 at, path = [i, j, 0], [number(i, j, 0)]
                 for axis in order:
@@ -113,7 +113,7 @@ def contact():
 
 
 def mixed():
-    """Two hexahedra beside each other, a pyramid on the first, a wedge on the second and a tetrahedron on the wedge."""
+    """Two hexahedra next to each other, a pyramid on the first, a wedge on the second and a tetrahedron on the wedge."""
     points = [[0.2 * i, 0.25 * j, 0.3 * k] for k in range(2) for j in range(2) for i in range(3)]
     points += [[0.1, 0.12, 0.5], [0.57, 0.0, 0.0], [0.57, 0.25, 0.0], [0.47, -0.2, 0.1]]
     cells = [("hexahedron", [0, 1, 4, 3, 6, 7, 10, 9]), ("hexahedron", [1, 2, 5, 4, 7, 8, 11, 10]),
@@ -150,6 +150,6 @@ def surface():
 
 
 def chain(links, spacing, scale, translate):
-    """What a scene says of a chain: points along x."""
+    """The part of a scene that describes a chain: points along x."""
     points = [[spacing * k * scale, 0, 0] + np.array(translate) for k in range(links + 1)]
     return Body([[p[0], p[1], p[2]] for p in points], [("line", (k, k + 1)) for k in range(links)])

@@ -8,7 +8,7 @@ from mechanics import SUM, facets_of
 
 
 def samples(network):
-    """[(vertices whose mean it is, area at rest that it stands for)]: of each triangle of the boundary of a solid, a
+    """[(vertices whose mean it is, area at rest that it represents)]: for each triangle of the boundary of a solid, a
     twelfth of its area at each corner and the rest in its middle."""
     corner, middles = {}, []
     for sides in network.facets.values():
@@ -39,7 +39,7 @@ def inside(obstacle, y, time):
 
 
 class Contact:
-    """The contact of a scene with planes and spheres that take nothing."""
+    """The contact of a scene with planes and spheres without losses."""
 
     def __init__(self, scene):
         self.scene, self.obstacles = scene, scene["obstacles"]
@@ -61,13 +61,13 @@ class Contact:
                            area * pressure * share ** (p - 1), (p - 1) * area * pressure / allowed * share ** (p - 2))
 
     def energy(self, network, time, x=None):
-        """And how far rounding may move it: depths are differences of coordinates."""
+        """The energy, and a bound on its rounding: depths are differences of coordinates."""
         x = network.frame.x if x is None else x
         found = list(self.touching(network, x, time))
         return (math.fsum(e for *_, e, _, _ in found), SUM * math.fsum(f * np.abs(x).max() for *_, f, _ in found))
 
     def forces(self, network, x, time):
-        """Of each vertex [N], and what is multiplied by a rounding of places in it [N/m]."""
+        """For each vertex the force [N], and the factor of a rounding of places in it [N/m]."""
         force, stiffness = np.zeros_like(x), np.zeros(len(x))
         for nodes, _, normal, _, f, k in self.touching(network, x, time):
             for v in nodes:
@@ -76,7 +76,7 @@ class Contact:
         return force, stiffness
 
     def depths(self, network):
-        """Of each vertex, by itself."""
+        """The depth of each vertex by itself."""
         depth = np.zeros(len(network.frame.x))
         for nodes, d, *_ in self.touching(network, network.frame.x, network.frame.time):
             if len(nodes) == 1:
@@ -85,11 +85,11 @@ class Contact:
 
     def row(self, networks, n, h):
         """The columns of the diagnostics after n steps: {head: (value, bound)}. Obstacles are moved by half a step
-        before and after each, which takes the work that their contacts change by."""
+        before and after each, which does the work of their contacts."""
         network, supplied, off = networks[n], 0.0, 0.0
         for k in range(n):
             half = (k + 0.5) * h
-            # events at the end of a step change no energy but by what they remove; those of this scene leave the boundary
+            # events at the end of a step change no energy but that of removed parts; those of this scene leave the boundary
             for sign, at, time in ((1, k, half), (-1, k, k * h), (1, k + 1, (k + 1) * h), (-1, k + 1, half)):
                 value, bound = self.energy(networks[at], time)
                 supplied, off = supplied + sign * value, off + bound

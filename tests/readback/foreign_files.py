@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Files of the folder foreign, which programs of others have written, read to the same bits as the mesh they were given.
+"""Files of the folder foreign, written by other programs, are read to the same bits as the mesh that these were given.
 
     foreign_files.py PROGRAM [TEST...]
 

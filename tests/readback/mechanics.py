@@ -37,9 +37,9 @@ class Groups:
 
 
 class Network:
-    """The cells of a frame as springs and masses. Its vertices are known by the cells and corners of the body at rest
-    that they belong to, and by nothing that the program numbers: no vertex has moved by as much as a third of the
-    shortest edge, so that the nearest point of its own cell is where it came from."""
+    """The cells of a frame as springs and masses. Its vertices are identified by the cells and corners of the body at rest
+    that they belong to, and not by the program's numbers: no vertex has moved by as much as a third of the
+    shortest edge, so that the nearest point of its own cell is its origin."""
 
     def __init__(self, body, material, frame):
         self.body, self.frame = body, frame
@@ -70,7 +70,7 @@ class Network:
         self.join_springs(material)
         self.glue()
 
-    # ---- what there is
+    # ---- contents
 
     def weigh(self, density):
         self.cell_mass = [density * abs(measure(kind, self.rest[list(nodes)])) for kind, nodes in self.frame.cells]
@@ -80,7 +80,7 @@ class Network:
                 self.mass[vertex] += mass / len(nodes)
 
     def volumes(self):
-        """Of each vertex its share of the volume (area) of its cells as they are now."""
+        """For each vertex its share of the present volume (area) of its cells."""
         volume = np.zeros(len(self.frame.x))
         for kind, nodes in self.frame.cells:
             for vertex in nodes:
@@ -96,7 +96,7 @@ class Network:
         self.rest_length = np.linalg.norm(self.rest[self.ends[:, 1]] - self.rest[self.ends[:, 0]], axis=1)
 
     def glue(self):
-        """Cells hang together where they share a facet: a face of volumes, an edge of polygons, a point of lines. So do
+        """Cells are connected where they share a facet: a face of volumes, an edge of polygons, a point of lines. So are
         their corners, edges and faces there, and nowhere else."""
         at = collections.defaultdict(list)
         for c, (kind, nodes) in enumerate(self.frame.cells):
@@ -127,7 +127,7 @@ class Network:
         self.counts = {"vertices": sizes[0], "edges": sizes[1], "faces": faces, "cells": cells_of_map,
                        "components": len(self.components)}
 
-    # ---- sums, each as (value, how far rounding may move it)
+    # ---- sums, each as (value, bound on its rounding)
 
     def kinetic(self):
         return total(0.5 * self.mass * (self.frame.v ** 2).sum(axis=1))
@@ -169,18 +169,18 @@ class Network:
         return max(np.linalg.eigvalsh(s)[-1] for s in stress), bound.max()
 
     def tensions(self):
-        """Of each spring, and how far rounding may move any."""
+        """For each spring, and a bound on the rounding of any."""
         return self.stiffness * self.stretch(), SUM * self.stiffness.max() * np.abs(self.frame.x).max()
 
     def strains(self):
-        """{the ends of a spring: how much longer it is than at rest, over its length there}, and how far rounding may move
-        any."""
+        """{the ends of a spring: its elongation over its rest length}, and a bound on the rounding
+        of any."""
         strain = self.stretch() / self.rest_length
         return ({frozenset(ends): s for ends, s in zip(self.ends.tolist(), strain)},
                 SUM * np.abs(self.frame.x).max() / self.rest_length.min())
 
     def stresses(self):
-        """Of each vertex, a matrix; and how far rounding may move it, in the norm that is its largest eigenvalue."""
+        """For each vertex, a matrix; and a bound on its rounding, in the norm that is its largest eigenvalue."""
         along = self.frame.x[self.ends[:, 1]] - self.frame.x[self.ends[:, 0]]
         length = np.linalg.norm(along, axis=1)
         tension = self.stiffness * (length - self.rest_length)
@@ -214,7 +214,7 @@ class Network:
         return a
 
     def step(self, h, surroundings, held):
-        """Positions and velocities a step later, by the classical Runge-Kutta method, and how far rounding may move
+        """Positions and velocities a step later, by the classical Runge-Kutta method, and a bound on the rounding of
         each."""
         def slope(x, v):
             return v, self.acceleration(x, v, surroundings, held)
@@ -228,7 +228,7 @@ class Network:
         v_then = v + h / 6 * (k1[1] + 2 * k2[1] + 2 * k3[1] + k4[1])
         # The force of a spring is off by k times the rounding of coordinates and c times that of speeds, twice over,
         # with 16 roundings on the way; all springs of a vertex add up, and masses are known to 2^-42. Later stages see
-        # what the first left: h omega is below 1, so that it does not grow more than twofold in a step.
+        # the errors of the first: h omega is below 1, so that they do not grow more than twofold in a step.
         large, fast = np.abs(x).max(), np.abs(v).max()
         at_vertex = np.zeros(len(x))
         for end in (0, 1):
@@ -254,7 +254,7 @@ def edges_of(kind, nodes):
 
 
 def facets_of(kind, nodes):
-    """What cells share where they are neighbours, as the vertices around it."""
+    """What neighbour cells share, as the vertices around it."""
     if DIMENSION[kind] == 3:
         return [tuple(nodes[k] for k in face) for face in FACES[kind]]
     if DIMENSION[kind] == 2:

@@ -3,8 +3,8 @@
 
     mesh_variants.py PROGRAM [TEST...]
 
-What is right is the mesh that was given to meshio: its points, cells and numbers, folded into the hash of `mesh info`
-here. A format of text has 16 digits or more; STL has 32 bits, which the points of its mesh fit in.
+The expected mesh is the one that was given to meshio: its points, cells and numbers, folded into the hash of `mesh info`
+here. A text format has 16 digits or more; STL has 32 bits, enough for the points of its mesh.
 """
 
 import json
@@ -38,7 +38,7 @@ def hash_of(points, blocks):
 
 
 def solid(step=1 / 3):
-    """A cube, a wedge beside it, a pyramid and two tetrahedra on top: right-handed."""
+    """A cube, a wedge next to it, a pyramid and two tetrahedra on top: right-handed."""
     x = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1],
                   [2, 0, 0], [2, 0, 1], [.5, .5, 2], [.5, -1, 2], [.5, -2, 1]], float)
     points = x * step + np.array([0.125, -0.5, 1e3])
@@ -54,7 +54,7 @@ def surface():
 
 
 def by_entities(points, blocks, groups=None):
-    """What meshio wants to know for version 4.1: each block is a volume, on which some of the points lie."""
+    """The data that meshio needs for version 4.1: each block is a volume, which contains some of the points."""
     cells = {"gmsh:geometrical": [np.full(len(c), k + 1) for k, (_, c) in enumerate(blocks)],
              "gmsh:physical": groups or [np.zeros(len(c), int) for _, c in blocks]}
     volumes = [[3, 1 + k * len(blocks) // len(points)] for k in range(len(points))]
@@ -68,7 +68,7 @@ class MeshVariants(unittest.TestCase):
         return json.loads(done.stdout)
 
     def written(self, extension, points, blocks, write=None, **options):
-        """What the program says of a mesh that was written."""
+        """The program's report on a mesh that was written."""
         with tempfile.TemporaryDirectory(prefix="dartboard-variants-") as folder:
             path = os.path.join(folder, "mesh" + extension)
             mesh = meshio.Mesh(points, [(kind, np.array(cells)) for kind, cells in blocks],

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The pictures that `dartboard simulate --picture` draws, as SVG and PNG, of bodies whose looks are known.
+"""The pictures that `dartboard simulate --picture` draws, as SVG and PNG, of bodies whose appearance is known.
 
     pictures.py PROGRAM [TEST...]
 
-What a picture promises (benchmarks/figures/body_picture.h): the boundary seen from the front, a little from the right and above,
-z upwards; each component in a colour of its own, and what had been inside in another; panels side by side with times.
+The specification of a picture (benchmarks/figures/body_picture.h): the boundary seen from the front, a little from the right and above,
+z upwards; each component in a colour of its own, and facets from inside in another; panels side by side with times.
 """
 
 import json
@@ -95,7 +95,7 @@ def pixels(path):
 
 
 def hue(colour):
-    """A colour but for how light it is: rims are darker, and sides of a body differ in light."""
+    """A colour without its lightness: rims are darker, and sides of a body differ in light."""
     colour = np.array(colour, dtype=float)
     return colour / np.linalg.norm(colour)
 
@@ -125,8 +125,8 @@ class Pictures(unittest.TestCase):
     PLACES = np.array([[0, 0, 0], [2.0, 0, 0], [0, 2.5, 0], [0, 0, 3.0]])
     SIZE = 0.5
 
-    # Whoever lays two pictures side by side takes equal colours for equal components: blue, ochre, green, violet for 0 to
-    # 3, in the order of their cells; and red for what was inside.
+    # When two pictures are compared, equal colours mean equal components: blue, ochre, green, violet for 0 to
+    # 3, in the order of their cells; and red for facets from inside.
     COMPONENT_COLOURS = [(0x7b, 0xa7, 0xd9), (0xe0, 0xb1, 0x5a), (0x86, 0xbf, 0x7c), (0xb1, 0x8c, 0xc8)]
     INSIDE_COLOUR = (0xc8, 0x50, 0x3c)
 
@@ -172,7 +172,7 @@ class Pictures(unittest.TestCase):
         self.assertGreater(right[0] / scale, 0.7)
         self.assertGreater(right[1] / scale, 0.1)
         self.assertGreater(up[1] / scale, 0.1)
-        # towards the viewer: the front most of all, then right and above. A mirrored view has it behind.
+        # towards the viewer: the front most of all, then right and above. In a mirrored view it would be behind.
         viewer = np.cross(right, up) / scale ** 2
         self.assertLess(viewer[1], -0.7)
         self.assertGreater(viewer[0], 0.1)
@@ -212,7 +212,7 @@ class Pictures(unittest.TestCase):
             highest = max(colours, key=lambda c: np.mean(colours[c], axis=0)[1])
             self.assertEqual(highest, max(colours, key=light))
 
-    # ---- what was inside
+    # ---- facets from inside
 
     def two_cubes(self):
         lattice = [[i * 1.0, j * 0.8, k * 0.6] for k in range(2) for j in range(2) for i in range(3)]
@@ -254,7 +254,7 @@ class Pictures(unittest.TestCase):
             here = np.concatenate([c for _, c in facets if int(np.mean(c, axis=0)[0] // panel) == k])
             height.append(here.mean(axis=0)[1])
             self.assertLess(y, here.min(axis=0)[1])
-        # what flies upwards is higher in each, by as much
+        # a body that flies upwards is higher in each, by as much
         self.assertGreater(height[1] - height[0], 1)
         self.assertAlmostEqual(height[2] - height[1], height[1] - height[0], delta=0.1)
         self.assertAlmostEqual(height[3] - height[2], height[1] - height[0], delta=0.1)

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs scenes with the program and holds every column that it writes against sums made here.
+"""Runs scenes with the program and compares every column that it writes with sums made here.
 
     read_back.py PROGRAM KIND [TEST...]    KIND: solid, mixed, surface, chain; with -still: the same without events
 
-Nothing of the program's own is used to read what it wrote, nor to say what is right: bodies.py has the body at rest,
+Nothing of the program's own is used to read its output, nor to decide what is right: bodies.py has the body at rest,
 mechanics.py the mechanics, results.py the readers.
 """
 
@@ -28,7 +28,7 @@ COUNTS = ["vertices", "edges", "faces", "cells", "components"]
 
 
 class Story:
-    """A scene, its body and its run; of each frame the network that its cells make, and what should have happened."""
+    """A scene, its body and its run; for each frame the network that its cells make, and the expected events."""
 
     def __init__(self, program, kind, folder):
         name = kind.removesuffix("-still")
@@ -109,7 +109,7 @@ class ReadBack(unittest.TestCase):
         self.assertLessEqual(abs(float(actual) - value), bound, "%s: %s, expected %.17g" % (what, actual, value))
 
     def frame_at(self, time):
-        """The number of the frame of a time, which must be the very number."""
+        """The number of the frame of a time, which must be exactly that number."""
         return [t for t, _ in self.run_.listed].index(float(time))
 
     # ---- frames
@@ -194,7 +194,7 @@ class ReadBack(unittest.TestCase):
             for v, (stress, off) in enumerate(zip(*network.stresses())):
                 values = np.linalg.eigvalsh(stress)
                 deviator = stress - np.trace(stress) / 3 * np.eye(3)
-                # an entry moves by no more than the largest eigenvalue of what moves the matrix, so sqrt(3 / 2) times the
+                # an entry moves by no more than the largest eigenvalue of its perturbation, so sqrt(3 / 2) times the
                 # length of nine of them by less than four times that
                 expected = [(values[-1], off), (np.abs(values).max(), off),
                             (math.sqrt(1.5 * (deviator ** 2).sum()), 4 * off)]
@@ -262,7 +262,7 @@ class ReadBack(unittest.TestCase):
             surroundings = dict(self.story.surroundings)
             surroundings["gravity"] = surroundings["gravity"] + self.story.pull(before, n)
             if self.story.contact:
-                # obstacles stand where they are in the middle of the step
+                # obstacles are at their places in the middle of the step
                 surroundings["contact"] = lambda x, n=n, at=before: self.story.contact.forces(
                     at, x, (n + 0.5) * self.story.h)
             x, v, x_off, v_off = before.step(self.story.h, surroundings, self.story.held(before))
@@ -273,7 +273,7 @@ class ReadBack(unittest.TestCase):
                 self.assertLessEqual(np.abs(after.frame.v[vertex] - velocity).max(), v_off, "frame %d" % (n + 1))
 
     def test_the_body_moves_differently_along_each_axis(self):
-        # what makes the test above see columns that are exchanged
+        # checks that the test above would see exchanged columns
         for frame in self.run_.frames[1:]:
             for columns in (frame.x - self.run_.frames[0].x.mean(axis=0), frame.v):
                 size = np.abs(columns).mean(axis=0)
@@ -285,7 +285,7 @@ class ReadBack(unittest.TestCase):
         operations, gone = 0, set()
         for n, network in enumerate(self.networks):
             for event in self.story.events_at(n):
-                # at the end of a step: cells are where they are now, and hang together as before
+                # at the end of a step: cells are at their present places, and connected as before
                 was = self.networks[max(0, n - 1)]
                 sides = {}
                 if "remove" in event:
@@ -358,7 +358,7 @@ class ReadBack(unittest.TestCase):
                          self.times(self.story.scene["output"]["diagnostics_every"]["steps"]))
 
     def test_no_two_columns_of_the_diagnostics_are_alike(self):
-        # what makes the test of sums see columns that are exchanged; masses and counts of cells are alike in places
+        # checks that the test of sums would see exchanged columns; masses and counts of cells are equal in places
         names = [n for n in self.run_.diagnostics[0] if not n.startswith("lost") and "[J]" in n or "momentum" in n or "stress" in n]
         last = [float(self.run_.diagnostics[-1][n]) for n in names]
         for a, value in enumerate(last):
@@ -421,7 +421,7 @@ class ReadBack(unittest.TestCase):
 
     def test_cuts_jump_by_no_more_than_rounding(self):
         jumps = self.run_.printed["jumps"]
-        # what happens at the start has happened before anybody can look
+        # events at the start have happened before anything is output
         self.assertEqual(jumps["events"], sum("dissociate" in e and e["at"] > 0
                                               for e in self.story.scene.get("events", [])))
         for name in ("mass", "stiffness", "momentum", "energy"):

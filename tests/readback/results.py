@@ -1,4 +1,4 @@
-"""What a run of `dartboard simulate` leaves, read by others: meshio, xml.etree, csv and json."""
+"""Output of a run of `dartboard simulate`, read by other software: meshio, xml.etree, csv and json."""
 
 import base64
 import csv
@@ -16,7 +16,7 @@ STRESSES = ("largest_principal_stress", "largest_stress_magnitude", "von_mises_s
 
 class Frame:
     """One .vtu file: vertices x, v, mass; cells with mesh_cell and component; time; the springs, which are lines without a
-    number in the mesh; and what the scene asked for beside them, None where it is not there."""
+    number in the mesh; and the fields that the scene requested, None if absent."""
 
     def __init__(self, path):
         mesh = meshio.read(path)
@@ -41,7 +41,7 @@ class Frame:
 
 
 class Run:
-    """The program is run on a scene that lies in `folder`; everything it wrote and printed."""
+    """Runs the program on a scene in `folder`; everything that it wrote and printed."""
 
     def __init__(self, program, scene, folder, *options):
         self.folder = folder
@@ -74,7 +74,7 @@ def table(path):
 
 
 def decoded(path, name):
-    """An array of a .vtu file by its name, decoded by hand: meshio says what it makes of a file, this what it holds."""
+    """An array of a .vtu file by its name, decoded by hand: meshio interprets a file, this reads its content."""
     for array in ElementTree.parse(path).getroot().iter("DataArray"):
         if array.get("Name") == name:
             data = base64.b64decode(array.text)
@@ -92,6 +92,6 @@ def fnv1a(words, fold):
 
 
 def file_hash(path):
-    """Of a file's bytes, as it is defined."""
+    """FNV-1a of a file's bytes, as it is defined."""
     with open(path, "rb") as file:
         return "fnv1a64:%016x" % fnv1a(file.read(), lambda value: value)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `dartboard simulate` says of a run, where the answer is known beforehand.
+"""Messages of `dartboard simulate` on a run, where the expected ones are known.
 
     said.py PROGRAM [TEST...]
 """
@@ -18,7 +18,7 @@ from results import Run, file_hash, table
 
 
 def box(**more):
-    """A scene of a few cells, and whatever else it says."""
+    """A scene of a few cells, with other keys as given."""
     scene = {"name": "x", "body": {"generate": {"box": {"cells": [2, 1, 1], "spacing": 0.25}}}, "gravity": [0, 0, 0],
              "step": 0.001, "duration": 0.004}
     scene.update(more)
@@ -69,7 +69,7 @@ class Said(unittest.TestCase):
         self.assertIn("mass unaccounted for after removals: %.2e of the mass" % abs((ten - three - seven) / ten), said)
         self.assertNotIn("unaccounted", self.print_(box()).stdout)
 
-    # ---- the table that people read
+    # ---- the table for readers
 
     def test_the_table_has_the_numbers_of_the_diagnostics(self):
         scene = box(initial_velocity={"linear": [[1, 2, 0], [0, 3, 1], [2, 0, 1]]}, gravity=[1, 2, -9.81],
@@ -130,7 +130,7 @@ class Said(unittest.TestCase):
         self.assertIn("move the body to the origin (/body/translate)", self.run_(scene).printed["warnings"][0])
         self.assertIn("move the body to the origin (/body/translate)", self.print_(scene).stderr)
 
-    # ---- what is judged
+    # ---- verdicts
 
     def test_what_the_scene_expects_stands_beside_what_was_found(self):
         scene = box(expect={"cells": 12, "vertices": 13})
@@ -164,7 +164,7 @@ class Said(unittest.TestCase):
             self.assertIn("cut short", run.printed["unjudged"])
             self.assertEqual(run.frames[-1].time, steps * 0.001)
 
-    # ---- what the run was made of
+    # ---- inputs of the run
 
     def test_the_manifest_names_the_files_it_read_and_the_seed(self):
         body = bodies.solid()
@@ -177,11 +177,11 @@ class Said(unittest.TestCase):
         for entry, path in zip(manifest["inputs"], files):
             self.assertEqual(entry["hash"], file_hash(path))
         self.assertEqual(list(manifest["seeds"].values()), [3])
-        out = os.path.basename(run.folder)  # folders of the machine are not told
+        out = os.path.basename(run.folder)  # folders of the machine are not published
         self.assertEqual(manifest["command_line"],
                          ["dartboard simulate scene.json --json --out %s --seed 3" % out])
 
-    # ---- what is left of a run that diverges
+    # ---- output of a run that diverges
 
     def test_the_state_that_is_kept_of_a_run_that_diverges_is_that_of_the_step_it_names(self):
         # A tetrahedron has 1/384 kg and springs of 5e5 N/m: omega is above sqrt(5e5 * 384) = 1.4e4/s and h omega above
@@ -195,7 +195,7 @@ class Said(unittest.TestCase):
         self.assertEqual(end["kept_step"], end["step"] - end["taken_back"])
         self.assertEqual(end["kept_time"], end["kept_step"] * 0.0005)
         self.assertEqual(run.printed["last"]["time"], end["kept_time"])
-        self.assertEqual(run.listed[-1][0], (end["step"] - 1) * 0.0005)  # what was handed out stays
+        self.assertEqual(run.listed[-1][0], (end["step"] - 1) * 0.0005)  # earlier output stays
         short = self.run_(scene, "--steps", str(end["kept_step"]))
         self.assertEqual(short.printed["hash"], run.printed["hash"])
         self.assertEqual(short.printed["last"], run.printed["last"])

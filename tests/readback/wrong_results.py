@@ -41,7 +41,7 @@ def probes(change):
 
 
 def said(change):
-    """What is printed and the file beside it alike."""
+    """The printed summary and the file are changed alike."""
     def tamper(run):
         change(run.printed)
         run.summary = copy.deepcopy(run.printed)
@@ -83,7 +83,7 @@ def rows_lag(run):
 
 
 def keep_probes(run):
-    """Of a vertex that was removed the last state goes on."""
+    """The last state of a removed vertex is repeated."""
     for row, before in zip(run.probes[1:], run.probes):
         for name in row:
             row[name] = row[name] or before[name]
@@ -168,7 +168,7 @@ WRONG = {
     "the summary is not what was printed": lambda run: set_to("steps", lambda n: n + 1)(run.summary),
 }
 
-# of a scene with contact alone
+# for a scene with contact only
 WRONG_CONTACTS = {
     "forces of contact have the wrong sign": column("contact_force", lambda f: -f.contact_force),
     "forces of contact are those of the next vertex": column("contact_force", lambda f: np.roll(f.contact_force, 1, axis=0)),
@@ -189,7 +189,7 @@ WRONG_CONTACTS = {
 
 
 def seen(story, tamper):
-    """The test that fails with these results, or None. Those that read the files themselves see what was written."""
+    """The test that fails with these results, or None. Those that read the files themselves see the originals."""
     tampered = copy.copy(story)
     tampered.run = copy.deepcopy(story.run)
     tamper(tampered.run)

@@ -1,4 +1,4 @@
-"""Every figure of README.md and results/README.md: where it stands, what it rests on, how it is derived.
+"""Every figure of README.md and results/README.md: its place, its source, its derivation.
 
 A row of FIGURES is a piece of a page with {} in place of each figure, and a function that gives the figures, as they are
 printed, from committed samples. A row of NO_MEASUREMENT is a piece of a page whose numbers are not measured: constants
@@ -92,7 +92,7 @@ SMALL, LARGE = ("liver564", "kuhn-2058"), ("kuhn-48000", "kuhn-105456", "kuhn-99
 
 
 def operation(body, name, phases=None):
-    """Of each process the median over times [us]; all phases, or some: 0 is the map, 1 embeddings, from 2 on views."""
+    """For each process the median over times [us]; all phases, or some: 0 is the map, 1 embeddings, from 2 on views."""
     rows = sorted((r for r in lines(OPERATIONS) if r["body"] == body and r.get("operation") == name),
                   key=lambda r: r["process"])
     return [median([sum(ns) / 1e3 for ns in zip(*(r["ns"] if phases is None else [r["ns"][k] for k in phases]))]) for r in rows]
@@ -149,7 +149,7 @@ def following(vertices):
 
 
 def beam(model, nodes, what):
-    """What a model misses of the clamped beam [%], at a Poisson's ratio of 1/4."""
+    """The error of a model on the clamped beam [%], at a Poisson's ratio of 1/4."""
     found, = (r[what] for r in lines(ELEMENTS) if r.get("model") == model and r["nodes"] == nodes and r["poisson"] == 0.25)
     return "%.1f" % (100 * found)
 
@@ -234,7 +234,7 @@ def seen():
 
 
 def judged(figures, bound, expected, at_least=False):
-    """A figure that is only there to hold the words beside it."""
+    """A figure that is only there to keep the words next to it."""
     found = verdict(figures, bound, at_least)
     assert found == expected, "the samples say '%s', the page '%s'" % (found, expected)
     return ()
@@ -402,7 +402,7 @@ FIGURES = [
 PAPER = "what the paper says"
 NAME = "a name or a place"
 
-# page, piece, and who says so: PAPER, NAME, or a file of ours and words of it
+# page, piece, and source: PAPER, NAME, or a file of ours and words of it
 NO_MEASUREMENT = [
     (README, "*3-dimensional generalized map*", NAME),
     (README, "(Meseure, Darles, Skapin, VRIPHYS 2010)", PAPER),

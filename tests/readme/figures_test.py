@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Can every figure of README.md and results/README.md be derived from a committed sample, and is it the one that stands
+"""Can every figure of README.md and results/README.md be derived from a committed sample, and is it the one printed
 there? The table is figures.py. Standard library only."""
 
 import re
@@ -12,7 +12,7 @@ PIECE = "{}"
 
 
 def page_text(page):
-    """A page in one line, without code, where links lead, and heads of sections."""
+    """A page in one line, without code, targets of links, and heads of sections."""
     text = samples.read(page)
     text = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     text = re.sub(r"^    .*$", "", text, flags=re.M)
@@ -68,7 +68,7 @@ class Figures(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """The judges of this file, shown what is wrong."""
+    """The judges of this file, given wrong input."""
 
     def test_finds_a_number_that_no_row_has(self):
         self.assertEqual(numbers_without_a_row("it takes 5.5 us and 7 more", ["takes 5.5 us"]), ["it takes 5.5 us and 7 more"[:26]])

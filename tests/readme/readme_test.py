@@ -4,7 +4,7 @@ and the program.
 
     readme_test.py PROGRAM BUILD_FOLDER
 
-PROGRAM is the built dartboard, BUILD_FOLDER where find_package is pointed to. Standard library only.
+PROGRAM is the built dartboard, BUILD_FOLDER the folder for find_package. Standard library only.
 """
 
 import json
@@ -28,14 +28,14 @@ README = text_of("README.md")
 
 
 def block(language, page=README):
-    """What stands in the one block of a language."""
+    """The content of the one block of a language."""
     found = re.findall("^```%s\n(.*?)^```$" % language, page, re.M | re.S)
     assert len(found) == 1, "there are %d blocks of %s" % (len(found), language)
     return found[0]
 
 
 def commands_of(page):
-    """Each command, and the lines that stand below it."""
+    """Each command, and the lines below it."""
     return [(command, [line.strip() for line in printed.splitlines()])
             for command, printed in re.findall(r"^    \$ (.*?)\n((?:    [^$\n].*\n)*)", page, re.M)]
 

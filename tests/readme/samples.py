@@ -11,7 +11,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 Figure = collections.namedtuple("Figure", "median low high")
 
 
-used = set()  # files that were asked for
+used = set()  # files that were read
 
 
 def read(path):
@@ -30,7 +30,7 @@ def document(path):
     return content(path, json.loads)
 
 
-kept = {}  # what has been parsed
+kept = {}  # parsed files
 
 
 def content(path, parse):
@@ -48,7 +48,7 @@ def median(values):
 
 
 def interval(values, confidence=0.95):
-    """Of the population's median, by order statistics. Too few values have none."""
+    """Interval of the population's median, by order statistics. Too few values have none."""
     values = sorted(values)
     n = len(values)
     coverage = lambda k: 1 - 2 * sum(math.comb(n, j) for j in range(k)) / 2 ** n
@@ -89,7 +89,7 @@ def cost(row):
 
 
 def time(rows, task):
-    """Of a unit [ns]: the median over processes of the median over rounds."""
+    """Time of a unit [ns]: the median over processes of the median over rounds."""
     return figure([median([cost(r) for r in rows if r["task"] == task]) for rows in by_process(rows)])
 
 

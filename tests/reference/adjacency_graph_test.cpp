@@ -84,7 +84,7 @@ TEST(AdjacencyGraph, BreathesAsRungeKuttaOfALinearOscillator) {
 }
 
 TEST(AdjacencyGraph, ConvergesToTheMotionWithOrderFour) {
-  // the distance in phase space, omega q and v together: of one of them alone the leading term vanishes now and then
+  // the distance in phase space, omega q and v together: for one of them alone the leading term vanishes at times
   const auto error = [](int steps) {
     const Breathing b(0.64 / steps);
     const PointState end = b.run(steps), exact = b.state(oscillate(b.omega2, b.drag, b.start, 0.64));
@@ -103,7 +103,7 @@ TEST(AdjacencyGraph, FallsAlongTheParabolaThatRungeKuttaReproduces) {
   const PointState start = body.state();
   body.step(10);
   const PointState end = body.state();
-  // polynomials up to degree 4 are integrated exactly, so what is left is rounding
+  // polynomials up to degree 4 are integrated exactly, so only rounding remains
   const StateBound bound = state_bound(problem, start, 10);
   for (std::size_t i = 0; i < body.nodes(); ++i) {
     const Flight exact = free_fall({start.x[i], start.v[i]}, problem.surroundings.gravity, 0.0, 10 * problem.h);

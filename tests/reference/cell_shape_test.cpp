@@ -50,7 +50,7 @@ TEST(CellShape, HasFacesThatRunAlongItsEdges) {
     }
 }
 
-// The table of core/plain, which core builds its maps from, says the same.
+// The table of core/plain, from which core builds its maps, agrees.
 TEST(CellShape, IsThatOfThePlainMesh) {
   for (const CellKind kind : {CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron, CellKind::pyramid,
                               CellKind::prism, CellKind::hexahedron}) {

@@ -235,7 +235,7 @@ TEST(SymplecticEuler, TurnsAsItsRecurrenceAndKeepsItsInvariant) {
 }
 
 // Of order 4 with a symmetric table: half the trace is cos(theta) up to theta^6, so half the step leaves a 64th; a
-// digit wrong anywhere would leave a multiple of theta^2. In extended precision, where both are far above rounding.
+// wrong digit anywhere would leave a multiple of theta^2. In extended precision, where both are far above rounding.
 TEST(BlanesMoan, HasTheOrderOfItsTable) {
   const auto off = [](long double theta) {
     return static_cast<double>(blanes_moan_step(theta, 0.0L).trace() / 2 - std::cos(theta));

@@ -38,7 +38,7 @@ DartTable ring(std::uint32_t volumes, bool closed) {
   for (std::uint32_t d = 0; d < 4 * volumes; ++d) {
     const std::uint32_t v = d / 4, s = d / 2 % 2, e = d % 2;
     const bool sewn = closed || (s == 1 ? v + 1 < volumes : v > 0);
-    t.alpha[0][d] = d;  // not asked for
+    t.alpha[0][d] = d;  // not needed
     t.alpha[1][d] = d ^ 1u;
     t.alpha[2][d] = e == 0 ? d ^ 2u : d;
     t.alpha[3][d] = sewn ? 4 * ((v + (s == 1 ? 1 : volumes - 1)) % volumes) + 2 * (1 - s) + e : d;

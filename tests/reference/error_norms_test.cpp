@@ -1,4 +1,4 @@
-// Error norms on states whose errors can be told by hand.
+// Error norms on states whose errors can be computed by hand.
 
 #include "reference/error_norms.h"
 

@@ -68,7 +68,7 @@ TEST(Rounded, IsTheNearestDouble) {
   EXPECT_EQ(rounded(one_and_half_ulp + Rational(1, boost::multiprecision::cpp_int(1) << 52u)), 1.0 + 0x1p-51);
 }
 
-// The bound is one, and no more than a hundred times too wide.
+// The bound holds, and is no more than a hundred times too wide.
 TEST(MeasureRounding, CoversTheMeasureOfThePlainMesh) {
   for (const Mesh& mesh : {kuhn_box(4, 4, 4, 0.1, 0.2, 3), mixed_box(4, 3, 4, 0.1), hexahedron_box(3, 3, 3, 0.1),
                            torus_surface(9, 7), octasphere(2)}) {

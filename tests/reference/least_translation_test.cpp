@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Corners here are no farther apart than 6: ten roundings of that, and as many of what the test itself computes.
+// Corners here are no farther apart than 6: ten roundings of that, and as many in the test's own computation.
 constexpr double rounding = 20 * 6 * std::numeric_limits<double>::epsilon();
 
 /// A flat roof, the triangle z = 0, above one corner.
@@ -53,7 +53,7 @@ class Random {
   std::mt19937 bits_;
 };
 
-/// What two shadows on an axis of length 1 share: a translation along it that parts them is no shorter.
+/// The overlap of two shadows on an axis of length 1: a translation along it that separates them is no shorter.
 double shared(const TetrahedronCorners& a, const TetrahedronCorners& b, const Vector3d& axis) {
   double high = -1e300, low = 1e300;
   for (const Vector3d& x : a) high = std::max(high, x.dot(axis));
@@ -140,7 +140,7 @@ TEST(LeastTranslation, OfRandomPairsIsNoLongerThanAlongAnyDirectionAndPartsThem)
     const Translation t = least_translation(a, b);
     EXPECT_NEAR(t.along.norm(), 1.0, rounding);
     EXPECT_NEAR(shared(a, b, t.along), t.depth, rounding);
-    if (!(t.depth > 0.0)) continue;  // of those apart two corners may be the nearest, which no axis here is for
+    if (!(t.depth > 0.0)) continue;  // if two are apart, their corners may be nearest: there is no axis for that here
     ++overlapping;
     for (int j = 0; j < 200; ++j) EXPECT_GE(shared(a, b, random.point().normalized()), t.depth - rounding);
     // where two corners of each end their shadows, it is that of two edges

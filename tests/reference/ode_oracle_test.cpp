@@ -1,4 +1,4 @@
-// The codes of the ODE oracle against motions that can be written down, against each other, and across events.
+// The codes of the ODE oracle compared with motions in closed form, with each other, and across events.
 
 #include "reference/ode_oracle.h"
 
@@ -37,7 +37,7 @@ const Code codes[]{
     {"ArkodeFehlberg", [](const NetworkMotion& m) { return run_arkode_fehlberg(m, 1e-13); }, 2e-11},
 };
 
-// Those of SUNDIALS where it is.
+// With those of SUNDIALS if it is installed.
 std::vector<Code> codes_there_are() {
   std::vector<Code> there;
   for (const Code& code : codes)
@@ -48,7 +48,7 @@ std::vector<Code> codes_there_are() {
 void PrintTo(const Code& code, std::ostream* out) { *out << code.name; }
 
 struct OdeCode : testing::TestWithParam<Code> {
-  // The states at the checkpoints; none, and the test has failed, when the code gave up.
+  // The states at the checkpoints; empty, and the test has failed, when the code gave up.
   std::vector<std::vector<long double>> run(const NetworkMotion& motion) {
     const CodeRun result = GetParam().run(motion);
     EXPECT_EQ(result.failure, "");
@@ -98,7 +98,7 @@ TEST_P(OdeCode, RefusesAMotionThatGoesBackInTime) {
   EXPECT_THROW(GetParam().run(motion), InputError);
 }
 
-// A thread has no more processor time than has gone by; a millisecond for how coarse its clock may be.
+// A thread has no more processor time than wall time; a millisecond for the resolution of its clock.
 TEST_P(OdeCode, TakesNoMoreTimeThanHasGoneBy) {
   const auto begin = std::chrono::steady_clock::now();
   const CodeRun result = GetParam().run(one_spring(1.0, 0.5, 8.0, 0.0, 1.0));
@@ -242,7 +242,7 @@ TEST(OdeOracle, IsNotAcceptedWhenCodesAreFartherApartThanAsked) {
   EXPECT_EQ(certified.states.size(), 2u);
 }
 
-// How many codes beside the runs of the reference were asked.
+// The number of codes that were run in addition to those of the reference.
 std::ptrdiff_t others_in(const CertifiedMotion& certified) {
   return std::count_if(certified.codes.begin(), certified.codes.end(),
                        [](const CodeAgreement& code) { return !code.code.starts_with("Odeint Fehlberg"); });
@@ -260,12 +260,12 @@ TEST(OdeOracle, AsksEveryCodeUnlessItMayStopAtTheFirstThatSuffices) {
   const CertifiedMotion at_once = certify(moving_grid(), options);
   EXPECT_EQ(others_in(at_once), 1);
   EXPECT_TRUE(at_once.accepted);
-  options.accepted = 1e-30;  // none does
+  options.accepted = 1e-30;  // no code does
   options.refinements = 0;
   EXPECT_EQ(others_in(certify(moving_grid(), options)), of_sundials + 1);
 }
 
-// Eight times as long in all lengths, the same motion: what is told in edges stays, and scaling by 8 rounds nothing.
+// Eight times as long in all lengths, the same motion: distances in edges stay, and scaling by 8 rounds nothing.
 TEST(OdeOracle, TellsDistancesInEdgesOfTheStart) {
   const NetworkMotion motion = moving_grid();
   NetworkMotion long_one = motion;
@@ -286,8 +286,8 @@ TEST(OdeOracle, TellsDistancesInEdgesOfTheStart) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(large.codes[k].distance, small.codes[k].distance) << k;
 }
 
-// What is known of the reference is the larger of the agreement and a part of the self-difference; a hundred times that
-// is the floor, where the rounding of the states to doubles does not exceed it.
+// The uncertainty of the reference is the larger of the agreement and a part of the self-difference; a hundred times
+// that is the floor, unless the rounding of the states to doubles exceeds it.
 TEST(OdeOracle, HasAFloorOfAHundredTimesWhatItsCodesLeaveOpen) {
   CertifyOptions options;
   options.gain = false;
@@ -315,7 +315,7 @@ TEST(OdeOracle, KnowsHowDisturbancesGrow) {
   motion.checkpoints = {1.0, 3.0};
   const CertifiedMotion growing = certify(motion);
   ASSERT_EQ(growing.gain.size(), 2u);
-  // the disturbance of 1e-12 is what doubles make of it, and both runs err by less than 1e-18
+  // the disturbance of 1e-12 is rounded to doubles, and both runs err by less than 1e-18
   EXPECT_NEAR(growing.gain[0], std::cosh(2.0), 1e-4 * std::cosh(2.0));
   EXPECT_NEAR(growing.gain[1], std::cosh(6.0), 1e-4 * std::cosh(6.0));
   EXPECT_EQ(growing.largest_gain(), growing.gain[1]);
@@ -383,7 +383,7 @@ TEST(SpringNetwork, AddsTheMediumToTheRateOfDecay) {
   EXPECT_NEAR(fastest_rate(network, x), 6e3, 1e-6);
 }
 
-// Points that are held do not swing: of three in a row, one between two walls.
+// Fixed points do not oscillate: of three in a row, one between two walls.
 TEST(SpringNetwork, LeavesOutWhatIsHeld) {
   SpringNetwork network;
   network.mass = {1e-6, 2.0, 1e-6};

@@ -1,4 +1,4 @@
-// What the reference answers to input that is none: each refusal names the numbers that are wrong, each in its place.
+// Refusals of the reference for invalid input: each names the wrong numbers, each in its place.
 
 #include <gtest/gtest.h>
 
@@ -97,7 +97,7 @@ TEST(ReferenceRefuses, AProblemThatHasNoBody) {
   EXPECT_EQ(refusal([&] { AdjacencyGraph{problem}; }), "fixed point 7 does not exist, there are 4");
   EXPECT_EQ(refusal([&] { force_bound(problem, still(4, 4)); }), "fixed point 7 does not exist");
   EXPECT_EQ(refusal([&] { spring_network(problem); }), "point 7 is fixed, and there are 4");
-  problem.fixed = {4};  // the first that is none
+  problem.fixed = {4};  // the first that does not exist
   EXPECT_EQ(refusal([&] { AdjacencyGraph{problem}; }), "fixed point 4 does not exist, there are 4");
   EXPECT_EQ(refusal([&] { spring_network(problem); }), "point 4 is fixed, and there are 4");
   problem = one_tetrahedron();

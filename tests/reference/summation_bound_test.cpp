@@ -115,7 +115,7 @@ struct Case {
   }
 };
 
-// The same problem with its points and cells numbered backwards: other orders of all sums, and other signs.
+// The same problem with its points and cells numbered backwards: all sums in other orders, with other signs.
 Case backwards(const Case& c) {
   Case out = c;
   const Mesh& mesh = c.problem.mesh;
@@ -191,7 +191,7 @@ TEST(StateBound, HoldsHalfForOneImplementationAgainstTheExactRun) {
   }
 }
 
-// At rest nothing but gravity moves, so that all else stays a number.
+// At rest only gravity acts, so that all other quantities stay finite.
 TEST(StateBound, IsInfiniteWhereARunHasNoNumbers) {
   Case c(0, 0.0);
   c.state.x = c.problem.mesh.points;

@@ -1,4 +1,4 @@
-// The bounds of summation_bound.cpp on bodies small enough to add up by hand: they are what was derived, no wider.
+// The bounds of summation_bound.cpp on bodies small enough to add up by hand: they are the derived ones, and no wider.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace dartboard::reference::summation_bound_value_test {
 namespace {
 
-constexpr double u = 0x1p-53, slack = 2 * 1.001;  // two implementations, and what is left out
+constexpr double u = 0x1p-53, slack = 2 * 1.001;  // two implementations, and neglected terms
 
 double gamma(double n) { return n * u / (1 - n * u); }
 
@@ -59,7 +59,7 @@ TEST(ForceBoundOfATetrahedron, FlyingAddsTheRoundingOfItsDrag) {
              slack * (at_rest + 0.25 * 1e6 * (gamma(9) * one.mass + mass_rounding)));
 }
 
-// One corner moves: gamma_{m+23} c |dv| of each of its springs, and what their damping adds to the sum.
+// One corner moves: gamma_{m+23} c |dv| of each of its springs, and the contribution of their damping to the sum.
 TEST(ForceBoundOfATetrahedron, MovingAddsTheRoundingOfItsDamping) {
   OneTetrahedron one;
   one.problem.material.viscosity = 0.0;
@@ -95,9 +95,9 @@ TEST(StateBoundOfATetrahedron, AtRestHasAVelocityThatIsOffByTheForcesRounding) {
   EXPECT_NEAR(state_bound(one.problem, one.state, 1).velocity / expected, 1.0, 1e-2);
 }
 
-// In a free fall nothing pulls, so a bound only adds up: per step the velocity's is off by the acceleration's gamma_15
-// (2 n + p + 10) and by the last sum, gamma_8 of its terms and gamma_4 of what they are added to; the position's by the
-// velocities of the stages, each with the rounding of its product and sum, and by its own last sum.
+// In a free fall no spring pulls, so a bound only adds up: per step the velocity's is off by the acceleration's
+// gamma_15 (2 n + p + 10) and by the last sum, gamma_8 of its terms and gamma_4 of what they are added to; the
+// position's by the velocities of the stages, each with the rounding of its product and sum, and by its own last sum.
 TEST(StateBoundOfATetrahedron, InAFreeFallAddsUpTheRoundingOfWhatItsMotionReaches) {
   OneTetrahedron one;
   one.problem.material = {.density = 1.0, .stiffness = 0.0, .damping = 0.0, .viscosity = 0.0};

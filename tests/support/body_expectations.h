@@ -1,5 +1,5 @@
 #pragma once
-// What a body must satisfy after any operation, whatever it was.
+// Properties that a body must keep through every operation.
 
 #include <gtest/gtest.h>
 
@@ -18,14 +18,14 @@ void expect_numbered(const Map& map, const Index& index, const std::vector<Dart>
   for_each_cell<i>(map, [&](Cell<i> cell) {
     const std::uint32_t number = index(map, cell.dart);
     ASSERT_LT(number, dart_of.size());
-    ASSERT_EQ(dart_of[number], cell.dart);  // the coverage tells the lowest; so no two cells share a number either
+    ASSERT_EQ(dart_of[number], cell.dart);  // the coverage reports the lowest; so no two cells share a number either
     for_each_dart_of(map, cell, [&](Dart d) { ASSERT_EQ(index(map, d), number); });
     ++cells;
   });
   ASSERT_EQ(cells, dart_of.size());
 }
 
-/// The map is valid; numbers are dense and known to every dart; masses and springs are what the cells around give; the
+/// The map is valid; numbers are dense and known to every dart; masses and springs are sums over the cells around; the
 /// arrays equal rebuilt ones. For solids of fewer than 2^12 cells.
 template <class Map>
 void expect_consistent(const MassSpringBody<Map, Held::by_every_dart>& body, const CellArrays& arrays) {

@@ -27,7 +27,7 @@ inline const Claim& find_claim(std::span<const Claim> claims, const std::string&
   throw std::out_of_range("no claim " + id);
 }
 
-/// The claim of this name says what is asked, what was measured and what that rests on in these words.
+/// The claim of this name states its target, its measurement and the basis of it in these words.
 inline void expect_words(std::span<const Claim> claims, const std::string& id, const std::string& asked,
                          const std::string& measured, const std::string& rests_on) {
   const Claim& c = find_claim(claims, id);

@@ -1,6 +1,6 @@
 #pragma once
-// What an integrator must hold between its steps, reckoned by hand from the counts of a system: the oracle of
-// Integrator::bytes.
+// The memory that an integrator must hold between its steps, computed by hand from the counts of a system: the oracle
+// of Integrator::bytes.
 
 #include <fmt/format.h>
 
@@ -18,18 +18,18 @@ namespace dartboard::memory {
 
 constexpr std::size_t vector = sizeof(Eigen::Vector3d), block = sizeof(Eigen::Matrix3d);
 
-/// What a method holds beside its matrices: columns of vectors by vertex, and where there is something to damp, the
+/// The memory of a method in addition to its matrices: columns of vectors by vertex, and, if anything is damped, the
 /// directions of the springs and factors of their flow.
 struct Columns {
   std::string_view integrator;
   std::size_t vectors;                    // by vertex
   std::size_t vectors_damped = 0;         // more of them with damping or viscosity
   bool directions = false, flow = false;  // of a splitting: by spring, and by spring and vertex
-  std::size_t numbers = 0;                // by vertex: what an implicit stage allows of its residual
+  std::size_t numbers = 0;                // by vertex: the tolerance of an implicit stage for its residual
 };
 
 // The columns of the classes of these names; an implicit stage has residual, direction and trial, and every method the
-// position and velocity it ends with.
+// position and velocity at its end.
 constexpr std::array integrator_columns{
     Columns{"explicit-euler", 2},
     Columns{"symplectic-euler", 3, 0, true, true},
@@ -49,7 +49,7 @@ constexpr std::array integrator_columns{
     Columns{.integrator = "bdf2", .vectors = 9, .numbers = 1},
 };
 
-/// The counts that an integrator's memory follows from.
+/// The counts that determine an integrator's memory.
 struct SystemCounts {
   std::size_t vertices = 0, springs = 0;
   std::size_t links = 0;    // springs between two free vertices
@@ -72,7 +72,7 @@ inline SystemCounts counts_of(const SpringSystem& system) {
   return counts;
 }
 
-/// Bytes after the first step that had something to solve; no matrix and no factor of an implicit method.
+/// Bytes after the first step that had something to solve; without matrix and factor of an implicit method.
 inline std::size_t predicted_integrator_bytes(std::string_view integrator, const SystemCounts& c) {
   for (const Columns& columns : integrator_columns) {
     if (columns.integrator != integrator) continue;
@@ -80,16 +80,16 @@ inline std::size_t predicted_integrator_bytes(std::string_view integrator, const
     std::size_t bytes = c.vertices * (vector * columns.vectors + sizeof(double) * columns.numbers);
     if (damped) bytes += c.vertices * vector * columns.vectors_damped;
     if (columns.directions && c.damping) bytes += c.springs * vector;
-    if (columns.directions && c.damped_terms) bytes += c.vertices * vector;  // where they stand still
+    if (columns.directions && c.damped_terms) bytes += c.vertices * vector;  // positions of vertices at rest
     if (columns.flow && damped) bytes += c.vertices * sizeof(double);        // inverse masses, 0 where fixed
-    if (columns.flow && c.damping) bytes += c.springs * sizeof(double);      // what each spring relaxes
-    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);   // what is left of each velocity
+    if (columns.flow && c.damping) bytes += c.springs * sizeof(double);      // relaxation of each spring
+    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);   // the remaining part of each velocity
     return bytes;
   }
   throw InputError(fmt::format("the memory of an integrator '{}' is not known", integrator));
 }
 
-/// Bytes of the matrices, the factor and what solves with it; 0 for an explicit method.
+/// Bytes of the matrices, the factor and the solver's vectors; 0 for an explicit method.
 inline std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSystem& system) {
   if (!make_integrator(integrator)->scheme().implicit) return 0;
   const bool scalar = integrator == "local-global";
@@ -97,7 +97,7 @@ inline std::size_t predicted_solver_bytes(std::string_view integrator, const Spr
   const SystemCounts c = counts_of(system);
   const NodePattern pattern = node_pattern_of(system);
   const std::size_t entries = pattern.row.size();
-  // the springs' blocks with what they were made of, inertia and diagonal: once as they are, once as they were factored
+  // the springs' blocks with their sources, inertia and diagonal: once at present, once as they were factored
   const std::size_t springs_form = c.vertices * (sizeof(double) + 1 + block) +
                                    c.springs * (sizeof(SpringEnds) + vector + 4 * sizeof(double)) +
                                    (c.links + c.anchors) * sizeof(std::uint32_t);

@@ -9,11 +9,11 @@
 
 namespace dartboard {
 
-/// What it lies about is replaced; an empty function stands for the truth.
+/// Functions that replace the answers; an empty function means the true answer.
 struct Lies {
   std::function<std::size_t(std::size_t)> dart_count{};
   std::function<bool(Dart, bool)> is_live{};
-  std::function<Dart(int, Dart, Dart)> alpha{};                  // i, of which dart, the truth
+  std::function<Dart(int, Dart, Dart)> alpha{};                  // i, the dart, the true answer
   std::function<void(Involutions, std::vector<Dart>&)> orbit{};  // changes the list
   std::function<void(std::vector<std::size_t>&)> count_cells{};  // changes the counts
   std::function<std::optional<bool>(std::optional<bool>)> is_orientable{};

@@ -1,5 +1,5 @@
 #pragma once
-// The small meshes of the tests, written where they can be seen, beside the generators of core/meshes.
+// The small meshes of the tests, written out in full, in addition to the generators of core/meshes.
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// The scene that most tests of simulations change: a small box of tetrahedra that moves.
+// A small moving box of tetrahedra: the scene that most tests of simulations start from.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ inline Json with_events(Json json, const char* events) {
   json["events"] = Json::parse(events);
   return json;
 }
-/// What a simulation of the scene is refused with, or "accepted".
+/// The message with which the simulation refuses the scene, or "accepted".
 inline std::string refusal(const Json& scene) {
   try {
     const Simulation simulation(parse(scene));

@@ -1,5 +1,5 @@
 #pragma once
-// What each part of a plan must take, reckoned by hand from the mesh: the oracle of SimulatedBody::memory.
+// The memory of each part of a plan, computed by hand from the mesh: the oracle of SimulatedBody::memory.
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@
 
 namespace dartboard::memory {
 
-/// Of an event: what it looks up at the start.
+/// For an event: the memory of its look-ups at the start.
 inline std::size_t predicted_event_bytes(const SceneEvent& e, const ScenePlan& plan) {
   const auto of_cells = [](const CellSelection& cells) -> std::size_t {
     const auto* by_id = std::get_if<IdSelection>(&cells);
@@ -45,15 +45,15 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
   SystemArrays arrays(problem, plan.needs.body);
   switch (item.part) {
     case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
-    // three are in use at once while a body is built: those of a coverage, of a cell met by it, of the cells around
+    // three are in use at once while a body is built: those of a coverage, of a cell visited by it, of the cells around
     // that
     case Part::marks: return 3 * n.darts * number;
-    // places for the numbers of vertices, edges, faces and cells: of a tetrahedron 4, 6, 4 and 1
+    // places for the numbers of vertices, edges, faces and cells: for a tetrahedron 4, 6, 4 and 1
     case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
     case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;
     case Part::cells:
-      // of springs, corners; of a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart of
-      // a triangle
+      // for springs, corners; with a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart
+      // of a triangle
       return n.cells * (2 * real + 1 + number) +
              (problem.cell_materials().has_elements() ? 0
               : tetrahedra                            ? n.cells * 4 * number
@@ -67,7 +67,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::viscosity: return n.vertices * real;
     case Part::fixed: return n.vertices;
     case Part::rest: return n.vertices * vector;
-    case Part::pull: {  // by vertex, and of each force its points with one pull for all, or one each
+    case Part::pull: {  // by vertex, and for each force its points with one pull for all, or one each
       std::size_t sum = n.vertices * vector;
       for (const SceneForce& force : scene.forces) {
         const std::size_t points = select_points(force.vertices, problem.mesh.points, force.path).size();
@@ -83,18 +83,18 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       return vertices.bytes() + detector.driven_bytes();
     }
     case Part::springs: return n.edges * (sizeof(UndampedSpring) + sizeof(SpringEnds));
-    // of tetrahedra a matrix and four corners; of cells of any kind what eight corners and Gauss points take; of a
-    // surface of triangles three numbers and three corners, of any the numbers at four points
+    // for tetrahedra a matrix and four corners; for cells of any kind the data of eight corners and Gauss points; for a
+    // surface of triangles three numbers and three corners, for others the numbers at four points
     case Part::elements:
       if (storage == Storage::surface)
         return n.cells * (std::ranges::find(problem.mesh.kinds, CellKind::quadrilateral) == problem.mesh.kinds.end()
                               ? 3 * real + 3 * number
                               : 12 * real + sizeof(SolidNodes));
       return n.cells * (tetrahedra ? 9 * real + 4 * number : sizeof(SolidShape) + sizeof(SolidNodes));
-    case Part::cell_springs:  // kind, which and how, modulus, 16 lengths; eight corners and their count
+    case Part::cell_springs:  // kind, first and number, modulus, 16 lengths; eight corners and their count
       return n.cells * (2 * real + 16 * real) + (problem.cell_materials().has_elements() ? 0 : n.cells * 9 * number);
     case Part::bending: return n.edges * (scene.bending.rigidity > 0.0 ? 4 * number + 3 * real : 6 * number + 2 * real);
-    case Part::contact: {  // laws, obstacles, how far each has come and its damping ratio; samples; velocities to undo
+    case Part::contact: {  // laws, obstacles, their displacement and damping ratio; samples; velocities to restore
       const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
       return scene.obstacles.size() * (sizeof(ContactLaw) + sizeof(Obstacle) + vector + real) +
              samples * sizeof(SkinSample) + (plan.needs.solver ? n.vertices * vector : 0) +

@@ -14,11 +14,11 @@ struct Answer {
   std::string out;  // standard output and error together
 };
 
-/// The program that is tested, and the file that says which folder may include which: absolute paths.
+/// The program under test, and the file with the allowed includes between folders: absolute paths.
 const std::string& program_path();
 const std::string& folders_file();
 
-/// The program with the arguments, through a shell.
+/// Runs the program with the arguments, through a shell.
 inline Answer run(const std::string& arguments, const char* redirect = "2>&1") {
   const std::string command = program_path() + " " + arguments + " " + redirect;
   FILE* pipe = popen(command.c_str(), "r");

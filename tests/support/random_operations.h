@@ -1,5 +1,5 @@
 #pragma once
-// Random operations until nothing is left, for tests of what must follow them.
+// Random operations until nothing is left, for tests of data that must follow them.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +28,7 @@ AdaptedBody<Map> body_of(Mesh mesh) {
   return build_body<Map, Held::by_every_dart>(problem);
 }
 
-/// It, holding its places at rest.
+/// The same body, with its places at rest.
 template <class Map>
 AdaptedBody<Map> at_rest(const Mesh& mesh) {
   auto body = body_of<Map>(mesh);
@@ -79,7 +79,7 @@ TopologyChange remove_something(Map& map, SplitMix64& random) {
     return remove_volume(map, some_live_dart(map, random));
 }
 
-/// A dissociation, a torn fan (of a solid), a removal, or a series of them, of a body that is not empty.
+/// Applies a dissociation, a torn fan (of a solid), a removal, or a series of them, to a body that is not empty.
 template <class Map>
 TopologyChange do_something(Map& map, SplitMix64& random) {
   const auto tear_something = [&map, &random] {
@@ -99,7 +99,7 @@ TopologyChange do_something(Map& map, SplitMix64& random) {
   return change;
 }
 
-/// follow(body, change, changed) after each of many random operations, until nothing is left of the body.
+/// Calls follow(body, change, changed) after each of many random operations, until nothing is left of the body.
 template <class Map, class Follow>
 void operate_at_random(AdaptedBody<Map>& body, std::uint64_t seed, int dissociations_first, Follow&& follow) {
   SplitMix64 random(seed);

@@ -1,5 +1,5 @@
 #pragma once
-// All that a run hands out, as text; cut short somewhere, and gone on with from the checkpoint there.
+// The complete output of a run, as text; cut short somewhere, and continued from the checkpoint there.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct Record : RunWatcher {
 
   void frame(const Frame& frame) override {
     frames.push_back(to_vtu(frame));
-    for (const RefinedFacet& facet : frame.refined_facets)  // files have none of them, pictures do
+    for (const RefinedFacet& facet : frame.refined_facets)  // not in files, but in pictures
       for (std::size_t k = 0; k < 3; ++k)
         frames.back() += std::to_string(facet.points[k]) + ' ' + std::to_string(facet.lies_in[k]) + '\n';
   }
@@ -44,9 +44,9 @@ struct Record : RunWatcher {
     checkpoints.push_back(simulation.steps_done());
   }
   void stepped(const Simulation& simulation) override { done_ = simulation.steps_done(); }
-  // asked before `stepped`
+  // called before `stepped`
   bool interrupts() override { return interrupt_after && done_ + 1 == *interrupt_after; }
-  /// Drop what was handed out after the checkpoint.
+  /// Drops the output after the checkpoint.
   void cut_back() {
     frames.resize(frames_then);
     rows.resize(rows_then);
@@ -71,7 +71,7 @@ inline RecordedRun whole(const SceneFile& scene) {
   return run;
 }
 
-/// What was handed out until the checkpoint of a run and, by a new simulation, after it.
+/// The output of a run up to its checkpoint and, by a new simulation, after it.
 inline RecordedRun continued(const SceneFile& scene, Record record) {
   RecordedRun run;
   run.record = std::move(record);
@@ -88,7 +88,7 @@ inline RecordedRun continued(const SceneFile& scene, Record record) {
   return run;
 }
 
-/// Interrupted after so many steps, and gone on with.
+/// The run interrupted after so many steps, and continued.
 inline RecordedRun in_two(const SceneFile& scene, std::uint64_t steps) {
   Simulation first(scene);
   first.watch_events(true);

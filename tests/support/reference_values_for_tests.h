@@ -1,5 +1,5 @@
 #pragma once
-// What another code made of single elements: reference/elements/values.
+// Results of another code for single elements: reference/elements/values.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ inline nlohmann::json reference_values() {
   return nlohmann::json::parse(file);
 }
 
-/// One cell with the nodes of that code, in its order, and what it has of them.
+/// One cell with the nodes of that code, in its order, and its results.
 struct ElementValues {
   Material material;
   Mesh mesh;  // one cell; its points are the nodes, or the corners where there are more

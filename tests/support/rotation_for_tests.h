@@ -1,5 +1,5 @@
 #pragma once
-// A rotation about no particular axis by no particular angle, for tests of what must not depend on how a body lies.
+// A rotation about a general axis by a general angle, for tests of results that must not depend on orientation.
 
 #include <Eigen/Core>
 #include <vector>
@@ -7,7 +7,7 @@
 namespace dartboard {
 
 /// The rotation of the quaternion (w, x, y, z), which need not be a unit one. Each entry is a sum of at most four whole
-/// numbers over another, when the arguments are small whole numbers: off by at most u.
+/// numbers over another, when the arguments are small whole numbers: its error is at most u.
 inline Eigen::Matrix3d rotation(double w, double x, double y, double z) {
   Eigen::Matrix3d r;
   r << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //

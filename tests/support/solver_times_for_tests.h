@@ -1,5 +1,5 @@
 #pragma once
-// Times of solvers that are known: the same in each of the rounds of one process.
+// Known times of solvers: the same in each of the rounds of one process.
 
 #include <cmath>
 #include <string>

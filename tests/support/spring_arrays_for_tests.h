@@ -26,7 +26,7 @@ SpringArrays arrays_of(const Body& body) {
   return arrays;
 }
 
-/// Off equilibrium in x and v: every coordinate moved by up to 0.05 and set going by up to 0.5, by fixed numbers.
+/// Off equilibrium in x and v: every coordinate changed by up to 0.05, every velocity by up to 0.5, by fixed numbers.
 inline void disturb(SpringArrays& arrays) {
   for (std::size_t i = 0; i < arrays.x.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {

@@ -50,7 +50,7 @@ inline void disturb(SpringArrays& body, double size, double speed, unsigned seed
     }
 }
 
-/// A numbers-only vector field for right-hand sides.
+/// A vector field of plain numbers for right-hand sides.
 inline std::vector<Eigen::Vector3d> random_vectors(std::size_t n, unsigned seed) {
   std::mt19937 bits(seed);
   std::vector<Eigen::Vector3d> result(n);

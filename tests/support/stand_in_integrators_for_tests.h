@@ -1,5 +1,5 @@
 #pragma once
-// Integrators that are a real one made wrong in a known way, under the real one's scheme.
+// Integrators with a known error, made from a real one and with its scheme.
 
 #include <memory>
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace dartboard {
 
-/// A step of `of`, but for h times 1 + `permille` / 1000 / `divisor`.
+/// A step of `of` with h times 1 + `permille` / 1000 / `divisor`.
 template <const char* of, int permille, long divisor = 1>
 class LongerSteps : public Integrator {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies with the matrix of an implicit step, for tests of what factors it.
+// Bodies with the matrix of an implicit step, for tests of factorisations.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Tables as tests compare them: each cell under its heading, so that one in another's place shows.
+// Tables in the form that tests compare: each cell under its heading, so that a misplaced one shows.
 
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ inline Row labelled(const Table& table, std::size_t row) {
   return cells;
 }
 
-/// One letter for each column: 'l' where it is aligned to the left, as words are, 'r' where to the right, as numbers.
+/// One letter for each column: 'l' if it is aligned to the left, as words are, 'r' if to the right, as numbers.
 inline std::string alignment(const Table& table) {
   std::string letters;
   for (const Column& column : table.columns()) letters += column.align == Align::left ? 'l' : 'r';

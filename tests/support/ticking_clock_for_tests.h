@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// A clock on which every look takes a microsecond: the same choices on every machine.
+/// A clock that advances by a microsecond at each reading: the same choices on every machine.
 inline CpuClock ticking() {
   return [t = std::int64_t{0}]() mutable { return t += 1000; };
 }

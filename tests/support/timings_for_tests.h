@@ -1,5 +1,5 @@
 #pragma once
-// Samples of a clock that never errs.
+// Samples of a clock without errors.
 
 #include <cmath>
 #include <string>

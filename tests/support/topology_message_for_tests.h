@@ -1,5 +1,5 @@
 #pragma once
-// What a refused change of a map says.
+// The message of a refused change of a map.
 
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies that are torn, for tests: what they lose is told by mesh points, which tearing does not renumber.
+// Bodies that are torn, for tests: their lost faces are identified by mesh points, which tearing does not renumber.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ void move(Body<Map>& body, const Eigen::Matrix3d& matrix) {
 
 using Triple = std::array<std::uint32_t, 3>;
 
-// The face's three lowest mesh points, which tell it.
+// The face's three lowest mesh points, which identify it.
 template <class Map>
 Triple points_of(const Body<Map>& body, Dart face) {
   std::set<std::uint32_t> points;
@@ -56,7 +56,7 @@ Eigen::Vector3d normal_of(const Body<Map>& body, Dart d) {
       .normalized();
 }
 
-/// Springs that do not end at vertex k pull no more.
+/// Springs that do not end at vertex k are slack afterwards.
 template <class Map>
 void slacken_all_but_around(MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
   CellArrays arrays;
@@ -75,14 +75,14 @@ std::uint32_t most_stressed(const MassSpringBody<Map, Held::by_every_dart>& body
   return most;
 }
 
-/// A body with arrays that follow it, and what it has lost.
+/// A body with arrays that follow it, and the faces that came apart.
 template <class Map>
 struct Torn {
   Body<Map> body;
   CellArrays arrays{};
   std::vector<Eigen::Matrix3d> stress{};
-  std::set<Triple> faces{};                // that came apart, by mesh points
-  std::vector<Eigen::Vector3d> normals{};  // of these
+  std::set<Triple> faces{};                // the parted ones, by mesh points
+  std::vector<Eigen::Vector3d> normals{};  // of the parted faces
   std::size_t followed = 0, vertices_apart = 0;
 
   explicit Torn(Body<Map> start) : body(std::move(start)) { arrays.rebuild(body); }

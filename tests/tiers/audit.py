@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The audit: what sees less for a minute than the quick suite, before a release and where a change touches it.
+"""The audit: checks that find less per minute than the quick suite, for a release and for changes that touch their parts.
 
     audit.py --list                     the parts, the minutes each takes, and what each sees
     audit.py [PART...]                  run these, or all but mutants, in the order of the list
@@ -64,7 +64,7 @@ def listed():
 
 
 def run(part, seconds, spawn=subprocess.Popen):
-    """(exit status, or None if it had to be stopped; seconds taken). What a part started ends with it."""
+    """(exit status, or None if it had to be stopped; seconds taken). Child processes of a part end with it."""
     start = time.monotonic()
     environment = dict(os.environ, DARTBOARD_PART=part.name)
     process = spawn(part.command, env=environment, start_new_session=True)

@@ -1,4 +1,4 @@
-"""What is red, a line each: the test, the file and line that it names, the first words of its message, and the command that
+"""The failures, a line each: the test, the file and line that it names, the first words of its message, and the command that
 repeats it. Read from what ctest wrote as JUnit XML, or from the log of a build that failed.
 
 Standard library only, and of it only what Debian's python3-minimal has, with its XML parser.
@@ -36,7 +36,7 @@ def short(text):
 
 
 def message_of(output):
-    """(place, words) of the first thing that an output complains of; the place may be empty."""
+    """(place, words) of the first complaint in an output; the place may be empty."""
     for pattern in (SANITIZER, GTEST, COMPILER):
         found = pattern.search(output)
         if found and pattern is SANITIZER:
@@ -69,7 +69,7 @@ def only(name):
 
 
 def of_junit(file, again):
-    """(lines of what is red, count of what passed). A test that did not run is red, unless it skipped itself."""
+    """(lines of the failures, count of the passed tests). A test that did not run is a failure, unless it skipped itself."""
     red, passed = [], 0
     for case in xml.parse(file).getroot().iter("testcase"):
         status, name = case.get("status"), case.get("name")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Run a part of the ctest suite, and say last what is red.   Called by ./dartboard.
+"""Run a part of the ctest suite, and list the failures last.   Called by ./dartboard.
 
     suite.py --red FILE --again COMMAND CTEST_OPTIONS...     run ctest
     suite.py --red FILE --again COMMAND --build LOG          the build failed: say where
 
-FILE gets a line for each thing that is red, and is there only if something is. COMMAND repeats all of it.
+FILE gets a line for each failure, and exists only if there is one. COMMAND repeats all of it.
 """
 
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is said of what is red, and how the audit keeps to its budget.   Standard library only."""
+"""The report of failures, and the audit's budget.   Standard library only."""
 
 import contextlib
 import io

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Run a verb of the program once, as quickly as it goes, and look at all that it says and writes.
+"""Run a verb of the program once, as quickly as it goes, and check all that it prints and writes.
 
     every_verb.py PROGRAM VERB...      run these ("validate topology" is one): in CI under the sanitizers, too
     every_verb.py PROGRAM --listed VERB...
                                        these are the verbs that the program's own --help names, and all of them
 
-A run must end with an exit status that its verb promises, without a report of a sanitizer, without a number that is
-none, and what it prints with --json must parse.
+A run must end with an exit status that its verb promises, without a report of a sanitizer, without NaN or infinity,
+and its output with --json must parse.
 
 Standard library only, and of it only what Debian's python3-minimal has.
 """
@@ -20,7 +20,7 @@ import sys
 import tempfile
 import time
 
-# The arguments that keep a verb short, and the exit statuses that are right. 1 is, where a claim is about seconds: a
+# The arguments that keep a verb short, and the exit statuses that are right. 1 is right if a claim is about seconds: a
 # machine that is busy, or a sanitizer, may make it fall short.
 AGREES, MAY_BE_SLOW = (0,), (0, 1)
 RUNS = {
@@ -33,7 +33,7 @@ RUNS = {
     "validate judges": [(["--quick", "--json", "--out", "OUT"], AGREES)],
     "validate elements": [(["--quick", "--json", "--out", "OUT"], AGREES),
                           (["mixed_box", "--operations", "50", "--json", "--out", "OUT"], AGREES)] +
-                         # a package that nobody has to have
+                         # an optional package
                          [(["--quick", "--with", "calculix", "--json", "--out", "OUT"], AGREES)] * bool(shutil.which("ccx")),
     "bench ablation": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench topology": [(["--quick", "--json", "--only", "liver564", "--out", "OUT"], MAY_BE_SLOW)],
@@ -73,7 +73,7 @@ def lines_with(pattern, text):
 
 
 def complaints(program, verb, arguments, right):
-    """What is wrong with one run."""
+    """The faults of one run."""
     folder = tempfile.mkdtemp(prefix="verb-")
     out = os.path.join(folder, "out")
     liver = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../benchmarks/meshes/liver564.mesh")
@@ -82,7 +82,7 @@ def complaints(program, verb, arguments, right):
     start = time.monotonic()
     run = subprocess.run([program, *verb.split(), *words], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                          capture_output=True)
-    printed, aside = run.stdout.decode(), run.stderr.decode()  # what is printed is UTF-8
+    printed, aside = run.stdout.decode(), run.stderr.decode()  # the output is UTF-8
     print("%s %s: exit status %d in %.1f s" % (verb, " ".join(arguments), run.returncode, time.monotonic() - start))
     wrong = []
     if run.returncode not in right:

@@ -1,5 +1,5 @@
 #pragma once
-// The work that `bench topology` times, and CGAL's generalized map doing it through its own interface.
+// The work timed by `bench topology`, done by CGAL's generalized map through its own interface.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// What every contender is given. Darts go by their numbers in our maps: 24 c + p is dart p of tetrahedron c.
+/// The input of every contender. Darts go by their numbers in our maps: 24 c + p is dart p of tetrahedron c.
 struct TopologyWork {
   Mesh mesh;                         // of tetrahedra
   std::vector<Dart> vertices;        // a dart of each vertex
@@ -22,8 +22,8 @@ struct TopologyWork {
 /// One figure of one contender. All contenders must find the same number, or they did not do the same work.
 struct TopologyTask {
   std::string figure;                  // "vertex-orbit"
-  std::function<std::uint64_t()> run;  // returns what it found
-  std::function<void()> restore;       // puts the map back and reads it through, so that what fits the caches is there
+  std::function<std::uint64_t()> run;  // returns its result
+  std::function<void()> restore;       // puts the map back and reads it through, to fill the caches with it
 };
 
 /// The figures
@@ -32,18 +32,18 @@ struct TopologyTask {
 ///   full-check            validity of the whole map                              finds  1 for valid
 ///   count-cells           vertices, edges, faces and volumes                     finds  their sum
 ///   build                 from the mesh                                          finds  the number of darts
-///   unsew-cut             3-unsew work.cut, telling vertices and edges that      finds  the number of both that came
+/// unsew-cut             3-unsew work.cut, reporting vertices and edges that    finds  the number of both that came
 ///   unsew-scattered       come apart; the same for work.scattered                       apart
 /// as CGAL does them. `work` must outlive the tasks.
 ///
-/// The map has a numbered attribute on each vertex and edge. By the split functors of these CGAL learns what an unsew
-/// dissociates, its only way; is_valid() looks at them too, and so does `build` (vertices only, like ours).
+/// The map has a numbered attribute on each vertex and edge. Their split functors report what an unsew dissociates, the
+/// only way in CGAL; is_valid() checks them too, and so does `build` (vertices only, like ours).
 std::vector<TopologyTask> cgal_topology_tasks(const TopologyWork& work);
 
-/// The same without attributes: smaller darts and less to check. It cannot tell what an unsew dissociates.
+/// The same without attributes: smaller darts and less to check. It cannot report what an unsew dissociates.
 std::vector<TopologyTask> cgal_bare_topology_tasks(const TopologyWork& work);
 
-/// What the map of `mesh` with a numbered attribute on each vertex and edge takes from the heap.
+/// The heap memory of the map of `mesh` with a numbered attribute on each vertex and edge.
 std::size_t cgal_map_bytes(const Mesh& mesh);
 
 }  // namespace dartboard

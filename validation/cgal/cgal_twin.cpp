@@ -63,7 +63,7 @@ constexpr std::array<Walk<Map>, sizeof...(k)> all_walks(std::index_sequence<k...
 template <class Map, unsigned first>
 constexpr auto walks = all_walks<Map, first>(std::make_index_sequence<(2u << Map::dimension)>());
 
-/// What both kinds share: darts by name, walks that clean up their mark, counting, validity.
+/// Code shared by both kinds: darts by name, walks that clean up their mark, counting, validity.
 template <class MapType>
 class CgalTwin : public MapTwin {
  public:
@@ -115,7 +115,7 @@ class CgalTwin : public MapTwin {
   mutable std::vector<Handle> met_;
 };
 
-/// Call f(integral constant i) for the i in 0 .. N that equals `i`.
+/// Calls f(integral constant i) for the i in 0 .. N that equals `i`.
 template <int N, class F>
 auto with_dimension(int i, F&& f) {
   if constexpr (N > 0)
@@ -154,7 +154,7 @@ class CgalGmapTwin final : public CgalTwin<CGAL::Generalized_map<N, Items>> {
     for (const Handle h :
          Base::walked([&](auto mark, auto&out) { walks<Map, 0>[set.bits](map_, handle_[d.index], mark, out); }))
       darts.push_back(name(h));
-    // CGAL walks two commuting involutions without marks, and meets a dart twice where both lead to the same one (a
+    // CGAL walks two commuting involutions without marks, and reports a dart twice where both lead to the same one (a
     // fold)
     if (set.size() == 2 && darts.size() <= 4) {
       std::sort(darts.begin(), darts.end());
@@ -224,7 +224,7 @@ class CgalCmapTwin final : public CgalTwin<CGAL::Combinatorial_map<N, Items>> {
   using Base::handle_, Base::map_, Base::name, Base::create;
 
  public:
-  /// `positive` by name; every dart's alpha_0 has the other colour.
+  /// `positive` by name; the alpha_0 of every dart has the other colour.
   CgalCmapTwin(const AlphaList& list, const std::vector<bool>& positive) {
     for (std::size_t k = 0; k < list.darts.size(); ++k) pair(list.darts[k], list.alphas[k][0]);
     for (const Dart d : list.darts)
@@ -351,8 +351,8 @@ class CgalCmapTwin final : public CgalTwin<CGAL::Combinatorial_map<N, Items>> {
   std::vector<Dart> across_;  // alpha_0 by name; no_dart where there is no dart
 };
 
-/// Colour the darts so that every alpha changes the colour; a reason if that, or betas, cannot be. The first dart of a
-/// component is positive if `starts_positive` says so.
+/// Colours the darts so that every alpha changes the colour; returns a reason if that, or betas, are impossible. The
+/// first dart of a component is positive if `starts_positive` says so.
 template <class F>
 std::string colour(const AlphaList& list, std::vector<bool>& positive, F&& starts_positive) {
   const std::size_t names = list.darts.empty() ? 0 : list.darts.back().index + 1u;

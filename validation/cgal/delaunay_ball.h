@@ -1,5 +1,5 @@
 #pragma once
-// Delaunay tetrahedralisations: meshes that no pattern made, with vertices of every degree and cells of every shape.
+// Delaunay tetrahedralisations: meshes without a pattern, with vertices of every degree and cells of every shape.
 
 #include <cstdint>
 #include <span>

@@ -66,7 +66,7 @@ AlphaList alphas_of(const Mesh& mesh) {
         if (n == 3) q = s.alpha[q][1];
         if (q == p || (n == 2 && corners == 2)) break;
       }
-      std::sort(d.key.begin(), d.key.begin() + 4);  // what is not used is larger than every node
+      std::sort(d.key.begin(), d.key.begin() + 4);  // unused entries are larger than every node
       d.key[4] = cell[s.node[p]];
       d.key[5] = cell[s.node[s.alpha[p][0]]];
       named.push_back(d);
@@ -85,7 +85,7 @@ AlphaList alphas_of(const Mesh& mesh) {
   return list;
 }
 
-// ---- what every twin can say
+// ---- functions common to all twins
 
 std::vector<Dart> darts_touched(const MapTwin& map, int i, Dart d, Dart e) {
   const Involutions line = sew_involutions(map.dimension(), i);

@@ -1,5 +1,5 @@
 #pragma once
-// Twins: the same map carried by somebody else, spoken to by the names of its darts.
+// Twins: the same map in another carrier, addressed by the names of its darts.
 
 #include <array>
 #include <cstdint>
@@ -39,7 +39,7 @@ struct AlphaList {
 /// throws  InputError if three cells share a facet
 AlphaList alphas_of(const Mesh& mesh);
 
-/// How many vertices, edges and faces a dissociation added.
+/// The numbers of vertices, edges and faces added by a dissociation.
 using SplitCounts = std::array<long, 3>;
 
 /// A map whose darts have names: the numbers of a script. A name is never used for a second dart.
@@ -59,29 +59,29 @@ class MapTwin {
   /// The darts of the orbit, replacing what `darts` held, in the order of the carrier's own walk.   pre  can_walk(set)
   virtual void orbit(Involutions set, Dart d, std::vector<Dart>& darts) const = 0;
 
-  // ---- what the carrier says of the whole map
+  // ---- the carrier's answers on the whole map
   virtual std::vector<std::size_t> count_cells() const = 0;  // i-cells for i = 0 .. n, then components
-  virtual std::optional<bool> is_orientable() const = 0;     // nothing: it has no notion of it
+  virtual std::optional<bool> is_orientable() const = 0;     // nothing: the carrier has no notion of it
   virtual std::string violation() const = 0;                 // empty for a valid map
   virtual std::string violation_near(std::span<const Dart>) const { return {}; }
 
-  // ---- operations; those that the carrier cannot represent are asked for first, and then skipped by all twins
+  // ---- operations; if a carrier cannot represent one, which is asked beforehand, all twins skip it
   virtual bool can_carry_sew(int i, Dart a, Dart b) const = 0;
   virtual bool can_carry_unsew(int i) const = 0;
   virtual bool can_carry(CellKind kind) const = 0;
   virtual bool can_sew(int i, Dart a, Dart b) const = 0;
-  /// Whether it refuses, on purpose, to sew a cell to itself.
+  /// Whether the carrier refuses, on purpose, to sew a cell to itself.
   virtual bool refuses_folds() const = 0;
   virtual void sew(int i, Dart a, Dart b) = 0;
   virtual void unsew(int i, Dart d) = 0;
-  /// n-unsew, and say what came apart; here by counting the cells around before and after.
+  /// n-unsews, and returns what came apart; here by counting the cells around before and after.
   virtual SplitCounts dissociate(Dart d);
   /// A new isolated cell, its darts named from `first` by position.
   virtual void add(CellKind kind, Dart first) = 0;
-  /// n-unsew the n-cell of d all around, then take its darts away.
+  /// n-unsews the n-cell of d all around, then takes its darts away.
   virtual void remove(Dart d) = 0;
 
-  /// Write the map out, dart by dart.
+  /// Writes the map out, dart by dart.
   AlphaList alphas() const;
   /// The smallest name in the orbit of each dart, in the order of darts(): equal partitions, equal labels.
   std::vector<Dart> labels(Involutions set) const;
@@ -90,7 +90,7 @@ class MapTwin {
 /// The darts of both lines that an i-unsew of d touches, or an i-sew of d and e.
 std::vector<Dart> darts_touched(const MapTwin& map, int i, Dart d, Dart e);
 
-/// How many i-cells the darts lie in, i = 0 .. n; no more than n + 1 entries.
+/// The number of i-cells that contain the darts, i = 0 .. n; no more than n + 1 entries.
 std::vector<long> count_cells_around(const MapTwin& map, std::span<const Dart> darts);
 
 }  // namespace dartboard

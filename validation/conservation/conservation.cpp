@@ -112,8 +112,8 @@ template ConservationResult validate_conservation(const Problem&, const Conserva
 template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<Map3>&);
 template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<TetMap>&);
 
-// Gershgorin: omega^2 <= max over vertices of 2 sum k / m, and the damping rate <= max of 2 sum c / m. A vertex is made
-// of corners, so neither exceeds the largest of a corner alone, and dissociation does not raise it.
+// Gershgorin: omega^2 <= max over vertices of 2 sum k / m, and the damping rate <= max of 2 sum c / m. A vertex
+// consists of corners, so neither exceeds the largest of a corner alone, and dissociation does not raise it.
 Problem moving_problem(Mesh mesh, const Material& material, std::uint64_t seed) {
   Problem problem;
   problem.mesh = std::move(mesh);

@@ -1,5 +1,5 @@
 #pragma once
-// Operations on a body that moves, and after each what they must not change: masses, stiffnesses, momenta, energies.
+// Operations on a moving body, and what they must not change: masses, stiffnesses, momenta, energies.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +18,12 @@ namespace dartboard {
 template <class Map>
 using LiveBody = MassSpringBody<Map, Held::by_every_dart>;
 
-/// What a body and its views reported of a change of the map.
+/// The changes that a body and its views reported for a change of the map.
 struct Followed {
   ChangedEmbeddings embeddings;
   ComponentChange components;
 };
-/// What makes them follow: core's functions, or a faulty stand-in.
+/// The functions that make them follow: core's, or a faulty stand-in.
 template <class Map>
 using Follow = std::function<Followed(LiveBody<Map>&, Views&, const TopologyChange&)>;
 /// `adapt`, then `apply`.
@@ -40,24 +40,24 @@ struct ConservationPlan {
   std::size_t everything_every = 100;  // operations between two comparisons of everything; one at start and end too
   std::size_t oracle_every = 1000;  // operations between two comparisons with a body built from scratch; one at the end
   int oracle_steps = 10;
-  int reference_steps = 100;                       // that the reference alone takes then
+  int reference_steps = 100;                       // steps of the reference alone at each of these
   std::function<void(std::size_t done)> progress;  // called every 1000 operations or so
 };
 
-/// What was compared, how often, and how close it came to its bound.
+/// A quantity compared, how often, and how close it came to its bound.
 struct ConservedRow {
   std::string what;
   std::size_t checks = 0;
-  std::optional<double> bound;  // of the check that came closest to it; none where the bits must agree
+  std::optional<double> bound;  // of the check that came closest to it; none if the bits must agree
   double deviation = 0.0;       // of that check
   double largest = 0.0;         // deviation of any check
   bool holds = true;
 };
 
-/// The first thing that is not as it should be.
+/// The first comparison that failed.
 struct Violation {
   std::string what;
-  std::size_t operation = 0;  // how many operations went before
+  std::size_t operation = 0;  // number of operations before
   std::uint64_t seed = 0;
   std::string actual, expected, bound;
 };
@@ -67,7 +67,7 @@ struct ConservationResult {
   std::size_t dissociations = 0, tears = 0, removals = 0, refinements = 0;  // these are the operations
   std::size_t parts_split_off = 0, series = 0, steps = 0, refills = 0;
   std::size_t whole_comparisons = 0;                              // of everything, views against rebuilt ones included
-  std::size_t bodies_from_scratch = 0, bodies_without_bound = 0;  // a spring so short that the bound says nothing
+  std::size_t bodies_from_scratch = 0, bodies_without_bound = 0;  // the latter where a spring is too short for one
   std::vector<ConservedRow> rows;
   std::optional<Violation> violation;
 
@@ -92,7 +92,7 @@ ConservationResult validate_conservation(const Problem& start, const Conservatio
                                          const Follow<Map>& followed = follow<Map>);
 
 /// A problem to take apart: gravity, a sixteenth of the points held still, a random linear field of velocities that
-/// stretches the springs by some per cent, and a step well inside the stable ones of RK4, also for each cell alone.
+/// stretches the springs by some per cent, and a step far below the stability limit of RK4, also for each cell alone.
 Problem moving_problem(Mesh mesh, const Material& material, std::uint64_t seed);
 
 extern template ConservationResult validate_conservation(const Problem&, const ConservationPlan&, const Follow<Map2>&);

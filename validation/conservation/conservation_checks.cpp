@@ -34,7 +34,7 @@ long euler_of(const CountsByDimension& n) {
 
 }  // namespace
 
-// ---- of any body under operations
+// ---- for any body under operations
 
 template <class AnySubject>
 void OperationChecks<AnySubject>::begin() {
@@ -259,7 +259,7 @@ void OperationChecks<AnySubject>::boundary() {
                  measure.value());
 }
 
-// ---- of a body that is taken apart
+// ---- for a body that is taken apart
 
 template <class Map>
 ConservationChecks<Map>::ConservationChecks(const Subject<Map>& subject, ConservationLedger& ledger)
@@ -271,8 +271,8 @@ ConservationChecks<Map>::ConservationChecks(const Subject<Map>& subject, Conserv
   remember(Conserved::damping, sums_are_exact({at_.start->material.damping}, uses));
 }
 
-// Shares are added in the order of the darts of the body's cells, so that the bits must agree; nothing else of them is
-// used.
+// Shares are added in the order of the darts of the body's cells, so that the bits must agree; nothing else of the
+// darts is used.
 template <class Map>
 double ConservationChecks<Map>::mass_from_cells(std::span<const std::uint32_t> corners) {
   const Mesh& mesh = at_.start->mesh;
@@ -314,9 +314,9 @@ void ConservationChecks<Map>::edge(std::uint32_t k, std::span<const std::uint32_
   this->ends(k, at_.vertex(a), at_.vertex(b));
 }
 
-// The soup's volumes are exact rationals by another formula: masses are told apart by a rounding bound. Springs between
-// the same two vertices are one for a soup: q of them, each a product, and their sum take q roundings, the soup's
-// product one.
+// The soup's volumes are exact rationals by another formula: masses are compared within a rounding bound. Springs
+// between the same two vertices are one for a soup: q of them, each a product, and their sum take q roundings, the
+// soup's product one.
 template <class Map>
 void ConservationChecks<Map>::all_else() {
   ledger_.equal(views, at_.views.components.count(), at_.cells.count_components(), "components of cells",
@@ -325,7 +325,7 @@ void ConservationChecks<Map>::all_else() {
   const LiveBody<Map>& body = at_.body;
   const Problem rest = rest_problem(body, *at_.start, at_.places);
   const auto soup = reference::rebuild(rest.mesh, rest.material);
-  std::vector<double> rounding(body.vertices.size(), 0.0);  // of the volumes, which the soup has exactly
+  std::vector<double> rounding(body.vertices.size(), 0.0);  // of the volumes, which are exact in the soup
   std::vector<std::size_t> around(body.vertices.size(), 0);
   for (std::size_t c = 0; c < rest.mesh.cell_count(); ++c)
     for (const std::uint32_t k : rest.mesh.cell(c)) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a body under operations is compared with, and when: after each series, and now and then.
+// Comparisons of a body under operations, after each series, and now and then of everything.
 
 #include <array>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct BeforeSeries {
   CountsByDimension counts;
 };
 
-/// The comparisons, each written into the ledger. What one vertex, edge or cell should be depends on the witness.
+/// The comparisons, each written into the ledger. The witness gives the expected value of a vertex, edge or cell.
 template <class AnySubject>
 class OperationChecks {
  public:
@@ -40,33 +40,33 @@ class OperationChecks {
   long euler() const;
 
   BeforeSeries<Map> before_series() const;
-  /// `removed` are the sums of what was removed, less the boundary that appeared. Returns the sums now.
+  /// `removed` are the sums of the removed parts, less the boundary that appeared. Returns the sums now.
   ConservedSums after_series(const BeforeSeries<Map>& before, const TopologyChange& change,
                              const ChangedEmbeddings& changed, const ConservedSums& removed);
   /// All columns and arrays have a row for each cell.
   void columns_fit();
-  /// What an operation changed by number: against the witness.
+  /// Compares the cells that an operation changed, by number, with the witness.
   void changed_cells(const ChangedEmbeddings& changed);
-  /// `more` roundings in a term, `elastic` what else may be off of the energy [J].
+  /// `more`: additional roundings in a term; `elastic`: additional error of the energy [J].
   void sums(const ConservedSums& before, const ConservedSums& after, const ConservedSums& removed, std::size_t more = 0,
             double elastic = 0.0);
-  /// Each vertex, edge and cell of the witness against the body's, and how many there are.
+  /// Compares each vertex, edge and cell of the witness with the body's, and their numbers.
   void all_cells();
   /// cost    O(cells log cells)
   void everything();
 
-  /// Whether rounding leaves the sums of this quantity alone.
+  /// Whether the sums of this quantity are free of rounding.
   bool is_exact(Conserved c) const { return exact_[static_cast<std::size_t>(c)]; }
 
  protected:
   virtual void vertex(std::uint32_t k, typename AnySubject::VertexPlace place) = 0;
   virtual void edge(std::uint32_t k, typename AnySubject::EdgePlace place) = 0;
   virtual void cell(std::uint32_t) {}
-  /// What else belongs to everything.
+  /// Further comparisons, made together with everything.
   virtual void all_else() {}
-  /// In a term of the sums, beside those of conserved_sums.h.
+  /// In a term of the sums, in addition to those of conserved_sums.h.
   virtual std::size_t more_roundings() const { return 0; }
-  /// The views name the two vertices of an edge.
+  /// The views must name the two vertices of an edge.
   void ends(std::uint32_t k, std::uint32_t a, std::uint32_t b);
 
   const AnySubject& at_;
@@ -82,7 +82,7 @@ class OperationChecks {
   void boundary();
 };
 
-/// Of a body that is taken apart: bit by bit, and now and then against reference/rebuild.
+/// For a body that is taken apart: bit by bit, and now and then against reference/rebuild.
 template <class Map>
 class ConservationChecks : public OperationChecks<Subject<Map>> {
  public:

@@ -62,7 +62,7 @@ void ConservationLedger::within(Check check, double deviation, double bound, dou
   if (scale > 0.0) {
     double& closest = share_[static_cast<std::size_t>(check)];
     r.largest = max_or_nan(r.largest, deviation / scale);
-    // of several checks without any deviation, the one with the widest bound; a share that is no number stays
+    // of several checks without any deviation, the one with the widest bound; a share that is NaN stays
     const bool farther = !(share <= closest) && !std::isnan(closest);
     if (!r.bound || farther || (share == closest && bound / scale > *r.bound)) {
       r.deviation = deviation / scale;

@@ -1,5 +1,5 @@
 #pragma once
-// The book of a conservation run: every comparison goes through it.
+// The ledger of a conservation run: every comparison goes through it.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// What can be compared; the rows of a ConservationResult are some of these, in this order.
+/// All comparisons; the rows of a ConservationResult are some of these, in this order.
 enum class Check : std::size_t {
   counts,
   euler,
@@ -52,11 +52,11 @@ inline constexpr std::size_t check_count = 32;
 /// Fills the rows of a result, and keeps the first violation.
 class ConservationLedger {
  public:
-  /// With a row for each of these.
+  /// Makes a row for each of `checks`.
   ConservationLedger(ConservationResult& result, std::uint64_t seed, std::span<const Check> checks);
   bool broken() const { return result_.violation.has_value(); }
 
-  /// The same bits. `of` and `number` say whose.
+  /// Requires the same bits. `of` and `number` name the object.
   template <class T>
   void equal(Check check, const T& actual, const T& expected, const char* of, std::size_t number) {
     ++row(check).checks;
@@ -67,7 +67,7 @@ class ConservationLedger {
     ++row(check).checks;
     if (!ok) fail(check, fmt::format(", {} {}", of, number), "not so", "so", "exact");
   }
-  /// deviation <= bound, both recorded in units of `scale`. A deviation that is not a number is too large.
+  /// Requires deviation <= bound, both recorded in units of `scale`. A deviation of NaN is too large.
   void within(Check check, double deviation, double bound, double scale, double actual, double expected);
 
  private:
@@ -77,7 +77,7 @@ class ConservationLedger {
   ConservationResult& result_;
   std::uint64_t seed_;
   std::array<std::size_t, check_count> row_{};
-  std::array<double, check_count> share_{};  // of the bound, the largest so far
+  std::array<double, check_count> share_{};  // the largest share of the bound so far
 };
 
 }  // namespace dartboard

@@ -51,7 +51,7 @@ struct TwofoldSum {
 
   void add(double term) {
     const double sum = high + term, part = sum - high;
-    low += (high - (sum - part)) + (term - part);  // what the addition lost, exactly
+    low += (high - (sum - part)) + (term - part);  // the exact rounding error of the addition
     high = sum;
     magnitude += std::abs(term);
   }
@@ -80,7 +80,7 @@ struct ConservedSums {
   TwofoldSum& operator[](Conserved c) { return sums[static_cast<std::size_t>(c)]; }
   const TwofoldSum& operator[](Conserved c) const { return sums[static_cast<std::size_t>(c)]; }
 
-  /// A vertex, or the share that one cell has in it.
+  /// Adds a vertex, or the share that one cell has in it.
   void add_node(double mass, const Eigen::Vector3d& x, const Eigen::Vector3d& v) {
     (*this)[Conserved::mass].add(mass);
     add_vector(Conserved::momentum_x, mass * v, (mass * v).cwiseAbs());
@@ -89,7 +89,7 @@ struct ConservedSums {
     add_vector(Conserved::spin_x, {part(1, 2), part(2, 0), part(0, 1)}, {size(1, 2), size(2, 0), size(0, 1)});
     (*this)[Conserved::kinetic].add(0.5 * (mass * v.squaredNorm()));
   }
-  /// A spring, or what one cell contributes to it.
+  /// Adds a spring, or the contribution of one cell to it.
   void add_spring(double stiffness, double damping, double elongation) {
     (*this)[Conserved::stiffness].add(stiffness);
     (*this)[Conserved::damping].add(damping);
@@ -112,7 +112,7 @@ inline double elongation(double rest_length, const Eigen::Vector3d& x, const Eig
   return std::sqrt((y - x).squaredNorm()) - rest_length;
 }
 
-/// All sums of a body but its boundary.   cost    O(vertices + springs)
+/// All sums of a body except its boundary.   cost    O(vertices + springs)
 template <class Body, class Walk>
 ConservedSums sums_of(const Body& body, const Walk& walk) {
   ConservedSums sums;
@@ -157,13 +157,13 @@ inline double quantum(double x) {
 }
 
 /// The drift that is allowed after so many operations, relative: the target that the project set itself. Masses are
-/// computed anew from their cells, so that in truth drift does not grow: it stays below gamma of the cells around a
+/// computed anew from their cells, so that the actual drift does not grow: it stays below gamma of the cells around a
 /// vertex.
 inline double drift_target(std::size_t operations) {
   return 1e-15 * std::sqrt(static_cast<double>(std::max<std::size_t>(operations, 1)));
 }
 
-/// What should be left of a total, in two doubles, and how far the body's was from it at most.
+/// The expected remainder of a total, in two doubles, and the largest deviation of the body's total from it.
 class Drift {
  public:
   void begin(double total) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where the corners, edges and sides of a mesh lie in the map that was built from it.
+// Places of the corners, edges and sides of a mesh in the map that was built from it.
 
 #include <algorithm>
 #include <cstdint>
@@ -43,7 +43,7 @@ struct MeshPlaces {
       corner[corner_of[d.index]] = d;
       for (std::uint32_t e = cells.first_edge(c); e < cells.first_edge(c + 1); ++e)
         if (cells.ends(e).a == mesh.first[c] + here && cells.ends(e).b == mesh.first[c] + along) edge[e] = d;
-      // three neighbours on a side tell which one it is; two, on the edge of a polygon
+      // three neighbours on a side determine it; two, on the edge of a polygon
       const auto sides = sides_of(mesh.kinds[c]);
       for (std::uint32_t s = 0; s < sides.size(); ++s) {
         const auto has = [&](std::uint32_t k) {

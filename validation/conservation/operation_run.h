@@ -17,14 +17,14 @@
 
 namespace dartboard {
 
-/// What is drawn: of a hundred operations those below each number, and the rest are removals.
+/// Shares of the operations drawn: of a hundred, those below each number; the rest are removals.
 struct OperationMix {
   std::uint32_t longest_series;
   std::uint32_t dissociations, seams, tears;
   int tries;  // to find a side that holds something together, before another will do
 };
 
-/// What is special to a kind of run is overridden. AnySubject is one of subjects.h, Checks its OperationChecks.
+/// Kinds of run override the virtual functions. AnySubject is one of subjects.h, Checks its OperationChecks.
 template <class AnySubject, class Checks>
 class OperationRun {
  public:
@@ -47,7 +47,7 @@ class OperationRun {
     std::size_t next_everything = plan_.everything_every, next_motion = plan_.oracle_every, next_progress = 1000;
     while (!ledger_.broken() && done() < plan_.operations) {
       if (at_.cells.count() == 0) {
-        compare_everything();  // of the empty body
+        compare_everything();  // now the body is empty
         if (ledger_.broken() || fresh_.cells.count() == 0) break;
         at_ = fresh_;
         begin();
@@ -76,7 +76,7 @@ class OperationRun {
   }
 
  protected:
-  /// Of a fresh body.
+  /// Starts with a fresh body.
   virtual void begin() {
     checks_.begin();
     const ConservedSums sums = checks_.all_sums();
@@ -91,7 +91,7 @@ class OperationRun {
 
   std::size_t done() const { return result_.operations(); }
 
-  /// Operations that the body follows together.
+  /// Makes several operations, which the body then follows together.
   void series() {
     const BeforeSeries<Map> before = checks_.before_series();
     removed_ = {};
@@ -108,7 +108,7 @@ class OperationRun {
     stiffness_.compare(sums[Conserved::stiffness].value());
   }
 
-  // A dart of a cell that is left; in the middle of a series the body still numbers those that are not.
+  // A dart of a remaining cell; in the middle of a series the body still numbers those that are gone.
   Dart some_dart() {
     for (;;) {
       const Dart d = at_.body.cell_dart[random_.below(at_.body.cell_dart.size())];
@@ -128,7 +128,7 @@ class OperationRun {
   Drift mass_, stiffness_;
 
  private:
-  /// A body of no more cells is compared in everything after each series.
+  /// A body with at most so many cells is compared in everything after each series.
   static constexpr std::size_t small = 24;
 
   void compare_everything() {
@@ -194,8 +194,8 @@ class OperationRun {
     at_.cells.dissociate(side);
   }
 
-  // What the cell has of everything is found by the numbers that the darts had before the series: corners and edges
-  // moved nowhere since.
+  // The share of the cell in everything is found by the numbers that the darts had before the series: corners and edges
+  // have not moved since.
   void take_away(std::uint32_t c) {
     const LiveBody<Map>& body = at_.body;
     at_.for_each_corner_of(c, [&](double mass, std::uint32_t k) {

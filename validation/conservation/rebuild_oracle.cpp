@@ -24,7 +24,7 @@
 namespace dartboard {
 namespace {
 
-/// The vertices and edges of a body from scratch, in the order in which the live body's arrays have theirs.
+/// The vertices and edges of a body from scratch, in the order of the live body's arrays.
 struct LiveOrder {
   struct Entry {
     std::uint32_t edge, a, b;
@@ -55,7 +55,7 @@ double largest_difference(const std::vector<Eigen::Vector3d>& a, const std::vect
   return largest;
 }
 
-/// How many times more roundings the live body has at a point than state_bound counts.
+/// The factor by which the live body's roundings at a point exceed those that state_bound counts.
 double more_roundings(const Problem& rest, const CellArrays& live, const std::vector<reference::Spring>& springs) {
   std::vector<std::size_t> cells(rest.mesh.points.size()), one(cells), several(cells);
   for (const std::uint32_t p : rest.mesh.nodes) ++cells[p];
@@ -78,7 +78,7 @@ RebuiltMotion compare_rebuilt_motion(const Subject<Map>& at, int steps) {
   const Problem rest = rest_problem(body, *start, at.places);
   PointState now{body.vertices.position, body.vertices.velocity};
 
-  LiveBody<Map> live = body;  // the run must not notice that it was compared
+  LiveBody<Map> live = body;  // a copy: the run must not be affected by the comparison
   move(live, arrays, start->h, steps);
 
   auto scratch = build_body<Map, Held::by_every_dart>(rest);
@@ -102,7 +102,7 @@ RebuiltMotion compare_rebuilt_motion(const Subject<Map>& at, int steps) {
   if (!(4.0 * motion.bound.position <= 1e-7 * shortest))
     motion.bound.position = motion.bound.velocity = std::numeric_limits<double>::infinity();
 
-  // dissociate what only touches, all in one series
+  // dissociate sides that only touch, all in one series
   const RemainingCells touching(rest.mesh);
   const MeshPlaces scratch_places(scratch, rest.mesh, touching);
   const auto in_order = cells_by_dart(body);

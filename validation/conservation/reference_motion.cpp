@@ -52,7 +52,7 @@ ReferenceMotion compare_with_reference(const Subject<Map>& at, int steps) {
     return s;
   };
   const double h = at.start->h;
-  LiveBody<Map> live = at.body;  // the run must not notice that it was compared
+  LiveBody<Map> live = at.body;  // a copy: the run must not be affected by the comparison
   RungeKutta4 integrator;
   for (int k = 0; k < steps; ++k) integrator.step(at.views.cells, live, h);
   const auto [end, spread] = reference::witnessed_motion(left.network, state(at.body), h, steps);

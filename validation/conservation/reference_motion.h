@@ -6,12 +6,12 @@
 
 namespace dartboard {
 
-/// How many spreads of rounding (extended_motion.h) a body may be off: a program rounds some ten times in a step, the
-/// spread once, and is measured to end within one.
+/// The largest deviation of a body, in spreads of rounding (extended_motion.h): a program rounds some ten times in a
+/// step, the spread once, and measured deviations are within one.
 inline constexpr double spreads_of_cut_body = 10.0;
 
-/// The cells that are left as a network: a point for each of their vertices, with the sum of its exact shares of mass,
-/// a spring for each of their edges, with the stiffness of its cells; and of each point one corner.
+/// The remaining cells as a network: a point for each of their vertices, with the sum of its exact shares of mass, a
+/// spring for each of their edges, with the stiffness of its cells; and for each point one corner.
 struct RemainingNetwork {
   reference::SpringNetwork network;
   std::vector<std::uint32_t> corner;
@@ -19,8 +19,8 @@ struct RemainingNetwork {
 /// pre  no Young's modulus
 RemainingNetwork remaining_network(const Problem& start, const RemainingCells& cells);
 
-/// How far the live body is, after some steps of the classical Runge-Kutta method, from the network of its cells that
-/// took the same steps from the same state; and the spread. The body does not change.
+/// The difference, after some steps of the classical Runge-Kutta method, of the live body from the network of its cells
+/// that took the same steps from the same state; and the spread. The body does not change.
 struct ReferenceMotion {
   reference::StateBound off, spread;
 };

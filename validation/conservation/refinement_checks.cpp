@@ -25,7 +25,7 @@ void RefinementChecks<Map>::vertex(std::uint32_t k, SubdividedCells::Corner firs
                  mass);
   ledger_.equal(valid, v.inverse_mass[k], 1.0 / v.mass[k], "inverse mass, vertex", k);
   ledger_.equal(valid, v.viscosity[k], at_.start->material.viscosity * v.mass[k], "viscosity, vertex", k);
-  // both are means of means, each off by no more than the witness says
+  // both are means of means, each with an error within the witness's bound
   const SubdividedCells::Point& point = at_.cells.points()[at_.cells.cells()[first.cell].points[first.node]];
   const bool is_new = v.point[k] == no_point;
   ledger_.require(Check::put_in_the_middle,

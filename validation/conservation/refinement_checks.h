@@ -1,11 +1,11 @@
 #pragma once
-// What a refined body is compared with.
+// Comparisons of a refined body.
 
 #include "validation/conservation/conservation_checks.h"
 
 namespace dartboard {
 
-/// Of a body that is refined and taken apart: within the roundings of the rule of refinement.
+/// For a body that is refined and taken apart: within the roundings of the rule of refinement.
 template <class Map>
 class RefinementChecks : public OperationChecks<RefinedSubject<Map>> {
  public:
@@ -18,7 +18,7 @@ class RefinementChecks : public OperationChecks<RefinedSubject<Map>> {
   void vertex(std::uint32_t k, SubdividedCells::Corner first) override;
   void edge(std::uint32_t k, SubdividedCells::EdgeOfCell first) override;
   void cell(std::uint32_t c) override;
-  // stiffness is a sum over cells, not a product: as many roundings more as there are cells
+  // stiffness is a sum over cells, not a product: one more rounding for each cell
   std::size_t more_roundings() const override { return most_cells_; }
 };
 

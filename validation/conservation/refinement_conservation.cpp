@@ -34,7 +34,7 @@ constexpr std::array compared{Check::counts,
                               Check::mass_drift,
                               Check::stiffness_drift};
 
-constexpr std::uint32_t deepest = 8;  // refinements that a cell may go through: each takes up to 8 from the square of h
+constexpr std::uint32_t deepest = 8;  // most refinements of a cell: each takes up to a factor of 8 from the square of h
 
 template <class Map>
 const Follow<Map> core_follow = follow<Map>;
@@ -132,7 +132,7 @@ class Run : public OperationRun<RefinedSubject<Map>, RefinementChecks<Map>> {
     others_stay(old);
     const RefinementMeans means = put_in_the_middle(old, corners);
 
-    // what S gave away, less what the vertex put in got; the new springs
+    // the sums that S gave away, less those of the new vertex; the new springs
     const auto vertex = static_cast<std::uint32_t>(old.size());
     ConservedSums removed = given_away(old, corners, means, mass);
     double slack = 0.0;
@@ -143,7 +143,7 @@ class Run : public OperationRun<RefinedSubject<Map>, RefinementChecks<Map>> {
       const double e_now = elongation(s.rest_length, body.vertices.position[a], body.vertices.position[b]);
       const bool is_half = i == 1 && std::count(corners.begin(), corners.end(), a + b - vertex) != 0;
       if (is_half) slack += s.stiffness * means.off * (std::abs(e_now) + means.off);
-      // a half has twice the stiffness of the whole, of which both lose one
+      // a half has twice the stiffness of the whole; both lose the share of one cell
       const double added = is_half ? s.stiffness - whole.stiffness / 2.0 : s.stiffness;
       const double damped = is_half ? s.damping - whole.damping / 2.0 : s.damping;
       removed[Conserved::stiffness].add(-added);

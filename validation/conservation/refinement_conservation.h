@@ -1,16 +1,16 @@
 #pragma once
-// Refinements among cuts and removals of a body that moves, and what they must keep or change by a known amount.
+// Refinements among cuts and removals of a moving body, and what they must keep or change by a known amount.
 
 #include "core/mechanics/refine.h"
 #include "validation/conservation/conservation.h"
 
 namespace dartboard {
 
-/// Called with the body and its views after each series, in tests that want a fault seen.
+/// Called with the body and its views after each series, for tests that plant a fault.
 template <class Map>
 using Tamper = std::function<void(LiveBody<Map>&, Views&)>;
 
-/// What makes a body follow a subdivision: core's function, or a faulty stand-in.
+/// The function that makes a body follow a subdivision: core's, or a faulty stand-in.
 template <class Map>
 using FollowSubdivision = std::function<ChangedEmbeddings(LiveBody<Map>&, const Subdivision&, double bracing)>;
 template <class Map>
@@ -22,9 +22,9 @@ ChangedEmbeddings follow_subdivision(LiveBody<Map>& body, const Subdivision& sub
 /// in between, until it has twice its cells; then take it apart until nothing is left; then again with a fresh one.
 ///
 /// The witness is SubdividedCells, which knows the rule of refinement and no dart. After each operation or series of
-/// them, masses and springs of all that changed, and the conserved sums. Now and then, and always once the body is
-/// small, everything, and all views against rebuilt ones. Of a refinement of a cell with s vertices, M the mass of the
-/// tetrahedra around it, (x_i, v_i) the states of the vertices and (x, v) their mean:
+/// them it checks masses and springs of all that changed, and the conserved sums. Now and then, and always once the
+/// body is small, everything, and all views against rebuilt ones. In a refinement of a cell with s vertices, M the mass
+/// of the tetrahedra around it, (x_i, v_i) the states of the vertices and (x, v) their mean:
 ///
 ///     mass, linear momentum, area          unchanged
 ///     stiffness, damping, elastic energy   more by the bracing; the halves of an edge have four times its stiffness
@@ -33,7 +33,7 @@ ChangedEmbeddings follow_subdivision(LiveBody<Map>& body, const Subdivision& sub
 ///     forces                               unchanged without bracing, in any deformation, and none on the vertex put
 ///     in
 ///
-/// because each of the s vertices gives the s-th part of M / 4 away, and the vertex put in gets all of these.
+/// because each of the s vertices gives the s-th part of M / 4 away, and the new vertex gets all of these.
 /// A body from scratch has no refined cells, so the rebuild oracle is left to validate_conservation.
 ///
 /// `oracle_every` and `oracle_steps` of the plan are not used.

@@ -47,7 +47,7 @@ ConservedSums given_away(const VertexColumns& before, std::span<const std::uint3
   return lost;
 }
 
-// Of a spring: k (l - L) has an error of some u k (l + L), the damping one of some u c |dv|. An end displaced by d
+// For a spring: k (l - L) has an error of some u k (l + L), the damping one of some u c |dv|. An end displaced by d
 // changes l by d, and the direction by 2 d / l at most.
 template <class Map>
 SpringForceSums spring_force_sums(const LiveBody<Map>& body, const CellArrays& arrays, std::uint32_t put_in,

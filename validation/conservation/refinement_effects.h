@@ -1,5 +1,5 @@
 #pragma once
-// What one refinement does to a body: where the vertex put in must be, what the corners give away to it, and the forces
+// Effects of one refinement on a body: the place of the new vertex, what the corners give away to it, and the forces
 // before and after. The formulas: refinement_conservation.h.
 
 #include <Eigen/Core>
@@ -17,22 +17,22 @@ namespace dartboard {
 struct RefinementMeans {
   Eigen::Vector3d x{0, 0, 0}, v{0, 0, 0};
   Eigen::Vector3d absolute_x{0, 0, 0}, absolute_v{0, 0, 0};
-  double off = 0.0, off_v = 0.0;  // what rounding does to a mean, as a length
+  double off = 0.0, off_v = 0.0;  // errors of the means by rounding, as lengths
   bool all_fixed = true;
 
   RefinementMeans(const VertexColumns& before, std::span<const std::uint32_t> corners);
 };
 
-/// What the corners lose and the vertex put in does not get; `mass` [kg] is that of the tetrahedra around the cell.
-/// Magnitudes are those of the terms before they cancel.
+/// The sums that the corners lose and the new vertex does not get; `mass` [kg] is that of the tetrahedra around the
+/// cell. Magnitudes are those of the terms before they cancel.
 ConservedSums given_away(const VertexColumns& before, std::span<const std::uint32_t> corners,
                          const RefinementMeans& means, double mass);
 
-/// Forces of the springs by vertex, and how far rounding may put two such sums apart.
+/// Forces of the springs by vertex, and a bound on the difference of two such sums by rounding.
 struct SpringForceSums {
   std::vector<Eigen::Vector3d> force;
-  std::vector<double> terms;  // the absolute values that went into it
-  std::vector<double> moved;  // [N] if the vertex put in is off by the rounding of the means
+  std::vector<double> terms;  // the sum of the absolute values of its terms
+  std::vector<double> moved;  // [N] if the new vertex is off by the rounding of the means
   std::vector<std::size_t> springs;
 };
 template <class Map>

@@ -1,5 +1,5 @@
 #pragma once
-// What is left of a mesh when cells were removed and faces came apart: a witness that knows no dart.
+// The remaining cells of a mesh after removals and dissociations: a witness that knows no dart.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace dartboard {
 /// The sides of a cell of `kind`, each as a cycle of local nodes: the faces of a volume, the edges of a polygon.
 std::span<const std::vector<int>> sides_of(CellKind kind);
 
-/// The cells of a mesh that are still there, and the sides by which they still hold together.
+/// The remaining cells of a mesh, and the sides by which they are still joined.
 ///
 /// Two corners are one vertex where a chain of cells leads from one to the other through joined sides around the same
 /// mesh point; edges likewise. Corner k of cell c has the number mesh.first[c] + k; sides (the order of `sides_of`) and
@@ -46,17 +46,17 @@ class RemainingCells {
   std::uint32_t same_edge(std::uint32_t edge, std::uint32_t cell) const;
   /// A side that is joined, drawn at random; nothing when there is none.
   std::optional<std::uint32_t> joined_side(SplitMix64& random) const;
-  /// Of a side at rest, the same bits on both sides: its area [m^2], the length [m] of an edge of a surface.
+  /// The size of a side at rest, the same bits on both sides: its area [m^2], in a surface the length [m] of an edge.
   double measure(std::uint32_t side) const { return measure_[side]; }
 
-  /// The corners that are one vertex with `corner`, and the edges of cells that are one edge with `edge`.
+  /// The corners that form one vertex with `corner`, and the edges of cells that form one edge with `edge`.
   ///
-  /// The answers are valid until the next question.
+  /// The results are valid until the next call.
   /// cost    O(cells around it)
   std::span<const std::uint32_t> vertex(std::uint32_t corner) const;
   std::span<const std::uint32_t> edge(std::uint32_t edge) const;
 
-  /// f(first corner or edge of the class, all of it).   cost    O(cells)
+  /// Calls f(first corner or edge of the class, all of it).   cost    O(cells)
   template <class F>
   void for_each_vertex(F&& f) const {
     for_each_class(
@@ -67,10 +67,10 @@ class RemainingCells {
     for_each_class(
         first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
   }
-  /// The cells that hang together with this one, itself included, by joined sides.   cost    O(mesh)
+  /// The cells connected with this one by joined sides, itself included.   cost    O(mesh)
   std::vector<std::uint32_t> component(std::uint32_t cell) const;
   std::size_t count_components() const;
-  std::size_t count_sides() const;  // two joined ones are one
+  std::size_t count_sides() const;  // two joined sides count as one
 
  private:
   std::span<const std::uint32_t> first_corner() const { return mesh_->first; }
@@ -97,7 +97,7 @@ class RemainingCells {
   std::vector<char> there_;                             // by cell
   std::vector<std::uint32_t> first_side_, first_edge_;  // by cell, and the end
   std::vector<std::uint32_t> cell_of_corner_, cell_of_side_, cell_of_edge_;
-  std::vector<std::uint32_t> opposite_;                   // by side; itself when nothing is there
+  std::vector<std::uint32_t> opposite_;                   // by side; the side itself if nothing is joined there
   std::vector<std::uint32_t> first_point_, side_points_;  // the mesh points of side s: first_point_[s] .. [s + 1]
   std::vector<double> measure_;
   std::vector<Ends> ends_;

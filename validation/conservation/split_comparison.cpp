@@ -71,7 +71,7 @@ void split_off_and_compare(Subject<Map>& at, std::span<const std::uint32_t> leav
                   p.value() + r.value(), w.value());
   }
 
-  // its numbers stand in the order in which they stood in the whole
+  // its numbers are in the same order as in the whole
   move(whole, whole_arrays, at.start->h);
   move(part, part_arrays, at.start->h);
   for (std::uint32_t k = 0; k < vertices.size(); ++k) {

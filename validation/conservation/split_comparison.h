@@ -1,5 +1,5 @@
 #pragma once
-// A component that came loose becomes a body of its own: what it takes along, and whether it moves as it would have.
+// A loose component becomes a body of its own: what it takes along, and whether its motion is unchanged.
 
 #include <cstdint>
 
@@ -10,11 +10,11 @@ namespace dartboard {
 
 /// Split the component of a cell off a body, compare, and drop it; the rest and its views have followed.
 ///
-/// Part and rest must have the cells, vertices and springs that the witness and the body say. All their embeddings keep
-/// their bits, so the conserved sums of the two and of the whole have the very same terms, and differ by what twofold
-/// sums round: gamma_4 of the absolute values (conserved_sums.h). Some steps of the part must give the bits of the same
-/// steps of the whole.
-/// pre  `leaving` are the cells that hang together with one of them, still there in the witness
+/// Part and rest must have the cells, vertices and springs that the witness and the body predict. All their embeddings
+/// keep their bits, so the conserved sums of the two and of the whole have exactly the same terms, and differ by the
+/// rounding of twofold sums: gamma_4 of the absolute values (conserved_sums.h). Some steps of the part must give the
+/// bits of the same steps of the whole.
+/// pre  `leaving` are all cells of one component that are still there in the witness
 template <class Map>
 void split_off_and_compare(Subject<Map>& at, std::span<const std::uint32_t> leaving, ConservationLedger& ledger);
 

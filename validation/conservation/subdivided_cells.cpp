@@ -129,7 +129,7 @@ std::vector<SubdividedCells::Child> SubdividedCells::subdivide(std::uint32_t cel
   std::vector<Child> children;
   for (const auto& [parent, here] : parents) add_children(parent, here, vertex, bracing, children);
 
-  // core derives the length of an edge in one of the cells around it: in which, nobody needs to know
+  // core derives the length of an edge in one of the cells around it; it does not matter in which
   std::map<std::uint32_t, double> error_to;  // by the point across
   for (const bool put : {false, true})
     for (const Child& child : children)

@@ -1,5 +1,5 @@
 #pragma once
-// What should be left of tetrahedra that were subdivided, came apart and were removed: a witness that knows no dart.
+// The expected remainder of tetrahedra that were subdivided, came apart and were removed: a witness that knows no dart.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,19 +13,19 @@
 
 namespace dartboard {
 
-/// Tetrahedra with points at rest, masses, and what each contributes to its edges; and the sides by which they hold
-/// together. Side n of a cell is opposite its corner n; edges of a cell are 01 02 03 12 13 23.
+/// Tetrahedra with points at rest, masses, and the contribution of each to its edges; and the sides by which they are
+/// joined. Side n of a cell is opposite its corner n; edges of a cell are 01 02 03 12 13 23.
 ///
 /// The rule of refinement, restated. A vertex w is put in the middle of a set S of s corners, and each cell P around S
-/// becomes the s cells (P without n, with w), n in S. Each has the mass of P over s. What P contributes to
+/// becomes the s cells (P without n, with w), n in S. Each has the mass of P over s. The contribution of P to
 ///
 ///     an edge ab of P                    is shared by the children that have it, those for n in S without a and b;
 ///     an edge that S is                  makes two halves, twice as stiff each;
 ///     an edge from w to any other node   is `bracing`, shared by the children that have it.
 ///
-/// Numbers of masses and contributions are computed by the same divisions as core's, and must have the same bits. Rest
-/// lengths are not: here they are distances between points, and each cell keeps how far the square of the length that
-/// core derives from other lengths may be off; cells around an edge keep the same.
+/// Masses and contributions are computed by the same divisions as core's, and must have the same bits. Rest lengths are
+/// not: here they are distances between points, and each cell keeps a bound on the error of the squared length that
+/// core derives from other lengths; cells around an edge keep the same.
 class SubdividedCells {
  public:
   struct Corner {
@@ -38,17 +38,17 @@ class SubdividedCells {
   };
   struct Tetrahedron {
     std::array<std::uint32_t, 4> points;
-    std::array<Corner, 4> across;  // by side: the cell joined there and its side; this side itself when nothing is
+    std::array<Corner, 4> across;  // by side: the cell joined there and its side; this side itself if nothing is joined
     double mass;
     std::array<double, 6> share;         // contributed to an edge, over the material's stiffness
-    std::array<double, 6> square_error;  // of core's square of the rest length, at most [m^2]
-    std::array<double, 4> side_area;     // [m^2] an equal part of the side that it is a part of
+    std::array<double, 6> square_error;  // error bound of core's square of the rest length [m^2]
+    std::array<double, 4> side_area;     // [m^2] an equal part of the original side
     bool is_there;
-    std::uint32_t depth;  // refinements that it went through
+    std::uint32_t depth;  // number of refinements that led to it
   };
   struct Point {
     Eigen::Vector3d rest;
-    double error;  // of a coordinate, at most [m]
+    double error;  // bound on the error of a coordinate [m]
   };
   struct Child {
     std::uint32_t parent, replaced, cell;  // `replaced`: the node of the parent whose place the vertex took
@@ -71,12 +71,12 @@ class SubdividedCells {
   bool is_joined(Corner side) const { return !(cells_[side.cell].across[side.node] == side); }
   /// The cells around these nodes of the cell, that one first, with the same nodes there.
   std::vector<std::pair<std::uint32_t, std::uint8_t>> around(std::uint32_t cell, std::uint8_t nodes) const;
-  /// The length at rest by the points, and how far core's may be off.
+  /// The rest length computed from the points, and a bound on the error of core's.
   std::pair<double, double> rest_length(EdgeOfCell edge) const;
-  /// The volume [m^3] by the points, and how far rounding may have moved it.
+  /// The volume [m^3] computed from the points, and a bound on its rounding error.
   std::pair<double, double> volume(std::uint32_t cell) const;
 
-  /// f(corners) for each vertex; f(edges of cells) for each edge.   cost    O(cells)
+  /// Calls f(corners) for each vertex; f(edges of cells) for each edge.   cost    O(cells)
   template <class F>
   void for_each_vertex(F&& f) const {
     for_each_class<4>([](std::uint32_t n) { return static_cast<std::uint8_t>(1u << n); }, f);
@@ -95,7 +95,7 @@ class SubdividedCells {
                     std::vector<Child>& children);
   void join(Corner a, Corner b);
 
-  // Parts of cells, k in 0 .. count - 1 of each, told by their nodes.
+  // Parts of cells, k in 0 .. count - 1 of each, identified by their nodes.
   template <std::uint32_t parts, class Nodes, class F>
   void for_each_class(Nodes&& nodes, F& f) const {
     std::vector<std::uint8_t> met(cells_.size(), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// A body under operations, the witness of what should be left of it, and which place of the witness is where in it.
+// A body under operations, the witness of its expected state, and the correspondence of their places.
 
 #include <array>
 #include <span>
@@ -21,7 +21,7 @@ struct SubjectBody {
 
   explicit SubjectBody(const Problem& problem) : start(&problem), body(build_body<Map, Held::by_every_dart>(problem)) {
     body.vertices.keep_rest();
-    body.vertices.pull = body.vertices.rest;  // of each vertex another
+    body.vertices.pull = body.vertices.rest;  // each vertex has another pull
     views.rebuild(body);
   }
 
@@ -30,10 +30,10 @@ struct SubjectBody {
   Views views;
 };
 
-/// A body that is taken apart. The witness of a vertex are its corners, of an edge the edges of cells that it is.
+/// A body that is taken apart. The witness of a vertex are its corners, that of an edge the coinciding edges of cells.
 ///
-/// Both kinds of subject answer the same questions: which cell, side, vertex and edge of the witness is at a dart,
-/// which number the body gives to each, and what one cell has of the masses, springs and sides.
+/// Both kinds of subject answer the same questions: which cell, side, vertex and edge of the witness is at a dart, the
+/// body's number of each, and the share of one cell in the masses, springs and sides.
 template <class AnyMap>
 struct Subject : SubjectBody<AnyMap> {
   using Side = std::uint32_t;
@@ -60,7 +60,7 @@ struct Subject : SubjectBody<AnyMap> {
   Side opposite(Side side) const { return cells.opposite(side); }
   double measure(Side side) const { return cells.measure(side); }
 
-  /// f(number in the body, place) for each vertex and edge of the witness; f(cell) for each cell that is there.
+  /// Calls f(number in the body, place) for each vertex and edge of the witness; f(cell) for each cell that is there.
   template <class F>
   void for_each_vertex(F&& f) const {
     cells.for_each_vertex([&](std::uint32_t corner, VertexPlace corners) { f(vertex(corner), corners); });
@@ -75,7 +75,7 @@ struct Subject : SubjectBody<AnyMap> {
       if (cells.is_there(c)) f(c);
   }
 
-  /// Of one cell: f(mass, vertex), f(stiffness, damping, spring, its vertices a, b), f(side).
+  /// For one cell: f(mass, vertex), f(stiffness, damping, spring, its vertices a, b), f(side).
   template <class F>
   void for_each_corner_of(std::uint32_t c, F&& f) const {
     const std::uint32_t first = start_mesh().first[c];
@@ -106,7 +106,7 @@ struct RefinedSubject : SubjectBody<AnyMap> {
   using Corner = SubdividedCells::Corner;
   using Side = Corner;
   using VertexPlace = Corner;                     // one of its corners
-  using EdgePlace = SubdividedCells::EdgeOfCell;  // one of the edges of cells that it is
+  using EdgePlace = SubdividedCells::EdgeOfCell;  // one of the coinciding edges of cells
 
   explicit RefinedSubject(const Problem& problem)
       : SubjectBody<AnyMap>(problem),

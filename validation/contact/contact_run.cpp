@@ -10,7 +10,7 @@
 namespace dartboard {
 namespace {
 
-/// The sums of sizes that momenta are sums of.
+/// The sums of absolute terms of the momenta.
 struct Sizes {
   double momentum = 0.0, angular = 0.0;
 };

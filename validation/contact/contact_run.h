@@ -1,5 +1,5 @@
 #pragma once
-// A scene in which bodies touch, run, and looked at by other code on the way.
+// Runs of a scene in which bodies touch, inspected by other code on the way.
 
 #include <cstddef>
 #include <functional>
@@ -15,17 +15,17 @@ struct ContactRun {
   std::size_t looks = 0;
   std::size_t contacts = 0;  // the most at a look
   OverlapTally by_depth{};   // of all looks, in depths that the law allows
-  double allowed = 0.0;      // [m] that depth
+  double allowed = 0.0;      // [m] the depth allowed by the law
   double deepest = 0.0;      // [m] least translation of two cells that overlap
-  // Of the largest kinetic energy: what energy, losses and what was supplied do not account for, the largest of all
-  // looks. Of the sums of m |v| and m |x| |v| at the start, where nothing acts from outside: the largest change.
+  // Relative to the largest kinetic energy: energy that losses and supply do not account for, the largest of all looks.
+  // Relative to the sums of m |v| and m |x| |v| at the start, if nothing acts from outside: the largest change.
   double energy = 0.0, momentum = 0.0, angular = 0.0;
-  bool alone = true;   // nothing acts from outside; else momenta are not looked at
-  bool ended = false;  // as it should
+  bool alone = true;   // nothing acts from outside; else momenta are not compared
+  bool ended = false;  // regularly
 };
 
-/// Run a scene of tetrahedra, and look at it `looks` times, the last at the end: at cells that overlap and are no
-/// neighbours, whether they are felt, and at its sums.
+/// Runs a scene of tetrahedra, and inspects it `looks` times, the last at the end: cells that overlap and are no
+/// neighbours, whether they are felt, and the sums.
 ///
 /// `meddles`, for tests, is called before each look.
 /// pre     bodies touch by one law

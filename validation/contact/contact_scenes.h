@@ -8,7 +8,7 @@
 namespace dartboard {
 
 /// Two boxes that fly into each other, spinning; a bar that is cut while it runs together; a stack that comes to rest
-/// on a floor. None of the first two is acted on from outside.
+/// on a floor. Nothing acts on the first two from outside.
 std::vector<SceneFile> contact_scenes();
 
 }  // namespace dartboard

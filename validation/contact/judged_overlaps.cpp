@@ -7,7 +7,7 @@
 namespace dartboard {
 namespace {
 
-/// For each corner the tetrahedra there.
+/// The tetrahedra at each corner.
 std::vector<std::vector<std::uint32_t>> cells_around(std::size_t corners, std::span<const CellCorners> tetrahedra) {
   std::vector<std::vector<std::uint32_t>> around(corners);
   for (std::uint32_t c = 0; c < tetrahedra.size(); ++c)

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a body feels what overlaps of it, by other code.
+// Overlaps found by other code, and whether a body feels them.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,16 +22,16 @@ struct JudgedOverlap {
 };
 
 /// All overlaps of tetrahedra that may touch and are no neighbours: no corner of one is in a cell with a corner of the
-/// other, as within a body that is bent, or around the tip of a cut. Felt is one if a sample at a corner of one of the
-/// two is in contact with a tetrahedron at a corner of the other, or out of reach there.
+/// other, as within a body that is bent, or around the tip of a cut. An overlap is felt if a sample at a corner of one
+/// of the two is in contact with a tetrahedron at a corner of the other, or out of reach there.
 ///
-/// pre     the contact is of a body of these tetrahedra at x; `may_touch` of two cells
+/// pre     the contact is of a body of these tetrahedra at x; `may_touch` answers for two cells
 /// cost    that of reference::overlaps, and O(overlaps, contacts, cells)
 std::vector<JudgedOverlap> judged_overlaps(const BodyContact& contact, std::span<const Eigen::Vector3d> x,
                                            std::span<const CellCorners> tetrahedra,
                                            const std::function<bool(std::uint32_t, std::uint32_t)>& may_touch);
 
-/// How many overlaps there are of some depths, and how many of these nobody feels.
+/// Numbers of overlaps by depth, and how many of these no body feels.
 struct OverlapTally {
   static constexpr std::size_t classes = 10;
   std::array<std::size_t, classes> overlaps{}, missed{};  // the last: of that depth and above

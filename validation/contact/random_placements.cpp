@@ -15,16 +15,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The triangles of the boundary of each body, and where it is at rest.
+/// The triangles of the boundary of a body, its vertices, and its centre at rest.
 struct Shape {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> vertices;
   Vector3d centre{0, 0, 0};
 };
 
-/// A turn of one direction into another.
+/// A rotation that takes one direction into another.
 Eigen::Matrix3d turning(const Vector3d& from, const Vector3d& to) {
-  // the shortest is not one where they are opposite, and loses digits near there
+  // the shortest rotation is not unique for opposite directions, and loses digits near there
   if (from.dot(to) < 0.0) {
     const Vector3d across = from.unitOrthogonal();
     return turning(-from, to) * (2.0 * across * across.transpose() - Eigen::Matrix3d::Identity());
@@ -42,7 +42,7 @@ class Placing {
     problem.mesh = first;
     append(problem.mesh, second);
     BodyNeeds needs = body_needs(problem, false);
-    // what is felt does not depend on the law
+    // whether contact is felt does not depend on the law
     const ContactLaw law{.pressure = 1.0, .depth = 1.0};
     needs.touches = {{0, 1, law}};
     needs.first_cell = {0, first.cell_count()};

@@ -1,5 +1,5 @@
 #pragma once
-// Two bodies put a little into each other at random: what of it is felt.
+// Two bodies put a little into each other at random, and whether the overlap is felt.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace dartboard {
 struct PlacementPlan {
   std::size_t placements = 1000;
   std::uint64_t seed = 1;
-  // for tests: nothing of this placement is felt
+  // for tests: the contacts of this placement are lost
   std::function<bool(std::size_t placement)> loses{};
 };
 
@@ -25,12 +25,12 @@ struct PlacementsFound {
   double least_altitude = 0.0;  // [m] of the cells at the boundary
   OverlapTally by_depth{};      // pairs of cells, in least altitudes
 
-  /// Those of another series of the same bodies.
+  /// Adds the results of another series of the same bodies.
   void add(const PlacementsFound& other);
 };
 
 /// Put the second body to the first at random: a place on the surface of one (a corner, on an edge, in a face, as often
-/// each) into such a place of the other by up to one least altitude, turned so that what is outwards at both is
+/// each) into such a place of the other by up to one least altitude, turned so that the outward directions at both are
 /// opposite; and judge all overlaps.
 ///
 /// pre     meshes of tetrahedra, of convex bodies: outwards is away from the mean of the vertices

@@ -1,5 +1,5 @@
 #pragma once
-// What every contender offers, whoever carries its body.
+// The common interface of all contenders, whatever carries their bodies.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// A body in motion, spoken to in the order of the mesh's points.
+/// A body in motion, accessed in the order of the mesh's points.
 class ContenderBody {
  public:
   virtual ~ContenderBody() = default;
@@ -21,7 +21,7 @@ class ContenderBody {
   virtual std::vector<Eigen::Vector3d> forces() = 0;
 };
 
-/// Of positions and velocities: equal bits, equal hash.
+/// Hash of positions and velocities: equal bits, equal hash.
 std::uint64_t state_hash(const PointState& state);
 
 }  // namespace dartboard

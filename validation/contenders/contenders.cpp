@@ -48,7 +48,7 @@ class CoreContender : public ContenderBody {
   double h_;
 };
 
-/// A witness from reference/, which speaks the same language under its own class.
+/// A witness from reference/, which has the same interface in its own class.
 template <class Body>
 class ReferenceContender : public ContenderBody {
  public:

@@ -16,14 +16,14 @@ enum class Carrier { core_map, adjacency_graph, cgal_map };
 
 struct Contender {
   std::string id;       // for the command line and the raw samples
-  std::string what;     // one line for people
-  std::string section;  // of the paper; empty for what the paper does not have
+  std::string what;     // one line for readers
+  std::string section;  // of the paper; empty for contenders that the paper does not have
   double paper_ms;      // per step, section 5; 0 where the paper gives none
   Carrier carrier;      // the walks of the core must agree bit for bit, the others within the summation bound
   std::function<std::unique_ptr<ContenderBody>(const Problem&)> make;
 };
 
-/// All of them, in the order in which they are printed; the baseline of every ratio is `graph`.
+/// All contenders, in the order in which they are printed; the baseline of every ratio is `graph`.
 std::span<const Contender> contenders();
 
 inline constexpr std::string_view baseline_id = "graph";

@@ -66,7 +66,7 @@ std::vector<MotionAgreement> compare_motion(const Problem& problem, int steps, s
     a.position_difference = largest_difference(end.x, first_end.x);
     a.velocity_difference = largest_difference(end.v, first_end.v);
     if (c.carrier == Carrier::core_map) {
-      // equal hashes of states that are no numbers are no agreement
+      // equal hashes of states with NaN are no agreement
       a.agrees = a.hash == first_hash && forces == first_forces && a.position_difference == 0.0 &&
                  a.velocity_difference == 0.0;
     } else {

@@ -10,11 +10,11 @@
 
 namespace dartboard {
 
-/// How many spreads of rounding a contender may be off (reference/schemes/extended_motion.h): it rounds some ten times
-/// in a step, the spread once.
+/// The largest deviation of a contender, in spreads of rounding (reference/schemes/extended_motion.h): it rounds some
+/// ten times in a step, the spread once.
 inline constexpr double spreads_of_a_second = 10.0;
 
-/// Where one contender is after so many steps.
+/// The state of one contender after so many steps.
 struct SecondOfMotion {
   std::string id;
   int steps = 0;
@@ -24,11 +24,11 @@ struct SecondOfMotion {
   bool agrees = false;
 };
 
-/// Who stands for all: the fastest way to walk each kind of body. Walks of one kind agree bit for bit, or within a
-/// rounding bound, over ten steps (motion_agreement.h), and a second of the slow ones would take ten.
+/// The representatives of all contenders: the fastest way to walk each kind of body. Walks of one kind agree bit for
+/// bit, or within a rounding bound, over ten steps (motion_agreement.h), and a second of the slow ones would take ten.
 std::vector<Contender> contenders_for_a_second();
 
-/// Let contenders move for `seconds` of the problem's steps from its start. What is not a number agrees with nothing.
+/// Let contenders move for `seconds` of the problem's steps from its start. NaN agrees with nothing.
 std::vector<SecondOfMotion> compare_second(const Problem& problem, double seconds, std::span<const Contender> all);
 
 }  // namespace dartboard

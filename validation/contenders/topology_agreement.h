@@ -1,5 +1,5 @@
 #pragma once
-// The first gate: our map of a mesh has the cells that CGAL counts in its own.
+// The first gate: our map of a mesh has the same numbers of cells as CGAL's.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct CountAgreement {
   bool agrees() const { return ours == cgal; }
 };
 
-/// What is counted, by its name, with both answers.
+/// The quantities counted, by name, with both answers.
 std::vector<CountAgreement> set_side_by_side(const MapSummary& ours, const reference::CgalCounts& cgal);
 
 /// Darts, i-cells and components of the problem's mesh, counted by coverages of our map and by CGAL of its own.

@@ -46,7 +46,7 @@ BarOfScene bar_of_scene(const SceneFile& scene) {
   if (scene.has_contact()) fail("/contact", "says what touches", "a bar that touches nothing");
 
   const std::vector<std::uint32_t> fixed = [&] {
-    SceneFile points_alone = scene;  // a stiffness of its springs is not asked for, which not all cells have
+    SceneFile points_alone = scene;  // without the stiffness of springs, which not all cells have
     points_alone.material.model = Model::springs;
     points_alone.material.young = 0.0;
     return make_problem(points_alone).fixed;

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr std::uint64_t most_steps = 1'000'000;  // of a period: what needs more is given up
+constexpr std::uint64_t most_steps = 1'000'000;  // of a period: methods that need more are dropped
 
 std::uint64_t in_beats(double steps) {
   return static_cast<std::uint64_t>(std::max(1.0, std::ceil(steps / Beats::count))) * Beats::count;
@@ -35,7 +35,7 @@ struct Offer {
   double price;  // [ns] of a period
 };
 
-/// Of a step, from a few that follow two others, in which what is made once is made.
+/// The price of a step, from a few that follow two others, which do the work that is done once.
 std::optional<double> price_of_step(BentBar& bar, const std::string& name, double h,
                                     const std::function<std::int64_t()>& clock) {
   const auto integrator = make_integrator(name);

@@ -23,24 +23,24 @@ struct ClampedBar {
 
   double length() const { return cubes[0] * spacing; }
   double volume() const { return cubes[0] * cubes[1] * cubes[2] * spacing * spacing * spacing; }
-  /// Of a mesh of cubes whose sides are a `finer`-th.
+  /// Number of nodes of a mesh whose cubes have sides of a `finer`-th.
   std::size_t nodes(int finer) const;
-  /// The corners of the coarsest cubes on the surface that are free, which every mesh has.
+  /// The free corners of the coarsest cubes on the surface; every mesh has them.
   std::vector<Eigen::Vector3d> watched() const;
 };
 
-/// What the bar is made of: springs or elements, of tetrahedra, six to a cube, or of the cubes.
+/// The pieces of the bar: springs or elements, of tetrahedra, six to a cube, or of the cubes.
 struct BarModel {
   Model model = Model::springs;
   CellKind cells = CellKind::tetrahedron;
-  double jitter = 0.0;  // [sides of a cube] of the nodes inside
+  double jitter = 0.0;  // [sides of a cube] of the inner nodes
 };
 /// "springs", "springs, jittered", "neo-hookean tetrahedra", "corotational hexahedra"
 std::string in_words(const BarModel& model);
 /// throws  InputError for words that are none of these
 BarModel bar_model(const std::string& words);
 
-/// The body of a model, nobody holding it but the clamp; neither gravity nor damping.
+/// The body of a model, held only by the clamp; neither gravity nor damping.
 std::unique_ptr<SimulatedBody> bar_body(const ClampedBar& bar, const BarModel& model, int finer, double poisson);
 
 /// The bar near rest: linear.
@@ -56,8 +56,8 @@ std::vector<std::uint32_t> watched_vertices(const ClampedBar& bar, const Simulat
 /// By quadratic tetrahedra; their nodes are those of linear ones on a mesh twice as fine.
 LinearBar quadratic_bar(const ClampedBar& bar, int finer, double poisson);
 
-/// The modulus [Pa] of a slab that cannot give way to the sides: E (1 - nu) / ((1 + nu) (1 - 2 nu)); and that of a
-/// model's forces in this mesh of it, which a strain that is the same everywhere does not move from its places.
+/// The modulus [Pa] of a slab that cannot expand sideways: E (1 - nu) / ((1 + nu) (1 - 2 nu)); and that of a model's
+/// forces in this mesh of it, whose nodes stay in place under a uniform strain.
 double confined_modulus(double young, double poisson);
 double confined_modulus_of(const ClampedBar& bar, const SimulatedBody& body);
 

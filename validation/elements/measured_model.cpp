@@ -10,7 +10,7 @@
 namespace dartboard {
 namespace {
 
-constexpr double part_of_error = 0.1;  // that steps may add to a model's own error
+constexpr double part_of_error = 0.1;  // of a model's own error, which steps may add
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace dartboard {
 namespace {
 
-constexpr double least_order = 0.5;  // what falls more slowly has a floor, as springs have, and is not trusted
+constexpr double least_order = 0.5;  // errors that fall more slowly have a floor, as those of springs: not trusted
 
 constexpr CellKind tetrahedra = CellKind::tetrahedron, hexahedra = CellKind::hexahedron;
 constexpr std::array<BarModel, 5> models{{{Model::springs, tetrahedra},
@@ -54,7 +54,7 @@ ModelAdvice advise_model(const ClampedBar& bar, const BarMeshes& meshes, double 
     advice.why_not = fmt::format("the reference cannot tell errors below {:.2g}", 2.0 * truth.unsure.motion);
     return advice;
   }
-  std::vector<int> least;  // as fine as each model has to be, by what was measured
+  std::vector<int> least;  // the fineness that each model needs, by the measurements
   for (const BarModel& model : models) {
     ModelTrend trend{.model = model};
     const MeasuredModel coarse = measure_model(bar, model, trend.coarse, truth, clock);

@@ -94,7 +94,7 @@ class Operated {
     }
   }
 
-  /// With a body that is built from the corners of the cells that are left, each vertex a point.
+  /// Compares with a body that is built from the corners of the remaining cells, each vertex a point.
   void compare(ElementOperations& found) const {
     Problem anew = problem_;
     anew.mesh = {};
@@ -177,7 +177,7 @@ class Operated {
     }
   };
 
-  /// Of one cell, of tetrahedra by the witness, of others by what a term of that cell alone has.
+  /// The energy of one cell, for tetrahedra by the witness, for others by a term of that cell alone.
   double energy_of(std::uint32_t c) const {
     if constexpr (tetrahedra) {
       std::array<Vector3d, 4> rest, now;

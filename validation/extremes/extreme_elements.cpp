@@ -1,4 +1,4 @@
-// Axis of elastic solids: laws, Poisson's ratios, stiffness within a body, and shapes in which laws are at their end.
+// Axis of elastic solids: laws, Poisson's ratios, stiffness within a body, and shapes at the limits of laws.
 
 #include <fmt/format.h>
 

@@ -30,8 +30,8 @@ constexpr std::chrono::milliseconds budget{1600};  // of a run
 
 /// A run of a body on a map, with changes after every step.
 ///
-/// `events` are those at the end of each step: d, a face somewhere is dissociated, r, a volume somewhere is removed; D
-/// and R, the same of the place where the event before was.
+/// `events` are those at the end of each step: d, a random face is dissociated, r, a random volume is removed; D and R,
+/// the same at the place of the event before.
 ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool all_first, const MakeIntegrator& make) {
   ExtremeCell cell{which.axis, which.scene, which.integrator, which.value, ExtremeOutcome::ok, {}, 0, {}, ""};
   Problem problem;

@@ -49,15 +49,15 @@ double truth_bound(const TruthScale& s) {
   return 8 * s.amplitude * order * (1 + s.steps * s.theta) * growth +
          // rounding of positions, which forces turn into velocities
          64 * epsilon * (s.size + s.amplitude * s.steps * s.theta) * (1 + s.steps * s.theta) +
-         1e-9 * s.amplitude * s.steps;  // what implicit methods leave of their equations
+         1e-9 * s.amplitude * s.steps;  // the residuals of implicit methods' equations
 }
 
 double OffsetObservation::rounding() const { return epsilon * offset; }
 
 bool OffsetObservation::is_right() const {
-  // explicit Euler makes rounding grow as it does everything
+  // explicit Euler amplifies rounding as everything else
   const double growth = explicit_euler ? std::exp(0.045 * static_cast<double>(steps)) : 1.0;
-  // Newton's method stops within what rounding leaves of its equations, in each step
+  // Newton's method stops within the rounding of its equations, in each step
   const double allowed = (iterates ? 1000 : 30) * rounding() * growth;
   return distance <= allowed && (warned || !(rounding() > 1e-6 * shortest));
 }

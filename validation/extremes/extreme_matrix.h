@@ -1,5 +1,5 @@
 #pragma once
-// The matrix of extremes while it is filled, axis by axis.
+// The matrix of extremes while it is being filled, axis by axis.
 
 #include <functional>
 #include <span>
@@ -20,7 +20,7 @@ class ExtremeMatrix {
  public:
   ExtremeMatrix(std::string_view axis, bool quick) : axis_(axis), quick_(quick) {}
 
-  /// What one value stands for.
+  /// The setup of one value.
   struct Row {
     std::string value;
     SetupMaker make;
@@ -48,7 +48,7 @@ class ExtremeMatrix {
     }
   }
   std::vector<ExtremeCase> take() { return std::move(cases_); }
-  /// Those that were added with a maker of setups, in this order.
+  /// The rows that were added with a maker of setups, in this order.
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
@@ -61,7 +61,7 @@ class ExtremeMatrix {
 
 inline constexpr std::string_view extreme_solids[]{"box", "sheet"};
 
-// One function per family of axes; each looks at the name itself where it serves several.
+// One function per family of axes; each checks the name itself where it serves several.
 void add_numbers(ExtremeMatrix& matrix, std::string_view axis);
 void add_shapes(ExtremeMatrix& matrix);
 void add_vertices(ExtremeMatrix& matrix);

@@ -80,7 +80,7 @@ void add_numbers(ExtremeMatrix& matrix, std::string_view axis) {
       SpringColumns body = moving_body(scene);
       const double omega = highest_frequency(body);
       set_moving(body, speed / omega, omega);
-      // a body torn that far apart bends more than the bound of an order knows
+      // a body torn that far apart bends more than the bound of an order allows for
       return ExtremeSetup{.body = std::move(body), .h = 0.1 / omega, .compare = false};
     });
   if (axis == "absolute")

@@ -40,8 +40,8 @@ bool finite(const SpringColumns& body) {
   return true;
 }
 
-/// Does nothing take energy from the motion? Of methods that keep the energy, or a quantity near it; within their limit
-/// of stability that is away from it by less than what growth is allowed. Where gravity acts energy has no floor.
+/// Must energy persist? With methods that keep the energy, or a quantity near it: within their limit of stability that
+/// differs from it by less than the growth allowed. Where gravity acts energy has no floor.
 bool must_live(const SpringColumns& start, const Scheme& scheme, const StableStep& limits) {
   const bool damped = limits.damping_time.upper > 0.0 || limits.viscous_rate.upper > 0.0;
   return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0);
@@ -51,7 +51,7 @@ bool warned_of(const ExtremeCell& cell, StepCode code) {
   return std::ranges::find(cell.warnings, to_string(code)) != cell.warnings.end();
 }
 
-/// Look at a run that ended without a diagnosis.
+/// Observes a run that ended without a diagnosis.
 ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, const SpringColumns& end,
                            const Scheme& scheme, const StableStep& limits,
                            const std::optional<MotionDistance>& motion) {
@@ -91,7 +91,7 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
   return seen;
 }
 
-/// How far a run at an offset is from the same run at the origin; nothing where that one fails.
+/// The difference of a run at an offset from the same run at the origin; nothing if that one fails.
 std::optional<OffsetObservation> observe_offset(const ExtremeCell& cell, const ExtremeSetup& setup,
                                                 const SpringColumns& end, const MakeIntegrator& make) {
   SpringColumns twin = setup.body;
@@ -187,7 +187,7 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   cell.end = numbers_of(body.x, body.v);
   judge_steps(cell, evidence, motion && motion->resolved());
   if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body, make);
-  // a step that theory calls unstable must have been predicted
+  // a step that is unstable by theory must have been predicted
   const bool warned = cell.outcome == ExtremeOutcome::degraded || cell.outcome == ExtremeOutcome::silent;
   if (!warned && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
     cell.outcome = ExtremeOutcome::silent;

@@ -1,5 +1,5 @@
 #pragma once
-// One run of the matrix of extremes: what it starts from, and the judgement of what it ends with.
+// One run of the matrix of extremes: its start, and the judgement of its end.
 
 #include <cstdint>
 #include <functional>
@@ -13,30 +13,30 @@
 
 namespace dartboard {
 
-/// A run on columns, and what is done to it.
+/// A run on columns, and the changes made to it.
 struct ExtremeSetup {
   SpringColumns body;
   double h = 0.0;
   std::uint64_t steps = 100;
   std::function<void(SpringColumns&)> halfway{};  // in mid-run
-  bool announced = false;                         // as a change of the system, which only the state need not be
+  bool announced = false;                         // the detector is notified (not needed if only the state changes)
   bool compare = true;                            // the end with the bound of the method's order
   double offset = 0.0;                            // [m] of the body, along x
   std::vector<Eigen::Vector3d> at_origin{};       // positions of the same body there; empty: no run to compare with
 };
 
-/// Check, run, watch and judge it.
+/// Checks, runs, watches and judges it.
 ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const MakeIntegrator& make = make_sound);
 
-/// The outcome of a run that nothing else has found wrong: by its steps, and by whether it resolves the motion.
+/// The outcome of a run in which no other fault was found: by its steps, and by whether it resolves the motion.
 void judge_steps(ExtremeCell& cell, const StepEvidence& evidence, bool motion_resolved);
 /// All positions, then all velocities.
 std::vector<double> numbers_of(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
 
-/// Does the method keep the energy of what nothing damps, or a quantity near it?
+/// Does the method keep the energy of an undamped system, or a quantity near it?
 bool conserves_energy(const Scheme& scheme);
 
-/// Kinetic, elastic and gravity energy [J], in extended precision and without the detector: what outcomes rest on.
+/// Kinetic, elastic and gravity energy [J], in extended precision and without the detector: the basis of outcomes.
 long double energy_of(const SpringColumns& body);
 
 /// omega_max [1/s] at the state of the body, from below.
@@ -45,7 +45,7 @@ double highest_frequency(const SpringColumns& body);
 /// An extreme body displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
 SpringColumns moving_body(std::string_view scene, double size = 0.01);
 
-/// A run in steps of theta / omega_max.
+/// A run with steps of theta / omega_max.
 ExtremeSetup with_theta(SpringColumns body, double theta, std::uint64_t steps = 100);
 
 }  // namespace dartboard

@@ -1,4 +1,4 @@
-// Axes along what is wrong with a body: its shape, its vertices, its numbers.
+// Axes along faults of a body: its shape, its vertices, its numbers.
 
 #include <fmt/format.h>
 

@@ -18,7 +18,7 @@ std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, c
   for (std::size_t i = 0; i < n; ++i) {
     const bool fixed = system.fixed[i] != 0;
     network.fixed.push_back(fixed);
-    network.mass.push_back(fixed ? 1.0 : system.mass[i]);  // nobody asks for the mass of what is held
+    network.mass.push_back(fixed ? 1.0 : system.mass[i]);  // the mass of a fixed vertex is never used
     if (fixed) continue;
     const double rate = system.viscosity[i] / system.mass[i];
     if (known && !(std::abs(rate - network.viscosity) <= 1e-14 * network.viscosity)) return {};
@@ -73,7 +73,7 @@ void StepEvidence::after(Motion motion) {
     const reference::StepJudgement judgement = judge_->judge(step_);
     ++judged_;
     seeing_ += judgement.sees();
-    if (!(judgement.excess <= worst_) && !std::isnan(worst_)) {  // what is not a number is not less
+    if (!(judgement.excess <= worst_) && !std::isnan(worst_)) {  // NaN is not less
       worst_ = judgement.excess;
       worst_step_ = count_;
     }

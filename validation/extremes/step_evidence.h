@@ -1,5 +1,5 @@
 #pragma once
-// What the steps of a run say about its integrator: each beside what the scheme gives from the same state.
+// Evidence from the steps of a run on its integrator: each is compared with the scheme's from the same state.
 
 #include <cstdint>
 #include <memory>
@@ -13,27 +13,27 @@
 
 namespace dartboard {
 
-/// The system, its other terms being those of `solid`, as a network of the witnesses'; nothing where they know no such
-/// bodies: viscosities that are not in proportion to masses, forces from outside, terms that they are not told of, free
-/// vertices without mass, numbers that are not finite.
+/// The system, whose other terms are those of `solid`, as a network of the witnesses; nothing if they do not support
+/// it: viscosities that are not in proportion to masses, forces from outside, terms unknown to them, free vertices
+/// without mass, numbers that are not finite.
 std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, const ElasticSolid* solid = nullptr);
 
 /// Judges the steps of a run: the first ones, and a sample of all others.
 class StepEvidence {
  public:
-  /// of a run of so many steps, of which about `most` are judged; of springs, and of a solid that outlives this
+  /// for a run of so many steps, of which about `most` are judged; of springs, and of a solid that outlives this
   StepEvidence(std::string_view integrator, std::uint64_t steps, const ElasticSolid* solid = nullptr,
                std::uint64_t most = 200);
 
-  /// To be called before and after every step; `restarted` where the integrator was, or the system has changed.
+  /// To be called before and after every step; `restarted` after a restart of the integrator or a change of the system.
   void before(const SpringSystem& system, Motion motion, double h);
   void after(Motion motion);
   void restarted();
 
   std::uint64_t judged() const { return judged_; }
-  /// Of these, steps at which a wrong one would have been seen.
+  /// The number of these steps at which a wrong one would have been seen.
   std::uint64_t seeing() const { return seeing_; }
-  /// The largest distance from the scheme's step over its bound, and in which step.
+  /// The largest distance from the scheme's step over its bound, and the step of it.
   double worst() const { return worst_; }
   std::uint64_t worst_step() const { return worst_step_; }
   /// Processor time spent on it [s].
@@ -43,10 +43,10 @@ class StepEvidence {
   std::string scheme_;
   const ElasticSolid* solid_;
   std::uint64_t stride_, count_ = 0, judged_ = 0, seeing_ = 0, worst_step_ = 0;
-  bool asks_ = false;  // whether the step under way is judged
+  bool asks_ = false;  // the present step is judged
   bool changed_ = true;
   double worst_ = 0.0, seconds_ = 0.0;
-  std::unique_ptr<const reference::StepJudge> judge_;  // null where there is none for the system
+  std::unique_ptr<const reference::StepJudge> judge_;  // null if the system has none
   reference::TakenStep step_;
 };
 

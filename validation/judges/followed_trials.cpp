@@ -11,7 +11,7 @@
 namespace dartboard {
 namespace {
 
-/// But for a rounding of the largest coordinate in each step.
+/// Equal up to a rounding of the largest coordinate in each step.
 bool same_run(const TimedRun& a, const TimedRun& b) {
   if (a.states.size() != b.states.size()) return false;
   double largest = 0.0, apart = 0.0;

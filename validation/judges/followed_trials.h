@@ -1,5 +1,5 @@
 #pragma once
-// `recommend --verify` before the court: does it see that the run that it follows is a wrong integrator's?
+// Trials of `recommend --verify`: does it see that the run that it follows is a wrong integrator's?
 
 #include <span>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// Each of these methods is recommended a step for the error, as if there were no other; where its run meets the error,
-/// it is run again wrong in each way. What misses the error, or is diagnosed, is seen.
+/// For each of these methods a step is recommended for the error, as if there were no other; if its run meets the
+/// error, it is run again wrong in each way. A wrong run that misses the error, or is diagnosed, counts as seen.
 std::vector<JudgeTrial> try_followed(const TradeoffScene& scene, const SceneReference& reference,
                                      std::span<const IntegratorEntry> methods, double error, const CpuClock& clock);
 

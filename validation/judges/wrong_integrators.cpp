@@ -24,7 +24,7 @@ constexpr std::array kinds{
     WrongIntegrator{Wrong::drifts, "drifts by 1e-6", "positions grow by a millionth in each step"},
 };
 
-// A system of its own, whose springs and gravity differ.
+// A system of its own, with other springs and gravity.
 struct ChangedSystem {
   std::vector<Spring> springs;
   std::vector<double> viscosity;
@@ -84,7 +84,7 @@ class Faulty : public Integrator {
   }
 
  private:
-  // A step and two of half the size differ by what the step is wrong by, C h^(p+1); that over h omega is added to it.
+  // A step and two of half the size differ by the error of the step, C h^(p+1); that over h omega is added to it.
   StepResult enlarge_error(const SpringSystem& system, Motion motion, double h) {
     std::vector<Vector3d> x(motion.x.begin(), motion.x.end()), v(motion.v.begin(), motion.v.end());
     StepResult result = right_->step(system, motion, h);
@@ -99,7 +99,7 @@ class Faulty : public Integrator {
     return result;
   }
 
-  // The velocities get besides what linearised springs do and the true ones do not: k d.(dx - L d) along d, the
+  // The velocities are changed by the difference of linearised springs from the true ones: k d.(dx - L d) along d, the
   // direction at the start of the run.
   StepResult linearise(const SpringSystem& system, Motion motion, double h) {
     if (along_.size() != system.springs.size()) {

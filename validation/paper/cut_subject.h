@@ -1,5 +1,5 @@
 #pragma once
-// A body to be cut, beside a witness that knows its cells, their exact masses, and no dart.
+// A body to be cut, with a witness that knows its cells, their exact masses, and no dart.
 
 #include <functional>
 #include <span>
@@ -11,18 +11,18 @@
 
 namespace dartboard {
 
-/// How a body follows a change of its map: core's `adapt`, or a faulty stand-in.
+/// The function that makes a body follow a change of its map: core's `adapt`, or a faulty stand-in.
 using Adapt = std::function<void(LiveBody<Map3>&, const TopologyChange&)>;
 inline const Adapt core_adapt = [](LiveBody<Map3>& body, const TopologyChange& change) { adapt(body, change); };
 
 struct CutSubject : Subject<Map3> {
-  std::vector<reference::Rational> share;  // by cell: what each of its nodes gets of its mass, exact [kg]
-  std::vector<double> rounding;            // by cell: how far core's share may be off
+  std::vector<reference::Rational> share;  // by cell: the exact share of each of its nodes in its mass [kg]
+  std::vector<double> rounding;            // by cell: bound on the error of core's share
 
   /// pre  a solid without a Young's modulus, which outlives this
   explicit CutSubject(const Problem& problem);
 
-  /// The mass that the corners of one vertex have in common, and how far core's sum of as many shares may be from it.
+  /// The common mass of the corners of one vertex, and a bound on the error of core's sum of as many shares.
   struct Mass {
     double exact, bound;
   };
@@ -33,7 +33,7 @@ struct CutSubject : Subject<Map3> {
   std::vector<std::uint32_t> corners_of(std::uint32_t side) const;
   std::vector<std::uint32_t> edges_of(std::uint32_t side) const;
 
-  /// Sheared, stretched and in motion: nothing that is computed from the present shape is as at rest.
+  /// Sheared, stretched and in motion: nothing that is computed from the present shape has its value at rest.
   void deform();
 };
 

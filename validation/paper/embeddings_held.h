@@ -7,7 +7,7 @@
 namespace dartboard {
 
 /// Each dart finds the same embeddings in both bodies, and after `steps` steps by full coverage, and then as many along
-/// lists, both are in the same state, bit for bit, which is another than at the start.
+/// lists, both are in the same state, bit for bit, which differs from that at the start.
 ClaimAnswer same_results(MassSpringBody<Map3, Held::by_one_dart> one, MassSpringBody<Map3, Held::by_every_dart> every,
                          double h, int steps);
 

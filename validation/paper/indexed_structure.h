@@ -10,9 +10,9 @@ namespace dartboard {
 
 /// Dissociate random faces, every eighth time remove a volume, and translate each into changes of an indexed structure
 /// alone: arrays of springs with the numbers of their ends, masses and stiffnesses, never built again. After each
-/// operation it has to be what the cells that are left make of it, found without a dart: as many springs as the cells
-/// have edges, each as stiff as its cells make it and between the two numbers of its ends. What was done is possible:
-/// the paper says it is not.
+/// operation it must agree with the remaining cells, found without a dart: as many springs as the cells have edges,
+/// each with the stiffness that its cells give and between the two numbers of its ends. Success shows that it is
+/// possible: the paper says it is not.
 ClaimAnswer translate_operations(const Problem& problem, int operations, std::uint64_t seed,
                                  const Follow<Map3>& translate = follow<Map3>);
 

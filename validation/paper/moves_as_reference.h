@@ -1,11 +1,11 @@
 #pragma once
-// Whether a body on a map moves as the same steps in extended precision, by code that shares nothing with core, say.
+// The motion of a body on a map, compared with the same steps in extended precision by independent code.
 
 #include "core/plain/mesh.h"
 
 namespace dartboard {
 
-/// How many spreads of rounding a state may be off: a program rounds some ten times in a step, the spread once.
+/// The allowed deviation of a state in spreads of rounding: a program rounds some ten times in a step, the spread once.
 inline constexpr double spreads_allowed = 10.0;
 
 /// The distance of the state after a hundred steps under gravity, the lowest point held, over cell arrays of a body on

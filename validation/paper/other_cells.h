@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// A body of hexahedra, prisms, pyramids and tetrahedra: cut, eroded and moved as one of tetrahedra is, by the same
+/// A body of hexahedra, prisms, pyramids and tetrahedra: cut, eroded and moved as a body of tetrahedra, with the same
 /// judges. `mesh` has to hold all four kinds.
 ClaimAnswer try_other_cells(const Mesh& mesh, int operations, std::uint64_t seed, const Adapt& follow = core_adapt);
 

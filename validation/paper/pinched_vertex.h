@@ -1,5 +1,5 @@
 #pragma once
-// Fig. 3: a manifold body, and a quasi-manifold that is none and can be computed all the same.
+// Fig. 3: a manifold body, and a quasi-manifold that is not a manifold and can be simulated as well.
 
 #include "core/plain/mesh.h"
 #include "validation/topology/claim_answer.h"

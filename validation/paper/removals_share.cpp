@@ -21,7 +21,7 @@ Totals totals_of(const LiveBody<Map3>& body) {
   return totals;
 }
 
-/// Their difference, not rounded like either.
+/// Their difference, without the rounding of either.
 double lost(const TwofoldSum& before, const TwofoldSum& after) {
   return (before.high - after.high) + (before.low - after.low);
 }
@@ -43,7 +43,7 @@ RemovalAnswers try_removals(const Problem& problem, int removals, std::uint64_t 
     std::uint32_t c = random.below(cells);
     while (!s.cells.is_there(c)) c = (c + 1) % cells;
     std::set<std::uint32_t> corners, edges, sides;  // of the cells around it
-    // how far the sums may be off: masses and stiffnesses are summed anew where the volume was, before and after
+    // bounds on the errors of the sums: masses and stiffnesses are summed anew where the volume was, before and after
     double mass_rounding = s.rounding[c] * static_cast<double>(problem.mesh.cell(c).size()), stiffness_rounding = 0.0;
     for (std::uint32_t side = s.cells.first_side(c); side < s.cells.first_side(c + 1); ++side)
       if (s.cells.is_joined(side)) sides.insert(s.cells.opposite(side));

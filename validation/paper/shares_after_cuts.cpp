@@ -13,7 +13,7 @@ using Numbers = std::vector<std::uint32_t>;
 
 Numbers copy(std::span<const std::uint32_t> numbers) { return {numbers.begin(), numbers.end()}; }
 
-/// One of the cells that are about to part, its corner or edge, and what the other cell calls it.
+/// One of the cells that are about to part, its corner or edge, and the number of that in the other cell.
 struct Place {
   std::uint32_t here, there;
   Numbers whole;  // before: all corners or edges that are one with it
@@ -21,7 +21,7 @@ struct Place {
   Eigen::Vector3d position{0, 0, 0}, velocity{0, 0, 0};
 };
 
-/// The volume of the first cell as the body lies now, over that at rest.
+/// The volume of the first cell in the present shape, over that at rest.
 double stretch(const CutSubject& s) {
   Mesh now = s.start->mesh;
   for (std::size_t k = 0; k < s.body.vertices.size(); ++k)

@@ -1,5 +1,5 @@
 #pragma once
-// Section 4.3 on the body as it is built: eq. (1), and stiffnesses as sums of what cells contribute.
+// Section 4.3 on the body as it is built: eq. (1), and stiffnesses as sums over cells.
 
 #include "core/mechanics/mass_spring_body.h"
 #include "validation/topology/claim_answer.h"

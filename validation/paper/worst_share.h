@@ -1,9 +1,9 @@
 #pragma once
-// How close what was compared came to its bounds.
+// The largest deviation relative to its bound.
 
 namespace dartboard {
 
-/// Of a quantity that should be another: the largest deviation over its bound, NaN kept.
+/// For a quantity with an expected value: the largest deviation over its bound, NaN kept.
 class WorstShare {
  public:
   void compare(double is, double should_be, double bound);

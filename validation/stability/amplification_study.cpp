@@ -53,10 +53,10 @@ std::vector<Eigen::Matrix2d> powers(const IntegratorEntry& entry, double theta, 
   return result;
 }
 
-// Of methods whose matrix is a function of the oscillator's [0 theta; -theta 0]: a + b J is the number a + b i.
+// For methods whose matrix is a function of the oscillator's [0 theta; -theta 0]: a + b J is the number a + b i.
 Complex as_number(const Eigen::Matrix2d& m) { return {(m(0, 0) + m(1, 1)) / 2, (m(0, 1) - m(1, 0)) / 2}; }
 
-// Of z_n+1 = s z_n + p z_n-1, from z_0 = 1 and three steps: the root of r^2 = s r + p nearer to what theory says.
+// For z_n+1 = s z_n + p z_n-1, from z_0 = 1 and three steps: the root of r^2 = s r + p nearer to that of theory.
 Complex root_of_recurrence(const std::vector<Eigen::Matrix2d>& z, Complex expected) {
   Eigen::Matrix2cd a;
   a << as_number(z[0]), 1.0, as_number(z[1]), as_number(z[0]);
@@ -125,7 +125,7 @@ std::vector<AmplificationPoint> measure_amplification(std::span<const double> th
         if (inclined) p.tolerance *= 2.0 / std::abs(p.theory.imag());
       } else {
         p.measured = root_of_recurrence(powers(entry, theta, 3), p.theory);
-        // the start is a step of backward Euler: by its distance from the root the recurrence is told from its powers
+        // the start is a step of backward Euler: its distance from the root separates the two roots of the recurrence
         const Complex z(0.0, theta), start = reference::backward_euler_amplification(z);
         p.tolerance /= std::abs(start - p.theory);
       }

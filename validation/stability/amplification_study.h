@@ -1,6 +1,6 @@
 #pragma once
-// What one step makes of an undamped oscillation, its amplitude and its phase, as integrators compute it and as theory
-// says.
+// Effect of one step on an undamped oscillation, its amplitude and its phase, as computed by integrators and by
+// theory.
 
 #include <complex>
 #include <span>
@@ -16,7 +16,7 @@ struct AmplificationPoint {
   std::string integrator;
   bool implicit = false;
   double theta = 0.0;                     // h omega
-  std::complex<double> measured, theory;  // what the oscillation is multiplied by in a step
+  std::complex<double> measured, theory;  // the factor of the oscillation in a step
   double tolerance = 0.0;                 // of their difference, relative, from the rounding of positions
 
   double deviation() const { return std::abs(measured - theory) / std::abs(theory); }
@@ -25,23 +25,23 @@ struct AmplificationPoint {
   double amplitude() const { return std::abs(measured); }
   double phase() const;  // [rad] in [0, 2 pi); of the motion: theta
   double theoretical_phase() const;
-  /// The damping ratio of the oscillator whose solution decays as much as it turns: - ln |R| / phase.
+  /// The damping ratio of the oscillator whose solution decays and turns by as much: - ln |R| / phase.
   double damping_ratio() const;
   double theoretical_damping_ratio() const;
 };
 
-/// The closed form of a method (reference/closed_form.h), never what the integrator says of itself.
+/// The closed form of a method (reference/closed_form.h), never the integrator's own statement.
 ///
 /// throws  InputError for an integrator without one
 std::complex<double> theoretical_amplification(const Scheme& scheme, double theta);
 
 /// Runs on a mass on a spring at a wall, colinear and hence exactly linear: a step from two independent states gives
-/// the matrix of the step, and its eigenvalue is the measurement; of BDF2 three steps give its recurrence. Implicit
+/// the matrix of the step, and its eigenvalue is the measurement; for BDF2 three steps give its recurrence. Implicit
 /// methods at all `thetas`, explicit ones where they are stable.
 std::vector<AmplificationPoint> measure_amplification(std::span<const double> thetas,
                                                       std::span<const IntegratorEntry> entries = integrators());
 
-/// From 1e-2 to 1e3, so many to a decade.
+/// From 1e-2 to 1e3, so many per decade.
 std::vector<double> amplification_steps(int per_decade);
 
 }  // namespace dartboard

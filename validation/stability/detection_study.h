@@ -1,5 +1,5 @@
 #pragma once
-// How soon an unstable run is found: predicted before it, and detected after its energy has passed the bound.
+// The time until an unstable run is found: predicted before it, and detected after its energy has passed the bound.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ namespace dartboard {
 /// A run with a step beyond the limit.
 struct Detection {
   std::string body{}, integrator{};
-  double factor = 0.0;  // step over the longest stable one, of a long run
+  double factor = 0.0;  // step over the longest stable one, for a long run
   bool predicted = false;
   std::uint64_t steps = 0;                // made
   std::uint64_t above = 0;                // the most steps in a row that ended with more energy than that
@@ -34,8 +34,8 @@ std::vector<double> detection_factors(bool quick);
 /// precision.
 ///
 /// Close to the limit it takes ln(gain / share of the unstable modes) / ln(growth per step) steps to pass the bound,
-/// and large motions may soften a body so that it never does; no bound on energy can be passed sooner, and none below
-/// it spares stable runs.
+/// and large motions may soften a body so that it never does; no bound on energy can be passed sooner, and a lower
+/// bound would stop stable runs.
 std::vector<Detection> measure_detection(bool quick);
 
 /// One of these runs, in steps of h [s]; `factor` is h over the limit.

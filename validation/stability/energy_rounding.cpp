@@ -52,7 +52,7 @@ class Oscillator {
   const CompensatedSplitting* compensated_ = nullptr;
 };
 
-// Of a symmetric splitting, whose matrix [a b; c a] on (q, v) has determinant 1: v^2 - (c/b) q^2 is conserved.
+// For a symmetric splitting, whose matrix [a b; c a] on (q, v) has determinant 1: v^2 - (c/b) q^2 is conserved.
 long double weight_of_positions(std::string_view integrator, double h) {
   const bool verlet = integrator.starts_with("verlet");
   if (!verlet && !integrator.starts_with("blanes-moan-4"))

@@ -1,5 +1,5 @@
 #pragma once
-// What rounding alone does: to the energy over long runs, and to the motion in tiny steps.
+// Effects of rounding alone: on the energy over long runs, and on the motion in tiny steps.
 
 #include <cstdint>
 #include <span>
@@ -20,21 +20,21 @@ struct RoundingGrowth {
   };
   std::vector<Point> points{};
   double exponent = 0.0;        // of the steps, by least squares on logarithms; 1/2 where errors are a random walk
-  double standard_error = 0.0;  // of the exponent, for the starts that were drawn; not a number for one start
+  double standard_error = 0.0;  // of the exponent, over the random starts; NaN for one start
 };
 
-/// The power of the steps that the errors grow with, by least squares on logarithms.
+/// The power of the number of steps with which the errors grow, by least squares on logarithms.
 double exponent_of(std::span<const RoundingGrowth::Point> points);
 
 /// The standard error of the exponent of the root mean square over starts, by leaving out one start after the other
 /// (jackknife): `squares` has the squared errors of each start at each of the steps.
 double exponent_error(std::span<const RoundingGrowth::Point> points, const std::vector<std::vector<double>>& squares);
 
-/// Runs of an oscillator from `starts` random states, h omega = 0.05, looked at after 10^4 steps (10^3 if there are
+/// Runs of an oscillator from `starts` random states, h omega = 0.05, measured after 10^4 steps (10^3 if there are
 /// fewer than 10^6) and then at every half decade up to `steps`.
 ///
 /// The form is that of the matrix of one step, in extended precision, with the rounded drifts and kicks that the
-/// integrator uses; of compensated states the lost digits are counted in.
+/// integrator uses; for compensated states the lost digits are included.
 /// throws  InputError unless it is a Verlet or Blanes-Moan method, plain or compensated
 RoundingGrowth measure_rounding_growth(std::string_view integrator, std::uint64_t steps, int starts);
 
@@ -43,11 +43,11 @@ struct TinySteps {
   std::string integrator;
   double h = 0.0;  // [s]
   std::uint64_t steps = 0;
-  double lost = 0.0;      // share of the displacement that the positions do not show
-  double readable = 0.0;  // half a unit in the last place of the position over the displacement: what must be lost
-  double lost_with_digits = 0.0;  // with the lost digits, of compensated states; else as `lost`
+  double lost = 0.0;      // share of the displacement missing from the positions
+  double readable = 0.0;  // half a unit in the last place of the position over the displacement: unavoidable loss
+  double lost_with_digits = 0.0;  // with the lost digits, for compensated states; else as `lost`
 
-  /// Nothing but what cannot be read is lost.
+  /// Only the unavoidable part is lost.
   bool keeps_all() const { return lost <= 2 * readable + 1e-7; }
 };
 

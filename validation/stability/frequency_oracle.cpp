@@ -17,7 +17,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr Index most_steps = 800;
 
-// No eigenvalue of A above the bound: bound - A is positive definite. It is tried on a little more, since at the
+// No eigenvalue of A above the bound: bound - A is positive definite. A slightly larger bound is tested, since at the
 // eigenvalue itself the matrix is singular.
 bool is_above_all(const Sparse& a, double bound) {
   Sparse shifted = -a;

@@ -1,5 +1,5 @@
 #pragma once
-// The highest frequency of a spring system by a long way round that is certain: a matrix, Lanczos, and a proof.
+// The highest frequency of a spring system by a slow way that is certain: a matrix, Lanczos, and a proof.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

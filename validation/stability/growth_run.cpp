@@ -28,11 +28,11 @@ bool is_stable(const GrowthRun& run, const SpringColumns& at_rest, Integrator& i
     if (!integrator.step(body.system(), body.motion(), h).ok()) return false;
     const double size = size_of(body, at_rest.x, run.omega);
     if (k >= begin && k < begin + GrowthRun::window) first = std::max(first, size);
-    // ten times more than the gain: what comes after that is no longer linear
+    // ten times more than the gain: beyond that the motion is no longer linear
     if (!(size < 10 * run.gain * start)) return false;
     if (k + GrowthRun::window >= run.steps) last = std::max(last, size);
   }
-  return last <= start || last < run.gain * first;  // what has decayed to rounding or to nothing is stable
+  return last <= start || last < run.gain * first;  // a motion that has decayed to rounding or to nothing is stable
 }
 
 }  // namespace dartboard

@@ -1,5 +1,5 @@
 #pragma once
-// Does a small oscillation grow, as an integrator computes it? What stability is measured by.
+// Does a small oscillation grow under an integrator? The measurement behind all results on stability.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace dartboard {
 
 /// An oscillation about rest, and how long it is watched.
 struct GrowthRun {
-  static constexpr std::uint64_t window = 64;  // steps over which the size of the oscillation is taken
+  static constexpr std::uint64_t window = 64;  // steps over which the size of the oscillation is measured
 
   double omega = 0.0;                  // [1/s]
   std::vector<Eigen::Vector3d> shape;  // [edges], the largest coordinate about 1; starts at 1e-8 of it
@@ -23,7 +23,7 @@ struct GrowthRun {
   double measured_steps() const { return static_cast<double>(steps - steps / 10 - window); }
 };
 
-/// Whether the oscillation grows by less than `gain`; no longer than it is linear, which is far beyond that.
+/// Whether the oscillation grows by less than `gain`; a run stops far beyond it, where motion ceases to be linear.
 bool is_stable(const GrowthRun& run, const SpringColumns& at_rest, Integrator& integrator, double h);
 
 }  // namespace dartboard

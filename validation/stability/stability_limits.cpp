@@ -61,8 +61,8 @@ void measure(const Subject& subject, std::span<const double> damping_ratios, std
     const Scheme& scheme = integrator->scheme();
     if (scheme.implicit) continue;
     for (const double zeta : damping_ratios) {
-      // Symplectic Euler damps spring by spring. In a network that is less than what its scheme says of one damper,
-      // and its limit, unlike that of the symmetric methods, depends on it.
+      // Symplectic Euler damps spring by spring. In a network that is less than its scheme states for one damper, and
+      // its limit, unlike that of the symmetric methods, depends on it.
       if (scheme.symplectic && !scheme.symmetric && zeta > 0.0 && subject.name != "oscillator") continue;
       const double omega = subject.run.omega;
       SpringColumns body = subject.body;

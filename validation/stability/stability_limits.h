@@ -1,5 +1,5 @@
 #pragma once
-// The longest stable step of explicit integrators, found by runs, beside the one that their schemes promise.
+// The longest stable step of explicit integrators, measured by runs, compared with that of their schemes.
 
 #include <span>
 #include <string>
@@ -23,17 +23,17 @@ struct StabilityLimit {
 };
 
 /// Oscillator, chain (frequencies in closed form) and two small meshes (frequency_oracle.h), five damping ratios, every
-/// explicit integrator. Of runs of N steps the limit is where the first oscillation grows by 1e3: rho^N = 1e3, which
-/// tells even weak growth. Limits above 20 are left out, and those of damped networks by symplectic Euler, whose scheme
-/// speaks of one damper only.
+/// explicit integrator. For runs of N steps the limit is where the first oscillation grows by 1e3: rho^N = 1e3, which
+/// reveals even weak growth. Limits above 20 are left out, and those of damped networks by symplectic Euler, whose
+/// scheme is defined for one damper only.
 std::vector<StabilityLimit> measure_stability_limits(bool quick,
                                                      std::span<const IntegratorEntry> entries = integrators());
 
-/// A body made from a mesh, with what is known of its highest frequency.
+/// A body made from a mesh, with the knowledge of its highest frequency.
 struct MeshBody {
   std::string name{};
   SpringColumns body{};
-  double omega = 0.0, error = 0.0;  // [1/s] by Lanczos, and how far it may be off
+  double omega = 0.0, error = 0.0;  // [1/s] by Lanczos, and the error bound
   bool proven = false;
   double lower = 0.0, upper = 0.0;       // [1/s] StableStepEstimate's bracket of it
   double rise = 1.0;                     // omega over that before the operations

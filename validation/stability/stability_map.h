@@ -1,5 +1,5 @@
 #pragma once
-// Where an integrator is stable, over steps and damping ratios, by runs of it.
+// The stable region of an integrator, over steps and damping ratios, measured by runs.
 
 #include <vector>
 
@@ -11,9 +11,9 @@ namespace dartboard {
 struct StabilityMap {
   std::string integrator;
   std::vector<double> theta, zeta;  // of the map; the first ratio is 0, the others ascend by equal factors
-  std::vector<double> growth;       // ln of what a step multiplies the oscillation by, a row per ratio
+  std::vector<double> growth;       // ln of the growth factor of the oscillation in a step, a row per ratio
 
-  /// A place where a run of this length begins or ceases to grow by the gain, as theory says and as found by runs.
+  /// A place where a run of this length begins or ceases to grow by the gain, by theory and by measurement.
   struct Crossing {
     double zeta, theory;
     double measured = 0.0;  // 0 if there is none within 1 % of the theory
@@ -31,7 +31,7 @@ struct StabilityMap {
 struct MapPlan {
   double theta_most = 4.0, zeta_least = 1e-3, zeta_most = 10.0;
   int columns = 160, rows = 60;
-  int boundary_rows = 25;      // on which the boundary is looked for by runs, the first at 0
+  int boundary_rows = 25;      // on which runs search for the boundary, the first at 0
   std::uint64_t steps = 3000;  // of such a run
 };
 MapPlan map_plan(const Scheme& scheme, bool quick);

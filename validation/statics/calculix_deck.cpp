@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Twenty letters at most, sign and exponent among them.
+/// Twenty characters at most, including sign and exponent.
 std::string number(double value) { return fmt::format("{:.13e}", value); }
 
-/// What all decks have; nodes are counted from 1.
+/// The parts common to all decks; nodes are counted from 1.
 class Deck {
  public:
   explicit Deck(std::span<const Vector3d> nodes) {
@@ -78,7 +78,7 @@ std::string calculix_deck(const StaticProblem& problem) {
 
 std::string calculix_deck(const StaticProblem& problem, const reference::QuadraticSolid& solid,
                           const std::vector<std::uint32_t>& held, const Eigen::VectorXd& force) {
-  // the reference has nodes in the middle of edges, and has made them as this does
+  // the reference has nodes in the middle of edges, computed in the same way as here
   std::map<std::array<double, 3>, std::uint32_t> node_at;
   for (std::uint32_t i = 0; i < solid.nodes().size(); ++i) {
     const Vector3d& x = solid.nodes()[i];

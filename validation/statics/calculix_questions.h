@@ -1,5 +1,5 @@
 #pragma once
-// What CalculiX is asked, beside our own answers.
+// Problems for CalculiX, with our own answers.
 
 #include <Eigen/Core>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dartboard {
 
-/// A beam that is bent, as a deck for CalculiX and as it bends by elements of ours.
+/// A bent beam, as a deck for CalculiX and as the result of our elements.
 struct CalculixQuestion {
   std::string what;  // "tetrahedra (C3D4), small displacements"
   bool large = false;
@@ -17,13 +17,13 @@ struct CalculixQuestion {
 };
 
 /// Core's tetrahedra and hexahedra, and the reference's quadratic tetrahedra, under small loads; the former bent to 0.6
-/// of their length, too. Of `across` cubes.
+/// of their length, too. With `across` cubes.
 ///
 /// pre  across is 2 or 4
 std::vector<CalculixQuestion> calculix_questions(int across);
 
-/// The largest distance between our displacements and those that are printed, over the largest of these.
-/// throws  IoError where they are not those of all nodes
+/// The largest distance between our displacements and the printed ones, over the largest of these.
+/// throws  IoError if they are not those of all nodes
 double apart(const CalculixQuestion& question, std::string_view printed);
 
 }  // namespace dartboard

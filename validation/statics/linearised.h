@@ -1,5 +1,5 @@
 #pragma once
-// What moves as springs and elements do, as two matrices.
+// The linearised motion of springs and elements, as two matrices.
 
 #include <Eigen/Core>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// The stiffness of a system's springs and force terms where it is, and its masses; its fixed vertices are held.
+/// The stiffness of a system's springs and force terms at x, and its masses; its fixed vertices are held.
 reference::HeldSolid linearised(const SpringSystem& system, std::span<const Eigen::Vector3d> x,
                                 Compression compression = Compression::exact);
 

@@ -26,7 +26,7 @@ NewtonRun run(double traction, std::string_view name, const StaticProblem& probl
     std::vector<Vector3d> u(start.size());
     for (std::size_t k = 0; k < u.size(); ++k) u[k] = rest.x[k] - start[k];
     run.bent = largest_displacement(u);
-  } catch (const SolverError&) {  // that it was not found is an answer
+  } catch (const SolverError&) {  // not found is a result, too
   }
   return run;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A solid that is held and loaded, as any program can be given it.
+// A solid that is held and loaded, in a form that any program can read.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace dartboard {
 
-/// Linear tetrahedra or hexahedra of an elastic material, some points held, forces on others that keep their direction.
+/// Linear tetrahedra or hexahedra of an elastic material, some points held, forces of constant direction on others.
 struct StaticProblem {
   Mesh mesh;
   double young = 1e5, poisson = 0.3;   // [Pa]
@@ -27,7 +27,7 @@ struct StaticProblem {
 /// [Pa] across its other end, sideways too, is shared by the points there.
 StaticProblem loaded_beam(CellKind cells, int across, double traction, bool large);
 
-/// The traction [Pa] that bends such a beam to some 0.6 of its length, of two or four cubes across: coarse meshes are
+/// The traction [Pa] that bends such a beam to some 0.6 of its length, for two or four cubes across: coarse meshes are
 /// stiffer, tetrahedra most.
 double bends_far(CellKind cells, int across);
 
@@ -35,11 +35,11 @@ double bends_far(CellKind cells, int across);
 std::unique_ptr<SimulatedBody> body_of(const StaticProblem& problem, Model model);
 std::vector<Eigen::Vector3d> forces_on(const StaticProblem& problem, const SimulatedBody& body);
 
-/// Where the points of a problem go [m], by core's elements: tangents and forces as they are simulated.
-/// throws  SolverError where Newton's method does not end
+/// The displacements [m] of the points of a problem, by core's elements: tangents and forces as they are simulated.
+/// throws  SolverError if Newton's method does not converge
 std::vector<Eigen::Vector3d> displacements_by_core(const StaticProblem& problem);
 
-/// The largest distance of two displacements over the largest of the second ones; NaN where they are not as many.
+/// The largest distance of two displacements over the largest of the second ones; NaN if their numbers differ.
 double displacements_apart(std::span<const Eigen::Vector3d> u, std::span<const Eigen::Vector3d> truth);
 /// The largest displacement [m].
 double largest_displacement(std::span<const Eigen::Vector3d> u);

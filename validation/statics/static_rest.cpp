@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double of_a_part = 1e-3;  // enough of a residual to add the next part of the load
+constexpr double of_a_part = 1e-3;  // residual at which the next part of the load is added
 
-/// The unknowns of free vertices, as a matrix whose columns they are.
+/// The unknowns of free vertices, as the columns of a matrix.
 Sparse freedom(const SpringSystem& system) {
   std::vector<Eigen::Triplet<double>> entries;
   int count = 0;
@@ -37,7 +37,7 @@ StaticRest static_rest(const SpringSystem& system, std::span<const Vector3d> sta
   const Sparse free = freedom(system);
   StaticRest rest{{start.begin(), start.end()}};
   std::vector<Vector3d> a(system.vertex_count());
-  // the share of the load that is asked for, and what the body's own forces are short of it
+  // the residual: that share of the load and the body's own forces
   const auto left_over = [&](double share) {
     accelerations(system, {.fixed = true}, rest.x, {}, a);
     VectorXd left(free.rows());
@@ -48,7 +48,7 @@ StaticRest static_rest(const SpringSystem& system, std::span<const Vector3d> sta
   double asked = 0.0;
   for (const Vector3d& f : force) asked += f.squaredNorm();
   asked = std::sqrt(asked);
-  Eigen::SimplicialLDLT<Sparse> factor;  // of what bends far, the tangent need not be definite on the way
+  Eigen::SimplicialLDLT<Sparse> factor;  // if a body bends far, the tangent need not be definite on the way
   for (int part = 1; part <= plan.parts; ++part) {
     const double share = static_cast<double>(part) / plan.parts;
     const double enough = part < plan.parts ? of_a_part : plan.residual;

@@ -12,9 +12,9 @@
 
 namespace dartboard {
 
-/// R K R' of each tetrahedron, K its stiffness at rest and R the rotation that it has made: symmetric and positive
-/// semidefinite wherever it is, and the exact tangent of corotational elements but for what R itself changes by. Kept
-/// beside the exact one for comparison; core knows nothing of it.
+/// R K R' of each tetrahedron, K its stiffness at rest and R its rotation: symmetric and positive semidefinite in any
+/// position, and the exact tangent of corotational elements except for the change of R itself. Kept in addition to the
+/// exact one for comparison; core knows nothing of it.
 ///
 /// source  Mueller, Gross, Interactive virtual materials, Graphics Interface 2004
 class WarpedStiffness {
@@ -23,7 +23,7 @@ class WarpedStiffness {
   /// throws  InputError for a piece of other than four vertices
   WarpedStiffness(const SpringSystem& system, std::span<const Eigen::Vector3d> rest);
 
-  /// [N/m] of all unknowns, with the tetrahedra at x.
+  /// [N/m] over all unknowns, with the tetrahedra at x.
   Eigen::SparseMatrix<double> operator()(std::span<const Eigen::Vector3d> x) const;
 
  private:

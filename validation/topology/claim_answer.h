@@ -1,5 +1,5 @@
 #pragma once
-// What was found when a sentence of the paper was tried out.
+// The result of testing a sentence of the paper.
 
 #include <string>
 

@@ -238,7 +238,7 @@ std::optional<Disagreement> Lockstep::compare_around(std::span<const Dart> touch
   return std::nullopt;
 }
 
-// Each carrier's walk must bring every dart of ours once: it turns the stamp of the carrier before it into its own.
+// Each carrier's walk must visit every dart of ours once: it turns the stamp of the carrier before it into its own.
 std::optional<Disagreement> Lockstep::compare_cell(int i, Dart d) {
   const Involutions set = cell_involutions(n_, i);
   twins_[0]->orbit(set, d, orbit_);

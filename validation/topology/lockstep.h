@@ -1,5 +1,5 @@
 #pragma once
-// The same map in several hands, ours and CGAL's: operations done to all of them, and what they say compared.
+// The same map in several carriers, ours and CGAL's: operations applied to all of them, and their answers compared.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +17,12 @@
 
 namespace dartboard {
 
-/// What two carriers of the same map say differently.
+/// A difference between the answers of two carriers of the same map.
 struct Disagreement {
-  std::size_t operation = 0;  // how many operations went before the one after which it was seen
+  std::size_t operation = 0;  // number of operations before the one after which it was seen
   std::string line;           // that operation; empty when it was seen before any
   std::string what;           // "alpha3(d17)"
-  std::string ours, theirs;   // with the name of who says it
+  std::string ours, theirs;   // with the names of the carriers
 };
 std::string to_string(const Disagreement& disagreement);
 
@@ -32,7 +32,7 @@ using MakeTwins = std::function<std::vector<std::unique_ptr<MapTwin>>(const Mesh
 /// Map2 or Map3, and TetMap too for tetrahedral storage.
 std::vector<std::unique_ptr<MapTwin>> core_twins(const Mesh& mesh, ScriptStorage storage);
 
-/// The same map in several hands, to which one operation after the other is done.
+/// The same map in several carriers, to which operations are applied one after the other.
 ///
 /// After each operation: legality verdicts; alphas of all touched darts; cells of all touched darts, as sets; cells per
 /// dimension that came or went, against what one operation can change; validity around the touched darts of our maps.
@@ -42,8 +42,8 @@ class Lockstep {
 
   Lockstep(const Mesh& mesh, ScriptStorage storage, ScriptOracles oracles, const MakeTwins& ours = core_twins);
 
-  /// Do it, unless it is illegal or one of the twins cannot carry it: then nobody does. The first name of an added cell
-  /// is filled in when it is missing. Whatever a twin throws is a disagreement.
+  /// Applies the operation, unless it is illegal or one of the twins cannot carry it: no twin applies it then. The
+  /// first name of an added cell is filled in when it is missing. Any exception of a twin is a disagreement.
   std::optional<Disagreement> apply(Operation& operation);
   Outcome outcome() const { return outcome_; }  // of the last operation
 
@@ -52,11 +52,11 @@ class Lockstep {
   std::optional<Disagreement> compare_everything() const;
 
   const MapTwin& ours() const { return *twins_[0]; }
-  std::span<const Dart> live() const { return live_; }  // in an order that depends on the operations done alone
+  std::span<const Dart> live() const { return live_; }  // in an order that depends only on the operations done
   bool carries_sew(int i, Dart a, Dart b) const;
   bool carries_unsew(int i) const;
   bool carries(CellKind kind) const;
-  /// Why there is no combinatorial map although it was asked for; empty otherwise.
+  /// The reason why there is no combinatorial map although one was requested; empty otherwise.
   const std::string& no_cmap() const { return no_cmap_; }
 
  private:
@@ -78,7 +78,7 @@ class Lockstep {
   std::string no_cmap_;
   int n_ = 3;
   Outcome outcome_ = Outcome::applied;
-  std::vector<long> cells_;  // running totals, from what each operation changed
+  std::vector<long> cells_;  // running totals, updated by the change of each operation
   std::vector<Dart> live_;
   std::vector<std::uint32_t> place_;  // in live_, by name
   std::uint32_t next_name_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What the paper says of maps and graphs in general, tried out.
+// General statements of the paper on maps and graphs, tried out.
 
 #include <cstdint>
 
@@ -18,13 +18,13 @@ ClaimAnswer try_to_leave_the_class(const Mesh& mesh, int operations, std::uint64
 /// all.
 ClaimAnswer try_non_manifold_inputs();
 
-/// Section 1: one face of the mesh is dissociated that takes no vertex or edge apart. Nodes, springs and tetrahedra are
-/// the same before and after, so no adjacency graph can tell the two bodies apart; the maps are not isomorphic.
+/// Section 1: one face of the mesh is dissociated without taking a vertex or edge apart. Nodes, springs and tetrahedra
+/// are the same before and after, so no adjacency graph can distinguish the two bodies; the maps are not isomorphic.
 ClaimAnswer try_same_graph_twice(const Mesh& mesh);
 
 /// Section 2: export to a combinatorial map, with half the darts, and back.
 ClaimAnswer try_combinatorial_round_trip(const Mesh& mesh);
-/// Whether `half`, exported from `map`, brings it back.
+/// Whether `half`, exported from `map`, restores it.
 ClaimAnswer comes_back(const Map3& map, const CombinatorialMap& half);
 
 }  // namespace dartboard

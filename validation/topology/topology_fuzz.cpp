@@ -8,9 +8,9 @@
 namespace dartboard {
 namespace {
 
-/// Proposes operations that keep a body a body: most of what is unsewn is sewn again later where it was, its size stays
-/// within a factor of about two, and few facets at a time are sewn to what they never touched. (Many such sews would
-/// make one vertex of all the vertices, and then every operation walks the whole body.)
+/// Proposes operations that keep a body a body: most unsewn facets are sewn again later where they were, the size stays
+/// within a factor of about two, and few facets at a time are sewn to others that they never touched. (Many such sews
+/// would make one vertex of all the vertices, and then every operation walks the whole body.)
 class Proposals {
  public:
   Proposals(std::uint64_t seed, const Lockstep& lockstep)
@@ -31,7 +31,7 @@ class Proposals {
     if (dice < 78) return sew_strangers();
     const auto i = static_cast<int>(below(static_cast<std::size_t>(n_) + 1));
     if (dice < 90 && i < n_ && lockstep_.carries_unsew(i)) return take_apart(i);
-    const Dart a = any(), b = any();       // one after the other: the order of arguments is the compiler's
+    const Dart a = any(), b = any();       // one after the other: the order of evaluation of arguments is unspecified
     return sew(dice < 94 ? n_ : i, a, b);  // mostly illegal
   }
 
@@ -39,8 +39,8 @@ class Proposals {
   static Operation sew(int i, Dart a, Dart b) {
     return {.kind = Operation::Kind::sew, .i = static_cast<std::int8_t>(i), .a = a, .b = b};
   }
-  // By the high bits, where SplitMix64::below takes the low ones: so a seed still draws what it drew when it was
-  // reported.
+  // By the high bits, where SplitMix64::below takes the low ones: so a seed still draws the same operations as when it
+  // was reported.
   std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>((random_.next() >> 32) * n >> 32); }
   bool percent(unsigned chance) { return below(100) < chance; }
 
@@ -75,7 +75,7 @@ class Proposals {
     Dart a = any(), b = any();
     for (int attempt = 0; attempt < 8 && map.alpha(n_, a) != a; ++attempt) a = any();
     for (int attempt = 0; attempt < 8 && map.alpha(n_, b) != b; ++attempt) b = any();
-    // the other way round when this one does not suit everybody
+    // the other way round when not every twin can carry this one
     if (!lockstep_.carries_sew(n_, a, b)) b = map.alpha(0, b);
     strangers_.push_back(sew(n_, a, b));
     return strangers_.back();
@@ -86,7 +86,7 @@ class Proposals {
   int n_;
   std::size_t start_size_;
   std::vector<CellKind> kinds_;
-  std::vector<Operation> memory_;     // sews that would undo what was taken apart
+  std::vector<Operation> memory_;     // sews that would undo earlier dissociations
   std::vector<Operation> strangers_;  // the latest sews of facets that never touched
 };
 
@@ -96,7 +96,7 @@ void count(FuzzResult& result, Lockstep::Outcome outcome) {
   if (outcome == Lockstep::Outcome::not_carried) ++result.not_carried;
 }
 
-/// Do the operations; what is seen on the way, or by comparing everything at the end.
+/// Applies the operations; returns the disagreement seen on the way, or by comparing everything at the end.
 std::optional<Disagreement> run(Lockstep& lockstep, std::vector<Operation> operations, FuzzResult& result) {
   for (std::size_t k = 0; k < operations.size(); ++k) {
     auto found = lockstep.apply(operations[k]);

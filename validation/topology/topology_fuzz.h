@@ -1,5 +1,5 @@
 #pragma once
-// Random operations in lockstep on our maps and on CGAL's, until something differs; then the shortest script of it.
+// Random operations in lockstep on our maps and on CGAL's, until something differs; then the shortest script for it.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,17 +26,17 @@ struct FuzzPlan {
 struct FuzzResult {
   std::size_t applied = 0, illegal = 0, not_carried = 0;
   std::string no_cmap;
-  std::optional<Disagreement> disagreement;  // as the script shows it
+  std::optional<Disagreement> disagreement;  // as reproduced by the script
   TopologyScript script;                     // shrunk, when there is a disagreement; empty otherwise
 };
 
-/// Random operations. On a disagreement the script is shrunk by delta debugging: no line of it can be left out.
+/// Random operations. On a disagreement the script is shrunk by delta debugging: every remaining line is necessary.
 FuzzResult fuzz_topology(const Mesh& mesh, const FuzzPlan& plan);
 
-/// Do what a script says, and compare everything at the end.
+/// Apply the operations of a script, and compare everything at the end.
 FuzzResult replay_topology(const Mesh& mesh, const TopologyScript& script, const MakeTwins& ours = core_twins);
 
-/// The least number of operations that still disagrees, as far as leaving out chunks and then single lines finds it.
+/// The least number of operations that still disagrees, as far as removing chunks and then single lines finds it.
 /// pre  `disagrees(operations)`
 std::vector<Operation> shrink(std::vector<Operation> operations,
                               const std::function<bool(const std::vector<Operation>&)>& disagrees);

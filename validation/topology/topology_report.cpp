@@ -32,12 +32,12 @@ auto with_sewable(int i, F&& f) {
   }
 }
 
-/// How many cells more there are by what an operation reports: as many as there are reported pairs, less those that
-/// close a cycle. (A cell that a face meets at several corners may come apart into three, and its parts are reported in
-/// pairs.) A pair within one cell is a false report, and then the number of pairs is the answer.
+/// The number of cells added, by the report of an operation: the number of reported pairs, less those that close a
+/// cycle. (A cell that a face meets at several corners may come apart into three, and its parts are reported in pairs.)
+/// A pair within one cell is a false report, and then the number of pairs is the answer.
 template <int i, class Map>
 long cells_added(const Map& map, const std::vector<DissociatedCell>& pairs) {
-  std::vector<Dart> cells;  // one dart per cell, and to which of them it is joined
+  std::vector<Dart> cells;  // one dart per cell; `joined`: the cell that it is joined to
   std::vector<std::size_t> joined;
   const auto find = [&](Dart d) {
     std::size_t k = 0;
@@ -70,7 +70,7 @@ class CoreTwin final : public MapTwin {
  public:
   CoreTwin(const Mesh& mesh, MapOperations<Map> operations)
       : map_(std::move(build_map<Map>(mesh).map)), operations_(std::move(operations)) {
-    // in a fresh map darts are numbered as they are named
+    // in a fresh map darts are numbered in the order of their names
     for (std::uint32_t k = 0; k < map_.capacity(); ++k) name_dart({k}, {k});
   }
 
@@ -137,7 +137,7 @@ class CoreTwin final : public MapTwin {
             cells_added<2>(map_, change.faces)};
   }
   void add(CellKind kind, Dart first) override {
-    // which dart is at which position of the cell: slots are used again in any order, so follow the alphas from the
+    // the dart at each position of the cell: slots are used again in any order, so follow the alphas from the
     // first
     const CellShape& shape = shape_of(kind);
     std::vector<Dart> at(shape.node.size(), no_dart);
@@ -194,12 +194,12 @@ std::size_t count_labels(const std::vector<Dart>& labels, const std::vector<Dart
   return count;
 }
 
-/// One row per question; an answer is a value to compare and words to print.
+/// One row per question; an answer consists of a value to compare and text to print.
 class Rows {
  public:
   explicit Rows(std::span<const MapTwin* const> twins) : twins_(twins) {}
 
-  /// f(twin) gives std::optional<Value>; show(value) its words.
+  /// f(twin) gives std::optional<Value>; show(value) its text.
   template <class F, class Show>
   void ask(std::string what, F&& f, Show&& show) {
     AgreementRow row{std::move(what), {}, true};
@@ -212,7 +212,7 @@ class Rows {
       }
       const bool same = answer == reference;
       row.answers.push_back(show(*answer));
-      // equal words for unequal values: the same number of orbits, parted in another way
+      // equal text for unequal values: the same number of orbits, with other members
       if (!same && reference && row.answers.back() == row.answers.front()) row.answers.back() += " others";
       row.agrees = row.agrees && same;
     }
@@ -274,7 +274,7 @@ std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins) {
         i <= static_cast<std::size_t>(n) ? cell_names[i] : "components",
         [&](const MapTwin& t) { return std::optional(counts[index(t)][i]); }, number);
 
-  // nothing that follows has a meaning unless all have the same darts
+  // the following questions make sense only if all have the same darts
   const auto darts = twins[0]->darts();
   rows.ask(
       "names of darts", [](const MapTwin& t) { return std::optional(t.darts()); },

@@ -1,5 +1,5 @@
 #pragma once
-// One map, several carriers: everything that can be asked of a map, asked of all of them and set side by side.
+// One map, several carriers: all questions on a map, answered by all of them, with the answers in one table.
 
 #include <functional>
 #include <memory>
@@ -14,7 +14,7 @@
 namespace dartboard {
 
 /// The operations of a map of ours, replaceable so that a test can put a faulty one in their place. Darts are the map's
-/// own here. An empty function stands for core's.
+/// own here. An empty function means core's.
 template <class Map>
 struct MapOperations {
   std::function<void(Map&, int i, Dart, Dart)> sew;
@@ -40,7 +40,7 @@ struct AgreementRow {
 
 /// Every question, in this order: darts; i-cells and components by the carrier's own counting; names and alphas; the
 /// partition into orbits for every subset of {alpha_0 .. alpha_n}; orientability; boundary; Euler characteristic of
-/// each component, by smallest dart; validity. The first twin's answer is the one to agree with.
+/// each component, by smallest dart; validity. All answers are compared with the first twin's.
 ///
 /// cost    O(2^(n+1) darts) per twin
 std::vector<AgreementRow> compare_twins(std::span<const MapTwin* const> twins);
@@ -54,7 +54,7 @@ AgreementRow compare_isomorphism(std::span<const MapTwin* const> twins, std::siz
 struct TopologyComparison {
   std::vector<std::string> carriers;  // titles of the answers
   std::vector<AgreementRow> rows;
-  std::string no_cmap;  // why there is no combinatorial map; empty when there is one
+  std::string no_cmap;  // the reason why there is no combinatorial map; empty if there is one
   bool agrees() const;
 };
 TopologyComparison compare_topology(const Mesh& mesh);

@@ -18,7 +18,7 @@ constexpr std::string_view first_line = "dartboard-topology-script 1";
 constexpr std::array all_kinds{CellKind::triangle, CellKind::quadrilateral, CellKind::tetrahedron,
                                CellKind::pyramid,  CellKind::prism,         CellKind::hexahedron};
 
-/// The lines of a script that say something, one at a time, and errors that name the present one.
+/// The significant lines of a script, one at a time, and errors that name the present one.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& file) : rest_(text), file_(file) {}
@@ -70,7 +70,7 @@ class Words {
     const char* end = word.data() + word.size();
     if (word.size() < 2 || word[0] != 'd') lines_.expected("a dart such as d17", word);
     const auto [stop, error] = std::from_chars(word.data() + 1, end, d.index);
-    // names are vector indices in every twin: keep a slip of the pen from asking for gigabytes
+    // names are vector indices in every twin: a typing error must not request gigabytes
     if (error != std::errc() || stop != end || d.index >= (1u << 28)) lines_.expected("a dart d0 .. d268435455", word);
     return d;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Operations on a map as text: what a fuzzer did, and what it takes to make a disagreement happen again.
+// Operations on a map as text: the operations of a fuzzer, and the input that reproduces a disagreement.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 namespace dartboard {
 
 /// One line of a script. Darts are named by number: those of the mesh from 0 in the order of its cells, those of an
-/// added cell from `a` on; a name is given once. An operation that is illegal when its turn comes is skipped by
-/// everybody.
+/// added cell from `a` on; a name is given once. An operation that is illegal when its turn comes is skipped by all
+/// maps.
 struct Operation {
   enum class Kind : std::uint8_t { sew, unsew, dissociate, remove, add };
   Kind kind = Kind::sew;
@@ -29,17 +29,17 @@ struct Operation {
 /// "sew 3 d17 d40", "unsew 3 d5", "dissociate d5", "remove d3", "add tetrahedron d144"
 std::string to_string(const Operation& operation);
 
-/// Which maps of ours take part: Map2 or Map3 alone, or Map3 and TetMap in lockstep.
+/// The maps of ours that take part: Map2 or Map3 alone, or Map3 and TetMap in lockstep.
 enum class ScriptStorage : std::uint8_t { general, tetrahedral };
-/// Which twins of CGAL's: none, the generalized map, or the combinatorial map too (and then no operation that it cannot
-/// carry).
+/// The twins of CGAL's that take part: none, the generalized map, or the combinatorial map too (and then no operation
+/// that it cannot carry).
 enum class ScriptOracles : std::uint8_t { none, gmap, both };
 
 std::string_view name(ScriptStorage storage);
 std::string_view name(ScriptOracles oracles);
 
 struct TopologyScript {
-  std::string mesh;  // a name or a file; whoever replays it knows which
+  std::string mesh;  // a name or a file; it is resolved by the caller that replays it
   ScriptStorage storage = ScriptStorage::general;
   ScriptOracles oracles = ScriptOracles::both;
   std::vector<Operation> operations;

@@ -29,13 +29,13 @@ struct ExplainOptions {
   bool measure = false, json = false;
 };
 
-/// How fast the machine is just now: force evaluations of the scene at rest. It changes by a third within seconds where
+/// The present speed of the machine: force evaluations of the scene at rest. It changes by a third within seconds where
 /// clocks are raised or neighbours work, so an estimate and a run are compared at one speed.
 class Pace {
  public:
   Pace(const Problem& problem, const BodyNeeds& needs) : arrays_(problem, needs), a_(arrays_.x.size()) {}
 
-  /// [ns] of one, now.
+  /// [ns] of one evaluation, now.
   double ns() {
     constexpr double enough = 2e6;
     std::vector<double> each;
@@ -78,7 +78,7 @@ void explain(const ExplainOptions& options, Outcome& outcome) {
   const double before = pace.ns();
   add_times(plan, scene, measure_unit_costs(scene, problem, plan));
   const double estimated_at = (before + pace.ns()) / 2;
-  // what the body or an event of the scene refuses is found by building them
+  // building body and events finds whatever they refuse in the scene
   add_bytes(plan, measured_memory(scene));
   std::optional<double> measured;
   if (options.measure) measured = measured_ns(scene, pace, estimated_at);

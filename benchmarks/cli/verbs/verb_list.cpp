@@ -19,7 +19,7 @@ namespace {
 
 struct Entry {
   std::string id, what;
-  std::string verbs{};  // that take it, of a scene
+  std::string verbs{};  // that accept a scene
 };
 
 std::vector<Entry> scene_entries() {

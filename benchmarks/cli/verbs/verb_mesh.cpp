@@ -41,7 +41,7 @@ std::string hash_of(const Mesh& mesh) {
   return fmt::format("{:016x}", hash.value());
 }
 
-/// Each column of numbers of cells: the values that occur, what they are called, and how many cells have them.
+/// Each column of cell numbers: the values that occur, their names, and how many cells have each.
 nlohmann::ordered_json regions_of(const LoadedMesh& loaded) {
   auto regions = nlohmann::ordered_json::array();
   for (const CellTags& tags : loaded.tags) {
@@ -68,7 +68,7 @@ Cells first_ten(const Cells& cells) {
   return {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(cells.size(), 10))};
 }
 
-/// Size, edges, worst cells and boundary of the mesh with a point for each vertex of its map.
+/// Size, edges, worst cells and boundary of the mesh, which has a point for each vertex of its map.
 void add_facts(nlohmann::ordered_json& json, const MeshFacts& facts, int dimension) {
   const auto point = [](const Eigen::Vector3d& x) { return nlohmann::ordered_json{x.x(), x.y(), x.z()}; };
   json["from"] = point(facts.low);
@@ -83,7 +83,7 @@ void add_facts(nlohmann::ordered_json& json, const MeshFacts& facts, int dimensi
   if (facts.genus) json["genus"] = *facts.genus;
 }
 
-/// What a body cannot be made of; empty for a mesh that it can.
+/// The reason why no body can be made of a mesh; empty if one can.
 std::string violation_of(const LoadedMesh& loaded, const MapSummary& s) {
   if (!loaded.crossed.any()) return s.violation;
   return fmt::format("{}; expected {}", loaded.crossed.found(), loaded.crossed.remedy());

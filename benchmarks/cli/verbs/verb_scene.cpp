@@ -23,7 +23,7 @@ namespace {
 void check_scene(const std::string& given, bool as_json) {
   SceneFile scene = read_named_scene(given);
   if (scene.accuracy) {
-    // all but the step can be checked; any will do for that
+    // all but the step can be checked; any step will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
     if (scene.integrator.empty()) scene.integrator = "rk4";
     scene.unstable_step = UnstableStep::warn;

@@ -50,7 +50,7 @@ struct SimulateOptions {
 
 class Watcher : public RunWatcher {
  public:
-  /// `notes` are for checkpoints.
+  /// `notes` are stored in checkpoints.
   Watcher(const SceneFile& scene, std::string notes, SceneOutput* output, Album* album, Film* film, Progress& progress,
           std::uint64_t steps_per_report)
       : scene_(scene),
@@ -82,7 +82,7 @@ class Watcher : public RunWatcher {
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
 
-  /// The step of the last checkpoint that was left.
+  /// The step of the last checkpoint written.
   const std::optional<std::uint64_t>& left_after() const { return left_after_; }
 
  private:
@@ -96,7 +96,7 @@ class Watcher : public RunWatcher {
   std::optional<std::uint64_t> left_after_;
 };
 
-/// What a run begins with: a scene, and a checkpoint if it is one that is continued.
+/// The input of a run: a scene, and a checkpoint if the run is continued.
 struct Start {
   SceneFile scene;
   std::optional<SettledAccuracy> settled;
@@ -121,7 +121,7 @@ Start start_of(const SimulateOptions& options) {
   return start;
 }
 
-/// Put a simulation where the checkpoint has it.
+/// Set a simulation to the state of the checkpoint.
 void continue_from(Checkpoint& checkpoint, Simulation& simulation, const SimulateOptions& options) {
   const std::string done = counted(checkpoint.steps_done(), "step");
   if (checkpoint.steps_done() >= simulation.step_count())
@@ -135,7 +135,7 @@ void continue_from(Checkpoint& checkpoint, Simulation& simulation, const Simulat
   checkpoint.load_into(simulation);
 }
 
-/// The manifest of a run that is continued, with what it goes on with.
+/// The manifest of a continued run, with the inputs of the continuation.
 nlohmann::json continued_manifest(const std::filesystem::path& folder, const Outcome& outcome) {
   const std::filesystem::path file = folder / "manifest.json";
   std::ifstream in(file, std::ios::binary);
@@ -150,7 +150,7 @@ nlohmann::json continued_manifest(const std::filesystem::path& folder, const Out
   return manifest;
 }
 
-/// What the run was made of, beside its results.
+/// The inputs of the run, written next to its results.
 nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& options, const Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
@@ -173,12 +173,12 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
   const std::string opening = opening_of(scene, simulation, step_in_words(simulation, scene));
   const double removed_at_start = simulation.body().removed_mass();
   const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
-  // of a run that is continued too, pictures begin at its start, where nothing has been cut
+  // in a continued run, too, pictures begin at its start, where nothing has been cut
   std::optional<Album> album;
   if (options.picture) album.emplace(simulation, steps);
   std::optional<Film> film;
   if (options.film) film.emplace(simulation, steps, -scene.gravity);
-  // the folder comes last: a scene that is wrong leaves nothing behind
+  // the folder comes last: a wrong scene leaves nothing behind
   std::optional<SceneOutput> output;
   nlohmann::json manifest;
   const auto write_manifest = [&] {
@@ -197,17 +197,17 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
 
   if (!options.json) {
     tell("{}", opening);
-    std::fflush(stdout);  // before the progress, wherever that goes
+    std::fflush(stdout);  // before the progress, whatever stream that uses
   }
   for (const std::string& warning : told) tell(stderr, "warning: {}\n", warning);
   const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
   RunResult result;
   std::optional<std::uint64_t> left_after;
-  // of the whole process: long factorisations have a thread of their own
+  // for the whole process: long factorisations have a thread of their own
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", steps / steps_per_report, options.json);
-    // seconds to minutes, of which a log would say nothing
+    // it takes seconds to minutes, during which the log would be silent
     if (simulation.body().counts().vertices >= 10'000 && make_integrator(scene.integrator)->scheme().implicit)
       progress.show("the first step, which factorises a matrix");
     Watcher watcher(scene, settled ? json_text(nlohmann::json(*settled)) : "", output ? &*output : nullptr,
@@ -246,7 +246,7 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
     report.expected = compare_with_expectation(scene, simulation, result);
 
   outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
-  // those of an earlier part of the run stay
+  // pictures of an earlier part of the run stay
   const std::string from_step = start.checkpoint ? fmt::format("_from_step_{}", start.checkpoint->steps_done()) : "";
   if (album) {
     album->ended(simulation);

@@ -49,8 +49,8 @@ void tradeoff(const TradeoffOptions& options, Outcome& outcome) {
   if (file) plan.scenes.push_back(given);
   for (const TradeoffEntry& entry : tradeoff_scenes())
     if (options.all || entry.name == given) plan.scenes.emplace_back(entry.name);
-  if (plan.scenes.empty()) make_tradeoff_scene(given, "");  // tells which there are
-  check_tradeoff(plan);                                     // before there is a folder
+  if (plan.scenes.empty()) make_tradeoff_scene(given, "");  // the error lists the names
+  check_tradeoff(plan);                                     // before the folder is made
 
   RunFacts facts{.seeds = {{"order of the integrators", plan.seed}}};
   facts.input_files = {file ? std::filesystem::path(given) : source_folder() / "benchmarks/meshes/liver564.mesh"};

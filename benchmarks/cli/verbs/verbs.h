@@ -7,7 +7,7 @@
 
 namespace dartboard {
 
-// Each adds a verb whose callback does the work and leaves its exit code in `outcome`, which must outlive the parse.
+// Each adds a verb whose callback does the work and stores its exit code in `outcome`, which must outlive the parse.
 void add_reproduce(CLI::App& app, Outcome& outcome);
 void add_measure(CLI::App& app, Outcome& outcome);
 void add_validate(CLI::App& app, Outcome& outcome);

@@ -83,7 +83,7 @@ nlohmann::ordered_json to_json(const TakenApart& s) {
     nlohmann::ordered_json quantity{
         {"what", row.what}, {"checks", row.checks}, {"largest_deviation", row.largest}, {"holds", row.holds}};
     quantity["exact"] = !row.bound || *row.bound == 0.0;
-    if (row.bound) {  // of the check that came closest to its bound
+    if (row.bound) {  // for the check that came closest to its bound
       quantity["deviation"] = row.deviation;
       quantity["bound"] = *row.bound;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard validate conservation` says of a body that it took apart.
+// The report of `dartboard validate conservation` on a body that it took apart.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// One body on one storage, and what became of it.
+/// One body on one storage, and the outcome.
 struct TakenApart {
   std::string name, storage;  // "liver564.mesh", "tetrahedral"
   std::size_t cells = 0;      // at the start
@@ -22,7 +22,7 @@ struct TakenApart {
   bool holds() const;
 };
 
-/// What was compared, and how close it came to its bound.
+/// The quantities compared, and how close each came to its bound.
 Table table_of(const ConservationResult& result);
 
 /// Numbers, table, and the violation if there is one, with the command that repeats it.

@@ -11,10 +11,10 @@ namespace dartboard {
 namespace {
 
 // Contact is felt at vertices and in the middles of faces: edges that cross, and a corner in a face between these,
-// overlap by a part of a face before one is inside: a third of its height each, which is more than the least altitude
-// of a cell by what cells differ.
+// overlap by a part of a face before a sample is inside: a third of its height each, which exceeds the least altitude
+// of a cell by the variation among cells.
 constexpr double most_unfelt = 0.75;
-// A sample is in contact with one cell, so that of the pairs there some have their contact a cell beside them.
+// A sample is in contact with one cell, so that for some of the pairs found there the contact lies in a neighbour cell.
 constexpr double least_share = 0.95;
 constexpr std::size_t deep_class = 3;  // from 0.6 of the least altitude on
 static_assert(OverlapTally::classes == 10);
@@ -40,7 +40,7 @@ std::string share_of(std::size_t part, std::size_t all) {
 }  // namespace
 
 std::vector<Claim> claims_of(const ContactResults& results) {
-  // what was not looked at is not right
+  // what was not measured does not count as right
   double quiet = results.placements.empty() ? NAN : 0.0, in_motion = results.runs.empty() ? NAN : 0.0,
          depth = in_motion, energy = in_motion;
   double momentum = std::ranges::any_of(results.runs, &ContactRun::alone) ? 0.0 : NAN, angular = momentum;

@@ -1,5 +1,5 @@
 #pragma once
-// What `validate contact` concludes from what it found.
+// The conclusions of `validate contact` from its results.
 
 #include <string>
 #include <vector>
@@ -22,8 +22,8 @@ struct ContactResults {
 
 std::vector<Claim> claims_of(const ContactResults& results);
 
-/// A row for each pair of bodies; and for each class of depth, how many pairs of cells overlap and how many nobody
-/// feels.
+/// A row for each pair of bodies; and for each class of depth, how many pairs of cells overlap and how many of these no
+/// body feels.
 Table placements_table(const ContactResults& results);
 Table depths_table(const ContactResults& results);
 Table runs_table(const std::vector<ContactRun>& runs);

@@ -31,7 +31,7 @@ nlohmann::json depths_of(const OverlapTally& tally) {
 }  // namespace
 
 Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
-  // in parts, so that the work shows
+  // in parts, to show progress
   constexpr std::size_t part = 250;
   ContactResults results;
   const auto bodies = pairs();

@@ -1,5 +1,5 @@
 #pragma once
-// `dartboard validate contact`: do bodies feel what overlaps of them, by CGAL and separating axes?
+// `dartboard validate contact`: do bodies feel every overlap that CGAL and separating axes find?
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace dartboard {
 
 struct ContactStudyPlan {
   std::size_t placements = 100'000;  // in all
-  std::size_t looks = 100;           // of each run
-  std::uint64_t seed = 1;            // of the placements
+  std::size_t looks = 100;           // in each run
+  std::uint64_t seed = 1;            // seeds the placements
 };
 
 Report contact_study(const ContactStudyPlan& plan, StudyLog& log);

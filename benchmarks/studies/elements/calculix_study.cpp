@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 // is left for linear solutions; for large ones three times that, as CalculiX iterates to a residual of 1e-9 of the
 // forces in it, ten times over.
 constexpr double bound_small = 1e-6, bound_large = 2e-6;
-constexpr double least_bend = 0.5;  // [m] that is large
+constexpr double least_bend = 0.5;  // [m] counts as large
 
 /// A new folder, gone when it goes out of scope.
 class ScratchFolder {
@@ -97,7 +97,7 @@ std::string calculix_version() {
       constexpr std::string_view before = "Version ";
       if (const auto at = line.find(before); at != line.npos) version = line.substr(at + before.size());
     });
-  } catch (const ProcessError& error) {  // its status is none of success even where it answers
+  } catch (const ProcessError& error) {  // its exit status is not 0 even when it succeeds
     trouble = error.what();
   }
   if (version.empty())
@@ -116,7 +116,7 @@ std::string run_calculix(const std::string& deck) {
     file.close();
     if (!file) throw IoError(fmt::format("{}: cannot be written", (folder.path() / "beam.inp").string()));
   }
-  std::string last;  // what it says at its end
+  std::string last;  // its message at the end
   try {
     run_program(
         "ccx", {"beam"},

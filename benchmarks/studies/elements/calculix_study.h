@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// How far one beam is from that of CalculiX.
+/// The distance of one beam from that of CalculiX.
 struct CalculixAnswer {
   std::string what;
   bool large = false;
@@ -29,7 +29,7 @@ Table calculix_table(std::span<const CalculixAnswer> answers);
 /// "2.20"
 /// throws  IoError where there is no `ccx` on the PATH
 std::string calculix_version();
-/// What `ccx` prints into the .dat file of a deck; it runs in a folder of its own, of which nothing is left.
+/// The text that `ccx` prints into the .dat file of a deck; it runs in a folder of its own, of which nothing is left.
 /// throws  IoError where it fails
 std::string run_calculix(const std::string& deck);
 

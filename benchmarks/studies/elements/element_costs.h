@@ -1,5 +1,5 @@
 #pragma once
-// What the forces of each model cost on one mesh, over several processes.
+// Costs of the forces of each model on one mesh, over several processes.
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ struct ModelCost {
   double frequency = 0.0;      // [1/s] the highest
   Figure over_springs{1, {}};  // processor time for the same simulated time
 
-  /// Processor seconds for one simulated: evaluations at Verlet's limit, 2 over the frequency.
+  /// Processor seconds for one simulated second: evaluations at Verlet's limit, 2 over the frequency.
   double per_second() const { return 0.5 * frequency * ns * 1e-9; }
 };
 
@@ -39,7 +39,7 @@ void measure_element_costs(const ElementCostPlan& plan, const std::function<void
 
 /// Springs, tetrahedra of each law, and hexahedra, from processes of their own.
 ///
-/// throws  SolverError where one and the same evaluation has left different forces
+/// throws  SolverError if repeating an evaluation has left different forces
 std::vector<ModelCost> element_costs(const ElementCostPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

@@ -49,7 +49,7 @@ ModelErrors errors_of(Model model, CellKind cells, int across, double poisson, c
 }
 
 std::vector<Claim> claims_of(const ElementsResults& results) {
-  // our own reference is trusted because another code has the same numbers
+  // our own reference is trusted if another code has the same numbers
   double off = results.references.empty() ? NAN : 0.0;
   for (const auto& [published, ours] : results.references)
     for (const double ratio : {ours.work / published.work, bending_of(ours) / published.first,
@@ -61,7 +61,7 @@ std::vector<Claim> claims_of(const ElementsResults& results) {
                   .measured = fmt::format("{:.2f} %", 100.0 * off)};
   reference.verdict = off <= results.trusted ? Verdict::holds : Verdict::falls_short;
 
-  // elements fit together: they are too stiff, and less so the finer they are
+  // elements are conforming: they are too stiff, and less so the finer they are
   bool from_below = !results.errors.empty();
   const ModelErrors* before = nullptr;
   for (const ModelErrors& e : results.errors) {

@@ -14,7 +14,7 @@ namespace dartboard {
 
 struct ElementsPlan {
   bool quick = false;  // coarser meshes, fewer rounds
-  // What makes displacements of a deck, as run_calculix does; empty: CalculiX is not asked.
+  // Makes the displacements of a deck, as run_calculix does; empty: CalculiX is not asked.
   std::function<std::string(const std::string& deck)> calculix{};
   std::string calculix_version{};
 };
@@ -42,7 +42,7 @@ std::vector<Claim> claims_of(const ElementsResults& results);
 Table errors_table(const ElementsResults& results);
 Table references_table(const ElementsResults& results);
 Table costs_table(const ElementsResults& results);
-/// Which model is nearer to the truth for the same work, in words.
+/// The model nearer to the truth for the same work, in words.
 std::string in_words(const ElementsResults& results);
 
 Report elements_study(const ElementsPlan& plan, StudyLog& log);

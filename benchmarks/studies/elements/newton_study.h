@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Under each load the exact tangent takes the fewest iterations, fewer than warped stiffness; whoever ends, ends at
+/// Under each load the exact tangent takes the fewest iterations, fewer than warped stiffness; all that converge end at
 /// the same place.
 Claim claim_on(std::span<const NewtonRun> runs);
 Table newton_table(std::span<const NewtonRun> runs);

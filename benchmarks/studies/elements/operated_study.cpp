@@ -11,7 +11,7 @@ namespace {
 
 // An operation that separates cells changes no summand, and no order of summation: any change is wrong.
 constexpr double most_jump = 1e-14;
-// What is compared is summed by other code from numbers of its own: a hundred roundings of some hundred summands.
+// The reference is summed by other code from numbers of its own: a hundred roundings of some hundred summands.
 constexpr double most_difference = 1e-13;
 
 constexpr Model models[] = {Model::neo_hookean, Model::corotational, Model::stvk};

@@ -25,8 +25,8 @@ Claim claim(std::string id, std::string text, std::string target, std::string me
           .verdict = holds ? Verdict::holds : Verdict::falls_short};
 }
 
-/// The worst of the axis of offsets, of methods that solve equations and of those that do not: those stop where
-/// rounding leaves them of an equation, in each step.
+/// The worst case of the axis of offsets, for methods that solve equations and for those that do not: the former stop
+/// where rounding leaves the residual of an equation, in each step.
 void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claims) {
   constexpr double target = 30.0;
   for (const bool implicit : {false, true}) {
@@ -35,13 +35,13 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
     std::string who;
     for (const Json& cell : results.cells) {
       const auto name = cell.at("integrator").get<std::string>();
-      // explicit Euler, stable nowhere, makes rounding grow as it does everything
+      // explicit Euler is stable nowhere and amplifies rounding as everything else
       if (!cell.contains("offset_error") || name == "explicit-euler") continue;
       if (make_integrator(name)->scheme().implicit != implicit) continue;
       ++count;
       const Json& found = cell.at("offset_error");
       const double error = found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();
-      if (error < worst) continue;  // what is not a number is not less
+      if (error < worst) continue;  // NaN is not less
       worst = max_or_nan(worst, error);
       who = fmt::format("{}, {} at D = {}", name, cell.at("scene").get<std::string>(),
                         cell.at("value").get<std::string>());
@@ -56,8 +56,8 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
   }
 }
 
-/// Whoever was not diagnosed has a witness: another code's motion, or the scheme in more digits. Not all: in steps of
-/// 10^6 s what local-global leaves of its equations is more than a step.
+/// Every run that was not diagnosed has a witness: another code's motion, or the scheme in more digits. There are
+/// exceptions: in steps of 10^6 s the residual of local-global's equations is larger than a step.
 Claim judged_claim(const ExtremesResults& results) {
   constexpr double target = 0.98;
   std::size_t ended = 0, by_motion = 0, by_scheme = 0;
@@ -112,7 +112,7 @@ void add_limit_claims(const ExtremesResults& results, std::vector<Claim>& claims
 
 }  // namespace
 
-// JSON has no infinity: numbers that may be none are text.
+// JSON has no infinity: numbers that may be infinite are text.
 Json to_json(const ExtremeCell& cell) {
   Json json{{"axis", cell.axis},
             {"scene", cell.scene},
@@ -255,7 +255,7 @@ std::vector<Claim> claims_of(const ExtremesResults& results) {
                            held == results.detections.size(), fmt::format("{} runs", results.detections.size())));
   }
   for (const RoundingGrowth& g : results.rounding) {
-    // starts are drawn: two standard errors, some 95 %
+    // starts are drawn at random: two standard errors, some 95 %
     const double low = g.exponent - 2.0 * g.standard_error, high = g.exponent + 2.0 * g.standard_error;
     const Figure figure{g.exponent, {low, high, 0.954, true}};
     Claim made = claim("rounding-" + g.integrator,

@@ -1,5 +1,5 @@
 #pragma once
-// What `extremes` found: tables, claims, JSON.
+// The findings of `extremes`: tables, claims, JSON.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,11 +16,11 @@
 
 namespace dartboard {
 
-/// Empty where a study was not asked for.
+/// Parts of studies that were not requested are empty.
 struct ExtremesResults {
-  std::vector<nlohmann::ordered_json> cells;  // as they come from child processes
+  std::vector<nlohmann::ordered_json> cells;  // as child processes deliver them
   std::vector<StabilityLimit> limits;
-  std::vector<MeshBody> meshes;  // what the limits on meshes rest on
+  std::vector<MeshBody> meshes;  // the bodies on which the limits on meshes are based
   std::vector<StabilityMap> maps;
   std::vector<AmplificationPoint> amplification;
   std::vector<RoundingGrowth> rounding;
@@ -37,10 +37,10 @@ std::vector<nlohmann::ordered_json> forbidden_cells(const ExtremesResults& resul
 /// Diagnosed cells whose diagnosis names no quantity (`names_a_quantity`).
 std::vector<nlohmann::ordered_json> nameless_cells(const ExtremesResults& results);
 
-/// Targets of our own, of the studies that were made.
+/// Targets of our own, for the studies that were made.
 std::vector<Claim> claims_of(const ExtremesResults& results);
 
-/// Of the studies that were made.
+/// For the studies that were made.
 std::vector<NamedTable> tables_of(const ExtremesResults& results);
 
 }  // namespace dartboard

@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr unsigned hang_seconds = 20;  // of one run
 
-// What is measured beside the matrix, and asked for as its axes are.
+// Studies measured in addition to the matrix, and requested by name as its axes are.
 constexpr std::array studies{
     ExtremeAxis{"limits", "longest stable steps beside theory"},
     ExtremeAxis{"maps", "stability over step and damping ratio"},
@@ -38,7 +38,7 @@ constexpr std::array studies{
     ExtremeAxis{"rounding", "energy over 10^7 steps, motion in tiny steps"},
 };
 
-/// All runs of an axis in child processes: after one that ended the process, the next goes on behind it.
+/// Runs all cases of an axis in child processes: after one that ended the process, the next goes on behind it.
 void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool quick, const std::string& folder,
               StudyLog& log, std::vector<Json>& all) {
   std::size_t ended = 0;
@@ -65,7 +65,7 @@ void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool qu
   }
 }
 
-/// The pictures of what was measured.
+/// The pictures of the results.
 std::vector<Picture> pictures_of(const ExtremesResults& results) {
   std::vector<Picture> pictures;
   if (!results.maps.empty()) pictures.push_back({"maps", maps_figure(results.maps)});

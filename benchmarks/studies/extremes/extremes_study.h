@@ -1,5 +1,5 @@
 #pragma once
-// `dartboard extremes`: what becomes of every integrator at the limits; `reproduce` asks, too.
+// `dartboard extremes`: the behaviour of every integrator at the limits; `reproduce` runs it, too.
 
 #include <string>
 #include <string_view>
@@ -12,17 +12,17 @@ namespace dartboard {
 struct ExtremesPlan {
   std::string axis{};        // of the matrix, or a study; empty for all of them
   bool quick = false;        // every third value, coarser maps, shorter runs
-  bool shows_tables = true;  // else that of the matrix alone
-  std::string folder{};      // for what is written, within that of the run; empty: there
+  bool shows_tables = true;  // else only the table of the matrix
+  std::string folder{};      // subfolder of the run's for the files written; empty: the run's own
 };
 
 /// Measures what the plan names; tables appear when their study is done, which may take minutes. The runs of the matrix
 /// are made in child processes, so that one that ends its process is a result, too.
 ///
-/// throws  InputError for an axis that there is not
+/// throws  InputError for an unknown axis
 Report extremes_study(const ExtremesPlan& plan, StudyLog& log);
 
-/// What such a child process does: makes the runs of an axis from a number on, and prints the number before each and
+/// The work of such a child process: makes the runs of an axis from a number on, and prints the number before each and
 /// its result after it.
 void run_extremes_child(std::string_view axis, bool quick, std::size_t from);
 

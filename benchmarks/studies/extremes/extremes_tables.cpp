@@ -20,8 +20,8 @@ constexpr std::array judges{JudgedBy::motion, JudgedBy::scheme, JudgedBy::surviv
 
 std::string percent(double share) { return fmt::format("{:+.3f} %", 100 * share); }
 
-/// How many cells ended how, by axis and by integrator; how many of the diagnosed ones were refused: they never ran;
-/// and what the others are judged by.
+/// Numbers of cells by outcome, for each axis and each integrator; how many of the diagnosed ones were refused: they
+/// never ran; and by which evidence the others are judged.
 Table count_outcomes(const std::vector<Json>& cells, const std::string& by) {
   std::vector<std::string> order;
   std::map<std::string, std::map<std::string, std::size_t>> counts;

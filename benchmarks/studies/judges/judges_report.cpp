@@ -15,7 +15,7 @@ namespace dartboard {
 namespace {
 
 constexpr double least_share = 0.95;  // of wrong integrators that a judge has to see
-constexpr double most_slack = 100.0;  // of a bound over what sound integrators reach
+constexpr double most_slack = 100.0;  // ratio of a bound to the largest value of sound integrators
 
 struct Judge {
   std::string_view name, id, independent_of, bound;
@@ -46,7 +46,7 @@ JudgeTrial total(const JudgesResults& results, std::string_view judge) {
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
-/// The part of a judge in which the least is seen, over all ways of being wrong: "98.3 %, step".
+/// The part of a judge that sees the smallest share, over all ways of being wrong: "98.3 %, step".
 std::string least_part(const JudgesResults& results, std::string_view judge) {
   std::map<std::string, JudgeTrial> parts;
   for (const JudgeTrial& trial : results.trials) {

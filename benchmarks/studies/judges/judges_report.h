@@ -1,5 +1,5 @@
 #pragma once
-// What `validate judges` says: tables and claims.
+// The report of `validate judges`: tables and claims.
 
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -15,17 +15,17 @@ struct JudgesResults {
   std::vector<SchemeSlack> slack;
 };
 
-/// Of each judge: what it is independent of, its bound, how much of that sound integrators take up, and the share of
-/// wrong ones that it sees.
+/// For each judge: what it is independent of, its bound, how much of that sound integrators take up, and the share of
+/// wrong integrators that it sees.
 Table judges_table(const JudgesResults& results);
 
-/// The studies that run integrators, or might seem to, and do not judge them: no wrong one is to be seen there.
+/// The studies that run integrators, or seem to, and do not judge them: they are not expected to see a wrong one.
 Table others_table();
 
-/// A row for each judge and part, a column for each way of being wrong: seen of those asked.
+/// A row for each judge and part, a column for each way of being wrong: number seen of those tried.
 Table trials_table(const JudgesResults& results);
 
-/// Every case in which a wrong integrator was not told from a right one.
+/// Every case in which a wrong integrator was not distinguished from a right one.
 Table unseen_table(const JudgesResults& results);
 
 Table slack_table(const JudgesResults& results);

@@ -20,7 +20,7 @@ std::vector<ExtremeCase> cases_of(const JudgesPlan& plan) {
   std::vector<ExtremeCase> cases;
   for (const ExtremeAxis& axis : extreme_axes()) {
     if (!plan.axis.empty() && plan.axis != axis.name) continue;
-    // every run of these is diagnosed, whatever the integrator: there is nothing to be wrong in
+    // every run of these is diagnosed, whatever the integrator: a wrong integrator makes no difference
     if (plan.axis.empty() && (axis.name == "input" || axis.name == "injected")) continue;
     std::vector<ExtremeCase> all = extreme_cases(axis.name, true);
     for (std::size_t k = 0; k < all.size(); k += plan.quick ? quick_stride : 1) cases.push_back(std::move(all[k]));
@@ -39,7 +39,7 @@ std::vector<IntegratorEntry> methods_of(const JudgesPlan& plan) {
 }  // namespace
 
 Report judges_study(const JudgesPlan& plan, StudyLog& log) {
-  if (!plan.axis.empty()) (void)extreme_cases(plan.axis, true);  // throws for one that there is not
+  if (!plan.axis.empty()) (void)extreme_cases(plan.axis, true);  // throws for an unknown axis
   JudgesResults results;
   const std::vector<ExtremeCase> cases = cases_of(plan);
   log.begin("validate judges: wrong integrators at the extremes", cases.size());
@@ -54,7 +54,7 @@ Report judges_study(const JudgesPlan& plan, StudyLog& log) {
     const auto add = [&results](std::vector<JudgeTrial> trials) {
       std::ranges::move(trials, std::back_inserter(results.trials));
     };
-    // a wrong integrator may have any order: it would go on halving steps until there is time for no more
+    // a wrong integrator may have any order: it would halve steps until the time is used up
     const OrderOptions options{.most_error = 0.05, .most_steps = 24 << 7, .most_implicit_steps = 24 << 7};
     log.begin("validate judges: wrong integrators and their orders", 6);
     for (const OrderCase which : {OrderCase::undamped, OrderCase::damped}) {

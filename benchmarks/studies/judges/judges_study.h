@@ -1,5 +1,5 @@
 #pragma once
-// `dartboard validate judges`: would those who judge integrators notice a wrong one?
+// `dartboard validate judges`: would the judges of integrators notice a wrong one?
 
 #include <vector>
 
@@ -13,7 +13,7 @@ struct JudgesPlan {
   std::string axis{};  // of the matrix alone; empty: all of it, and the other judges
 };
 
-/// throws  InputError for an axis that there is not
+/// throws  InputError for an unknown axis
 Report judges_study(const JudgesPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

@@ -14,7 +14,7 @@ namespace dartboard {
 
 /// "neo-hookean hexahedra with sides of 0.05 m, verlet with a step of 0.0012 s: ..."
 std::string in_words(const ClampedBar& bar, const ModelAdvice& advice);
-/// A row for each trend: what two meshes say of a model.
+/// A row for each trend: what two meshes predict for a model.
 Table trends_table(const ModelAdvice& advice);
 nlohmann::ordered_json json_of(const ClampedBar& bar, const ModelAdvice& advice);
 

@@ -60,7 +60,7 @@ void measure_models(const ModelTimesPlan& plan, const std::function<void(const S
   };
   std::vector<Running> running;
   std::vector<TimedTask> tasks;
-  running.reserve(plan.bars.size());  // tasks look at them where they are
+  running.reserve(plan.bars.size());  // tasks keep pointers to the elements
   for (const TimedBar& bar : plan.bars) {
     running.push_back({BentBar(plan.bar, bar_body(plan.bar, bar_model(bar.model), bar.finer, bar.poisson)),
                        make_integrator(bar.integrator)});

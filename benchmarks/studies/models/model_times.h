@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// A bar and how it is stepped: what is timed is `steps` steps of h from the bent bar at rest.
+/// A bar and how it is stepped: `steps` steps of h from the bent bar at rest are timed.
 struct TimedBar {
   std::string model;  // in_words
   int finer = 1;
@@ -35,10 +35,10 @@ struct ModelTimesPlan {
 };
 /// The plan as one argument of `dartboard measure-models`, and back.
 std::string to_argument(const ModelTimesPlan& plan);
-/// throws  InputError for a text that is none
+/// throws  InputError for a text that is no plan
 ModelTimesPlan from_argument(const std::string& text);
 
-/// In this process.
+/// Takes the times in this process.
 /// throws  SolverError where a step fails
 void measure_models(const ModelTimesPlan& plan, const std::function<void(const Sample&)>& sink);
 

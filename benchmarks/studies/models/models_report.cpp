@@ -11,7 +11,7 @@
 namespace dartboard {
 namespace {
 
-constexpr double coarse = 0.10, fine = 0.05;  // errors of the tip that are asked about
+constexpr double coarse = 0.10, fine = 0.05;  // errors of the tip that the claims are about
 constexpr double of_interest = 0.5;           // models that miss by more follow nothing
 constexpr double off_the_chart = 0.25;
 
@@ -19,8 +19,8 @@ std::string percent(double share) {
   return share <= ModelsResults::exact ? "0" : fmt::format("{:.{}f} %", 100.0 * share, share < 0.00995 ? 2 : 1);
 }
 
-/// "[0.9, 1.1]": one family over another at an error of the tip. Where the first has no mesh that is good enough, it
-/// loses; where the other has none, it wins; neither is a matter of times.
+/// "[0.9, 1.1]": one family over another at an error of the tip. If the first has no mesh that is good enough, it
+/// loses; if the other has none, it wins; neither depends on times.
 void compare(const ModelsResults& results, double poisson, double error, std::string_view family,
              std::string_view other, Claim& claim) {
   const ModelPoint* mine = results.cheapest(Asked::tip, poisson, error, family);
@@ -54,7 +54,7 @@ std::string method_of(const ModelPoint& point) {
              : fmt::format("{}, {} steps", point.measured.method.integrator, point.measured.method.steps);
 }
 
-// Springs are warm, tetrahedra green to teal, hexahedra blue; what is jittered is dashed.
+// Springs are warm, tetrahedra green to teal, hexahedra blue; jittered meshes are dashed.
 PlotSeries look_of(const std::string& model) {
   PlotSeries s{.title = model, .points = {}, .colour = "#404040"};
   s.width = 1.6;
@@ -201,7 +201,7 @@ Panels models_panels(const ModelsResults& results) {
     dearest = std::max(dearest, p.cost.median);
   }
   if (!(cheapest < dearest)) cheapest = 1e-6, dearest = 1.0;
-  constexpr double low = 1e-3, high = 2.0;  // of errors; what is exact lies on the lower edge
+  constexpr double low = 1e-3, high = 2.0;  // of errors; exact results lie on the lower edge
   picture.width = 2000;
   picture.height = 1050;
   for (const BarTruth& t : results.truths)
@@ -221,7 +221,7 @@ Panels models_panels(const ModelsResults& results) {
         panel.series.back().points.push_back(
             {p.cost.median, std::clamp(error_of(p.measured.errors, asked), 1.03 * low, high / 1.03)});
       }
-      // below that the reference cannot tell
+      // the reference cannot resolve smaller errors
       PlotSeries floor{.title = "the reference's own", .points = {}, .colour = "#909090", .symbol = 0};
       floor.width = 1.2;
       floor.dash = ".";

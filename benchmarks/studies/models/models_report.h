@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff --models` says: claims, tables, a sentence and a picture.
+// The report of `dartboard tradeoff --models`: claims, tables, a sentence and a picture.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -20,7 +20,7 @@ Table points_table(const ModelsResults& results);
 Table reigns_table(const ModelsResults& results);
 Table truths_table(const ModelsResults& results);
 
-/// Which model is the cheapest above which error, and which below it.
+/// The cheapest model above and below each error.
 std::string in_words(const ModelsResults& results);
 
 /// Error against processor time per simulated second: a row of panels for each ratio, a panel for each question.

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff --models` measures, and which model is the cheapest for an error.
+// The measurements of `dartboard tradeoff --models`, and the cheapest model for an error.
 
 #include <array>
 #include <string>
@@ -34,23 +34,23 @@ struct ModelsResults {
 
   const BarTruth& truth(double poisson) const;
   double sure = 0.02;                    // how far tip and frequencies of the reference may be off
-  static constexpr double exact = 1e-6;  // errors below that are none
-  /// What can be told of a point: its error, or that of the reference where this is larger.
+  static constexpr double exact = 1e-6;  // smaller errors count as this one
+  /// The error of a point as far as it is known: its own, or that of the reference if this is larger.
   double told(const ModelPoint& point, Asked asked) const;
   /// The cheapest point with at most that error, of a family ("springs", "hexahedra", empty for all) and a ratio; null
-  /// where none is.
+  /// if there is none.
   const ModelPoint* cheapest(Asked asked, double poisson, double error, std::string_view family = {}) const;
   /// Cost per simulated second of one over that of another, paired within rounds.
   Figure cost_ratio(const ModelPoint& point, const ModelPoint& baseline) const;
 };
 
-/// Of a bar, from the samples of its task: seconds of processor time for a simulated second.
+/// Cost of a bar, from the samples of its task: seconds of processor time for a simulated second.
 Figure cost_of(const std::vector<Sample>& samples, const TimedBar& bar);
 
-/// Is a model of this family: does its name have the word in it?
+/// Says whether a model belongs to this family: its name contains the word.
 bool belongs(const ModelPoint& point, std::string_view family);
 
-/// What an error costs by a model, for a simulated second [s]: between two meshes that follow each other, cost is a
+/// The cost of an error with a model, for a simulated second [s]: between two meshes that follow each other, cost is a
 /// power of error; infinite below the errors of all of them.   pre  points of a model go from coarse to fine
 double cost_for(const ModelsResults& results, const std::string& model, Asked asked, double poisson, double error);
 
@@ -59,8 +59,8 @@ struct Reign {
   std::string model;
   double least = 0.0, below = 0.0;  // errors from `least` on, smaller than `below`; infinite for the first
 };
-/// From large errors to small ones, at those of all meshes and in steps of a hundredth of a decade; below the last
-/// nobody was measured.
+/// From large errors to small ones, at the errors of all meshes and in steps of a hundredth of a decade; below the last
+/// one no model was measured.
 std::vector<Reign> reigns(const ModelsResults& results, Asked asked, double poisson);
 
 }  // namespace dartboard

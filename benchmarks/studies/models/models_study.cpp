@@ -18,7 +18,7 @@
 namespace dartboard {
 namespace {
 
-constexpr double sample_ns = 1e7;  // that a sample should take
+constexpr double sample_ns = 1e7;  // target for the time of a sample
 constexpr double fewest_steps = 16.0, most_steps = 1e5;
 
 constexpr CellKind tetrahedra = CellKind::tetrahedron, hexahedra = CellKind::hexahedron;

@@ -36,7 +36,7 @@ Claim claim(std::string id, std::string text, std::string target, std::string me
   return made;
 }
 
-/// An operation must keep to a bound on every body; the 99th percentiles are told.
+/// An operation must keep to a bound on every body; the 99th percentiles are reported.
 Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies, const std::string& id,
               const std::vector<std::string>& names, double bound_us) {
   std::string measured, tails;
@@ -150,7 +150,7 @@ std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::s
                            "a step with a dissociation and all views over one without, " + body, "<= 2",
                            fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, 2.0)));
   }
-  // the paper's claim, by what one operation costs
+  // the paper's claim, by the cost of one operation
   Values rebuild;
   for (const BodySample& s : r.bodies.at("liver564")) rebuild.push_back(1e3 * milliseconds(s.rebuild_ns[0]));
   Values removal;

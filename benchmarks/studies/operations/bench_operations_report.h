@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard bench operations` says: tables and claims.
+// The report of `dartboard bench operations`: tables and claims.
 
 #include <map>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// What was measured.
+/// The measured times.
 struct OperationFigures {
   std::map<std::string, std::vector<OperationSample>> operations;  // by "BODY:OPERATION"
   std::map<std::string, std::vector<BodySample>> bodies;
@@ -26,7 +26,7 @@ std::vector<Claim> claims_of(const OperationFigures& figures, const std::vector<
 
 Table operations_table(const OperationFigures& figures, const std::vector<std::string>& bodies);
 Table views_table(const OperationFigures& figures, const std::vector<std::string>& bodies);
-/// What the figures rest on.
+/// The basis of the figures.
 std::string operations_note();
 
 }  // namespace dartboard

@@ -1,5 +1,5 @@
 #pragma once
-// `dartboard bench operations`: what each operation costs, by size of the body, beside the time of a step.
+// `dartboard bench operations`: the cost of each operation, by size of the body, compared with the time of a step.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace dartboard {
 
 struct OperationsBenchPlan {
   bool quick = false;      // small bodies, fewer processes
-  std::uint64_t seed = 1;  // of the places of the operations
+  std::uint64_t seed = 1;  // seeds the places of the operations
 };
 
 Report operations_bench(const OperationsBenchPlan& plan, StudyLog& log);

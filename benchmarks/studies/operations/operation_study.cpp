@@ -63,7 +63,7 @@ struct Subject {
   }
 };
 
-/// Places on the fresh body where operations are to happen.
+/// Places on the fresh body for the operations.
 struct Places {
   TopologyWork work;                        // faces along a cut, faces at random
   std::vector<Dart> cells, inside;          // at random: a dart of a tetrahedron; of an inner face, for a fan
@@ -75,7 +75,7 @@ struct Places {
     shuffle(cells, random);
     inside = work.scattered;
     shuffle(inside, random);
-    // Grown from tetrahedra drawn at random, neighbour by neighbour, as long as none has been taken before.
+    // Grown from tetrahedra drawn at random, neighbour by neighbour, as long as no cell has been taken before.
     std::vector<bool> taken(body.cell_dart.size(), false);
     for (std::size_t k = 0; k < cells.size() && clusters.size() < 20; ++k) grow(body, cells[k], taken);
   }
@@ -115,7 +115,7 @@ TopologyChange loosen(Body& body, const std::vector<Dart>& cluster) {
   return change;
 }
 
-/// One kind of operation, at the k-th place; nothing if it has no such place, or it is gone.
+/// One kind of operation, at the k-th place; nothing if there is no such place, or it is gone.
 using Operation = std::function<std::optional<Laps>(Subject&, const Places&, std::size_t k)>;
 
 /// An operation on the map at a dart, that `adapt` follows.
@@ -171,7 +171,7 @@ std::optional<Laps> split_off_at(Subject& s, const Places& places, std::size_t k
   Laps laps;
   laps.start();
   const auto split = split_off(s.body, cluster[0]);
-  laps.lap();  // map and embeddings in one
+  laps.lap();  // map and embeddings together
   laps.lap();
   s.follow(split.change, split.changed, laps);
   return laps;

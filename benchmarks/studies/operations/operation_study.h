@@ -1,5 +1,5 @@
 #pragma once
-// What `bench operations` measures: topological operations on a body, one by one, with everything that follows them.
+// Measurements of `bench operations`: topological operations on a body, one by one, with the updates that follow them.
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// What an operation is made of, in this order: the map, the embeddings, then each view.
+/// The phases of an operation, in this order: the map, the embeddings, then each view.
 const std::vector<std::string>& operation_phases();
 
 /// The operations timed: "dissociate, cut" (face after face along an oblique plane), "dissociate, random", "remove",
@@ -24,7 +24,7 @@ struct OperationSample {
   std::string body, operation;
   int process = 0;
   std::vector<std::vector<std::int64_t>> ns;  // wall time [ns] of each, by phase; the clock's own time is in it
-  std::int64_t cpu_ns = 0;                    // processor time of all together, with what prepares them
+  std::int64_t cpu_ns = 0;                    // processor time of all together, including their preparation
 };
 void to_json(nlohmann::json& json, const OperationSample& sample);
 void from_json(const nlohmann::json& json, OperationSample& sample);
@@ -45,7 +45,7 @@ Problem operation_problem(const std::string& body);
 
 struct OperationStudyOptions {
   int process = 0;
-  int times = 200;  // of each operation, fewer where the body has not as many places for it
+  int times = 200;  // for each operation, fewer if the body has fewer places for it
   std::uint64_t seed = 1;
 };
 

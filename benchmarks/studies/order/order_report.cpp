@@ -13,8 +13,8 @@ namespace dartboard {
 namespace {
 
 constexpr double accepted_agreement = 2e-13;  // mean edge lengths
-// A code in doubles may be off by some times its tolerance, 1e-13: CVODE was by 0.2 to 2.4 as the last bits of masses
-// went.
+// A code in doubles may be off by some times its tolerance, 1e-13: CVODE was off by 0.2 to 2.4 times that, depending on
+// the last bits of masses.
 constexpr double accepted_of_each = 1e-12;
 constexpr double discrete_gate = 1e-10;
 constexpr double jump_gate = 1e-14;

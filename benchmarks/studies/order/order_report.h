@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard validate order` says: tables and claims.
+// The report of `dartboard validate order`: tables and claims.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -21,7 +21,7 @@ struct OrderReference {
   reference::CertifiedMotion certified;
 };
 
-/// What was measured.
+/// The measured orders and errors.
 struct OrderResults {
   std::vector<OrderReference> references;
   std::vector<OrderStudy> studies;
@@ -35,7 +35,7 @@ struct OrderResults {
 
 std::vector<Claim> claims_of(const OrderResults& results);
 
-/// Whose agreement the references rest on: "by independent codes".
+/// Says on whose agreement the references are based: "by independent codes".
 std::string references_heading(const OrderResults& results);
 
 Table order_table(const OrderResults& results);

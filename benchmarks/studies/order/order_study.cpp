@@ -15,7 +15,7 @@ namespace {
 constexpr double quick_error = 0.05;  // upper end of the window of a quick run
 
 std::vector<const IntegratorEntry*> wanted(const OrderPlan& plan) {
-  for (const std::string& name : plan.integrators) (void)make_integrator(name);  // throws for one there is not
+  for (const std::string& name : plan.integrators) (void)make_integrator(name);  // throws for an unknown name
   std::vector<const IntegratorEntry*> entries;
   for (const IntegratorEntry& entry : integrators())
     if (plan.integrators.empty() || std::ranges::find(plan.integrators, entry.name) != plan.integrators.end())

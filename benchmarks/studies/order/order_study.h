@@ -14,7 +14,7 @@ struct OrderPlan {
   bool quick = false;                      // fewer halvings and steps, a wider window of errors
 };
 
-/// throws  InputError for an integrator that there is not
+/// throws  InputError for an unknown integrator
 Report order_study(const OrderPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

@@ -1,5 +1,5 @@
 #pragma once
-// Timing the contenders on one scene: the plan, the child processes that carry it out, and the samples they send back.
+// Timing of the contenders on one scene: the plan, the child processes that carry it out, and the samples they return.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// How many steps one timed run of a contender takes: slow walks take fewer, so that rounds stay short and fast ones
+/// The number of steps of one timed run of a contender: slow walks take fewer, so that rounds stay short and fast ones
 /// are well above the clock's resolution. A fixed number for all of a study.
 struct TimedContender {
   std::string id;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint64_t seed = 1;
 
-/// Fig. 6 and 7 are of a surface, the text of a solid.
+/// Fig. 6 and 7 show a surface, the text describes a solid.
 ClaimAnswer orbits_of_both(const Problem& problem) {
   const ClaimAnswer solid = try_orbits(build_map<Map3>(problem.mesh).map, 200, seed);
   const ClaimAnswer surface = try_orbits(build_map<Map2>(triangle_sheet(12, 12, 1.0)).map, 200, seed);

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's sentences on maps, operations and embeddings, asked of its body in its situations: validation/paper.
+// The paper's sentences on maps, operations and embeddings, tested on its body in its situations: validation/paper.
 
 #include <string_view>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace dartboard {
 
-/// The claim of this id, answered: `where` tells on what body it was tried, and by which witness. Of a sentence that
-/// says that something is not possible, `tried.holds` is that it was done, and the sentence is not met.
+/// The claim of this id, answered: `where` names the body it was tried on, and the witness. For a sentence that says
+/// that something is impossible, `tried.holds` means that it was done, and the sentence is not met.
 Claim tried_out(std::string_view id, const ClaimAnswer& tried, std::string where);
 
-/// All of them; some 3 seconds on the paper's body.   pre  its cells are tetrahedra
+/// All of these claims; some 3 seconds on the paper's body.   pre  its cells are tetrahedra
 std::vector<Claim> answer_by_trials(const Problem& problem);
 
 }  // namespace dartboard

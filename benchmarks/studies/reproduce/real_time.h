@@ -14,7 +14,7 @@ namespace dartboard {
 /// arrays built again, all the paper's way.
 inline constexpr double frame_s = 1.0 / 60.0;
 
-/// How many steps of that size a frame takes.
+/// The number of steps of that size in a frame.
 int steps_of_frame(double h);
 
 /// Processor time of one frame of a body of so many tetrahedra.
@@ -30,7 +30,7 @@ double cells_in_real_time(std::span<const FrameTime> frames);
 /// One round: bodies that grow until a frame takes longer than 1/60 s, or has 64,000 tetrahedra.
 std::vector<FrameTime> time_frames(double h);
 
-/// What rounds of it say. A quick run contradicts nothing.   pre  there is a round
+/// The answer of the rounds. A quick run contradicts nothing.   pre  there is a round
 Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quick);
 /// Seven rounds, timed.
 Claim measure_real_time(double h, bool quick);

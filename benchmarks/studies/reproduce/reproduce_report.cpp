@@ -36,7 +36,7 @@ Met met(bool holds) { return holds ? Met::yes : Met::no; }
 ReproduceGates gates_of(const std::vector<CountAgreement>& counts, const std::vector<MotionAgreement>& motion,
                         const std::vector<SecondOfMotion>& second) {
   ReproduceGates gates;
-  // each stands for all that are carried alike
+  // a contender is as good as all contenders with the same carrier
   const auto moves_right = [&](const std::string& id) {
     return std::ranges::none_of(
         second, [&](const SecondOfMotion& s) { return !s.agrees && contender(s.id).carrier == contender(id).carrier; });
@@ -84,7 +84,7 @@ std::vector<Claim> answer_topology(const std::vector<CountAgreement>& counts, co
 }
 
 namespace {
-// What arrays cost beside the graph where the paper's 1.10 is missed and nothing is new.
+// The largest ratio of arrays to graph that is no new finding where the paper's 1.10 is missed.
 constexpr double close_to_arrays = 1.2;
 }  // namespace
 
@@ -112,7 +112,7 @@ std::vector<Claim> answer_time(const ReproduceResults& r) {
   if (claims.back().verdict == Verdict::does_not_carry_over && arrays.interval.high <= close_to_arrays)
     claims.back().reason =
         "it is on the border: one machine had 1.07 on one day and 1.12 on another, when all its memory was slower";
-  // a ladder of whole numbers: each is met by what rounds to it
+  // a ladder of whole numbers: each is met by a ratio that rounds to it
   const Figure coverage = r.ratio("coverage", "graph").cpu, lists = r.ratio("lists", "graph").cpu;
   const auto is_step = [](const Figure& f, double of) { return std::min(at_least(f, of - 0.5), at_most(f, of + 0.5)); };
   claims.push_back(answered(

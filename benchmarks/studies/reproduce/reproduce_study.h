@@ -12,7 +12,7 @@ namespace dartboard {
 struct ReproducePlan {
   std::string part{};      // "paper" or "extremes"; empty: both
   bool quick = false;      // fewer processes and rounds, a third of the extremes
-  std::uint64_t seed = 1;  // of the order in which contenders take turns
+  std::uint64_t seed = 1;  // seeds the order in which contenders take turns
 };
 
 Report reproduce_study(const ReproducePlan& plan, StudyLog& log);

@@ -31,8 +31,8 @@ Json bare_scene() {
     "initial_velocity": {"linear": [[0, -0.5, 0], [0.5, 0, 0], [0, 0, 0]]}})");
 }
 
-/// A feature that a scene may ask for: what it adds to the scene, and the variant of the scene without it where that is
-/// not the scene with all others.
+/// A feature that a scene may have: its addition to the scene, and the variant of the scene without it if that is not
+/// the scene with all others.
 struct Feature {
   std::string name;
   std::function<void(AblationVariant&, Json&)> add;
@@ -81,7 +81,7 @@ std::vector<AblationVariant> ablation_variants() {
   const auto none = [](const std::string&) { return false; };
   const auto every = [](const std::string&) { return true; };
   all.push_back(make_variant("bare", none));
-  // a watch on the stress needs a map, so it is switched on beside an event that never comes
+  // a watch on the stress needs a map, so it is switched on together with an event that never comes
   for (const Feature& f : features())
     all.push_back(make_variant("bare + " + f.name, [&f](const std::string& name) {
       return name == f.name || (f.name == "stress watch" && name == "map");
@@ -256,7 +256,7 @@ void study_ablation(const AblationOptions& options, const std::function<void(con
     if (task.hash() != first)
       throw SolverError(fmt::format("'{}' leaves another state than '{}'", task.name, tasks.front().name));
   }
-  // few steps between them, and many rounds: what is compared here differs by less than a hundredth
+  // few steps per sample, and many rounds: the differences here are less than a hundredth
   run_rounds(tasks, {.rounds = 3 * options.rounds, .process = options.process, .seed = options.seed}, sink);
 
   tasks.clear();

@@ -1,6 +1,6 @@
 #pragma once
-// What `bench ablation` measures: a scene with each feature switched on from a bare one and off from a full one, and
-// the bare scene beside loops with less and less around them.
+// Variants timed by `bench ablation`: a scene with each feature switched on from a bare one and off from a full one,
+// and the bare scene compared with loops that do less and less around them.
 
 #include <functional>
 #include <string>
@@ -13,19 +13,19 @@
 
 namespace dartboard {
 
-/// A scene, and which of its output happens: every tenth step.
+/// A scene, and the output that it produces: every tenth step.
 struct AblationVariant {
   std::string name;  // "bare", "bare + damping", "full", "full - damping"
   SceneFile scene;
   bool frames = false, diagnostics = false;
 };
 
-/// What built objects report of parts that a bare scene does not ask for.
+/// Bytes that built objects report for parts that a bare scene does not ask for.
 std::size_t bytes_not_asked_for(const MemoryReport& report);
-/// Of damping: its part, and what the springs take beyond a rest length, a stiffness and two ends each.
+/// Bytes of damping: its part, and those of the springs beyond a rest length, a stiffness and two ends each.
 std::size_t bytes_of_damping(const MemoryReport& report, std::size_t springs);
 
-/// What is compared: `task` takes the time of `baseline` and that of the feature.
+/// Two tasks to compare: `task` takes the time of `baseline` and that of the feature.
 struct AblationPair {
   std::string feature;
   std::string task, baseline;
@@ -33,7 +33,7 @@ struct AblationPair {
 
 /// The body of the paper's size: bare, full, and each feature on and off.
 std::vector<AblationVariant> ablation_variants();
-/// The feature of each pair is what the first has and the second has not.
+/// Each pair times one feature, which the first has and the second has not.
 std::vector<AblationPair> switched_on();
 std::vector<AblationPair> switched_off();
 
@@ -43,8 +43,8 @@ std::vector<AblationPair> switched_off();
 /// anywhere in it, and no look at whether the state is finite).
 std::vector<AblationPair> staircase();
 
-/// Does what the task of a pair has more take at most half a percent of a step? Not tested where the interval lies on
-/// both sides of that with the median above, or where the baseline, which does less, is the slower one by more than its
+/// Does the extra work of the task of a pair take at most half a percent of a step? Not tested where the interval lies
+/// on both sides of that with the median above, or where the baseline, which does less, is slower by more than its
 /// interval: it is no lower bound then, and the ratio says nothing.
 Verdict verdict_on_time(const Figure& task_over_baseline);
 
@@ -55,7 +55,7 @@ struct AblationOptions {
 
 /// Time all variants and loops in this process.
 ///
-/// throws  SolverError if the loops of the staircase do not leave the same bits: nothing is timed then
+/// throws  SolverError if the loops of the staircase do not leave the same bits: nothing is timed in that case
 void study_ablation(const AblationOptions& options, const std::function<void(const Sample&)>& sink);
 
 }  // namespace dartboard

@@ -83,7 +83,7 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
                           "a scene without topological events over the same integrator on plain arrays in a loop",
                           "<= 1.02", fmt::format("{:.4f}", all.cpu.median), to_string(all.cpu.interval),
                           at_most(all.cpu, 1.02), "the staircase shows where"));
-  // what is held by a map, and columns of terms that are zero
+  // memory held by a map, and columns of terms that are zero
   const AblationBytes bare = r.bytes.at("bare");
   claims.push_back(target("bare-scene-holds-no-dart",
                           "such a scene holds no dart, and no column of what it does not ask for", "0 bytes",

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard bench ablation` says: tables, claims and a picture.
+// The report of `dartboard bench ablation`: tables, claims and a picture.
 
 #include <map>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// What the objects of a variant take.
+/// Bytes of the objects of a variant.
 struct AblationBytes {
   std::size_t total = 0, tetrahedra = 0, springs = 0;
   std::size_t not_asked_for = 0;  // of parts that a bare scene does not need
@@ -20,11 +20,11 @@ struct AblationBytes {
   double per_tetrahedron() const { return static_cast<double>(total) / static_cast<double>(tetrahedra); }
 };
 
-/// What was measured.
+/// The measured times and bytes.
 struct AblationFigures {
   std::vector<Sample> samples;
   std::map<std::string, AblationBytes> bytes;
-  int steps = 1;  // that a sample is the time of
+  int steps = 1;  // in each sample
 
   double step_us(const std::string& task) const { return times_of(samples, task).cpu_median / steps / 1e3; }
 };
@@ -33,10 +33,10 @@ std::vector<Claim> claims_of(const AblationFigures& figures);
 
 Table features_table(const AblationFigures& figures);
 Table staircase_table(const AblationFigures& figures);
-/// What the figures rest on.
+/// The basis of the figures.
 std::string features_note();
 
-/// A row for each feature, its time along it, its bytes beside it.
+/// A row for each feature, with its time along the axis and its bytes as text.
 Plot ablation_plot(const AblationFigures& figures);
 
 }  // namespace dartboard

@@ -15,7 +15,7 @@
 namespace dartboard {
 namespace {
 
-/// Asked of the built objects, part by part, whatever a plan says.
+/// Bytes reported by the built objects, part by part, independent of any plan.
 std::map<std::string, AblationBytes> bytes_of_variants() {
   std::map<std::string, AblationBytes> all;
   for (const AblationVariant& variant : ablation_variants()) {

@@ -10,7 +10,7 @@ namespace dartboard {
 
 struct AblationBenchPlan {
   bool quick = false;      // fewer rounds, fewer processes
-  std::uint64_t seed = 1;  // of the order of the tasks
+  std::uint64_t seed = 1;  // seeds the order of the tasks
 };
 
 Report ablation_bench(const AblationBenchPlan& plan, StudyLog& log);

@@ -28,7 +28,7 @@ std::string step_text(double seconds) {
   return std::isfinite(seconds) ? fmt::format("{:.4g} s", seconds) : "any length";
 }
 
-/// What contact will be like.
+/// A forecast of the contacts.
 std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
   Table table({{plan.touches.empty() ? "obstacle" : "key"},
                {"carries"},

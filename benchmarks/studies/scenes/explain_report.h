@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard explain` says of a plan, and of the time that was measured beside it.
+// The report of `dartboard explain` on a plan, and on the time that was measured to compare with.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard gallery` says of the scenes that it ran.
+// The report of `dartboard gallery` on the scenes that it ran.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>

@@ -24,7 +24,7 @@ class AlbumWatcher : public RunWatcher {
   Album& album_;
 };
 
-/// The scene, judged, and what it looked like.
+/// The scene, judged, and its pictures.
 std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   ShownScene shown;
   shown.scene = read_scene(file);

@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// The bits of ClassicalRungeKutta on such a system: the same operations in the same order, and no others.
+/// Leaves the bits of ClassicalRungeKutta on such a system: the same operations in the same order, and no others.
 ///
 /// Columns are read through pointers of the loop's own: Eigen stores pairs of doubles by a type that may alias any
 /// other, so that whatever is reached through a vector would be looked up again after each of them.
@@ -19,7 +19,7 @@ class PlainLoop {
  public:
   using Column = std::vector<Eigen::Vector3d>;
 
-  /// `springs` have a rest length and a stiffness, whatever else.
+  /// `springs` have a rest length and a stiffness; other members are ignored.
   template <class SpringRow>
   void step(const std::vector<SpringEnds>& ends, const std::vector<SpringRow>& springs,
             const std::vector<double>& inverse_mass, Column& position, Column& velocity, double h) {

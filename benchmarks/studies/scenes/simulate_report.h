@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard simulate` says of a run.
+// The report of `dartboard simulate` on a run.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace dartboard {
 
-/// Everything the summary says.
+/// Everything that the summary needs.
 struct SimulationReport {
   const SceneFile& scene;
   const Simulation& simulation;
@@ -28,35 +28,35 @@ struct SimulationReport {
   double wall_s, cpu_s;
   std::string folder;
   std::size_t frames;
-  std::string picture;  // what became of it
+  std::string picture;  // a sentence on the picture: its file, or why there is none
 
   bool holds() const {
     return !result.divergence &&
            std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
   }
-  /// The step that the last state is of: after a divergence the one that the body has gone back to.
+  /// The step of the last state: after a divergence the one that the body was taken back to.
   std::uint64_t kept_step() const {
     return simulation.steps_done() - (result.divergence ? result.divergence->taken_back : 0);
   }
-  /// What became of the mass beyond what removals took, relative to the mass at the start.
+  /// The change of mass beyond that of removals, relative to the mass at the start.
   double mass_drift() const {
     const SimulatedBody& body = simulation.body();
     return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
-  std::vector<std::string> told{};                 // the warnings that were told before the first step
-  std::uint64_t steps_before = 0;                  // of a run that was continued: those that its times do not count
-  std::optional<std::uint64_t> continues_after{};  // the step of the checkpoint left, of a run that is not over
+  std::vector<std::string> told{};                 // the warnings printed before the first step
+  std::uint64_t steps_before = 0;                  // for a continued run: the steps that its times do not count
+  std::optional<std::uint64_t> continues_after{};  // the step of the checkpoint left by a run that is not over
 };
 
-/// What there was at the start and at the end.
+/// The quantities at the start and at the end.
 Table summary_of(const SimulationReport& report);
 
-/// What is simulated and with which step, what the body is made of, and what each selection of the scene holds: the
-/// lines before a run.
+/// The lines before a run: what is simulated and with which step, what the body is made of, and what each selection of
+/// the scene holds.
 std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words);
 
-/// What came of it.
+/// The lines after a run.
 std::string to_text(const SimulationReport& report);
 
 nlohmann::ordered_json to_json(const SimulationReport& report);

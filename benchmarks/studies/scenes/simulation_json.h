@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation says of itself, as JSON.
+// Diagnostics of a simulation as JSON.
 
 #include <nlohmann/json.hpp>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Of a body of cells of a dimension, 0 of a chain: the largest stress has the key "largest_principal_stress" or
+/// For a body of cells of a dimension, 0 for a chain: the largest stress has the key "largest_principal_stress" or
 /// "largest_tension". JSON has no infinity: a number that is not finite is left null.
 nlohmann::ordered_json to_json(const Diagnostics& diagnostics, int dimension);
 nlohmann::ordered_json to_json(const EventJumps& jumps);

@@ -92,7 +92,7 @@ double width_of(std::span<const Vector3d> corners) {
   return std::abs(u.cross(v).dot(w)) / largest_face;
 }
 
-/// The springs, elements and vertices that the fastest oscillation moves most.
+/// Finds the springs, elements and vertices that the fastest oscillation moves most.
 void find_shares(StepExplanation& e, bool has_elements) {
   // power iterations for the shape: a tenth of a percent of omega_max is left after 100 of them,
   // and the shape converges at half that rate
@@ -117,7 +117,7 @@ void find_shares(StepExplanation& e, bool has_elements) {
   for (const ForceTerm* term : system.terms) {
     const std::vector<double> energy = energies(*term, e.body.x, displacement);
     sum += sum_of(energy);
-    if (has_elements && term == system.terms.front()) of_cells = energy;  // what else there is comes after elements
+    if (has_elements && term == system.terms.front()) of_cells = energy;  // other terms come after elements
   }
   for (const std::uint32_t k : largest(of_cells)) {
     CellStepShare cell{.number = k, .corners = {}, .share = of_cells[k] / sum};
@@ -180,7 +180,7 @@ StepExplanation explain_step(SceneFile scene) {
         fmt::format("{}: /contact: stiffens a body where it touches, which no spring is to blame for; "
                     "expected none, or 'dartboard explain', which reports the longest stable step",
                     scene.file));
-  scene.unstable_step = UnstableStep::warn;  // a step that the scene refuses is what is to be explained
+  scene.unstable_step = UnstableStep::warn;  // a refused step is the one to be explained
   const Simulation simulation(scene);
   const auto integrator = make_integrator(scene.integrator);
   const Horizon horizon = horizon_of(scene.duration);

@@ -1,5 +1,5 @@
 #pragma once
-// What limits the time step of a scene, and what a change of its body would buy.
+// The causes that limit the time step of a scene, and the effect of changes of its body.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -18,7 +18,7 @@ struct StepShare {
   double share = 0.0;
 };
 
-/// An element, its share of that energy, and what it is like.
+/// An element, its share of that energy, and its shape.
 struct CellStepShare {
   std::uint32_t number = 0;
   std::vector<std::uint32_t> corners;  // as `StepExplanation::name` has them
@@ -34,19 +34,19 @@ struct StepRemedy {
 
 struct StepExplanation {
   StableStep limits;
-  StepLimit limit;     // at the start: what the simulation goes by
+  StepLimit limit;     // at the start: the limit that the simulation uses
   double quick = 0.0;  // [s] stable in any state, by Gershgorin's bound
-  // the largest first, at most five of each; none where nothing oscillates
+  // the largest first, at most five of each; empty where nothing oscillates
   std::vector<StepShare> springs, vertices;
   std::vector<CellStepShare> cells;  // of elements
   std::vector<StepRemedy> remedies;
   SpringColumns body;                // at the start; its vertices and springs have numbers of their own
-  std::vector<std::uint32_t> names;  // of each vertex the number of its point in the file; empty: its own
+  std::vector<std::uint32_t> names;  // for each vertex the number of its point in the file; empty: its own
 
   std::uint32_t name(std::uint32_t vertex) const { return names.empty() ? vertex : names[vertex]; }
 };
 
-/// throws  InputError for a scene with contact; as the constructor of Simulation; a step that the scene refuses is explained like any other
+/// throws  InputError for a scene with contact; as the constructor of Simulation; refused steps are explained, too
 StepExplanation explain_step(SceneFile scene);
 
 /// For the terminal.

@@ -18,7 +18,7 @@
 namespace dartboard {
 namespace {
 
-/// The median of some runs [ns per call]: what the run of a scene will take on a machine as busy as now.
+/// The median of some runs [ns per call]: the time that the scene will take on a machine as busy as now.
 template <class F>
 double median_ns(int runs, int calls, F&& f) {
   std::vector<double> ns;
@@ -45,7 +45,7 @@ double cost_of(F&& f) {
   return median_ns(7, calls, f);
 }
 
-/// The same for several calls that are compared: by turns, so that what disturbs one disturbs all.
+/// The same for several calls that are compared: by turns, so that a disturbance affects all of them.
 std::vector<double> costs_of(std::vector<std::function<void()>> calls) {
   std::vector<int> times;
   for (const auto& call : calls) times.push_back(calls_for(call));
@@ -57,7 +57,7 @@ std::vector<double> costs_of(std::vector<std::function<void()>> calls) {
   return medians;
 }
 
-/// A step on arrays of its own, from the same state every few steps, so that none runs away.
+/// A step on arrays of its own, from the same state every few steps, so that the state cannot run away.
 std::function<void()> stepper(const SceneFile& scene, const SpringSystem& system, const SystemArrays& start) {
   struct State {
     std::unique_ptr<Integrator> integrator;
@@ -74,7 +74,7 @@ std::function<void()> stepper(const SceneFile& scene, const SpringSystem& system
   };
 }
 
-/// The same with elements that are not damped.
+/// The same problem without damping of its elements.
 Problem without_element_damping(Problem problem) {
   problem.material.damping_time = 0.0;
   for (Material& material : problem.materials) material.damping_time = 0.0;
@@ -236,7 +236,7 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
     costs.by_lot = 1.5 * static_cast<double>(plan.counts.cells);  // to write their numbers down
     if (removes) costs.remove = each(Remove{RandomSelection{10, 1}}, 20, 1.5 * static_cast<double>(s.counts.cells));
     if (refines) {
-      // as the first event that refines does
+      // as the first event that refines does it
       const auto found = std::ranges::find_if(
           scene.events, [](const SceneEvent& e) { return std::holds_alternative<Refine>(e.action); });
       Refine refine = std::get<Refine>(found->action);
@@ -347,13 +347,13 @@ void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& c) {
       case Part::elements: item.ns = m.cells * c.evaluations * c.force; break;
       case Part::damping: charge(item, m.springs, c.damping); break;
       case Part::cell_damping: charge(item, m.cells, c.element_damping); break;
-      case Part::pull:  // a column more beside the masses, as for viscosity
+      case Part::pull:  // an additional column next to the masses, as for viscosity
       case Part::viscosity: charge(item, m.vertices, c.viscosity); break;
       case Part::fixed: charge(item, m.vertices, c.fixed); break;
       case Part::contact: charge(item, m.vertices, c.contact); break;
       case Part::integrator: charge(item, m.vertices, c.stages); break;
       case Part::solver: item.ns = m.springs * c.solver; break;
-      case Part::driven:  // a term of one spring more for each
+      case Part::driven:  // each is a term of one spring
         item.ns = static_cast<double>(plan.driven_springs) / static_cast<double>(plan.counts.edges) * c.force;
         break;
       case Part::detector: item.ns = m.vertices * c.detector; break;

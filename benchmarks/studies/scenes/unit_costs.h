@@ -1,5 +1,5 @@
 #pragma once
-// What the pieces of a step cost on this machine: measured in a fraction of a second, before a scene is built.
+// Costs of the pieces of a step on this machine: measured in a fraction of a second, before a scene is built.
 
 #include <span>
 #include <vector>
@@ -10,7 +10,7 @@ namespace dartboard {
 
 /// Nanoseconds of processor time. Those of a step are measured on arrays of the size and order of the scene's own, with
 /// nothing of the simulator around; those of events and output on a body of some thousand cells of the same kind, and
-/// taken to grow with the number of cells, faces, vertices or springs.
+/// assumed to grow with the number of cells, faces, vertices or springs.
 struct UnitCosts {
   // a step
   double force = 0.0;  // one evaluation without damping, viscosity and fixed vertices
@@ -21,7 +21,7 @@ struct UnitCosts {
   double solver = 0.0;  // a step of an implicit method, all in all, in place of the above
   double detector = 0.0, speed_check = 0.0;
   // after operations
-  double look = 0.0;  // at the stable step, and what detector and integrator begin anew
+  double look = 0.0;  // at the stable step, and for the restart of detector and integrator
   // events
   double stress = 0.0;                                              // of all vertices, once
   double by_place = 0.0;                                            // to ask each cell where it is
@@ -32,10 +32,10 @@ struct UnitCosts {
   double frame = 0.0, row = 0.0;
 };
 
-/// The times of steps with more and more terms, made to ascend: what took longer than a step with a term more takes as
-/// long. The last, a step with all of them, stays.
+/// The times of steps with more and more terms, made to ascend: a time longer than that of a step with a term more is
+/// lowered to it. The last, a step with all of them, stays.
 ///
-/// returns the most that was taken off
+/// returns the largest reduction
 double make_ascending(std::span<double> ns);
 
 /// The costs of a step from the times [ns] of one force evaluation, of a bare step with so many evaluations, and of
@@ -46,7 +46,7 @@ UnitCosts measure_unit_costs(const SceneFile& scene, const Problem& problem, con
 
 /// Estimate the time of each item of the plan: a cost times how often, over the steps of the run.
 ///
-/// Not in it: writing files, building the body, and what stress tears. Steps are those of the body's mean size.
+/// Not included: writing files, building the body, and tearing by stress. Steps are those of the body's mean size.
 void add_times(ScenePlan& plan, const SceneFile& scene, const UnitCosts& costs);
 
 }  // namespace dartboard

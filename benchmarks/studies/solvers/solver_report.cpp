@@ -115,7 +115,7 @@ void claim_updates(const SolverResults& results, std::vector<Claim>& claims) {
   }
 }
 
-/// Of the prediction from what was measured, which lies between the runs on both sides of it.
+/// The deviation of the prediction from the measurement, which lies between the runs on both sides of it.
 Figure deviation_of(const Crossover& c) {
   const auto off = [&c](double phase) { return c.predicted_phase / phase - 1.0; };
   const auto enclosure = c.enclosure();

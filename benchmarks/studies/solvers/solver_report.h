@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard validate solvers` says: tables, claims and raw samples.
+// The report of `dartboard validate solvers`: tables, claims and raw samples.
 
 #include <functional>
 #include <map>
@@ -18,7 +18,7 @@
 
 namespace dartboard {
 
-/// What was measured; parts that were not asked for are empty.
+/// The measurements; parts that were not requested are empty.
 struct SolverResults {
   std::vector<SolveCell> cells;
   std::vector<IndefiniteCell> indefinite;
@@ -28,7 +28,7 @@ struct SolverResults {
   double crossover_error = 0.0;  // [edges]
 };
 
-/// All cells of one path: the largest errors, and what was diagnosed.
+/// All cells of one path: the largest errors, and the diagnoses.
 struct PathSummary {
   std::size_t solved = 0, diagnosed = 0, updated = 0;
   double before = 0.0, normwise = 0.0, after = 0.0;

@@ -15,13 +15,13 @@ namespace dartboard {
 struct SolverPlan {
   std::vector<std::string> only{};  // of the parts; empty: all
   bool quick = false;               // smaller bodies, one size, fewer repetitions
-  std::uint64_t seed = 1;           // of the order of the timed tasks
+  std::uint64_t seed = 1;           // seeds the order of the timed tasks
 };
 
 /// "accuracy", "edits", "updates", "crossover", "steps"
 std::span<const std::string_view> solver_parts();
 
-/// throws  InputError for a part that there is not
+/// throws  InputError for an unknown part
 Report solver_study(const SolverPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

@@ -27,7 +27,7 @@ void require(SolveStatus status) {
     throw SolverError(fmt::format("a factorisation that is timed ended: {}", to_string(status)));
 }
 
-// One contender: a factor of the whole body, and what it does when a vertex is dissociated.
+// One contender: a factor of the whole body, and its update when a vertex is dissociated.
 struct FactorTask {
   std::string name;
   CholeskyOptions options;
@@ -37,7 +37,7 @@ struct FactorTask {
   std::size_t pair = 0;     // which dissociation comes next
   std::size_t updates = 0;  // that the factor has been through
 
-  /// Of the system that the factor was made for last; the hash of the solution.
+  /// Solves the system that the factor was last made for; returns the hash of the solution.
   std::uint64_t solve(const std::vector<SolverMatrix>& torn, std::span<const Eigen::Vector3d> b) {
     std::vector<Eigen::Vector3d> x(b.size());
     require(cholesky->solve(b, x));
@@ -48,7 +48,7 @@ struct FactorTask {
   }
 };
 
-/// What a linearly implicit step from the start of a scene has to solve: (M + h C + h^2 K) v = M v0 + h f.
+/// The equations of a linearly implicit step from the start of a scene: (M + h C + h^2 K) v = M v0 + h f.
 class StepEquations {
  public:
   StepEquations(const TradeoffScene& scene, double h) {

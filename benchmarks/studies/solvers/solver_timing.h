@@ -1,5 +1,5 @@
 #pragma once
-// Paired times of what linear solvers do for a step and for a topological change.
+// Paired times of the work of linear solvers for a step and for a topological change.
 
 #include <Eigen/Core>
 #include <functional>
@@ -18,19 +18,19 @@ struct SolverTimes {
   std::size_t vertices = 0;
   bool stretched = false;
   double h_omega = 0.0;
-  std::size_t terms = 0;  // of rank one, that the change is
+  std::size_t terms = 0;  // of rank one, that make up the change
   std::size_t rows = 0;   // that the rule replaced instead; 0 where it did not
   std::vector<Sample> samples;
   std::vector<std::string> tasks;
 
   /// Median over the rounds of task / baseline in the same round. The interval is over the rounds of this one process:
-  /// how steady it was, not what another process would find (paired.h), and is to be printed as such.
+  /// it shows how steady the process was, not the value of another one (paired.h), and is to be printed as such.
   Figure ratio(const std::string& task, const std::string& baseline) const;
   double milliseconds(const std::string& task) const;  // median
   Figure time_ms(const std::string& task) const;       // and its interval over the rounds
 };
 
-/// How large the normwise backward error of a solution by a factor may be, after so many updates of rank one.
+/// Bound on the normwise backward error of a solution by a factor, after so many updates of rank one.
 ///
 /// Higham, theorem 10.4: (A + E) x = b with |E| <= gamma_{3n+1} |L| |L'|, and the norm of |L| |L'| is at most the trace
 /// of A, which is at most n times the norm of A. An update is as backward stable as a factorisation and counts as one.

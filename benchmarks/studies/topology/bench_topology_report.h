@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard bench topology` says: tables and claims.
+// The report of `dartboard bench topology`: tables and claims.
 
 #include <map>
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace dartboard {
 
-/// What was measured.
+/// The measured bytes and times.
 struct TopologyFigures {
   std::map<std::string, std::map<std::string, double>> bytes;  // per tetrahedron, by body and contender
   std::vector<std::string> disagreements;
-  bool all_bodies = true;  // else some were left out, and what is said of all of them is not tested
+  bool all_bodies = true;  // else some were left out, and claims on all of them are not tested
   std::map<std::string, std::vector<Sample>> samples;  // by "BODY:FIGURE"
   std::map<std::string, double> units;                 // by "BODY:FIGURE:CONTENDER"
 
@@ -45,7 +45,7 @@ Table figures_table(const TopologyFigures& figures);
 Table scaling_table(const TopologyFigures& figures);
 /// Other programs, measured once by others on another machine (a shared virtual one, +-30 %): context and no more.
 Table peers_table();
-/// What the figures rest on.
+/// The basis of the figures.
 std::string figures_note();
 
 }  // namespace dartboard

@@ -39,8 +39,8 @@ void from_json(const nlohmann::json& json, GroupSample& s) {
 
 // ---- agreement
 
-/// The bodies of all sizes: does the tetrahedral storage find what the general one does? Two walks that share neither
-/// darts nor tables; CGAL's would not fit the largest.
+/// Compares bodies of all sizes: does the tetrahedral storage find the same as the general one? Two walks that share
+/// neither darts nor tables; CGAL's map of the largest would not fit into memory.
 void compare_scaling(TopologyFigures& results, std::vector<std::string>& agreed, std::uint64_t seed) {
   TopologyStage stage = make_topology_stage(scaling, seed);
   std::map<std::string, std::string> words;
@@ -63,7 +63,7 @@ void compare_scaling(TopologyFigures& results, std::vector<std::string>& agreed,
       results.disagreements.push_back(fmt::format("{}, {}:{} not timed", scaling, group.figure, words[group.figure]));
 }
 
-/// Run everything once, untimed: who finds something else than CGAL (or, where CGAL finds nothing, than the others)?
+/// Run everything once, untimed, and return the figures that agree with CGAL's (without CGAL's: with each other).
 std::vector<std::string> agreed_groups(TopologyFigures& results, const std::vector<std::string>& bodies,
                                        std::uint64_t seed) {
   const auto is_wanted = [&bodies](const std::string& body) { return std::ranges::find(bodies, body) != bodies.end(); };

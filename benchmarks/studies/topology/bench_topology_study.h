@@ -14,15 +14,15 @@ namespace dartboard {
 struct TopologyBenchPlan {
   std::vector<std::string> bodies;  // of topology_bench_bodies()
   bool quick = false;               // fewer processes and rounds
-  std::uint64_t seed = 1;           // of the order of turns and the random faces
+  std::uint64_t seed = 1;           // seeds the order of turns and the random faces
 };
 
 std::vector<std::string> topology_bench_bodies();
 
-/// No timing without agreement: a figure that differs between contenders is told and not timed.
+/// No timing without agreement: a figure that differs between contenders is reported and not timed.
 Report topology_bench(const TopologyBenchPlan& plan, StudyLog& log);
 
-/// What a child process of it does: times groups, "BODY:FIGURE", and prints one sample per line.
+/// The work of one of its child processes: times groups, "BODY:FIGURE", and prints one sample per line.
 void run_topology_child(const PairedOptions& paired, const std::vector<std::string>& groups);
 
 }  // namespace dartboard

@@ -19,8 +19,8 @@ bool is_all_tetrahedra(const Mesh& mesh) {
   return std::all_of(mesh.kinds.begin(), mesh.kinds.end(), [](CellKind kind) { return kind == CellKind::tetrahedron; });
 }
 
-// With both oracles only what a combinatorial map can carry; with the generalized map anything goes, folds and flips
-// too.
+// With both oracles only operations that a combinatorial map supports; with the generalized map all of them, folds and
+// flips too.
 std::vector<FuzzSeries> sessions_for(const Mesh& mesh, const TopologyStudyPlan& plan) {
   const auto compact = is_all_tetrahedra(mesh) ? ScriptStorage::tetrahedral : ScriptStorage::general;
   if (plan.self) return {{compact, ScriptOracles::none, plan.seed, {}, 0.0}};

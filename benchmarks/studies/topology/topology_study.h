@@ -23,16 +23,16 @@ struct TopologyStudyPlan {
   std::vector<MeshSource> meshes;
   std::size_t operations = 10000;  // random ones, per series
   bool self = false;               // without CGAL during the operations: our storages against each other, and checks
-  std::string script_out{};        // where the script of a disagreement goes; empty: "disagreement-MESH-SEED.txt"
+  std::string script_out{};        // file for the script of a disagreement; empty: "disagreement-MESH-SEED.txt"
   std::uint64_t seed = 1;
 };
 
 /// throws  IoError for a mesh that no map can be built of
 Report topology_study(const TopologyStudyPlan& plan, StudyLog& log);
 
-/// The operations of a script again.
+/// Replays the operations of a script.
 ///
-/// throws  IoError for a script that cannot be read, or whose mesh is not what it was
+/// throws  IoError for a script that cannot be read, or whose mesh has changed
 Report topology_replay(const std::string& script_file, const std::function<MeshSource(const std::string&)>& find_mesh);
 
 }  // namespace dartboard

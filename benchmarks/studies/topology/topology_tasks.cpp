@@ -36,7 +36,7 @@ std::vector<Dart> inner_faces(const TetMap& map) {
   return faces;
 }
 
-/// Those that a plane parts, in strips of about one edge's width.
+/// The faces that a plane separates, in strips of about one edge's width.
 std::vector<Dart> cut_faces(const Mesh& mesh, const TetMap& map, const std::vector<Dart>& inner) {
   const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
   const Eigen::Vector3d along = normal.unitOrthogonal(), across = normal.cross(along);
@@ -125,7 +125,7 @@ std::vector<TopologyTask> topology_tasks(const TopologyWork& work) {
     tasks.push_back({figure, run, [run] { run(); }});
   };
   reads_only("vertex-orbit", [&map, &work] {
-    // the darts are looked at, or a compiler could count without walking
+    // the darts are read, or a compiler could count without walking
     std::uint64_t n = 0, sum = 0;
     for (const Dart v : work.vertices)
       for_each_dart_of(map, Vertex{v}, [&](Dart d) {

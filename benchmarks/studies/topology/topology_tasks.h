@@ -1,5 +1,5 @@
 #pragma once
-// The work that `bench topology` times, done by our maps; CGAL's part is validation/cgal/cgal_topology_tasks.h.
+// The tasks that `bench topology` times, done by our maps; CGAL's part is validation/cgal/cgal_topology_tasks.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace dartboard {
 /// each is a neighbour of the last; and every twentieth face inside the body, drawn at random.
 TopologyWork topology_work(Mesh mesh, std::uint64_t seed);
 
-/// What a figure is counted in, and how many of it there are in one run: darts, vertices, tetrahedra or faces.
+/// The number of units of a figure in one run: darts, vertices, tetrahedra or faces.
 double unit_count(std::string_view figure, const TopologyWork& work);
 
-/// The figures of cgal_topology_tasks, and one that CGAL has nothing for:
+/// The figures of cgal_topology_tasks, and one for which CGAL has no counterpart:
 ///   local-check   what an operation on a face checks, the darts of both its sides, for work.scattered
 ///                                                                                finds  the number of valid darts
 /// `work` must outlive the tasks.
@@ -32,7 +32,7 @@ std::vector<TopologyTask> topology_tasks(const TopologyWork& work);
 template <class Map>
 std::size_t map_bytes(const Mesh& mesh);
 
-// ---- everything, set out to be run
+// ---- everything, prepared to be run
 
 /// One figure, by several contenders on one body, or by the tetrahedral map on bodies of several sizes: they take
 /// turns.
@@ -47,7 +47,7 @@ struct TopologyGroup {
 };
 
 struct TopologyStage {
-  std::deque<TopologyWork> works;  // stay where they are, for the tasks point to them
+  std::deque<TopologyWork> works;  // not moved, since the tasks point to them
   std::vector<TopologyGroup> groups;
 
   void add(const std::string& name, const TopologyWork& work, std::vector<TopologyTask> tasks);

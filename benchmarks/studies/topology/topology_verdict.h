@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard validate topology` says of a mesh.
+// The verdict of `dartboard validate topology` on a mesh.
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +21,7 @@ struct FuzzSeries {
   double operations_per_s = 0.0;
 };
 
-/// All that was asked of one mesh.
+/// All results on one mesh.
 struct TopologyVerdict {
   std::string name;
   std::size_t darts = 0;
@@ -44,7 +44,7 @@ Table summary_table(const std::vector<TopologyVerdict>& verdicts);
 nlohmann::ordered_json to_json(const Disagreement& disagreement);
 nlohmann::ordered_json to_json(const TopologyVerdict& verdict);
 
-/// What differs, at rest and during the operations, with the script and the command that replays it; empty if nothing.
+/// The differences, at rest and during the operations, with the script and the command that replays it; empty if none.
 std::string disagreements_text(const TopologyVerdict& verdict);
 
 }  // namespace dartboard

@@ -8,7 +8,7 @@
 namespace dartboard {
 namespace {
 
-/// How much is audited, and how many errors of each scene.
+/// The numbers of audited scenes, and of errors for each.
 struct Extent {
   std::uint64_t scenes, errors;
   std::uint64_t long_scenes, long_errors;

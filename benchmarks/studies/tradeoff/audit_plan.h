@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard recommend --audit` follows: scenes and errors drawn from a seed.
+// Input of `dartboard recommend --audit`: scenes and errors drawn from a seed.
 
 #include <cstdint>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace dartboard {
 
-/// `scenes`: those of any kind that a reference and a sweep can follow; longer ones without a sweep, and without a
+/// `scenes`: scenes of any kind that a reference and a sweep can follow; longer ones without a sweep, and without a
 /// reference by other codes; at last some of which only the costs are known.
 ///
 /// `long_motions` (`--long`): small bodies, of whose motion pilots see a hundredth at most: some 1e5 / omega_max,
-/// thousands of the slow periods. Strains and gravity are a fortieth of those of `scenes`, and nothing is cut: chaotic
-/// motions have no error to foretell, and what an event sets free shows in no pilot before it.
+/// thousands of the slow periods. Strains and gravity are a fortieth of those of `scenes`, and nothing is cut: errors
+/// of chaotic motions cannot be predicted, and the effect of an event shows in no pilot before it.
 enum class AuditKind { scenes, long_motions };
 
-/// What is done beside following the recommendations.
+/// The checks in addition to following the recommendations.
 enum class AuditCheck { reference_and_sweep, reference, costs_only };
 
 struct AuditCase {
@@ -26,8 +26,8 @@ struct AuditCase {
   AuditCheck check = AuditCheck::reference_and_sweep;
 };
 
-/// [s] How long a run of the sweep may take beside picks of which the dearest takes that long. What takes longer cannot
-/// be cheaper than it, but steps are powers of two.
+/// [s] The longest time allowed for a run of the sweep, if the dearest pick takes that long. A run that takes longer
+/// cannot be cheaper than it, except that steps are powers of two.
 double longest_sweep_run(double dearest_pick_s);
 
 /// The cases of an audit, one after the other. With `quick` there are two small ones, of `scenes` with a sweep.
@@ -36,7 +36,7 @@ class AuditCases {
   AuditCases(AuditKind kind, std::uint64_t seed, bool quick);
 
   std::uint64_t size() const;
-  /// [s] That pilots are granted for a recommendation; 0: by its rule.
+  /// [s] The budget of the pilots of a recommendation; 0: by its rule.
   double budget_s() const { return kind_ == AuditKind::long_motions ? 0.03 : 0.0; }
   /// pre     fewer than size() were drawn
   AuditCase next();

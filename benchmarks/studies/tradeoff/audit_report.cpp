@@ -15,9 +15,9 @@ namespace dartboard {
 namespace {
 
 constexpr double part_asked = 0.95, cost_margin = 0.15, most_regret = 1.2;
-// of scenes: runs that are long, and the part of them that pilots may take
+// for scenes: the shortest long run, and the part of it that pilots may take
 constexpr double long_run_s = 5.0, most_pilots = 0.2;
-// of long motions: what makes a run a prediction, and how many are asked for
+// for long motions: the conditions of a prediction, and how many are required
 constexpr double times_pilots = 20.0, pilots_s = 2.0, pilots_part = 0.1;
 constexpr std::size_t pairs_asked = 40;
 
@@ -27,14 +27,14 @@ bool has_met(const AuditedPair& p) { return p.is_resolved() && p.audit.met(); }
 
 bool within_margin(double ratio) { return std::abs(ratio - 1.0) <= cost_margin; }
 
-/// The pairs that claims are about. A long motion without a pick foretells nothing, and was to.
+/// The pairs that count in claims. A long motion without a pick counts: it should have had a prediction.
 std::vector<AuditedPair> those_that_count(AuditKind kind, std::vector<AuditedPair> pairs) {
   if (kind == AuditKind::long_motions)
     std::erase_if(pairs, [](const AuditedPair& p) { return !p.followed || (has_pick(p) && !p.foretold()); });
   return pairs;
 }
 
-/// A claim on the part of the pairs for which something is true.
+/// A claim on the part of the pairs that satisfy a condition.
 Claim claim_on_part(std::string id, std::string text, const std::vector<AuditedPair>& pairs,
                     const std::function<bool(const AuditedPair&)>& counts,
                     const std::function<bool(const AuditedPair&)>& holds) {

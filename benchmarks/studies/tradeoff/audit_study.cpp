@@ -12,9 +12,9 @@
 namespace dartboard {
 namespace {
 
-// Of the smallest error asked for, how far the other codes may be apart.
+// The largest difference between the other codes, as a part of the smallest requested error.
 constexpr double resolved = 0.1;
-// [s] Nobody waits for longer runs of long motions.
+// [s] Longer runs of long motions are not followed.
 constexpr double longest_run_s = 15.0;
 
 SceneReference reference_for(AuditKind kind, const AuditCase& drawn) {

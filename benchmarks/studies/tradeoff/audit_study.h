@@ -1,6 +1,6 @@
 #pragma once
-// `dartboard recommend --audit [--long]`: unseen scenes, their recommendations, and what happens when they are
-// followed.
+// `dartboard recommend --audit [--long]`: unseen scenes, their recommendations, and the outcome of following
+// them.
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
@@ -9,7 +9,7 @@
 namespace dartboard {
 
 /// Recommend for scenes and errors drawn from a seed, follow the recommendations, and compare with references and with
-/// sweeps of all methods. Of long motions pilots may take a twentieth of the run at most, and the references are codes
+/// sweeps of all methods. For long motions pilots may take a twentieth of the run at most, and the references are codes
 /// that share nothing with ours.
 Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, StudyLog& log);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard recommend` says.
+// The report of `dartboard recommend`.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -10,26 +10,26 @@
 
 namespace dartboard {
 
-/// What is not finite is null.
+/// Numbers that are not finite are null.
 nlohmann::json json_of(const Recommendation& recommendation);
 nlohmann::json json_of(const Audit& audit);
 
 /// A row for each usable candidate.
 Table candidates_table(const Recommendation& recommendation);
 
-/// All of it in words; of real time where that was asked for, with the `duration` [s] of the scene.
+/// The whole recommendation in words; also on real time where that was requested, with the `duration` [s] of the scene.
 std::string text_of(const Recommendation& recommendation, bool realtime, double duration);
 
 /// A pick that was run.
 struct FollowedPick {
   std::string contender;
   Audit audit;
-  bool told = true;  // can the reference tell whether the error was met?
+  bool told = true;  // can the reference resolve whether the error was met?
 
   bool misses() const { return told && !audit.met(); }
 };
 
-/// What was predicted beside what happened.
+/// The predictions compared with the outcome.
 Table followed_table(const std::vector<FollowedPick>& picks);
 
 }  // namespace dartboard

@@ -37,8 +37,8 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
     const SceneReference reference = reference_of(scene, clock, {.gain = false});
     log.say(
         fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", reference.what, reference.floor, reference.cpu_s));
-    // of all methods, no longer than a few times the longest pick; those that cannot reach the largest error are given
-    // up
+    // for all methods, no longer than a few times the longest pick; methods that cannot reach the largest error are
+    // abandoned
     double longest = 0.05;
     for (const Recommendation& r : all)
       if (r.pick() != nullptr) longest = std::max(longest, 3.0 * r.pick()->predicted_s);

@@ -12,8 +12,8 @@ namespace dartboard {
 struct RecommendPlan {
   std::string scene;           // a name of the study, or a scene file
   std::vector<double> errors;  // [edges]
-  double budget_s = 0.0;       // that pilots may take; 0: by the rule
-  bool realtime = false;       // is that as fast as the motion itself, and what would be?
+  double budget_s = 0.0;       // budget of the pilots; 0: by the rule
+  bool realtime = false;       // says whether the run is as fast as the motion, and which run would be
   bool verify = false;         // run it, against the oracle and a sweep of all methods
 };
 

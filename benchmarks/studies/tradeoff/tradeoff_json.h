@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff` leaves for other programs; what is not finite is null.
+// Output of `dartboard tradeoff` for other programs; numbers that are not finite are null.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

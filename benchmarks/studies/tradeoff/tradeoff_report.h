@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff` concludes from a study.
+// The conclusion of `dartboard tradeoff` from a study.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace dartboard {
 
-/// Why a study tells nothing, or tells of something wrong; empty where all is well: its reference must tell errors of a
-/// hundredth of an edge, and of the runs that ended some must follow its motion better than a body that stands still.
+/// The reason why a study proves nothing, or shows a fault; empty where all is well: its reference must resolve errors
+/// of a hundredth of an edge, and some finished runs must follow its motion better than a body that stands still.
 std::string trouble_of(const WorkPrecision& study);
 
 }  // namespace dartboard

@@ -19,9 +19,9 @@
 namespace dartboard {
 namespace {
 
-/// Those that take part.
+/// The contenders that take part.
 ///
-/// throws  InputError for a name that none has
+/// throws  InputError for an unknown name
 std::vector<TradeoffContender> contenders_of(const TradeoffPlan& plan) {
   std::vector<TradeoffContender> contenders = tradeoff_contenders(plan.solvers);
   std::string known;
@@ -69,7 +69,7 @@ Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, Stud
       "up to a factor of two above the largest tried.");
   study.omissions.emplace_back("No multirate, exponential or multigrid method takes part.");
 
-  const std::string stem = file_name_of(scene.name);  // what the files are called
+  const std::string stem = file_name_of(scene.name);  // the name of the files
   Report report;
   report.tables = {{"", "", winners_table(study)},
                    {"", "Regret of a fixed choice", regrets_table(study),

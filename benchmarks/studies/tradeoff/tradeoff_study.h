@@ -1,5 +1,5 @@
 #pragma once
-// `dartboard tradeoff`: what accuracy costs on a scene, with every integrator and every step.
+// `dartboard tradeoff`: the cost of accuracy on a scene, with every integrator and every step.
 
 #include <cstdint>
 #include <string>
@@ -15,11 +15,11 @@ struct TradeoffPlan {
   std::vector<std::string> only{};  // names of the integrators that take part; empty: all
   bool solvers = false;             // implicit methods with every linear solver
   bool quick = false;               // short runs, few repetitions
-  double most_s = 0.0;              // that one run may take; 0: 8, quick 0.4
-  std::uint64_t seed = 1;           // of the order of the integrators
+  double most_s = 0.0;              // limit on the time of one run; 0: 8, quick 0.4
+  std::uint64_t seed = 1;           // seeds the order of the integrators
 };
 
-/// throws  InputError for an integrator that there is not
+/// throws  InputError for an unknown integrator
 void check_tradeoff(const TradeoffPlan& plan);
 
 /// throws  as check_tradeoff, and what reading a scene throws

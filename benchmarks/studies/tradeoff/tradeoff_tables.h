@@ -1,5 +1,5 @@
 #pragma once
-// What `dartboard tradeoff` prints of a scene: tables, and the page that holds them.
+// The text of `dartboard tradeoff` on a scene: tables, and the page that holds them.
 
 #include <string>
 #include <string_view>
@@ -10,20 +10,20 @@
 
 namespace dartboard {
 
-/// The errors asked about: 0.1, 0.01, ... down to the floor of the reference.
+/// The errors of the tables: 0.1, 0.01, ... down to the floor of the reference.
 std::vector<double> decades(const WorkPrecision& study);
 
 /// For each error the cheapest method, and how much more the next one and CVODE cost.
 Table winners_table(const WorkPrecision& study);
-/// What each method costs over the cheapest, a column for each error.
+/// The cost of each method relative to the cheapest, a column for each error.
 Table regrets_table(const WorkPrecision& study);
 /// All runs.
 Table points_table(const WorkPrecision& study);
 
-/// A list of lines, each as it may stand there.
+/// A list of lines, each escaped for its place.
 std::string bullets(const std::vector<std::string>& lines, std::string (*escaped)(std::string_view));
 
-/// The page of a scene in Markdown, beside the picture "`stem`.svg".
+/// The page of a scene in Markdown, which shows the picture "`stem`.svg" in the same folder.
 std::string tradeoff_page(const WorkPrecision& study, const std::string& stem);
 
 }  // namespace dartboard

@@ -58,7 +58,7 @@ Look look_of(const std::string& contender, std::size_t number) {
 
 double decade_below(double x) { return std::pow(10.0, std::floor(std::log10(x))); }
 
-// What a failed run would have cost.
+// The cost at which a failed run is drawn.
 double cost_of_failed(const std::vector<const WorkPoint*>& points, std::size_t k) {
   for (std::size_t next = k + 1; next < points.size(); ++next)
     if (!points[next]->failed() && points[k]->setting.steps > 0)
@@ -149,7 +149,7 @@ Plot work_precision_plot(const WorkPrecision& study) {
     plot.series.push_back(bold);
     plot.series.push_back(floor);
   }
-  // at the border: what failed, by method one row, so that diagnoses do not cover each other
+  // at the border: the failed runs, one row per method, so that diagnoses do not cover each other
   number = 0;
   std::size_t row = 0;
   for (const std::string& contender : names) {

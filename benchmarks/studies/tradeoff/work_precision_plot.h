@@ -6,11 +6,11 @@
 
 namespace dartboard {
 
-/// Error against cost: the front bold, what is dominated faded, runs that failed at the upper border with their
-/// diagnosis, what the reference cannot tell hollow.
+/// Error against cost: the front bold, dominated runs faded, runs that failed at the upper border with their diagnosis,
+/// errors below the floor of the reference hollow.
 ///
-/// A run that failed stands where it would have ended: at the cost of the next run of that method that did not,
-/// by the ratio of their steps.
+/// A failed run is drawn where it would have ended: at the cost of the next run of that method that did not fail,
+/// scaled by the ratio of their steps.
 Plot work_precision_plot(const WorkPrecision& study);
 
 }  // namespace dartboard

@@ -51,7 +51,7 @@ TEST(BodyPicture, GivesAComponentOfItsOwnAnotherColour) {
   for (const std::uint32_t colour : colours(drawn_facets(panel, panel))) EXPECT_FALSE(one.contains(colour));
 }
 
-// Of a box of two cubes the one in front is taken away: the side it had hidden shows, in the colour of what was inside.
+// The front one of two cubes of a box is removed: the side that it had hidden shows, in the colour of inner facets.
 TEST(BodyPicture, ShowsWhatWasInsideInAColourOfItsOwn) {
   const Frame first = panel_of(hexahedron_box(1, 2, 1, 1.0));
   Frame later = first;
@@ -86,7 +86,7 @@ TEST(BodyPicture, OfASurfaceShowsEveryPolygon) {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Where the picture has the ends of three links of 1 m along x, y and z, as columns.
+/// The ends of three links of 1 m along x, y and z in the picture, as columns.
 Eigen::Matrix<double, 2, 3> view() {
   Frame axes;
   axes.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -110,10 +110,10 @@ TEST(BodyPicture, IsSeenFromTheFrontRightAndAboveAndIsNotMirrored) {
   EXPECT_NEAR(v.row(0).norm(), 1.0, 0x1p-49);
   EXPECT_NEAR(v.row(1).norm(), 1.0, 0x1p-49);
   EXPECT_NEAR(v.row(0).dot(v.row(1)), 0.0, 0x1p-49);
-  EXPECT_NEAR(v(0, 2), 0.0, 0x1p-49);  // what is upright stands upright
+  EXPECT_NEAR(v(0, 2), 0.0, 0x1p-49);  // vertical lines stay vertical
   EXPECT_GT(v(1, 2), 0.7);
   EXPECT_GT(v(0, 0), 0.7);
-  EXPECT_GT(v(1, 1), 0.1);  // seen from above, what is behind is higher
+  EXPECT_GT(v(1, 1), 0.1);  // seen from above: points behind are higher
   const Vector3d viewer = towards_viewer();
   EXPECT_LT(viewer.y(), -0.7);
   EXPECT_GT(viewer.x(), 0.1);
@@ -176,7 +176,7 @@ TEST(BodyPicture, GivesEachFacetTheColourOfItsOwnCell) {
     EXPECT_TRUE(facets[k].colour == at_left[k].colour || facets[k].colour == at_right[k].colour);
     EXPECT_NE(at_left[k].colour, at_right[k].colour);
   }
-  // the side at the right end and the two beside it are the second cell's
+  // the side at the right end and the two next to it are the second cell's
   EXPECT_EQ(std::ranges::count_if(facets, [&](const DrawnFacet& f) { return colours(at_right).contains(f.colour); }),
             3);
 }
@@ -223,7 +223,7 @@ std::array<std::ptrdiff_t, 2> seen_on_and_off_the_sides(const Mesh& mesh, double
   return count;
 }
 
-// A box without forces, whose sides are known by their coordinates: means of powers of two are exact.
+// A box without forces, so that facets of its sides are known by their coordinates: means of powers of two are exact.
 TEST(BodyPicture, KnowsOfFacetsThatRefinementMadeWhichAreOnTheOutside) {
   using namespace moving;
   for (const char* events :
@@ -257,7 +257,7 @@ TEST(BodyPicture, KnowsOfFacetsThatRefinementMadeWhichAreOnTheOutside) {
   }
 }
 
-// Two opposite corners of a cube exchange their numbers, as removals make vertices do: its sides are its sides still.
+// Two opposite corners of a cube exchange their numbers, as removals make vertices do: its sides remain its sides.
 TEST(BodyPicture, KnowsFacetsByThePointsOfTheMeshWhateverTheirNumbersAre) {
   const Frame first = panel_of(hexahedron_box(1, 1, 1, 1.0));
   Frame renumbered = first;
@@ -297,8 +297,8 @@ TEST_F(BodyPictureFiles, HavePanelsSideBySideEachWithItsTime) {
   ASSERT_EQ(draw_bodies(std::vector{first, second}, "t", folder_, "two"), "");
   const auto drawn = polygons(text("two.dat"));
   ASSERT_EQ(drawn.size(), 2u * 3u * 2u);  // two panels, three sides, rim and inner part
-  // Every corner of the second panel is a panel's width to the right, and higher by what the view makes of 0.25 m. The
-  // file has six digits of numbers below 10.
+  // Every corner of the second panel is a panel's width to the right, and higher by the image of 0.25 m. The file has
+  // six digits of numbers below 10.
   const Vector2d shift = drawn[6][0] - drawn[0][0];
   EXPECT_NEAR(shift.y(), 0.25 * view()(1, 2), 2e-5);
   for (std::size_t k = 0; k < 6; ++k)

@@ -48,12 +48,12 @@ TEST(Film, OfManyStepsHasAHundredAndTwentyFramesAfterTheFirstAndTheLastIsTheEnd)
 
 TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
   Json scene = moving_box();
-  scene["step"] = 0.2;  // beyond the stable one: the second step is found to diverge
+  scene["step"] = 0.2;  // beyond the stable one: the second step diverges
   scene["duration"] = 20;
   Simulation simulation(moving::parse(scene));
   Film film(simulation, 100, {0, 0, 1});
   while (!simulation.advance()) film.stepped(simulation);
-  ASSERT_GT(film.frames().back().time, simulation.time());  // it has gone back
+  ASSERT_GT(film.frames().back().time, simulation.time());  // the simulation was taken back
   film.ended(simulation);
   EXPECT_EQ(film.frames().back().time, simulation.time());
 }
@@ -68,7 +68,7 @@ TEST(Film, ShowsTheBodyAsAPictureDoes) {
   for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_EQ(film.frames()[0].facets[k].corners, drawn[k].corners);
 }
 
-/// What a GIF says of itself (its specification, version 89a): the delay before each picture in hundredths of a second.
+/// Data of a GIF file (specification, version 89a): the delay before each picture in hundredths of a second.
 struct Gif {
   int width = 0, height = 0, pictures = 0;
   std::vector<int> delays{};
@@ -91,7 +91,7 @@ Gif read_gif(const std::string& bytes) {
     } else {
       EXPECT_EQ(byte(at), 0x2C);
       ++gif.pictures;
-      at += 11 + colours(byte(at + 9));  // and the least size of a code
+      at += 11 + colours(byte(at + 9));  // and the minimal code size
     }
     while (byte(at) != 0) at += 1 + static_cast<std::size_t>(byte(at));
     ++at;
@@ -102,7 +102,7 @@ Gif read_gif(const std::string& bytes) {
 
 class FilmFiles : public FolderTest {};
 
-// 11 frames of a motion of 0.01 s, which is shown for 4 s: 400 / 11 = 36 hundredths each
+// 11 frames of a motion of 0.01 s, shown for 4 s: 400 / 11 = 36 hundredths each
 TEST_F(FilmFiles, AreAGifOfAllFramesThatLastsFourSecondsAtLeast) {
   const Film film = film_of(moving_box(), 10);
   ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
@@ -119,7 +119,7 @@ TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
   const Film film = film_of(scene, 4);
   ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
   EXPECT_EQ(read_gif(text("film.gif")).pictures, 5);
-  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");  // which leaves its script
+  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");  // the script remains
   const std::string script = text("film.gnuplot");
   std::size_t empty = 0;
   for (auto at = script.find("nothing left"); at != std::string::npos; at = script.find("nothing left", at + 1))

@@ -61,7 +61,7 @@ TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
   EXPECT_EQ(quoted_title(std::string(100000, 'a'), 200, 10.0), "'" + std::string(20, 'a') + "...'");
 }
 
-// A line of letters that just fits into the picture is broken where a legend takes of its width.
+// A line of letters that just fits into the picture is broken if a legend takes a part of the width.
 TEST(PlotText, TitlesAreCentredBesideTheLegend) {
   Plot plot = small_plot();
   plot.series.resize(1);
@@ -70,7 +70,7 @@ TEST(PlotText, TitlesAreCentredBesideTheLegend) {
   for (int k = 0; k < 10; ++k) plot.title += k == 0 ? "ten letter" : " ten letter";
   const std::string one_line = "set title '" + plot.title + "' font";
   EXPECT_NE(plot_script(plot, "figure").find(one_line), std::string::npos);
-  // sixty letters of 9 pixels and what stands beside them leave 800 of 1400: 62 letters of 12 pixels
+  // sixty letters of 9 pixels and the symbols next to them leave 800 of 1400: 62 letters of 12 pixels
   plot.series[0].title = std::string(60, 'l');
   EXPECT_NE(plot_script(plot, "figure")
                 .find("set title 'ten letter ten letter ten letter ten letter ten letter ten' . \"\\n\" . 'letter ten"),
@@ -106,7 +106,7 @@ TEST_F(PlotTest, AnAxisThatHasNoLogarithmIsRefused) {
   EXPECT_THROW(draw(plot, folder_, "figure"), InputError);
 }
 
-// A decade from tick to tick, and two where there are more than nine; none above the last one, which has a line.
+// One decade from tick to tick, and two if there are more than nine; no tick above the last one, which has a line.
 TEST(PlotText, TicksEndAtTheLastOne) {
   Plot plot = small_plot();
   plot.y_low = 2e-5;

@@ -71,7 +71,7 @@ TEST(Bound, IsMetByAWholeIntervalMissedByAWholeIntervalAndElseOpenWhereverTheMed
   EXPECT_EQ(at_least(figure(0.7, 0.9, 0.99), 1.0), Met::no);
 }
 
-// One process has an interval without width: it would decide everything.
+// One process has an interval of zero width: it would decide everything.
 TEST(Bound, IsOpenWhereTheIntervalRestsOnTooFewValues) {
   Figure few = figure(0.5, 0.5, 0.5);
   few.interval.reached = false;

@@ -92,7 +92,7 @@ TEST_F(ManifestTest, HasTheVersionsThatTheHeadersOfLibrariesGive) {
   EXPECT_EQ(10000 * fmt_[0] + 100 * fmt_[1] + fmt_[2], FMT_VERSION);
   EXPECT_EQ(eigen, (std::array{EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION}));
   EXPECT_EQ(json, (std::array{NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH}));
-  // the library that is loaded says it too
+  // the loaded library reports its version, too
   std::array<int, 3> loaded{};
   const int code = cholmod_version(loaded.data());
   EXPECT_EQ(code, CHOLMOD_VER_CODE(loaded[0], loaded[1]));
@@ -165,7 +165,7 @@ TEST_F(ManifestTest, ReportsCommitAndChangesButNotResults) {
   file_with("source.cpp", "int y;");
   EXPECT_EQ(git_state(folder_).at("dirty"), true);
 
-  // sources unpacked within someone else's repository have no commit of their own
+  // sources unpacked inside another repository have no commit of their own
   EXPECT_TRUE(git_state(folder_ / "results").at("commit").is_null());
 }
 

@@ -1,4 +1,4 @@
-// Strings from outside where the harness writes them, read back by who reads them.
+// Strings from outside, written by the harness and read back by the programs that consume the files.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(JsonText, IsAsciiAndParsesWhateverTheBytes) {
     const std::string text = json_text(nlohmann::json{{"name", name}});
     EXPECT_TRUE(std::ranges::all_of(text, [](char c) { return c >= 0x20 && c < 0x7f; }));
     const auto back = nlohmann::json::parse(text).at("name").get<std::string>();
-    // what is UTF-8 comes back as it was
+    // valid UTF-8 is unchanged
     try {
       (void)nlohmann::json(name).dump();
       EXPECT_EQ(back, name);
@@ -36,7 +36,7 @@ TEST_F(GnuplotString, IsReadBackByGnuplotWhichRunsNothing) {
   std::string script = "set print '-'\n", expected;
   std::size_t count = 0;
   for (const std::string& name : many_hostile_names(300)) {
-    if (name.size() > 5000) continue;  // more than a line of gnuplot holds; titles are shortened
+    if (name.size() > 5000) continue;  // longer than gnuplot's lines; titles are shortened
     script += "print " + gnuplot_string(name) + "\n";
     std::string shown = terminal_text(name);
     for (std::size_t at; (at = shown.find("]]>")) != shown.npos;) shown.insert(at + 2, " ");

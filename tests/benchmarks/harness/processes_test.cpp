@@ -11,7 +11,7 @@ namespace {
 std::vector<pid_t> killed;
 }  // namespace
 
-// This program's own stands before the C library's. What is nobody's child is not even tried.
+// This program's own definition precedes the C library's. Signals to processes that are no children are not sent.
 extern "C" int kill(pid_t pid, int signal) noexcept {
   killed.push_back(pid);
   if (pid <= 1) return -1;
@@ -29,7 +29,7 @@ std::vector<std::string> lines_of(const std::string& program, const std::vector<
 
 std::vector<std::string> lines_of_shell(const std::string& script) { return lines_of("sh", {"-c", script}); }
 
-/// What a failing child is reported with.
+/// The message of a failing child.
 std::string failure_of(const std::function<void()>& run) {
   try {
     run();

@@ -1,4 +1,4 @@
-// How long the rest of some work will take, told from how long what is done took.
+// The estimate of the remaining time, from the time that the finished part took.
 
 #include "benchmarks/harness/progress.h"
 

@@ -112,8 +112,8 @@ TEST(Outliers, FlagNothingInAConstantSample) {
   EXPECT_EQ(outliers(std::vector{3.0, 3.0, 3.0}), (std::vector<bool>{false, false, false}));
 }
 
-// Clopper and Pearson: where all of n are good, the share at which that has a chance of 2.5 % is its n-th root; where k
-// of n are, the chance of k or more is 2.5 % at the lower end, and of k or fewer at the upper one.
+// Clopper and Pearson: if all of n are good, the share at which that has a chance of 2.5 % is its n-th root; if k of n
+// are, the chance of k or more is 2.5 % at the lower end, and of k or fewer at the upper one.
 TEST(ShareInterval, EndsWhereWhatWasSeenIsJustThatUnlikely) {
   const auto chance_of_at_most = [](int k, int n, double share) {
     double sum = 0.0, term = std::pow(1.0 - share, n);

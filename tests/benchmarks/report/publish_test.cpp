@@ -17,7 +17,7 @@ Claim claim(const std::string& id, Verdict verdict) {
   return {.id = id, .text = "a sentence on " + id, .verdict = verdict};
 }
 
-/// What a publication of a study prints, and its exit status.
+/// The output of a publication of a study, and its exit status.
 struct Published {
   int status;
   std::string out, err;

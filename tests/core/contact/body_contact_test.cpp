@@ -1,4 +1,4 @@
-// Contact between bodies: what is inside what, how deep, and with which force.
+// Contact between bodies: which points are inside which body, how deep, and with which force.
 
 #include "core/contact/body_contact.h"
 
@@ -46,7 +46,7 @@ TwoBodies stacked(int n, double depth, const ContactLaw& law) {
 }
 
 // Each side has half of the pressure of its law on its inner samples; those on the edges have no depth, as the sides of
-// the box are as near as its top. What that takes from the force is the share of the border's vertices.
+// the box are as near as its top. The force is lower by the share of the border's vertices.
 TEST(BodyContact, CarriesThePressureOfItsLawBetweenBoxes) {
   for (const int p : {2, 3, 4}) {
     const ContactLaw law = law_between(p, 1000.0, 0.02);
@@ -76,7 +76,7 @@ TwoBodies overlapping_balls(int exponent, std::uint64_t seed) {
   return balls;
 }
 
-// Differences of a step d taken at d and 2 d, their errors of d^2 cancelled; no kink is within 2 d of these places.
+// Differences of a step d at d and 2 d, so that errors of d^2 cancel; no kink is within 2 d of these places.
 TEST(BodyContact, PullsAlongTheSlopeOfItsEnergyWithoutSumOrTorque) {
   for (const int p : {2, 3, 4})
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
@@ -120,7 +120,7 @@ TEST(BodyContact, HasChangesSharesSizesAndPowersThatAddUp) {
     std::vector<Vector3d> w(x.size());
     for (Vector3d& v : w)
       for (double& c : v) c = random.next_signed();
-    for (const double t : {1e-7, 0.05, 10.0}) {  // the last of them takes all apart, and into each other anew
+    for (const double t : {1e-7, 0.05, 10.0}) {  // the last of them takes all apart, and into each other again
       const double after = term.energy(moved(x, w, t));
       const EnergyChange change = term.energy_change({x}, w, t);
       EXPECT_NEAR(change.value, after - before, 1e-14 * (before + after)) << t;
@@ -195,8 +195,8 @@ void expect_same(std::span<const BodyTouch> a, std::span<const BodyTouch> b) {
   }
 }
 
-// Bodies that wander through each other and lose their shape, cells that turn inside out among them: every list finds
-// what asking for every pair finds, to the last bit.
+// Bodies that move through each other and are deformed, with cells turned inside out: the lists find the same contacts
+// as a comparison of every pair, to the last bit.
 TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
   for (const double margin : {0.01, 0.25, 20.0}) {
     TwoBodies balls(tetrahedron_ball(2, 0.5), shifted(tetrahedron_ball(3, 0.4), {0.3, 0.5, 0.35}),
@@ -213,7 +213,7 @@ TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
         }
       for (std::size_t i = 0; i < speed.size(); ++i) balls.x[i] += speed[i];
       inverted += balls.contact->state_at(balls.x).inverted;
-      if (step % 4 != 0) continue;  // lists are made sure of in every step, and asked about in some
+      if (step % 4 != 0) continue;  // lists are kept up to date in every step, and compared in some
       const auto found = balls.contact->touching({balls.x});
       expect_same(found, balls.contact->touching_by_brute_force({balls.x}, nullptr));
       contacts += found.size();
@@ -225,7 +225,7 @@ TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
   }
 }
 
-// What has become no number, or is far from everything, is nowhere inside, and its list holds nothing else up.
+// Vertices that are NaN, or far from everything, are nowhere inside, and their lists hold nothing.
 TEST(BodyContact, LooksAtNothingThatIsNoNumber) {
   TwoBodies balls = overlapping_balls(3, 6);
   const std::size_t contacts = balls.contact->state_at(balls.x).contacts;
@@ -284,7 +284,7 @@ TEST(BodyContact, TouchesItselfBeyondTheNeighboursOfNeighbours) {
                  into = closed.mesh.points[closed.skin->solids.tetrahedra()[t.tetrahedron].nodes[0]][0];
     EXPECT_GT(std::abs(from - into), 2.0);
   }
-  // folded flat onto itself within two cells: a contact that is none
+  // folded flat onto itself within two cells, which does not count as a contact
   TwoBodies box(kuhn_box(2, 2, 2, 0.5), empty_mesh(), {{0, 0, law_between(3, 1000.0, 0.1)}});
   box.contact->set_margin(5.0);
   SplitMix64 random(4);
@@ -301,7 +301,7 @@ Mesh tip(double size) {
   return mesh;
 }
 
-// Whatever is in a cell with a corner on the boundary has a way out.
+// Every place in a cell with a corner on the boundary has a way out.
 TEST(BodyContact, ReachesEveryPlaceAlongTheBoundary) {
   for (const Mesh& box : {kuhn_box(4, 4, 4, 0.25), hexahedron_box(4, 4, 4, 0.25)}) {
     TwoBodies two(box, tip(0.001), between(law_between(3, 1000.0, 0.1)));
@@ -324,7 +324,7 @@ TEST(BodyContact, ReachesEveryPlaceAlongTheBoundary) {
   }
 }
 
-// Two tetrahedra, of which one has lost its triangles: what is in it feels nothing, and is told.
+// Two tetrahedra, of which one has lost its triangles: a sample in it feels nothing, and is reported.
 TEST(BodyContact, TellsWhatIsOutOfReach) {
   const std::vector<Vector3d> x{{0, 0, 0},       {1, 0, 0},       {0, 1, 0},       {0, 0, 1},
                                 {0.2, 0.2, 0.2}, {0.9, 0.9, 0.9}, {0.9, 1.9, 0.9}, {0.9, 0.9, 1.9}};
@@ -345,7 +345,7 @@ TEST(BodyContact, TellsWhatIsOutOfReach) {
   EXPECT_EQ(contact.state_at(x).out_of_reach, 0u);
 }
 
-// A tip that goes on inwards out of the cells along the boundary is told when it leaves them, as deep as it was last;
+// A tip that goes on inwards out of the cells along the boundary is reported when it leaves them, with its last depth;
 // one that is drawn out again is not.
 TEST(BodyContact, TellsWhatGoesOnInwards) {
   TwoBodies two(kuhn_box(6, 6, 6, 0.1), shifted(tip(0.01), {0.31, 0.32, 0.61}), between(law_between(3, 1000.0, 0.1)));
@@ -389,8 +389,8 @@ TEST(BodyContact, KnowsTheLeastAltitude) {
   EXPECT_NEAR(boxes.contact->least_altitude(boxes.x), 0.25 / std::sqrt(2.0), 1e-15);
 }
 
-// The largest rows, against the largest quotient that a power iteration finds on the contacts themselves: with masses
-// of all kinds a bound, and not a bad one. Before the run it is a bound of that, too.
+// The largest rows, compared with the largest quotient that a power iteration finds on the contacts themselves: with
+// masses of all kinds an upper bound, and not a bad one. Before the run it is a bound of that, too.
 TEST(BodyContact, BoundsTheFrequenciesThatItAdds) {
   for (const int p : {2, 3}) {
     const ContactLaw law = law_between(p, 1000.0, 0.02);

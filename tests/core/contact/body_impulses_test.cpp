@@ -1,4 +1,4 @@
-// What contact between bodies takes from a bounce and by friction, on both of them.
+// Losses of contact between bodies by restitution and friction, on both of them.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two balls in each other with masses and velocities at random.
+/// Two balls that overlap, with random masses and velocities.
 struct Balls {
   Mesh mesh;
   std::unique_ptr<MeshSkin> skin;
@@ -86,14 +86,14 @@ TEST(BodyImpulses, LoseWhatTheyTellAndNoMomentum) {
   EXPECT_LE((balls.momentum() - momentum).norm(), 1e-14 * size);
   EXPECT_LE((balls.spin() - spin).norm(), 1e-14 * size);
   EXPECT_TRUE(balls.end(0.01));
-  // however long the step: a contact never turns round what it damps
+  // however long the step: damping never reverses the velocity of a contact
   Balls stiff(0.01, 0.0);
   const double least = stiff.kinetic();
   stiff.begin(1e6);
   EXPECT_LT(stiff.kinetic(), least);
 }
 
-// What is driven does not give way, and whoever drives it does work.
+// Driven vertices do not give way, and their drive does work.
 TEST(BodyImpulses, LeaveFixedVerticesAlone) {
   Balls balls(0.5, 0.0);
   balls.fixed.assign(balls.x.size(), 0);
@@ -111,7 +111,7 @@ TEST(BodyImpulses, LeaveFixedVerticesAlone) {
   EXPECT_EQ(balls.v, all);
 }
 
-// No more than mu of the normal force half way through the step, across it, and at one place there.
+// At most mu times the normal force half way through the step, perpendicular to it, and at one place there.
 TEST(BodyImpulses, HaveFrictionWithoutTorqueHalfWay) {
   const double h = 1e-3, mu = 0.3;
   Balls balls(1.0, mu);
@@ -134,7 +134,7 @@ TEST(BodyImpulses, HaveFrictionWithoutTorqueHalfWay) {
     EXPECT_LE(frozen[k].force.dot(frozen[k].site.difference(balls.v)), 0.1 * size);
   }
   EXPECT_GT(sliding, 5u);
-  // they are forces like any others, with an energy that is what is rubbed
+  // friction forces are forces like any others, with an energy that is the work lost
   std::vector<Vector3d> force(balls.x.size(), Vector3d(0, 0, 0)), without = force;
   balls.contact.add_forces({balls.x}, force);
   const auto friction = balls.contact.frozen_friction_to_set();
@@ -207,7 +207,7 @@ TEST(BodyImpulses, AreKeptInACheckpoint) {
   read.require_end();
   other.impulses.state(again);
   EXPECT_EQ(again.written(), written.written());
-  // and what friction begins from is there
+  // and the data from which friction begins are there
   other.x = balls.x;
   other.v = balls.v;
   balls.begin(1e-3);

@@ -1,4 +1,4 @@
-// What a contact holds and rubs at: slopes, stopping distances, steps that are taken back.
+// Friction of a contact: slopes that it holds, stopping distances, steps that are taken back.
 
 #include "core/contact/contact_impulses.h"
 
@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 
 constexpr double mass = TouchingVertices::mass, area = TouchingVertices::area;
 
-// Sliding all the way through a bounce, friction takes mu times the normal momentum as long as the body is pushed:
-// until the speed is highest, which is before it leaves where there is damping. With zeta = sin(b) that speed is exp(-
-// tan(b) (pi - 2 b)) of the first, e for b = 0. With more friction no more than all of the sliding can go.
-// Of a thousand steps in contact, one in which the push ends may be wrong.
+// Sliding all the way through a bounce, friction takes mu times the normal momentum while the body is pushed out: until
+// its speed is highest, which with damping is before it leaves. With zeta = sin(b) that speed is exp(- tan(b) (pi - 2
+// b)) of the first, e for b = 0. More friction takes at most the whole of the sliding velocity. Of a thousand steps in
+// contact, one in which the push ends may be wrong.
 TEST(ContactFriction, TakesTheShareOfTheNormalMomentumThatItMay) {
   for (const int p : {2, 3, 4})
     for (const double e : {1.0, 0.5}) {
@@ -34,8 +34,8 @@ TEST(ContactFriction, TakesTheShareOfTheNormalMomentumThatItMay) {
     }
 }
 
-// A step that is long for the contact, and in which the vertex comes in at a depth that it will never have: no more
-// than mu times the momentum that a bounce turns; and of what lies still, mu times the force.
+// A step that is long for the contact, in which the vertex enters at a depth that it will never reach: friction is at
+// most mu times the momentum that a bounce reverses; for a vertex at rest, mu times the force.
 TEST(ContactFriction, TakesNoMoreThanTheNormalMomentumThatCanBeTurned) {
   for (const double speed : {3.0, 0.0}) {
     const ContactLaw law = contact_law(3, 0.5, 0.25);
@@ -78,9 +78,9 @@ struct Slope {
   }
 };
 
-// On either side of the slope that friction can hold: not one bit of creep in 1e5 steps, and a slide with the
-// acceleration that is left. Across the plane the vertex rests where rounding has put it, or swings by roundings: along
-// it, a coordinate of 0.3 that moves by less than 2^-54 stays.
+// On either side of the steepest slope that friction can hold: not one bit of creep in 1e5 steps, and a slide with the
+// remaining acceleration. Normal to the plane the vertex rests where rounding has put it, or oscillates by roundings:
+// along it, a coordinate of 0.3 that moves by less than 2^-54 stays.
 TEST(ContactFriction, HoldsAVertexToTheLastBitUpToItsSlope) {
   for (const int p : {2, 3, 4})
     for (const double mu : {0.3, 0.7}) {
@@ -123,9 +123,9 @@ struct FourOnASlope {
   static double angle() { return std::atan(0.9 * mu); }
 };
 
-// The heavy ones cannot hold themselves, and what the middle takes for them pushes the light ones, which have to give
-// back what they took. Each sweep leaves a share of that, and the next step begins with it: in the end nothing moves
-// along the slope, where free they would come 2 m.
+// The heavy ones cannot hold themselves, and the friction that the middle takes for them pushes the light ones, which
+// have to give it back. Each sweep leaves a share of that, and the next step begins with it: in the end nothing moves
+// along the slope; without friction they would move 2 m.
 TEST(ContactFriction, HoldsABodyByWhatItsSamplesCanTogether) {
   FourOnASlope four;
   const auto run = [&four](int steps) {
@@ -166,8 +166,8 @@ TEST(ContactFriction, StopsASlidingVertexAfterItsDistance) {
     }
 }
 
-// A step that is begun, taken back and taken again ends in the same bits as one that was not: while contacts find what
-// holds them, and while they come and go.
+// A step that is begun, taken back and taken again ends in the same bits as one that was not: both while contacts find
+// the forces that hold them, and while they come and go.
 TEST(ContactFriction, CanBeTakenBack) {
   for (const double up : {0.0, 0.3}) {
     FourOnASlope once, twice;
@@ -214,7 +214,7 @@ TEST(ContactFriction, KeepsItsSumsInACheckpoint) {
   EXPECT_EQ(other.impulses.losses().rubbed, slope.impulses.losses().rubbed);
 }
 
-// After the first contact nothing asks for memory.
+// After the first contact no memory is allocated.
 TEST(ContactFriction, NeedsNoMoreMemoryInTheSteadyState) {
   Slope slope(0.1, 0.5, 3);
   slope.run(5, 1e-3);

@@ -1,4 +1,4 @@
-// What a contact takes from a bounce, and the sums of all that is lost.
+// Losses of a contact by restitution, and the sums of all losses.
 
 #include "core/contact/contact_impulses.h"
 
@@ -34,12 +34,12 @@ TEST(ContactImpulses, BalanceWhatABounceHasLost) {
     EXPECT_GT(losses.damped, 0.0);
     EXPECT_GT(losses.rubbed, 0.0);
     EXPECT_EQ(losses.supplied, 0.0);
-    // what Verlet leaves of the energy of the way through
+    // the error of Verlet in the energy of the way through
     EXPECT_NEAR(losses.damped + losses.rubbed, lost, 1e-4 * lost) << p;
   }
 }
 
-// With a mass behind it that has it stopped, a body of many samples has the restitution of its law as a whole: a stiff
+// With the mass behind it at which it stops, a body of many samples has the restitution of its law as a whole: a stiff
 // plate of four vertices and its middle falls flat.
 TEST(ContactImpulses, LeaveAStiffBodyTheRestitutionOfTheMassBehindIt) {
   for (const int p : {2, 3, 4})
@@ -61,8 +61,8 @@ TEST(ContactImpulses, LeaveAStiffBodyTheRestitutionOfTheMassBehindIt) {
     }
 }
 
-// Springs, samples that share vertices, a ball, a block and a plane that move: whatever happens, the sums say where the
-// energy went, up to what Verlet makes of it, which goes with h^2.
+// Springs, samples that share vertices, a ball, a block and a plane that move: in all cases the sums account for the
+// energy, up to Verlet's error in it, which goes with h^2.
 TEST(ContactImpulses, AccountForAllEnergyThatIsNotConserved) {
   const auto imbalance = [](double h) {
     TouchingVertices body;
@@ -97,7 +97,7 @@ TEST(ContactImpulses, AccountForAllEnergyThatIsNotConserved) {
   EXPECT_LE(fine, 0.05 * std::abs(imbalance(1e-4)) + 1e-7);
 }
 
-// A plane that rises under a vertex throws it up: in the frame of the plane the speed comes back by e.
+// A plane that rises under a vertex throws it up: in the frame of the plane the speed is multiplied by e.
 TEST(ContactImpulses, BounceInTheFrameOfTheObstacle) {
   for (const int p : {2, 3, 4}) {
     const ContactLaw law = contact_law(p, 0.5, 0.3);
@@ -110,7 +110,7 @@ TEST(ContactImpulses, BounceInTheFrameOfTheObstacle) {
     do body.step(contact, impulses, h);
     while (body.x[0][2] <= body.time || body.v[0][2] < 0);
     EXPECT_NEAR(body.v[0][2], 1.0 + 0.5 * 2.0, 3e-4) << p;
-    EXPECT_NEAR(body.v[0][0], 0.1, 1e-12);  // it goes along
+    EXPECT_NEAR(body.v[0][0], 0.1, 1e-12);  // it moves with the plane
     const ContactLosses& lost = impulses.losses();
     EXPECT_NEAR(lost.damped, 0.5 * mass * 4 * (1 - 0.25), 1e-3);
     EXPECT_NEAR(body.energy(contact) - before, lost.supplied - lost.damped - lost.rubbed, 1e-4);
@@ -146,8 +146,8 @@ TEST(ContactImpulses, LeaveFixedVerticesAlone) {
   }
 }
 
-// A vertex on a rail along x meets a slope of 45 degrees: an impulse along the normal gives it half of what a free one
-// gets along it, and nothing along z. The speed along the normal decays by that, and the account is even.
+// A vertex on a rail along x meets a slope of 45 degrees: an impulse along the normal gives it half the effect along it
+// of a free one, and nothing along z. The speed along the normal decays by that, and the account is even.
 TEST(ContactImpulses, LeaveAVertexOnItsRail) {
   TouchingVertices body = one_vertex({-0.001, 0, 0}, {-2, 0, 0});
   const std::vector<HeldAxes> rail{6};
@@ -166,7 +166,7 @@ TEST(ContactImpulses, LeaveAVertexOnItsRail) {
   EXPECT_NEAR(impulses.losses().damped, 0.5 * mass * (4 - body.v[0].squaredNorm()), 1e-14);
 }
 
-// What an integrator remembers holds as long as nothing touches and nothing moves.
+// The memory of an integrator stays valid as long as nothing touches and nothing moves.
 TEST(ContactImpulses, TellWhetherAnythingHasChanged) {
   const auto none = [](std::span<const Vector3d>, std::span<const Vector3d>, std::span<Vector3d>) {
     FAIL() << "no accelerations are needed where nothing touches";

@@ -34,7 +34,7 @@ TEST(NearestOnTriangle, IsWithinOnAnEdgeOrACorner) {
   expect_near(nearest_to({-1, 4, 1}), {1, -2, -1}, {0, 0, 1});
 }
 
-// No other point of it is nearer, and it is where its weights say.
+// No other point of the triangle is nearer, and its weights give the same point.
 TEST(NearestOnTriangle, IsNearerThanAnyOther) {
   SplitMix64 random(3);
   const auto some = [&random] {
@@ -50,7 +50,7 @@ TEST(NearestOnTriangle, IsNearerThanAnyOther) {
       sum += w;
     }
     EXPECT_NEAR(sum, 1.0, 1e-15);
-    // of slivers the normal is known less well
+    // the normal of a sliver is less accurate
     EXPECT_LE((found.weight[0] * p + found.weight[1] * q + found.weight[2] * r - found.way).norm(), 1e-12);
     const int n = 20;
     for (int i = 0; i <= n; ++i)

@@ -30,7 +30,7 @@ std::vector<Obstacle> obstacles() {
           {Block{{-0.5, -0.6, -0.7}, {0.5, 0.4, 0.9}}}};
 }
 
-/// Vertices, and samples of one, three and four of them each, about as large as the obstacles that they lie in.
+/// Vertices, and samples of one, three and four of them each, about as large as the obstacles that contain them.
 struct Cloud {
   Places x, w;
   std::vector<SkinSample> samples;
@@ -42,7 +42,7 @@ struct Cloud {
       w.emplace_back(random.next_signed(), random.next_signed(), random.next_signed());
       samples.push_back({{k}, 1, 0.01 + 0.0001 * k});
     }
-    // corners that are near each other, as those of faces are
+    // corners that are near each other, as those of faces
     for (std::uint32_t k = 0; k + 3 < count; k += 4) {
       for (std::uint32_t j = 1; j < 4; ++j) x[k + j] = x[k] + 0.1 * x[k + j];
       samples.push_back({{k, k + 1, k + 2, 0}, 3, 0.02});
@@ -61,8 +61,8 @@ Places discrete_forces(const ForceTerm& term, const Places& x, const Places& w, 
   return force;
 }
 
-// Differences of a step d = 1e-5 taken at d and 2 d, errors of d^2 cancelled. p = 2 has a jump of its stiffness at the
-// surface and block of their normals: places are taken that are not within 2 d of either.
+// Differences of a step d = 1e-5 at d and 2 d, so that errors of d^2 cancel. p = 2 has a jump of its stiffness at the
+// surface, and the block jumps of its normals: only places that are not within 2 d of either are used.
 TEST(ObstacleContact, PullsAlongTheSlopeOfItsEnergyAndStiffensAsThatDoes) {
   for (const int p : {2, 3, 4})
     for (std::size_t of = 0; of < 3; ++of) {
@@ -95,7 +95,7 @@ TEST(ObstacleContact, PullsAlongTheSlopeOfItsEnergyAndStiffensAsThatDoes) {
     }
 }
 
-// A ball gives way to what slides off it: exact tangents know, projected ones have no sign against it.
+// A ball gives way to a sample that slides off it: exact tangents have this negative stiffness, projected ones do not.
 TEST(ObstacleContact, LeavesOutTheCurvatureOfABallWhereItIsProjected) {
   const std::vector<SkinSample> samples{{{0}, 1, 0.5}};
   const ObstacleContact term({law_of(3)}, {{Ball{}}}, samples);
@@ -129,7 +129,7 @@ TEST(ObstacleContact, HasDiscreteForcesAndChangesOfEnergyThatAreExact) {
     }
 }
 
-// Of every single sample and both ways: the force does not know which end was first, and for no way it is the force.
+// For every single sample and both ways: the force does not depend on the direction, and for no way it is the force.
 TEST(ObstacleContact, HasDiscreteForcesThatKnowNoDirectionOfTime) {
   const Cloud cloud(8);
   const ObstacleContact term(laws_of(3), obstacles(), cloud.samples);
@@ -151,7 +151,7 @@ TEST(ObstacleContact, HasForcesOnTheWayOfAStep) {
   for (std::size_t i = 0; i < there.size(); ++i) EXPECT_LE((there[i] - on_the_way[i]).norm(), 1e-14 * size_of(there));
 }
 
-// Of a half-space nothing pushes along its surface, in no kind of force: what slides has its speed to the last bit.
+// The forces of a half-space, of any kind, have no part along its surface: a sliding vertex keeps its speed to the bit.
 TEST(ObstacleContact, OfAPlaneAlongTheAxesPushesAcrossItAlone) {
   const Cloud cloud(6);
   const ObstacleContact term({law_of(3)}, {{HalfSpace{}}}, cloud.samples);
@@ -246,15 +246,15 @@ TEST(ObstacleContact, HasFrozenFrictionThatIsAForceLikeAnyOther) {
   EXPECT_NEAR(size[0], 0.5 + std::sqrt(45.0) / 3, 1e-15 * 8);
 }
 
-// What forces are wrong by when coordinates are: shifted with its obstacles far away, a cloud has forces that differ by
-// some of their sizes' roundings.
+// Errors of forces caused by errors of coordinates: shifted with its obstacles far away, a cloud has forces that differ
+// by some roundings of their sizes.
 TEST(ObstacleContact, KnowsHowWellItsForcesAreKnown) {
   const Cloud cloud(11);
   const Vector3d far(1e6, -2e6, 3e6);
   Places x = cloud.x, away = x;
   for (std::size_t i = 0; i < x.size(); ++i) {
     away[i] += far;
-    x[i] = away[i] - far;  // the places that can be had there
+    x[i] = away[i] - far;  // the places that are representable there
   }
   std::vector<Obstacle> shifted{{HalfSpace{far, {0, 0, 1}}}};
   const ObstacleContact here({law_of(3)}, {{HalfSpace{}}}, cloud.samples), there({law_of(3)}, shifted, cloud.samples);

@@ -41,7 +41,7 @@ double energy_at(const ContactLaw& law, const ObstacleShape& shape, const Vector
   return is_inside(shape, y) ? law.energy(1.0, penetration(shape, y).depth) : 0.0;
 }
 
-// Energies are below 3^4 / 4 of a unit and right to some roundings, as their changes are; of what only hardly moves,
+// Energies are below 3^4 / 4 of a unit and right to some roundings, and so are their changes; those of very short ways,
 // too.
 TEST(WayInside, HasTheChangeOfEnergyAndTheForceThatDoesIt) {
   Draws draw;
@@ -62,7 +62,7 @@ TEST(WayInside, HasTheChangeOfEnergyAndTheForceThatDoesIt) {
     ASSERT_NEAR(found.value, after - before, 1e-13) << k;
     ASSERT_NEAR(force.dot(way), -found.value, 1e-13) << k;
     ASSERT_GE(found.sizes, std::abs(found.value) * (1 - 1e-12)) << k;
-    // which of two faces as near has it may depend on the direction
+    // at equal distance from two faces, the choice may depend on the direction
     if (!draw.quarters) {
       ASSERT_LE((force - mean_force_on_way(law, 1.0, shape, y + way, -way)).norm(), 1e-13) << k;
     }
@@ -83,7 +83,7 @@ TEST(WayInside, IsNothingWhereAllOfItIsOutside) {
   }
 }
 
-// Through the middle of a block, in at one face and out at the other: it is pushed back and forth as much.
+// Through the middle of a block, in at one face and out at the other: the pushes of both halves are equal and opposite.
 TEST(WayInside, ThroughABlockPushesBothWays) {
   ContactLaw law;
   law.pressure = law.depth = 1.0;

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The stiffness of edges beside diagonals, a mean over them, as scenes reckon it; any number does.
+/// The stiffness of edges to which diagonals are added, a mean over them, as scenes compute it; any number will do.
 constexpr double mean = 3.0;
 
 Problem problem_of(Mesh mesh, double young) {
@@ -80,7 +80,7 @@ TEST(CellSprings, OfOneCubePullAsTheirLengthsHaveIt) {
   }
 }
 
-// Pressed to half their lengths they push, and give way to what turns them: but for the projected tangent.
+// Pressed to half their lengths they push, and give way to rotations: except with the projected tangent.
 TEST(CellSprings, GiveWayWhereTheyArePressedAndNoProjectedTangentDoes) {
   Braced<Map3> block(hexahedron_box(2, 2, 2, 0.1), Diagonals::faces);
   for (Vector3d& x : block.body.vertices.position) x *= 0.5;
@@ -89,7 +89,7 @@ TEST(CellSprings, GiveWayWhereTheyArePressedAndNoProjectedTangentDoes) {
   for (const Vector3d& p : x) turned.emplace_back(-p[1], p[0], 0.0);
   const double gives_way = dot(product_of(*block.term, x, turned), turned);
   EXPECT_LT(gives_way, 0.0);
-  // a turn changes no length, to rounding
+  // a rotation changes no length, to rounding
   EXPECT_GE(dot(product_of(*block.term, x, turned, Compression::projected), turned), 1e-12 * gives_way);
 }
 
@@ -179,7 +179,7 @@ TEST(CellSprings, FollowRandomOperationsUntilNothingIsLeft) {
   expect_followed<Map2>(sheet);
 }
 
-// Each cell has springs of its own: what comes apart keeps them, to the bit; what goes takes its own.
+// Each cell has springs of its own: cells that come apart keep them, to the bit; removed cells take theirs along.
 template <class Map>
 void expect_energy_of_cells(const Mesh& mesh) {
   Braced<Map> braced(mesh, Diagonals::all);

@@ -1,5 +1,5 @@
-// Cells that a mesh is refused for are those that elements refuse, and prisms without volume at a corner: independent
-// code, the same Gauss points.
+// Elements refuse the same cells for which a mesh is refused, and prisms without volume at a corner: independent code,
+// the same Gauss points.
 
 #include <gtest/gtest.h>
 

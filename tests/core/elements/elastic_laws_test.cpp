@@ -129,8 +129,8 @@ TYPED_TEST(ElasticLaw, KnowsASmallChangeOfEnergyToItsOwnDigits) {
   for (const double size : {1e-2, 1e-6, 1e-10}) {
     const Matrix3d f = random_deformation(random), d = random_matrix(random, size);
     const EnergyChange change = this->law.change(f, d);
-    // by the stress half way: off by the third derivative. A law that has to find rotations knows strains to a
-    // rounding of 1 and no better, and says so in the sizes.
+    // by the stress half way: off by the third derivative. A law that has to find rotations knows strains to a rounding
+    // of 1 and no better, and reports that in the sizes.
     const double by_stress = product(this->law.stress(f + 0.5 * d), d);
     EXPECT_NEAR(change.value, by_stress,
                 20 * lame.mu * size * size * size + 4e-16 * change.sizes + 1e-14 * std::abs(by_stress))
@@ -150,7 +150,7 @@ TYPED_TEST(ElasticLaw, HasAProjectedHessianWithoutNegativeEigenvalues) {
     const double size = std::max(lame.mu, exact.norm());
     EXPECT_LT((projected - projected.transpose()).norm(), 1e-12 * size);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<Hessian>(projected).eigenvalues()[0], -1e-12 * size);
-    // the nearest: what is not negative stays
+    // the nearest: eigenvalues that are not negative stay
     const Hessian nearest =
         solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
     EXPECT_LT((projected - nearest).norm(), 1e-10 * size) << f;
@@ -183,8 +183,8 @@ TYPED_TEST(ElasticLaw, StaysFiniteWhereAnElementIsFlatOrTurnedInsideOut) {
   }
 }
 
-// A law that pushes back: an inverted element gains energy as it is inverted further. St. Venant-Kirchhoff knows no
-// inside out.
+// A law that resists inversion: an inverted element gains energy as it is inverted further. St. Venant-Kirchhoff's law
+// does not resist.
 TEST(NeoHookeanLaw, PushesBackWhatIsTurnedInsideOut) {
   for (const double last : {0.5, 0.0, -0.5, -1.0}) {
     const Matrix3d f = Vector3d(1, 1, last).asDiagonal();

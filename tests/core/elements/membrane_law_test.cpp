@@ -28,9 +28,9 @@ MembraneLaw law_of(Model model, double young, double nu) {
 }
 constexpr Model models[] = {Model::stvk, Model::corotational};
 
-// A sheet is a solid that has no stress across it. Of the solids' laws that stress is 2 mu e33 + lambda tr e, of
-// Green's strain or of S - I, which is zero for e33 = -nu / (1 - nu) (e11 + e22); the solid that is stretched so across
-// itself has the energy of the sheet.
+// A sheet is a solid without stress across it. In the solids' laws that stress is 2 mu e33 + lambda tr e, of Green's
+// strain or of S - I, which is zero for e33 = -nu / (1 - nu) (e11 + e22); the solid with that stretch across itself has
+// the energy of the sheet.
 TEST(MembraneLaw, IsTheSolidThatHasNoStressAcrossIt) {
   SplitMix64 random(1);
   for (const double nu : {-0.9, -0.2, 0.0, 0.3, 0.4999})
@@ -56,7 +56,7 @@ TEST(MembraneLaw, IsTheSolidThatHasNoStressAcrossIt) {
     }
 }
 
-// Turned in space, or looked at from axes of the plane that are turned, it is the same piece.
+// Turned in space, or described by rotated axes of the plane, it is the same piece.
 TEST(MembraneLaw, KnowsNoDirections) {
   SplitMix64 random(2);
   const Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -116,7 +116,7 @@ TEST(MembraneLaw, DoesTheWorkThatItsEnergyChangesBy) {
   }
 }
 
-// Compressed, even to a point or turned over: no eigenvalue below 0 is left, and of what is stretched nothing is taken.
+// Compressed, even to a point or turned over: no eigenvalue below 0 is left, and stretched directions are unchanged.
 TEST(MembraneLaw, IsProjectedToWhatDoesNotPushOutward) {
   SplitMix64 random(4);
   for (const Model model : models) {
@@ -171,8 +171,8 @@ TEST(MembraneLaw, IsOfNoOtherModelThanItsOwn) {
   EXPECT_THROW(law_of(Model::neo_hookean, 40.0, 0.3), InputError);
 }
 
-// R is orthonormal and R'F symmetric and not negative, to some roundings, however flat F is: also of what is drawn to a
-// line, where the normal is known to few digits, or to a point.
+// R is orthonormal and R'F symmetric and not negative, to some roundings, however flat F is: also for a piece drawn to
+// a line, whose normal is known to few digits, or to a point.
 TEST(SurfacePolar, IsTheNearestOrthonormalPair) {
   SplitMix64 random(7);
   for (const double flat : {1.0, 1e-3, 1e-8, 1e-14, 1e-17, 0.0})

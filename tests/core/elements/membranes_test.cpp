@@ -22,7 +22,7 @@ double area_of(const MembraneBody& body, std::size_t c) { return signed_measure(
 /// Sheets in the plane z = 0, of triangles alone and mixed.
 std::vector<Mesh> flat_sheets() { return {crooked_triangles(5, 4), mixed_sheet(5, 4)}; }
 
-/// f(mesh, model) of those, by either law.
+/// Calls f(mesh, model) for those, with either law.
 template <class F>
 void for_each_sheet(F&& f) {
   for (const Mesh& mesh : flat_sheets())
@@ -169,10 +169,10 @@ TEST(Membranes, OfAStripThatIsDrawnOutHaveYoungsModulusAndPoissonsRatio) {
   });
 }
 
-// Per width the bottom k rows of squares weigh k rho g h, of which half of the last hangs on the edge below it: where
-// row k of a strip without Poisson's ratio carries Y l (l^2 - 1) / 2 = (k - 1/2) rho g h, every vertex rests. Of small
+// Per width the bottom k rows of squares weigh k rho g h, of which half of the last hangs on the edge below it: if row
+// k of a strip without Poisson's ratio carries Y l (l^2 - 1) / 2 = (k - 1/2) rho g h, every vertex rests. For small
 // strains that lengthens it by sum of h (k - 1/2) rho g h / Y = rho g L^2 / 2 Y, whatever the number of rows; strains
-// of s take 3/2 of themselves from that.
+// of s reduce that by 3/2 of themselves.
 TEST(Membranes, HangUnderTheirWeightLongerByRhoGLSquaredOverTwoY) {
   const double h = 0.1, g = 9.81, young = 4e3, rho = 0.5;
   const int rows = 12;
@@ -200,8 +200,8 @@ TEST(Membranes, HangUnderTheirWeightLongerByRhoGLSquaredOverTwoY) {
   EXPECT_NEAR((depth.back() - length) / (rho * g * length * length / (2.0 * young)), 1.0, 1.5 * strain);
 }
 
-// Of a motion that is affine, a quadrilateral of any flat shape has the energy of the triangles that fill it; a
-// parallelogram pulls its corners as the mean of both ways to halve it does.
+// In an affine motion, a quadrilateral of any flat shape has the energy of the triangles that fill it; a parallelogram
+// pulls its corners as the mean of both ways to halve it.
 TEST(Membranes, OfFourCornersAreTrianglesWhereTheMotionIsAffine) {
   const SurfaceGradient f = some_gradient();
   Mesh quad, one_way, other_way;
@@ -231,8 +231,8 @@ TEST(Membranes, OfFourCornersAreTrianglesWhereTheMotionIsAffine) {
     for (const Model model : membrane_models) expect_alike(model, parallelogram);
 }
 
-// Of u = e (x y, 0), which a square has, the linear energy is mu e^2 (y^2 + x^2 / 2) + lambda / 2 e^2 y^2; over a
-// square of side 1 around the origin the squares of x and y integrate to 1/12 each. One point would have none of it.
+// For u = e (x y, 0), which a square can follow, the linear energy is mu e^2 (y^2 + x^2 / 2) + lambda / 2 e^2 y^2; over
+// a square of side 1 around the origin the squares of x and y integrate to 1/12 each. One Gauss point would give zero.
 TEST(Membranes, OfFourCornersHaveTheEnergyOfATrapezeExactly) {
   const Lame lame = lame_of_sheet(2e3, 0.3);
   Mesh mesh = quad_sheet(1, 1, 1.0);
@@ -244,7 +244,7 @@ TEST(Membranes, OfFourCornersHaveTheEnergyOfATrapezeExactly) {
   EXPECT_NEAR(body.energy() / linear, 1.0, 10 * e);  // third orders
 }
 
-// Cells of springs have no force here, and others that of their own material.
+// Cells of springs have no force here, and the others that of their own material.
 TEST(Membranes, AreOfTheMaterialsOfTheirCells) {
   for (const Mesh& mesh : flat_sheets()) {
     MembraneBody soft(mesh), stiff(mesh, sheet_material(5e3, 0.1, Model::corotational));

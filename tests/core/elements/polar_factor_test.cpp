@@ -87,7 +87,7 @@ TEST(PolarRotation, IsARotationWhereNoneIsNearest) {
     for (int k = 0; k < 200; ++k) {
       const Matrix3d axes = random_rotation(random), turn = random_rotation(random);
       const Matrix3d f = turn * axes * stretches.asDiagonal() * axes.transpose();
-      // in the middle of two rotations R'F is symmetric to the root of rounding, what the eigenvectors are known to
+      // between two rotations R'F is symmetric to the root of rounding, the accuracy of the eigenvectors
       EXPECT_LT(defect(polar_rotation(f), f), 1e-7) << stretches.transpose();
     }
   }

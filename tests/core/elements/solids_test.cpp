@@ -73,8 +73,8 @@ TEST(Solids, AreOfEveryKind) {
     EXPECT_GT(met[static_cast<std::size_t>(kind)], 0);
 }
 
-// Gauss points know the volume of what their functions fill: faces of four points are ruled surfaces on both sides, so
-// that neighbours leave no gap and the volumes add up to that of the box.
+// Gauss points integrate the volume that the shape functions fill: faces of four points are ruled surfaces on both
+// sides, so that neighbours leave no gap and the volumes add up to that of the box.
 TEST(Solids, FillTheBodyThatTheyAreOf) {
   Mesh mesh = mixed_box(3, 3, 3, 0.1);
   SplitMix64 random(4);
@@ -168,9 +168,9 @@ TEST(Solids, PullAlongTheSlopeOfTheirEnergyAndStiffenAsTheyDo) {
   }
 }
 
-// Of u = e (x z, 0, 0), which prisms and hexahedra have, the linear energy is mu e^2 (z^2 + x^2 / 2) + lambda / 2 e^2
-// z^2: points that are exact for squares only have its integral. Of the prism over (0, 0), (1, 0), (0, 1) and |z| <
-// 1/2, the squares of x and z integrate to 1/12 and 1/24; of the unit cube around the origin both to 1/12.
+// For u = e (x z, 0, 0), which prisms and hexahedra can follow, the linear energy is mu e^2 (z^2 + x^2 / 2) + lambda /
+// 2 e^2 z^2: points that are exact for squares only have its integral. Of the prism over (0, 0), (1, 0), (0, 1) and |z|
+// < 1/2, the squares of x and z integrate to 1/12 and 1/24; of the unit cube around the origin both to 1/12.
 TEST(Solids, HaveTheEnergyOfABendExactly) {
   const Lame lame = lame_of(2e4, 0.3);
   Mesh prism, cube = hexahedron_box(1, 1, 1, 1.0);
@@ -187,7 +187,7 @@ TEST(Solids, HaveTheEnergyOfABendExactly) {
   }
 }
 
-// A tetrahedron among them is the tetrahedron that knows no other kinds.
+// A tetrahedron among other cells is the same as one of a mesh of tetrahedra.
 TEST(Solids, OfTetrahedraAreTetrahedra) {
   const Mesh mesh = kuhn_box(2, 2, 2, 0.1, 0.2, 7);
   for (const Model model : element_models) {
@@ -205,7 +205,7 @@ TEST(Solids, OfTetrahedraAreTetrahedra) {
   }
 }
 
-// A cube that is bent is where full integration shows: with one point it would give way to hourglasses.
+// A bent cube shows whether integration is full: with one point it would have hourglass modes.
 TEST(Solids, ResistEveryShapeButRigidMotions) {
   Mesh mesh = hexahedron_box(1, 1, 1, 0.1);
   SolidBody body(mesh, Model::corotational);

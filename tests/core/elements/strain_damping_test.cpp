@@ -132,8 +132,8 @@ TEST(StrainDamping, IsThereWhereTheMaterialHasIt) {
   EXPECT_DOUBLE_EQ(damping_time_of(0.05, 2.0), 0.05 / (2.0 * std::acos(-1.0)));
 }
 
-// A rigid motion of a body however deformed; forces are as well known as they say, to the eight roundings that the
-// equations of implicit methods are solved to.
+// A rigid motion of a body however deformed; forces are as accurate as their sizes state, to the eight roundings to
+// which the equations of implicit methods are solved.
 TEST(StrainDamping, LetsABodyMoveAndTurnAsAWhole) {
   for (DampedBody& body : both()) {
     body.shake(0.02, 0.0, 5);
@@ -147,8 +147,8 @@ TEST(StrainDamping, LetsABodyMoveAndTurnAsAWhole) {
       EXPECT_LE(force[i].norm(), 8.0 * epsilon * size[i]) << i;
       largest = std::max(largest, size[i]);
     }
-    // and no more than it has to be: what a stretch of that rate causes, but for signs that cancel in three sums and at
-    // some twenty cells around a vertex
+    // and not larger than needed: the forces of a stretch at that rate, except for signs that cancel in three sums and
+    // at some twenty cells around a vertex
     for (std::size_t i = 0; i < body.x.size(); ++i) body.v[i] = 30.0 * body.x[i];
     double stretched = 0.0;
     for (const Vector3d& f : body.forces()) stretched = std::max(stretched, f.norm());
@@ -163,8 +163,8 @@ TEST(StrainDamping, PullsWithoutNetForceOrTorque) {
   }
 }
 
-// Of a uniform deformation F that changes at the rate G, E' = sym(F'G) everywhere: what is lost is
-// V tau (2 mu E':E' + lambda tr(E')^2), whatever the law and the shapes of cells.
+// In a uniform deformation F that changes at the rate G, E' = sym(F'G) everywhere: the power lost is V tau (2 mu E':E'
+// + lambda tr(E')^2), whatever the law and the shapes of cells.
 TEST(StrainDamping, LosesWhatTheRateOfGreensStrainSays) {
   Matrix3d f, g;
   f << 1.2, 0.1, -0.2, 0.05, 0.9, 0.1, 0.0, -0.1, 1.1;
@@ -195,7 +195,7 @@ TEST(StrainDamping, TakesPowerAndGivesNone) {
       }
 }
 
-// Power over vertices of which only some move on, as driven ones do.
+// Power over all vertices, of which only some move on, as driven ones do.
 TEST(StrainDamping, KnowsThePowerOfSomeOfTheVertices) {
   for (DampedBody& body : both()) {
     body.shake(0.01, 1.0, 7);
@@ -217,7 +217,7 @@ TEST(StrainDamping, HasTheMatrixThatItsForcesAreMadeOf) {
   }
 }
 
-// The same on the way to places further on, as implicit stages ask.
+// The same at positions further along the step, as implicit stages need it.
 TEST(StrainDamping, IsTakenWhereAStepLeadsTo) {
   for (DampedBody& body : both()) {
     body.shake(0.01, 1.0, 9);
@@ -267,7 +267,7 @@ TEST(StrainDamping, KnowsWhatItsRateChangesBy) {
   }
 }
 
-// Whatever the step, kinetic energy falls and momenta stay; vertices that are held keep their velocity.
+// Whatever the step, kinetic energy falls and momenta stay; fixed vertices keep their velocity.
 TEST(StrainDamping, DecaysInStepsOfAnyLength) {
   for (const double h : {1e-6, 1e-3, 1.0, 1e6, 1e300})
     for (DampedBody& body : both()) {
@@ -301,7 +301,7 @@ TEST(StrainDamping, DecaysInStepsOfAnyLength) {
     }
 }
 
-// The last strain of a sweep, a shear in x and y, has stopped behind a step that is long enough.
+// The last strain of a sweep, a shear in x and y, is zero after a step that is long enough.
 TEST(StrainDamping, StopsAStrainInALongStep) {
   for (std::size_t cell = 0; cell < 6; ++cell) {
     DampedBody body(kuhn_box(1, 1, 1, 0.1), damped(), false);
@@ -328,7 +328,7 @@ TEST(StrainDamping, StopsAStrainInALongStep) {
   }
 }
 
-// A short step takes h C v / m: at first order each part as if it were alone is all of them together.
+// A short step takes h C v / m: at first order the parts one by one have the effect of all of them together.
 TEST(StrainDamping, DecaysAtTheRateOfItsForces) {
   for (DampedBody& body : both()) {
     body.shake(0.02, 1.0, 13);
@@ -336,14 +336,14 @@ TEST(StrainDamping, DecaysAtTheRateOfItsForces) {
     const Vectors force = body.forces(), before = body.v;
     double largest = 0.0;
     for (const Vector3d& f : force) largest = std::max(largest, 0.5 * f.norm());
-    const double h = 1e-6 / largest;  // takes a millionth: what is next is as small again
+    const double h = 1e-6 / largest;  // takes a millionth: the next term is as small again
     body.damping().decay(body.x, h, mobility, false, body.v);
     for (std::size_t i = 0; i < force.size(); ++i)
       EXPECT_LE(((body.v[i] - before[i]) / h - 0.5 * force[i]).norm(), 1e-3 * largest) << i;
   }
 }
 
-// Backwards by -h is the way back, part by part: a sweep there and back is symmetric.
+// Backwards by -h restores the velocities, part by part: a sweep there and back is symmetric.
 TEST(StrainDamping, IsUndoneBackwards) {
   for (DampedBody& body : both()) {
     body.shake(0.02, 1.0, 14);
@@ -376,7 +376,7 @@ TEST(StrainDamping, IsThatOfEachCellsMaterial) {
   };
   for (std::uint32_t c = 0; c < 6; ++c)
     EXPECT_EQ(power(*term->damping(), c), of_cell[c] == 0 ? power(whole.damping(), c) : 0.0) << c;
-  // and what only some of the cells have only these take
+  // and damping that only some cells have acts on their vertices only
   const std::vector<double> mobility(moving.x.size(), 1.0);
   Vectors force(moving.x.size(), Vector3d(0, 0, 0));
   term->damping()->add_forces({moving.x}, moving.v, force);

@@ -106,7 +106,7 @@ TEST(Tetrahedra, SumTheEnergyOfAShareOfThemFromAnyStart) {
   EXPECT_NEAR(sum, body.term->energy(body.x), 1e-13 * sum);
 }
 
-// Places that are on their way: the same as places that have arrived, to rounding.
+// Positions along a step: the same as the positions themselves, to rounding.
 TEST(Tetrahedra, PullHalfWayAsTheyWouldThere) {
   for (const Model model : element_models) {
     ElementBody body = box(model);
@@ -123,7 +123,7 @@ TEST(Tetrahedra, PullHalfWayAsTheyWouldThere) {
     for (std::size_t i = 0; i < w.size(); ++i) EXPECT_LE((force[i] - there[i]).norm(), 1e-11) << name(model);
     const EnergyChange change = body.term->energy_change({body.x}, w, 0.01);
     EXPECT_NEAR(change.value, body.term->energy(moved) - body.term->energy(body.x), 1e-12 * 2e4 * 0.01);
-    // the work of the discrete force is the energy lost
+    // the work of the discrete force is the loss of energy
     std::vector<Vector3d> discrete(w.size(), Vector3d(0, 0, 0));
     body.term->add_discrete_forces({body.x, w, 0.005}, discrete);
     double work = 0.0;

@@ -68,8 +68,8 @@ Problem box_with(double damping) {
   return problem;
 }
 
-// Damping follows what happens to edges: that of the body that has it is what the sum over the cells around says, and
-// the body without it goes through the same with not a byte for it, and has the same springs but for damping.
+// Damping follows changes of edges: in the body that has it, it is the sum over the cells around, and the body without
+// it goes through the same changes with not a byte for it, and has the same springs except for damping.
 TEST(Springs, FollowCutsRemovalsAndRefinementWithAndWithoutDamping) {
   auto damped = build_body<TetMap, Held::by_every_dart>(box_with(0.25));
   auto undamped = build_body<TetMap, Held::by_every_dart>(box_with(0.0));

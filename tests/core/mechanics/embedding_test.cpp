@@ -70,7 +70,7 @@ TYPED_TEST(Embeddings, AreMissingForCellsBornLater) {
   EXPECT_EQ(vertex(this->map_, later), no_embedding);
 }
 
-// What is attached last counts, whichever dart of the cell it is attached by.
+// The last attachment counts, whichever dart of the cell it is made by.
 TYPED_TEST(Embeddings, AreReplacedForTheWholeCell) {
   typename TestFixture::template Embedding<0> vertex;
   const auto darts = orbit(this->map_, Vertex{{0}});
@@ -105,7 +105,7 @@ TEST(EmbeddingOfADissociatedCell, StaysWithTheHalfThatHasItsDart) {
   unsew<3>(map, d);
   EXPECT_EQ(one(map, map.alpha<1>(d)), 7u);
   EXPECT_EQ(one(map, other), no_embedding);
-  EXPECT_EQ(every(map, other), 7u);  // both halves still know it
+  EXPECT_EQ(every(map, other), 7u);  // both halves still have it
 }
 
 // Four places for the nodes of a tetrahedron instead of 24.

@@ -126,7 +126,7 @@ TYPED_TEST(Body, HoldsFixedVerticesAtRestWhateverTheStateSays) {
   expect_rest();
 }
 
-// A body mirrored in two axes, or turned by half a turn, flips signs in pairs.
+// A body mirrored in two axes, or rotated by half a turn, changes signs in pairs.
 TYPED_TEST(Body, HashesStatesApartThatDifferInSignsOnly) {
   auto body = build_body<typename TypeParam::Map, TypeParam::held>(problem_of(unequal_tetrahedra()));
   PointState state = body.state();
@@ -164,7 +164,7 @@ TEST(BodyOfALeftHandedCell, HasAPositiveMass) {
 }
 
 // The middle layer of 2 x 2 x 3 cubes without two diagonal ones: the edge in the middle has two fans of cells around it
-// and both its ends are one vertex each. It is two edges of the map, two springs in parallel: k = k1 + k2.
+// and each of its ends is one vertex. It is two edges of the map, two springs in parallel: k = k1 + k2.
 TEST(BodyPinchedAlongAnEdge, HasTwoSpringsBetweenTheSameVertices) {
   const Mesh grid = hexahedron_box(2, 2, 3, 1.0);
   Mesh mesh;

@@ -1,4 +1,4 @@
-// Conservative refinement: counts, conserved sums, forces of affine deformations, and what follows a refinement.
+// Conservative refinement: counts, conserved sums, forces of affine deformations, and operations after a refinement.
 
 #include "core/mechanics/refine.h"
 
@@ -69,7 +69,7 @@ Eigen::Vector3d total_momentum(const Body& body) {
   return sum;
 }
 
-// Forces of the springs at vertex positions A x + b of the present ones, velocities zero; positions are left deformed.
+// Forces of the springs at vertex positions A x + b of the present ones, velocities zero; positions stay deformed.
 template <class Map>
 std::vector<Eigen::Vector3d> affine_forces(Body<Map>& body, const Eigen::Matrix3d& a) {
   for (auto& x : body.vertices.position) x = a * x + Eigen::Vector3d(0.25, -0.5, 1.0);
@@ -152,7 +152,7 @@ TYPED_TEST(Refine, StaysConsistentThroughRandomRefinementsDissociationsAndRemova
   }
 }
 
-// Cells of both kinds, and refined ones refined again: the walk from the dart of each is told by its corners, too.
+// Cells of both kinds, and refined ones refined again: the corners, too, show the sense of the walk from each dart.
 TYPED_TEST(Refine, KnowsWhichWayTheFacesOfACellRun) {
   Problem problem;
   problem.mesh = kuhn_grid(1, 1, 1, 1.0);

@@ -99,7 +99,7 @@ TEST(RemoveFace, OfADeadDartIsRefusedAndTheMapUnchanged) {
   EXPECT_EQ(map.hash(), before);
 }
 
-// ---- the body that follows
+// ---- the body follows
 
 template <int i, class Index>
 void expect_numbered(const Map2& map, const Index& index, const std::vector<Dart>& dart_of) {
@@ -185,7 +185,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, RemoveFaceOfABody,
                                          Surface{"sphere", [] { return octasphere(1); }}),
                          [](const auto& surface) { return std::string(surface.param.name); });
 
-// Two faces that the removed one alone held together at a vertex: both must get numbers of their own.
+// Two faces joined at a vertex only by the removed one: both must get numbers of their own.
 TEST(RemoveFaceOfASheet, SeparatesTheFacesThatItHeldTogether) {
   Body body = build_body<Map2, Held::by_every_dart>(problem_of(quad_sheet(3, 1, 1.0)));
   adapt(body, remove_face(body.map, Dart{8}));

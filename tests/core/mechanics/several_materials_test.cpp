@@ -1,4 +1,4 @@
-// Bodies whose cells are made of several materials: every cell contributes by its own, whatever happens to the map.
+// Bodies whose cells are made of several materials: every cell contributes by its own, through all operations.
 
 #include <gtest/gtest.h>
 
@@ -96,8 +96,8 @@ TEST(SeveralMaterials, OfEqualCellsHaveTheBitsOfOne) {
   }
 }
 
-/// Masses, stiffnesses and dampings of a body that has been operated on are those of one that is built anew from what
-/// its cells are now, by their own numbers.
+/// Masses, stiffnesses and dampings of a body after operations equal those of one that is built anew from its present
+/// cells, by their own numbers.
 template <class Map>
 void expect_as_rebuilt(const AdaptedBody<Map>& body) {
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k)
@@ -111,7 +111,7 @@ void expect_as_rebuilt(const AdaptedBody<Map>& body) {
   for (std::size_t c = 0; c < body.cell_dart.size(); ++c) ASSERT_EQ(body.cell_mass[c] / body.node_share[c], 4.0);
 }
 
-// The total is what the cells that are left contribute: masses are powers of two times 2^-k / 3, sums are not exact.
+// The total is the sum over the remaining cells: masses are powers of two times 2^-k / 3, so sums are not exact.
 TEST(SeveralMaterials, FollowRandomOperationsUntilNothingIsLeft) {
   const Problem problem = of_several(box(), {soft, stiff, rubber});
   auto body = build_body<TetMap, Held::by_every_dart>(problem);
@@ -124,7 +124,7 @@ TEST(SeveralMaterials, FollowRandomOperationsUntilNothingIsLeft) {
       mass += now.cell_mass[c];
     }
     for (const double m : now.vertices.mass) of_vertices += m;
-    EXPECT_EQ(stiffness, expected);  // of six edges of each cell, whoever shares them
+    EXPECT_EQ(stiffness, expected);  // of six edges of each cell, shared or not
     EXPECT_NEAR(of_vertices, mass, 1e-13 * mass);
   });
   EXPECT_EQ(body.cell_dart.size(), 0u);

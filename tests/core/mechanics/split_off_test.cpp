@@ -1,4 +1,4 @@
-// A component that becomes a body of its own: the parts sum to the whole and move as it did.
+// A component that becomes a body of its own: the parts sum to the whole and move as before.
 
 #include "core/mechanics/split_off.h"
 
@@ -74,7 +74,7 @@ TYPED_TEST(SplitOffBody, MovesThePartBitForBitAsTheWholeDid) {
   }
 }
 
-// A refined body contributes stiffness by shares, which the part must have to come apart later.
+// A refined body contributes stiffness by shares; the part needs them to come apart later.
 TYPED_TEST(SplitOffBody, TakesAlongTheSharesOfWhatWasRefined) {
   auto body = three_boxes<TypeParam>();
   refine(body, Volume{body.cell_dart[8]}, 0.5);
@@ -103,7 +103,7 @@ TYPED_TEST(SplitOffBody, SharesMassMomentumAndSpringsOut) {
   const auto split = split_off(body, body.cell_dart[0]);
   count(body, -1);
   count(split.part, -1);
-  // vertex by vertex and spring by spring: what was in the whole is in one of the two, with the same bits
+  // vertex by vertex and spring by spring: each of the whole is in one of the two, with the same bits
   for (const auto* list : {&masses, &springs}) {
     std::map<double, int> balance;
     for (const auto& [value, sign] : *list) balance[value] += sign;

@@ -1,4 +1,4 @@
-// Springs of a Young's modulus: what each edge gets, that meshes of one body pull alike, and what a cut does to them.
+// Springs of a Young's modulus: the stiffness of each edge, equal pull of different meshes of a body, effects of a cut.
 
 #include "core/plain/young.h"
 
@@ -99,7 +99,7 @@ TEST(YoungsModulus, GivesTheStressOfItsClosedFormToMeshesOfAnySize) {
       auto body = body_on<TetMap>(kuhn_box(4 * n, n, n, 0.5 / n));
       for (Vector3d& x : body.vertices.position) x.x() *= s;
       const double expected = stress_of_cubes(s), rounding = (static_cast<double>(body.springs.size()) + 24) * u;
-      // where little is stretched, a length is off by u of itself and what is left of it by u / (s - 1)
+      // at small strains, a length is off by u of itself and the elongation by u / (s - 1)
       EXPECT_NEAR(mean_stress(body)(0, 0), expected, rounding * std::abs(expected) / std::abs(s - 1.0));
     }
   // at small strains it is 13/9 of the modulus: 1 + 4/3 * 1/4 + 1/9, where an isotropic body has 6/5
@@ -107,8 +107,8 @@ TEST(YoungsModulus, GivesTheStressOfItsClosedFormToMeshesOfAnySize) {
   EXPECT_NEAR(stress_of_cubes(1.0 + strain) / strain, 13.0 / 9.0 * young, 8.0 * strain * young);
 }
 
-// What a cross-section carries: the springs between two layers are the same everywhere along the bar, and the virial of
-// a bar of length L that is pulled by F at both ends is F L.
+// The force through a cross-section: the springs between two layers are the same everywhere along the bar, and the
+// virial of a bar of length L that is pulled by F at both ends is F L.
 TEST(YoungsModulus, PullsAtTheEndOfABarOfAnyMeshAlike) {
   const double s = 1.25;
   for (const int n : {1, 2, 3}) {
@@ -128,9 +128,9 @@ TEST(YoungsModulus, PullsAtTheEndOfABarOfAnyMeshAlike) {
   }
 }
 
-// Equilateral triangles have no direction of their own: a modulus young and Poisson's ratio 1/3, so 9/8 young where
-// they are stretched along one axis alone, and 1/3 of that across. The next terms are of the order of the strain, and
-// leave the mean of a stretch and a pressure by the same strain by its square.
+// A sheet of equilateral triangles is isotropic: a modulus young and Poisson's ratio 1/3, so 9/8 young if it is
+// stretched along one axis alone, and 1/3 of that across. The next terms are of the order of the strain, and cancel in
+// the mean of a stretch and a compression by the same strain, except for its square.
 TEST(YoungsModulus, OfEquilateralTrianglesIsThatOfAnIsotropicSheet) {
   Mesh mesh;
   mesh.points = {{0, 0, 0}, {2, 0, 0}, {1, std::sqrt(3.0), 0}};
@@ -148,7 +148,7 @@ TEST(YoungsModulus, OfEquilateralTrianglesIsThatOfAnIsotropicSheet) {
   EXPECT_NEAR(slope(0, 1), 0.0, off);
 }
 
-// k = k1 + k2, and each part has what its own cells give it: of two tetrahedra that share a face, each alone in the
+// k = k1 + k2, and each part has the share of its own cells: of two tetrahedra that share a face, each alone in the
 // end.
 TEST(YoungsModulus, IsSharedByThePartsOfACutAsTheirCellsHaveIt) {
   const Mesh mesh = two_tetrahedra();

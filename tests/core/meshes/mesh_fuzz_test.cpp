@@ -177,7 +177,7 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-/// What is wrong with a mesh, in words of its own: nothing here is shared with the check that the readers run.
+/// The fault of a mesh, in words of its own: nothing here is shared with the check of the readers.
 std::string flaw(const Mesh& mesh) {
   if (mesh.cell_count() == 0) return "no cells";
   if (mesh.first.size() != mesh.cell_count() + 1 || mesh.first.back() != mesh.nodes.size()) return "cells overlap";
@@ -203,7 +203,7 @@ bool is_well_formed(const std::string& message) {
   return message.starts_with("file:") && message.find("; expected ") != message.npos;
 }
 
-/// Welding, and keeping crossed cells, end in a mesh or in a reason too.
+/// Welding, and keeping crossed cells, also give a mesh or a reason.
 void read_otherwise(const std::string& text, MeshFormat format) {
   try {
     parse_mesh(text, format, "file", {.weld = 0.25, .keep_crossed = true});

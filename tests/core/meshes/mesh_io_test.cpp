@@ -81,7 +81,7 @@ TEST_F(MeshIo, ListsTheKnownExtensionsWhenOneIsUnknown) {
       ".vtk (legacy VTK), .vtu (VTK XML), .vtp (VTK XML polygons), .pvtu (parallel VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
 }
 
-// The page that people read and the list that the program prints are one.
+// The page for readers and the program's list are the same.
 TEST_F(MeshIo, HasAPageOfItsFormatsThatIsTrue) {
   std::ifstream in(source_folder() / "core/meshes/README.md");
   const std::string page{std::istreambuf_iterator<char>(in), {}};

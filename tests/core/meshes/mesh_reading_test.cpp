@@ -1,5 +1,5 @@
-// What readers of meshes must not let pass, and what they must not lose: numbers, points that no cell uses, counts,
-// lines, and what is written must read back.
+// Faults that readers of meshes must not accept, and data that they must not lose: numbers, points that no cell uses,
+// counts, lines; and written meshes must read back.
 
 #include <gtest/gtest.h>
 
@@ -198,7 +198,7 @@ TEST_F(MeshFiles, OfTetGenHaveNoMorePointsThanTheyAnnounce) {
   }
 }
 
-// Cells of a kind stand together in the file: compared are kind and nodes of each, in any order.
+// Cells are grouped by kind in the file: the kind and nodes of each are compared, in any order.
 TEST_F(MeshFiles, OfEveryKindOfCellReadBackAsTheyWereWritten) {
   const auto cells = [](const Mesh& mesh) {
     std::vector<std::pair<CellKind, std::vector<std::uint32_t>>> all;

@@ -1,4 +1,4 @@
-// Cells that touch without sharing a face: what is found, and that the map of the split mesh has a vertex for each
+// Cells that touch without sharing a face: the places found, and that the map of the split mesh has a vertex for each
 // point.
 
 #include "core/meshes/touching.h"

@@ -1,4 +1,4 @@
-// Stellar subdivision of the map, by counts and by what it refuses.
+// Stellar subdivision of the map, by counts and by refusals.
 
 #include "core/operations/subdivide.h"
 

@@ -76,7 +76,7 @@ TYPED_TEST(Fan, OfADeadDartIsNotTorn) {
   EXPECT_THROW(tear_fan(map, Dart{24}), TopologyError);
 }
 
-// Of 2 x 2 cubes side by side, each inner face meets the opposite one along the edge in the middle, and the surface
+// For 2 x 2 cubes side by side, each inner face meets the opposite one along the edge in the middle, and the surface
 // along the others.
 TEST(FanOfHexahedra, OpenAtTheSurfaceIsTheSameFromTheDartOfEitherEdge) {
   const auto map = build_map<Map3>(hexahedron_box(2, 2, 1, 1.0)).map;

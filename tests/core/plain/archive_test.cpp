@@ -21,7 +21,7 @@ struct Inner {
   }
 };
 
-/// Something of every sort that is stored.
+/// A value of every sort that is stored.
 struct Outer {
   double real = 0.0;
   std::string text;
@@ -68,7 +68,7 @@ std::string complaint(const std::string& bytes, auto&& read) {
 TEST(Archive, ReadsWhatWasWritten) {
   const std::string bytes = written(telling());
   Archive archive(bytes, "file");
-  // what was there before is gone
+  // the earlier content is gone
   Outer read = telling();
   read.real = 9.0;
   read.reals = {1, 2, 3, 4, 5};
@@ -114,7 +114,7 @@ TEST(Archive, RefusesWhatGoesOnAfterItsEnd) {
             "file: is damaged, in 'outer': 1 bytes are left; expected none");
 }
 
-// A length of 2^62 numbers: asked for, no machine would have the memory.
+// A length of 2^62 numbers: no machine has that much memory.
 TEST(Archive, HoldsALengthAgainstWhatIsLeftBeforeItAsksForMemory) {
   Archive out;
   std::uint64_t length = std::uint64_t{1} << 62;

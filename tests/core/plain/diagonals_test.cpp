@@ -38,7 +38,7 @@ TEST(Diagonals, JoinTheCornersThatNoEdgeJoins) {
   }
 }
 
-/// What springs of these weights are together, over the volume: sum of weight n_i n_j n_k n_l.
+/// The elasticity of springs of these weights together, over the volume: sum of weight n_i n_j n_k n_l.
 std::array<double, 81> elasticity(CellKind kind, Diagonals which, const std::vector<Vector3d>& x) {
   std::array<double, 81> tensor{};
   for (const auto springs : {edges_beside(kind, which), diagonals_of(kind, which)})

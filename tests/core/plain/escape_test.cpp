@@ -1,4 +1,4 @@
-// Each function is read back by a reader of its language, or nothing that the language acts on is left.
+// Each function is read back by a reader of its language, or removes all that the language acts on.
 
 #include "core/plain/escape.h"
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t drawn = 3000;
 
-/// What is left that is no UTF-8, or that a terminal acts on; empty when nothing is.
+/// The remaining bytes that are no UTF-8, or that a terminal acts on; empty if there are none.
 std::string active_in(const std::string& text) {
   try {
-    (void)nlohmann::json(text).dump();  // refuses what is no UTF-8
+    (void)nlohmann::json(text).dump();  // refuses invalid UTF-8
   } catch (const nlohmann::json::exception& error) {
     return error.what();
   }
@@ -58,7 +58,7 @@ TEST(TerminalText, LeavesNothingThatActsInAnyName) {
 
 TEST(GnuplotStringText, HasNoSingleQuoteOfItsOwn) {
   EXPECT_EQ(gnuplot_string("it's `here`"),
-            "'it\xe2\x80\x99s `here`'");  // single quotes: backquotes are letters in them
+            "'it\xe2\x80\x99s `here`'");  // single quotes: backquotes have no effect in them
   for (const std::string& name : many_hostile_names(drawn)) {
     const std::string text = gnuplot_string(name);
     EXPECT_EQ(std::ranges::count(text, '\''), 2) << text;

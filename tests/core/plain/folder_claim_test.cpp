@@ -36,7 +36,7 @@ TEST_F(FolderClaimTest, IsRefusedWhileAnotherHoldsIt) {
     EXPECT_EQ(refusal(run),
               run.string() + ": is in use by another run; expected a new or empty folder for the results");
   }
-  EXPECT_EQ(refusal(run), "");  // gone without a trace
+  EXPECT_EQ(refusal(run), "");  // removed completely
 }
 
 TEST_F(FolderClaimTest, IsRefusedWhereAnotherHasWrittenAndGone) {
@@ -69,7 +69,7 @@ TEST_F(FolderClaimTest, IsNotHeldByChildren) {
 TEST_F(FolderClaimTest, GoesToOneOfTwoProcessesThatStartAtOnce) {
   for (int pair = 0; pair < 60; ++pair) {
     const fs::path run = folder_ / std::to_string(pair);
-    if (pair % 2 == 1) fs::create_directories(run);  // an empty one is as good as none
+    if (pair % 2 == 1) fs::create_directories(run);  // an empty folder is treated like a missing one
     auto statuses = at_once(2, [&run](int) {
       try {
         const FolderClaim claim(run);

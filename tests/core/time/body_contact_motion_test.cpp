@@ -1,4 +1,4 @@
-// Contact between bodies in time: what collides, rests, bounces, sticks and slides.
+// Contact between bodies in time: collisions, rest, bounces, sticking and sliding.
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ double distance(const Colliding& a, const Colliding& b) {
   return std::sqrt(sum / static_cast<double>(a.body.x.size()));
 }
 
-// The sums are of rounding; the energy has what steps leave of the kinks where another triangle becomes the nearest.
+// Errors of the sums are roundings; that of the energy comes from kinks where another triangle becomes the nearest.
 TEST(BodyContactMotion, CollidesWithoutLossOfMomentumSpinOrEnergy) {
   for (const int p : {2, 3, 4})
     for (const char* integrator : {"blanes-moan-4", "verlet"}) {
@@ -134,8 +134,8 @@ TEST(BodyContactMotion, CollidesWithoutLossOfMomentumSpinOrEnergy) {
     }
 }
 
-// All arrive at the same place, but for their errors: no order is left of those above two, because of the kinks. One
-// asks for what kinks do not have, and says so.
+// All arrive at the same place, up to their errors: orders above two are lost because of the kinks. One method requires
+// what kinks do not have, and reports it.
 TEST(BodyContactMotion, IsTakenByEveryIntegratorButThatOfDiscreteGradients) {
   Colliding truth = collision("rk4", law_between(3, 2e3, 0.02));
   for (int k = 0; k < 4096; ++k) ASSERT_TRUE(truth.step(0.3 / 4096).ok());
@@ -171,7 +171,7 @@ Colliding box_on_slab(std::string_view integrator, int n, double young, const Co
   return two;
 }
 
-// Of the box the sides' lowest vertices carry too, which is h / 2 L = 1/8 more; of the slab those below the border of
+// On the box the sides' lowest vertices carry too, which is h / 2 L = 1/8 more; on the slab those below the border of
 // the box have no depth, as its sides are as near as its bottom: 1 - (3/4 + (n - 1)^2 / 4 n^2) less. Half of both.
 TEST(BodyContactMotion, RestsAsDeepAsItsWeightNeeds) {
   const double g = 9.81;
@@ -232,8 +232,8 @@ TEST(BodyContactMotion, LeavesTwoStiffBodiesTheRestitutionOfTheirLaw) {
   }
 }
 
-// What is lost is told, and none of it is momentum. Verlet takes forces where friction has been found, half way through
-// the step, so that the two places that it is on are one: there is no torque. Others take them before and after, too.
+// Losses are reported, and no momentum is lost. Verlet takes forces where friction has been found, half way through the
+// step, so that the two points of action coincide: there is no torque. Others take forces before and after, too.
 TEST(BodyContactMotion, KeepsMomentumAndSpinThroughRestitutionAndFriction) {
   for (const char* integrator : {"verlet", "rk4"}) {
     ContactLaw law = law_between(3, 2e3, 0.02);
@@ -256,7 +256,7 @@ TEST(BodyContactMotion, KeepsMomentumAndSpinThroughRestitutionAndFriction) {
   }
 }
 
-/// Where its bottom is along x, of the upper body.
+/// Position along x of the bottom of the upper body.
 double bottom_of(const Colliding& two) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = two.first; i < two.body.x.size(); ++i)
@@ -267,7 +267,7 @@ double bottom_of(const Colliding& two) {
   return sum / count;
 }
 
-// On a slope, on a slab so large that none of its own samples is below the box: no borders are passed, and all of the
+// On a slope, on a slab so large that none of its own samples is below the box: no borders are passed, and the whole
 // weight is on half of the area.
 TEST(BodyContactMotion, SlidesOnABodyWithTheAccelerationThatIsLeft) {
   const double g = 9.81, angle = 0.4, mu = 0.25, seconds = 0.1;
@@ -326,14 +326,14 @@ TEST(BodyContactMotion, HoldsAStackOnASlopeByBothFrictionsTogether) {
     for (int k = 0; k < 500; ++k) ASSERT_TRUE(two.step(5e-4).ok());
     const double way = bottom_of(two) - at, free = 0.5 * g * (std::sin(angle) - between * std::cos(angle)) * 0.0625;
     if (between > std::tan(angle)) {
-      EXPECT_LE(std::abs(way), 5e-4);  // what it still swings by
+      EXPECT_LE(std::abs(way), 5e-4);  // the remaining oscillation
     } else {
-      EXPECT_GT(way, free);  // on top of the speed that it has by then
+      EXPECT_GT(way, free);  // in addition to the speed that it has by then
     }
   }
 }
 
-// However wide the margin is, and so whenever lists are made, the run has the same bits.
+// The margin determines when lists are made; the run has the same bits with any margin.
 TEST(BodyContactMotion, HasBitsThatKnowNothingOfMargins) {
   const auto run = [](double margin, std::uint64_t& made) {
     ContactLaw law = law_between(3, 2e3, 0.02);

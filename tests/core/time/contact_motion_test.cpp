@@ -75,7 +75,7 @@ struct TouchingBody {
   }
 };
 
-/// What bounces and rubs, with impulses around each step.
+/// A body with restitution and friction, with impulses around each step.
 struct RubbingBody : TouchingBody {
   ContactImpulses impulses;
   std::unique_ptr<Integrator> method;
@@ -123,12 +123,12 @@ double distance(const TouchingBody& a, const TouchingBody& b) {
   return std::sqrt(sum / static_cast<double>(a.body.x.size()));
 }
 
-// Of a contact with depth^p the derivative of order p jumps as a sample comes in and goes out: where in its step it
-// does is chance, so the errors of several heights are taken together. The body touches and is off again.
+// In a contact with depth^p the derivative of order p jumps as a sample comes in and goes out: the moment of that
+// within the step is random, so the errors of several heights are combined. The body touches and leaves again.
 TEST(ContactMotion, HasTheOrderOfTheExponentUpToFour) {
   for (const int p : {2, 3, 4}) {
     const double duration = 0.25;
-    const int coarse = p == 3 ? 192 : 64;  // where the smooth part, of order 4, has less of the error
+    const int coarse = p == 3 ? 192 : 64;  // where the smooth part, of order 4, is a smaller part of the error
     const int heights = p == 2 ? 20 : 8;
     double first = 0.0, last = 0.0;
     for (int k = 0; k < heights; ++k) {
@@ -151,7 +151,7 @@ TEST(ContactMotion, HasTheOrderOfTheExponentUpToFour) {
   }
 }
 
-// Of a plane, a ball and a block, in steps of half the time that the contact takes.
+// With a plane, a ball and a block, in steps of half the time that the contact takes.
 TEST(ContactMotion, KeepsItsEnergyWithEnergyMomentumAmongObstaclesOfEveryKind) {
   for (const int p : {2, 3, 4}) {
     TouchingBody box(kuhn_box(2, 2, 2, 0.1), 2e4, {law_of(p, 2e3, 0.02), law_of(p, 4e3, 0.02), law_of(p, 1e3, 0.02)},
@@ -171,7 +171,7 @@ TEST(ContactMotion, KeepsItsEnergyWithEnergyMomentumAmongObstaclesOfEveryKind) {
   }
 }
 
-// Every integrator takes it for a force like any other: all arrive at the same place, but for their errors.
+// Every integrator treats contact as a force like any other: all arrive at the same place, up to their errors.
 TEST(ContactMotion, IsTakenByEveryIntegrator) {
   const double duration = 0.06;
   TouchingBody truth = falling_box(3);
@@ -190,9 +190,9 @@ TEST(ContactMotion, IsTakenByEveryIntegrator) {
   }
 }
 
-// A plate of 25 by 25 squares lies on a plane: its bottom carries rho g H in the depth of the law, but for its border,
-// where vertices have a share of the sides too: an eighth of their area, which is H / 2 L = 1/50 of the bottom. The
-// stiff plate hardly bends over that.
+// A plate of 25 by 25 squares lies on a plane: its bottom carries rho g H at the depth of the law, except for its
+// border, where vertices have a share of the sides too: an eighth of their area, which is H / 2 L = 1/50 of the bottom.
+// The stiff plate hardly bends over that.
 TEST(ContactMotion, SinksAsDeepAsItsWeightNeeds) {
   const double g = 9.81, height = 0.02;
   for (const int p : {2, 3, 4}) {
@@ -201,7 +201,7 @@ TEST(ContactMotion, SinksAsDeepAsItsWeightNeeds) {
     plate.body.gravity = {0, 0, -g};
     const double expected = law.depth_at_rest(1000.0 * g * height);
     plate.shift({0, 0, -0.5 * expected});
-    // backward Euler takes what it swings with
+    // backward Euler damps the oscillations
     ASSERT_TRUE(plate.run("backward-euler", 4.0, 200).ok());
     double sum = 0.0;
     std::size_t count = 0;
@@ -238,7 +238,7 @@ TEST(ContactMotion, LeavesAStiffBodyTheRestitutionOfItsColumn) {
   }
 }
 
-/// Where the bottom is along x, in the mean.
+/// Mean position of the bottom along x.
 double bottom_of(const RubbingBody& box) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < box.body.x.size(); ++i)
@@ -249,8 +249,8 @@ double bottom_of(const RubbingBody& box) {
   return sum / count;
 }
 
-// The box slides down a slope, or its bottom stays while what is above still swings, which nothing damps. Free, it
-// would come 0.12 m in the time that is looked at.
+// The box slides down a slope, or its bottom stays while the part above still oscillates undamped. Without friction it
+// would move 0.12 m in the time considered.
 TEST(ContactMotion, SlidesAsABodyWithTheAccelerationThatIsLeftOrHolds) {
   const double g = 9.81, angle = 0.4, seconds = 0.25;
   for (const double mu : {0.25, 0.5})
@@ -321,8 +321,8 @@ struct VertexOnASlope {
   }
 };
 
-// No method knows of friction, and none lets a vertex creep: what holds it leaves no acceleration along the plane. On a
-// plane along the axes that is so to the last bit; on a slope too, once rounding has settled across it.
+// Methods do not know friction, but none lets a vertex creep: the holding force leaves no acceleration along the plane.
+// On a plane along the axes that holds to the last bit; on a slope too, once rounding has settled across it.
 TEST(ContactMotion, SticksByEveryIntegrator) {
   ContactLaw law = law_of(3, 2e3, 0.002);
   law.friction = 0.5;

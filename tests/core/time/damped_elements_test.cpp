@@ -1,4 +1,4 @@
-// Elements that are damped, in time: the ratio that was asked for, every integrator, the limits of steps.
+// Elements that are damped, in time: the requested ratio, every integrator, the limits of steps.
 
 #include <gtest/gtest.h>
 
@@ -79,10 +79,10 @@ std::unique_ptr<Body> bar_of_hexahedra(int cells, double side, double damping_ti
   return body;
 }
 
-// Free, a bar of n cells that is set off as cos(pi x / L) swings so with omega = 2 c / side sin(pi / (2 n)): an exact
-// mode of masses of cells of equal size. Its ratio is that asked for times its frequency over that asked for at, and in
-// a period it loses exp(-2 pi zeta / sqrt(1 - zeta^2)). What an integrator of order p is wrong by in a period of N
-// steps is some (2 pi)^(p+1) / N^p of the amplitude; strains of 1e-7 are linear to their size.
+// Free, a bar of n cells that is started as cos(pi x / L) oscillates in this shape with omega = 2 c / side sin(pi / (2
+// n)): an exact mode of masses of cells of equal size. Its ratio is the requested one times its frequency over the
+// reference frequency, and in a period it loses exp(-2 pi zeta / sqrt(1 - zeta^2)). The error of an integrator of order
+// p in a period of N steps is some (2 pi)^(p+1) / N^p of the amplitude; strains of 1e-7 are linear to their size.
 TEST(DampedElements, LoseInAPeriodWhatTheRatioSays) {
   const int n = 8;
   const double side = 0.1, length = n * side, speed = std::sqrt(young / density);
@@ -175,7 +175,7 @@ Eigen::MatrixXd damping(const ElementBody& body) {
 }
 
 // Every mode of any body has the ratio omega tau / 2: of tetrahedra, by its own matrix. Two modes, of which the second
-// has half as much again of the frequency at least.
+// has at least one and a half times the frequency.
 TEST(DampedElements, DampEveryModeByItsFrequency) {
   ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), Model::corotational, young, 0.3, density, 1e-3);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness(body));
@@ -242,7 +242,7 @@ TEST(DampedElements, KeepLinearAndAngularMomentum) {
     ASSERT_TRUE(end.result.ok()) << integrator << ": " << to_string(end.result);
     const SpringSystem system = end.body.system();
     const Vector3d p = linear_momentum(system, start.v), l = angular_momentum(system, start.x, start.v);
-    // explicit: roundings of 400 steps, of 2 sweeps of 216 impulses each; implicit: also what Newton's method leaves
+    // explicit: roundings of 400 steps, of 2 sweeps of 216 impulses each; implicit: Newton's residual, too
     const double bound = std::string(integrator) == "implicit-midpoint" ? 1e-8 : splits ? 1e-11 : 1e-12;
     EXPECT_LT((linear_momentum(system, end.body.v) - p).norm(), bound * p.norm()) << integrator;
     EXPECT_LT((angular_momentum(system, end.body.x, end.body.v) - l).norm(), bound * l.norm()) << integrator;
@@ -250,7 +250,7 @@ TEST(DampedElements, KeepLinearAndAngularMomentum) {
   }
 }
 
-// Damping a hundred thousand times critical: sweeps and implicit methods take what moves within the body, and the
+// Damping a hundred thousand times critical: sweeps and implicit methods damp the motion within the body, and the
 // motion as a whole goes on. Energy never grows: at these steps oscillations have hardly begun.
 TEST(DampedElements, AreStableHoweverStrongTheyAreDamped) {
   for (const char* integrator : {"verlet", "symplectic-euler", "backward-euler", "baraff-witkin", "sdirk2", "bdf2"})
@@ -278,11 +278,11 @@ TEST(DampedElements, AreSolvedForByAConstantMatrixToo) {
                 constant = run(bar(Model::neo_hookean, 1e-3, true), "local-global", 0.02, 40),
                 undamped = run(bar(Model::neo_hookean, 0.0, true), "local-global", 0.02, 40);
   ASSERT_TRUE(newton.result.ok() && constant.result.ok());
-  // twenty iterations leave a hundredth of what damping does
+  // twenty iterations leave a hundredth of the effect of damping
   EXPECT_LT(distance(newton.body, constant.body), 0.02 * distance(newton.body, undamped.body));
 }
 
-// Frozen, velocities decay as exp(-t M^-1 C) has it, to the third power of the step in one.
+// Frozen, velocities decay as exp(-t M^-1 C), to the third power of the step in one.
 TEST(DampedElements, DecayWithOrder2WhereTheyAreFrozen) {
   const ElementBody start = bar(Model::neo_hookean, 1e-3);
   const SpringSystem system = start.system();
@@ -308,7 +308,7 @@ TEST(DampedElements, DecayWithOrder2WhereTheyAreFrozen) {
     errors.push_back(std::sqrt(error));
   }
   EXPECT_NEAR(std::log2(errors[0] / errors[1]), 3.0, 0.1);
-  // and the product that series are made of is M^-1 C
+  // and the product used in the series is M^-1 C
   FrozenDamping frozen;
   std::vector<Vector3d> product(start.v.size());
   frozen.freeze(system, terms, start.x);
@@ -319,7 +319,7 @@ TEST(DampedElements, DecayWithOrder2WhereTheyAreFrozen) {
               1e-12 * expected.norm());
 }
 
-// At rest damping is in proportion, and everything is known of it; deformed, every motion of the body lies between the
+// At rest damping is proportional, and everything is known of it; deformed, every motion of the body lies between the
 // bounds: w'Cw for all eigenvectors w of K.
 TEST(DampedElements, HaveTheirRateBracketed) {
   for (const Model model : element_models)
@@ -341,7 +341,7 @@ TEST(DampedElements, HaveTheirRateBracketed) {
         const Bounds bounds = limits.damping_rates(omega);
         EXPECT_GE(d, bounds.lower - 1e-9 * rate) << name(model) << deformed << omega;
         EXPECT_LE(d, bounds.upper + 1e-9 * rate) << name(model) << deformed << omega;
-        // near rest nothing is left open
+        // near rest the bounds coincide
         if (deformed) continue;
         EXPECT_NEAR(bounds.upper, strong * omega * omega, 1e-6 * rate) << name(model);
         EXPECT_NEAR(bounds.lower, strong * omega * omega, 1e-6 * rate) << name(model);
@@ -349,7 +349,7 @@ TEST(DampedElements, HaveTheirRateBracketed) {
     }
 }
 
-// Terms that are not damped stand before and behind: their places in the matrix are passed by.
+// Terms that are not damped come before and after: their places in the matrix are skipped.
 TEST(DampedElements, HaveTheirPlacesBesideOtherTerms) {
   const ElementBody alone = bar(Model::stvk, strong, true), other = bar(Model::corotational, 0.0, true);
   std::ranges::reverse(other.nodes);  // not the same places in the same order
@@ -370,11 +370,11 @@ TEST(DampedElements, HaveTheirPlacesBesideOtherTerms) {
   EXPECT_EQ(d, d_beside);
 }
 
-// What damping does to the limit of methods that do not sweep: found, and not far below.
+// Effect of damping on the limit of methods that do not sweep: the limit is found, and not far below the true one.
 TEST(DampedElements, AreStableBelowTheirLimitAndFoundOutAbove) {
   for (const char* integrator : {"rk4", "blanes-moan-4", "explicit-euler", "verlet"})
     for (const double damping_time : {2e-4, strong}) {
-      // its growth above the limit is too slow to be found out where damping is weak
+      // growth above the limit is too slow to be found if damping is weak
       if (std::string(integrator) == "explicit-euler" && damping_time != strong) continue;
       ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), Model::neo_hookean, young, 0.3, density, damping_time);
       for (Vector3d& v : body.v) v = Vector3d(1e-6, 0, 0);
@@ -419,8 +419,8 @@ TEST(DampedElements, AreStableBelowTheLimitOfASweepInOneDirection) {
   }
 }
 
-// A dashpot between a driven end and a spring: all that the spring holds has come through the damping of the first
-// cells. Who sums elastic forces alone calls the run unstable.
+// A dashpot between a driven end and a spring: all energy of the spring has come through the damping of the first
+// cells. A detector that sums elastic forces alone calls the run unstable.
 TEST(DampedElements, PassOnTheWorkOfDrivenVertices) {
   ElementBody body(kuhn_box(4, 1, 1, 0.1), Model::neo_hookean, young, 0.0);
   const std::vector<Material> several{body.material,

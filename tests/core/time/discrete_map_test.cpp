@@ -1,5 +1,5 @@
-// Integrators on linear systems, 10^5 steps long, against the exact maps of their methods: not the truncation error is
-// measured but the code.
+// Integrators on linear systems, 10^5 steps long, compared with the exact maps of their methods: this measures the
+// code, not the truncation error.
 
 #include <gtest/gtest.h>
 

@@ -58,7 +58,7 @@ TEST(ElementMotion, HasTheOrderOfEveryIntegrator) {
     for (const IntegratorEntry& entry : integrators()) {
       const auto method = make_integrator(entry.name);
       const Scheme& scheme = method->scheme();
-      // it moves on by steps of its own, or its errors are rounding here
+      // it chooses its own steps, or its errors are rounding here
       if (scheme.compensated || std::string(entry.name) == "local-global") continue;
       const int coarse = scheme.order == 4 ? 64 : scheme.order == 5 ? 32 : 512;
       const Outcome first = run(bar(model, true), entry.name, duration, coarse),
@@ -80,7 +80,7 @@ TEST(ElementMotion, KeepsLinearAndAngularMomentum) {
       ASSERT_TRUE(end.result.ok()) << integrator << ": " << to_string(end.result);
       const SpringSystem system = end.body.system();
       const Vector3d p = linear_momentum(system, start.v), l = angular_momentum(system, start.x, start.v);
-      // explicit: roundings of 400 steps; implicit: also what Newton's method leaves, 1e-10 of an acceleration a step
+      // explicit: roundings of 400 steps; implicit: Newton's residual, too, 1e-10 of an acceleration a step
       const double bound = std::string(integrator) == "implicit-midpoint" ? 1e-8 : 1e-12;
       EXPECT_LT((linear_momentum(system, end.body.v) - p).norm(), bound * p.norm()) << integrator << name(model);
       EXPECT_LT((angular_momentum(system, end.body.x, end.body.v) - l).norm(), bound * l.norm())
@@ -98,7 +98,7 @@ TEST(ElementMotion, KeepsItsEnergyWithEnergyMomentum) {
   }
 }
 
-// Backward Euler takes energy away in steps of any length; thrown together, the body finds rest.
+// Backward Euler dissipates energy in steps of any length; from a random shape, the body comes to rest.
 TEST(ElementMotion, ComesToRestFromAnyShapeByImplicitSteps) {
   for (const Model model : {Model::neo_hookean, Model::corotational})
     for (const char* integrator : {"backward-euler", "local-global"}) {
@@ -181,8 +181,8 @@ TEST(ElementMotion, IsStableBelowItsLimitAndFoundOutAbove) {
   }
 }
 
-// Drawn out slowly, a bar holds hundreds of times what there was when the pull began: without the work of the driven
-// end the run would be called unstable.
+// Drawn out slowly, a bar stores hundreds of times the energy at the beginning of the pull: without the work of the
+// driven end the run would be called unstable.
 TEST(ElementMotion, KnowsTheWorkOfDrivenVertices) {
   ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), Model::neo_hookean, 2e4, 0.3);
   const double speed = 0.05;
@@ -200,7 +200,7 @@ TEST(ElementMotion, KnowsTheWorkOfDrivenVertices) {
     ASSERT_TRUE(verlet->step(body.system(), body.motion(), h).ok());
     ASSERT_TRUE(detector.after_step(body.system(), body.motion()).ok()) << k;
   }
-  // the energy of all of it at that speed four times over, which is more than the detector starts from
+  // four times the kinetic energy of the whole at that speed, which is more than the detector starts from
   EXPECT_GT(elastic_energy(body.system(), body.x), 2.0 * DivergenceDetector::gain * 2.0 * mass * speed * speed);
 }
 

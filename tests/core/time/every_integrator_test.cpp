@@ -1,5 +1,5 @@
-// What all sixteen integrators owe: to be as new after a restart, to move alike in a frame that moves, to count their
-// work as core/time/method/integrator.h says.
+// Requirements on all sixteen integrators: a restart clears all memory, motion is the same in a moving frame, and work
+// is counted as core/time/method/integrator.h says.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ SpringArrays falling_grid() {
 
 enum class Change { dampers, viscosity, holds, masses, stiffness };
 
-// Of the last spring or vertex alone, so that who looks at the first few only does not see it.
+// Changes only the last spring or vertex, so that a check of the first few does not see it.
 void change(SpringArrays& body, Change what) {
   switch (what) {
     case Change::dampers: body.springs.back().damping += 0.5; break;
@@ -59,9 +59,9 @@ void change(SpringArrays& body, Change what) {
   }
 }
 
-// Explicit methods to the bit, but for the digits that compensated ones keep, below 2^-53; implicit ones to what their
-// tolerance of 1e-10 leaves of velocities below 10 m/s, with a factor that was kept and updated. A step is 1e-3 s and
-// what is changed shows: 4 % of one vertex's speed at least.
+// Explicit methods to the bit, except for the digits that compensated ones keep, below 2^-53; implicit ones to the
+// residual of their tolerance of 1e-10 for velocities below 10 m/s, with a factor that was kept and updated. A step is
+// 1e-3 s and the change shows: 4 % of one vertex's speed at least.
 TEST_P(EveryIntegrator, IsAsNewAfterARestart) {
   for (const bool damped : {false, true})
     for (const Change what : {Change::dampers, Change::viscosity, Change::holds, Change::masses, Change::stiffness}) {
@@ -83,7 +83,7 @@ TEST_P(EveryIntegrator, IsAsNewAfterARestart) {
     }
 }
 
-// The same where the motion is what has changed: only methods of several steps would remember it.
+// The same if the motion has changed: only methods of several steps would remember it.
 TEST_P(EveryIntegrator, HasForgottenTheMotionBeforeARestart) {
   SpringArrays used = falling_grid();
   run(*integrator, used, 1e-3, 3);
@@ -98,8 +98,8 @@ TEST_P(EveryIntegrator, HasForgottenTheMotionBeforeARestart) {
 // ---- a frame that moves
 
 // A mass on a spring whose other end is driven, and the same seen from there: the motion along the line is linear, so
-// every method commutes with the change of the frame, whatever its error. 20 steps of a few roundings near 2, and of
-// implicit methods 1e-10 of what acts, below 1 m/s.
+// every method commutes with the change of the frame, whatever its error. 20 steps of a few roundings near 2, and for
+// implicit methods 1e-10 of the motion, below 1 m/s.
 TEST_P(EveryIntegrator, MovesAlikeInAFrameThatMoves) {
   const double speed = 0.5, h = 0.125, damping = 0.75;
   const auto body = [=](double frame) {
@@ -120,8 +120,8 @@ TEST_P(EveryIntegrator, MovesAlikeInAFrameThatMoves) {
   }
 }
 
-// Nobody should turn a driven vertex round without a restart, which a method of several steps asks for. If somebody
-// does, the vertex still has the velocity that it was given.
+// A driven vertex should not be reversed without a restart, which a method of several steps needs. If it is, the vertex
+// still has the velocity that it was given.
 TEST(Bdf2, LeavesADrivenVertexTheVelocityThatItWasGiven) {
   SpringArrays body = falling_grid();
   body.fixed[3] = 1;
@@ -133,8 +133,8 @@ TEST(Bdf2, LeavesADrivenVertexTheVelocityThatItWasGiven) {
   EXPECT_EQ(body.v[3], Vector3d(0, -0.25, 0));
 }
 
-// There is no state to go on from in a step of another length: it is one of backward Euler, solved to 1e-10 of what
-// acts.
+// A step of another length has no earlier state to continue from: it is one of backward Euler, solved to 1e-10 of the
+// motion.
 TEST(Bdf2, BeginsAgainWithAStepOfAnotherLength) {
   for (const double factor : {0.5, 1.01, 2.0}) {
     SpringArrays body = falling_grid();
@@ -147,11 +147,11 @@ TEST(Bdf2, BeginsAgainWithAStepOfAnotherLength) {
     EXPECT_LE(distance(body, other), 1e-7) << factor;
     run(integrator, body, factor * 1e-3, 1);
     run(euler, other, factor * 1e-3, 1);
-    EXPECT_GT(distance(body, other), 1e-4) << factor;  // and goes on with two
+    EXPECT_GT(distance(body, other), 1e-4) << factor;  // and continues with two
   }
 }
 
-// The driven vertex is so fast that a long step takes it out of the numbers, after the stage has been solved.
+// The driven vertex is so fast that a long step takes it beyond the range of doubles, after the stage has been solved.
 TEST(Bdf2, RemembersNothingOfAStepThatFails) {
   SpringArrays body;
   body.gravity = {0, 0, -8};
@@ -225,7 +225,7 @@ TEST(MemoryOracle, TellSpringsBetweenFreeVerticesFromThoseHeldAtOneEnd) {
   EXPECT_EQ(counts.anchors, 2u);
 }
 
-// `explain` tells them.
+// `explain` reports them.
 TEST_P(EveryIntegrator, HoldsTheColumnsThatItMust) {
   for (const bool damped : {false, true})
     for (const bool viscous : {false, true}) {

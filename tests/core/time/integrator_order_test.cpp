@@ -1,4 +1,4 @@
-// The order that every explicit integrator shows, undamped, damped and across a cut, against what its scheme says.
+// The observed order of every explicit integrator, undamped, damped and across a cut, compared with that of its scheme.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// An integrator that is stored between two steps and read into a new one goes on with the same bits.
+// An integrator that is stored between two steps and read into a new one continues with the same bits.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What every explicit integrator owes its user: the contract of the interface, conservation, symmetry, scaling.
+// Requirements on every explicit integrator: the contract of the interface, conservation, symmetry, scaling.
 
 #include "core/time/integrators.h"
 
@@ -131,7 +131,7 @@ TEST_P(Explicit, MayMeetAnotherSystemAfterARestart) {
   integrator->restart();
   run(*integrator, large, 0.01, 1);
   run(*make_integrator(GetParam()), alone, 0.01, 2);
-  if (integrator->scheme().compensated) {  // what it had lost of the first body, half a unit in the last place, is gone
+  if (integrator->scheme().compensated) {  // the lost digits of the first body, half a unit in the last place, are gone
     for (std::size_t i = 0; i < large.x.size(); ++i) {
       EXPECT_LE((large.x[i] - alone.x[i]).cwiseAbs().maxCoeff(), 4 * u) << i;
       EXPECT_LE((large.v[i] - alone.v[i]).cwiseAbs().maxCoeff(), 4 * u) << i;
@@ -185,7 +185,7 @@ TEST_P(Explicit, KeepsAngularMomentumExactlyIfItsSchemeSaysSo) {
     SpringArrays arrays = a_body(damping, 0.0);
     const Vector3d before = angular_momentum(arrays.system(), arrays.x, arrays.v);
     const auto own = make_integrator(GetParam());
-    run(*own, arrays, 0.05, 100);  // coarse, so that what is of the size of the error shows
+    run(*own, arrays, 0.05, 100);  // coarse, so that effects of the size of the error show
     const double change = (angular_momentum(arrays.system(), arrays.x, arrays.v) - before).norm();
     if (own->scheme().keeps_angular)
       EXPECT_LT(change, 100 * momentum_rounding);

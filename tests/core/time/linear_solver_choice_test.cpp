@@ -1,4 +1,4 @@
-// The linear solver that a user asks for is the one that solves.
+// The linear solver that the user requests is the one used.
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 namespace dartboard::mass_scaling_test {
 namespace {
 
-constexpr int exponents[] = {-600, 300, 600};  // squares of what is scaled by 2^600 are beyond the doubles
+constexpr int exponents[] = {-600, 300, 600};  // squares of numbers scaled by 2^600 are beyond the doubles
 
 /// A body that has everything: dampers, viscosity, gravity, vertices held and driven; some springs are compressed.
 SpringArrays swinging_grid(int exponent) {

@@ -1,4 +1,4 @@
-// Forces from outside in the time loop: one acceleration for all vertices is gravity, whoever integrates or watches.
+// Forces from outside in the time loop: one acceleration for all vertices is gravity, for all integrators and watchers.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ SpringArrays one_on_a_spring(const Vector3d& velocity_of_held) {
   return body;
 }
 
-// What lifts a driven vertex against 10 N for a metre puts in 10 J, which something else may come to have.
+// Lifting a driven vertex against 10 N for a metre does work of 10 J, which may become energy of the body.
 TEST(Pull, IsWhatADrivenVertexWorksAgainst) {
   for (const bool pulled : {false, true}) {
     SpringArrays body = one_on_a_spring({1e-2, 0, 0});
@@ -104,11 +104,11 @@ TEST(Pull, IsWhatADrivenVertexWorksAgainst) {
     ASSERT_TRUE(detector.start(system(), body.motion(), 0.1).ok());
     for (int k = 0; k < 2000; ++k) {
       body.v[0].x() = k < 1000 ? 1e-2 : -1e-2;
-      for (Vector3d& x : body.x) x += 0.1 * body.v[0];  // lifted and lowered as a whole: nothing is stretched
+      for (Vector3d& x : body.x) x += 0.1 * body.v[0];  // lifted and lowered as a whole: no spring is stretched
       body.v[1].setZero();
       ASSERT_TRUE(detector.after_step(system(), body.motion()).ok()) << k;
     }
-    // a hundred times what there was to be had makes a divergence: these 10 J, and 4 J that a first step may be off by
+    // a hundred times the available energy is a divergence: these 10 J, and 4 J that a first step may be off by
     body.v[1] = {40, 0, 0};  // 800 J
     EXPECT_EQ(detector.check_all(system(), body.motion()).ok(), pulled);
   }

@@ -104,7 +104,7 @@ TEST(Check, NamesAnAlphaBeyondTheSlots) {
   EXPECT_EQ(check(map), "alpha2(d0) = d4000000000, which is dead");
 }
 
-// The dart two steps away has not been looked at itself when the composition passes it.
+// The dart two steps away has not been checked itself when the composition passes it.
 TEST(Check, SurvivesADeadAlphaInTheMiddleOfAComposition) {
   auto map = loose_darts<Map2>(2);
   map.link<2>({0}, {1});
@@ -132,7 +132,7 @@ TEST(CheckOfTetrahedra, NamesAFaceThatDoesNotLeadBack) {
   EXPECT_NE(check(map).find("alpha3 is not an involution"), std::string::npos) << check(map);
 }
 
-// Where the opposite face is right and the turn between them is not, as told from one side.
+// The opposite face is right and the turn between them is wrong, as stored on one side.
 TEST(CheckOfTetrahedra, NamesAFaceThatLeadsBackTurned) {
   for (std::uint32_t more = 1; more < 6; ++more) {
     auto map = build_map<TetMap>(unequal_tetrahedra()).map;
@@ -151,8 +151,8 @@ TEST(CheckOfTetrahedra, NamesAFaceSewnToATetrahedronBeyondTheSlots) {
   EXPECT_EQ(check(map), "alpha3(d0) = d3000000000, which is dead");
 }
 
-// Each face of each tetrahedron in turn is made 3-free, and its partner is not: any dart of the partner tells, and none
-// of the face itself.
+// Each face of each tetrahedron in turn is made 3-free, and its partner is not: any dart of the partner shows it, and
+// no dart of the face itself.
 TEST(CheckOfTetrahedra, NamesAFaceByAnyOfItsDarts) {
   const auto good = build_map<TetMap>(kuhn_grid(1, 1, 1, 1.0)).map;
   std::size_t broken = 0;

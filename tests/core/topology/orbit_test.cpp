@@ -129,7 +129,7 @@ TYPED_TEST(Orbit, IsTheSameForTwoDartsExactlyWhenOneReachesTheOther) {
   }
 }
 
-// A face orbit that stops on an open face after 1 of 6 darts cost another library a bug.
+// A face orbit that stops on an open face after 1 of 6 darts was a bug in another library.
 TEST(OrbitOfAnOpenFace, IsFoundFromEitherEndAndFromTheMiddle) {
   Map3 map;
   for (int k = 0; k < 6; ++k) map.add_dart();

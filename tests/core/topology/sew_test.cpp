@@ -39,8 +39,8 @@ bool sewable_by_definition(const Map& map, Dart a, Dart b) {
   return true;
 }
 
-// Try to sew two darts: it must happen exactly when the definition says so, keep the map valid, be undone by unsew from
-// any of its darts, and change nothing when refused.
+// Try to sew two darts: it must happen exactly when the definition allows it, keep the map valid, be undone by unsew
+// from any of its darts, and change nothing when refused.
 template <int i, class Map>
 void try_to_sew(Map& map, Dart a, Dart b) {
   const auto before = map.hash();

@@ -185,7 +185,7 @@ TEST(Components, SkipDeadCells) {
   EXPECT_EQ(found.of_dart[71], 1u);
 }
 
-// Of three cubes the middle one falls to pieces; what is left is labelled dart by dart alike.
+// The middle one of three cubes falls to pieces; the remaining darts are labelled in the same way.
 TEST(Components, AreTheSameOnBothStorages) {
   const Mesh mesh = kuhn_grid(3, 1, 1, 1.0);
   auto general = build_map<Map3>(mesh);

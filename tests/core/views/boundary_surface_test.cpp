@@ -123,8 +123,8 @@ TEST(BoundaryOfMixedCells, EnclosesTheSumOfTheirVolumes) {
   EXPECT_LE(sum_of_area_vectors(surface, body).norm(), 0x1p-42);
 }
 
-// The boundary stays closed through all cuts, and encloses the cells that are left. With jitter, each of the fewer than
-// 2^9 faces of the 2^7 cells has an area below 2^-4 with an error below 2^3 u of it, and sums of 2^9 of these have one
+// The boundary stays closed through all cuts, and encloses the remaining cells. With jitter, each of the fewer than 2^9
+// faces of the 2^7 cells has an area below 2^-4 with an error below 2^3 u of it, and sums of 2^9 of these have one
 // below 2^9 u of their 2^5: below 2^-38 in all. Positions are below 1.
 TYPED_TEST(BoundaryOf, ACutBodyEnclosesWhatIsLeftOfIt) {
   auto body = body_of<TypeParam>(with_left_handed_cells(kuhn_grid(3, 2, 2, 0.25, 0.1, 3)));
@@ -163,7 +163,7 @@ TEST(BoundaryOfHexahedra, FollowsEveryOperationUntilNothingIsLeft) {
   EXPECT_TRUE(surface.facets().empty());
 }
 
-// The same numbers of faces, of which one has come to the boundary; and all of them turned round.
+// The same number of faces, one of which has come to the boundary; and all of them turned round.
 TYPED_TEST(BoundaryOf, ABodyIsNotThatOfAnotherOne) {
   auto body = body_of<TypeParam>(unequal_tetrahedra());
   const BoundarySurface surface = boundary_of(body);

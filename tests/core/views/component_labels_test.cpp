@@ -12,7 +12,7 @@
 namespace dartboard::component_labels_test {
 namespace {
 
-// The paper's way: walk along all alpha-links, and see which cells were met.
+// The paper's way: walk along all alpha-links, and see which cells are reached.
 template <class Body>
 std::set<std::set<std::uint32_t>> walked(const Body& body) {
   constexpr int n = Body::dimension;
@@ -47,7 +47,7 @@ ComponentLabels components_of(const Body& body) {
   return labels;
 }
 
-// What a listener makes of the reports: how many components there are.
+// A listener that counts the components from the reports.
 struct Listener {
   std::size_t count;
   void hear(const ComponentChange& report) { count += report.separated.size() - report.moved.size(); }
@@ -102,7 +102,7 @@ TYPED_TEST(ComponentsOf, SeparateBodiesAreNumberedByTheirLowestCell) {
   EXPECT_EQ(labels.label(2), 1u);
 }
 
-// The last component takes the label of the one that goes away.
+// The last component takes the label of the removed one.
 TYPED_TEST(ComponentsOf, ABodyThatGoesAwayLeavesItsLabelToTheLast) {
   Mesh mesh = regular_tetrahedron();
   for (std::uint32_t k = 1; k < 3; ++k) {
@@ -186,7 +186,7 @@ TYPED_TEST(ComponentsOf, APinchedBodyFollowEveryOperation) {
     expect_followed_until_nothing_is_left<TypeParam>(pinched_ring(), seed, 4);
 }
 
-// Series of many operations before anything follows: seeds may be dead, and parts may have parts.
+// Series of many operations without updates in between: seeds may be dead, and parts may have parts.
 TYPED_TEST(ComponentsOf, ABodyFollowLongSeries) {
   for (std::uint64_t seed = 1; seed < 15; ++seed) {
     auto body = body_of<TypeParam>(kuhn_grid(2, 2, 2, 0.125));

@@ -1,4 +1,4 @@
-// Elements on a map: their corners and rest shapes follow what happens to it.
+// Elements on a map: their corners and rest shapes follow its changes.
 
 #include "core/views/element_nodes_view.h"
 
@@ -72,7 +72,7 @@ class ElementsOn : public testing::Test {};
 using Maps = testing::Types<TetMap, Map3>;
 TYPED_TEST_SUITE(ElementsOn, Maps);
 
-// The rest shape of each cell is that of its corners in the mesh, whatever has happened.
+// The rest shape of each cell is that of its corners in the mesh, after any operations.
 template <class Map>
 void expect_shapes_of_the_mesh(const Elements<Map>& e) {
   for (std::uint32_t c = 0; c < e.body.cell_shape.size(); ++c) {
@@ -127,9 +127,9 @@ TYPED_TEST(ElementsOn, LoseTheEnergyOfWhatIsRemovedAndNoMore) {
   }
 }
 
-// An affine deformation of a subdivided tetrahedron has the same F in every child: the energy stays, and a new vertex
-// inside is pulled nowhere, so that forces at the old ones stay too. One on the boundary takes its share of what pulls
-// there, so the first are put inside tetrahedra.
+// An affine deformation of a subdivided tetrahedron has the same F in every child: the energy stays, and a new inner
+// vertex has no force, so that forces at the old ones stay too. A new vertex on the boundary takes a share of the
+// forces there, so the first ones are put inside tetrahedra.
 TYPED_TEST(ElementsOn, KeepForcesAndEnergyWhereAffineTetrahedraAreRefined) {
   for (const Model model : {Model::neo_hookean, Model::corotational, Model::stvk}) {
     Elements<TypeParam> e(box(), model);
@@ -211,7 +211,7 @@ TYPED_TEST(ElementsOn, HaveTheStressOfTheirLawAtEveryVertex) {
   }
 }
 
-// A body of springs has no elements, but its stress is per volume as it is now.
+// A body of springs has no elements, but its stress is per present volume.
 template <class Map>
 struct CornersOfSprings : testing::Test {
   using View = std::conditional_t<Map::tetrahedral, TetrahedronNodesView, SolidNodesView>;
@@ -268,7 +268,7 @@ struct SolidElements {
   }
 };
 
-// Hexahedra, prisms, pyramids and tetrahedra: what holds of tetrahedra alone holds of them.
+// Hexahedra, prisms, pyramids and tetrahedra: the same properties as for tetrahedra alone.
 TEST(SolidsOnAMap, FollowRandomOperationsUntilNothingIsLeft) {
   const Mesh mesh = mixed_box(3, 3, 3, 0.1);
   SolidElements elements(mesh, Model::neo_hookean);
@@ -312,9 +312,9 @@ TEST(SolidsOnAMap, KeepTheirEnergyWhereFacesComeApart) {
   EXPECT_NEAR(term->energy(body.vertices.position), before - own, 1e-14 * before);
 }
 
-// Vertices are put wherever tetrahedra alone are around, and refused elsewhere. The shape of every cell is that of the
-// places at rest, to a rounding for each refinement in its ancestry; an affine deformation keeps the energy, and pulls
-// at no vertex inside.
+// Vertices are inserted wherever only tetrahedra are around, and refused elsewhere. The shape of every cell is that of
+// the places at rest, to a rounding for each refinement in its ancestry; an affine deformation keeps the energy, and
+// has no force at inner vertices.
 TEST(SolidsOnAMap, AreRefinedWhereTheyAreTetrahedra) {
   const Mesh mesh = mixed_box(2, 2, 2, 0.1);
   SolidElements elements(mesh, Model::neo_hookean);
@@ -408,7 +408,7 @@ TEST(SolidsOnAMap, HaveTheStressOfTheirLawAtEveryVertex) {
   }
 }
 
-// Flat or turned inside out, a body has no stress of Cauchy's: its volume counts as a hundredth of that at rest.
+// Flat or turned inside out, a body has no Cauchy stress: its volume counts as a hundredth of that at rest.
 TEST(SolidsOnAMap, HaveAFiniteStressWhenTheyAreSqueezedFlat) {
   const Mesh mesh = mixed_box(2, 2, 2, 0.1);
   SolidElements elements(mesh, Model::stvk);

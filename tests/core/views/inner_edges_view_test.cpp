@@ -1,4 +1,4 @@
-// Bending on a map: what holds two faces flat follows what happens to their edge.
+// Bending on a map: the stiffness between two faces follows the changes of their edge.
 
 #include "core/views/inner_edges_view.h"
 
@@ -131,10 +131,10 @@ double stiffness_rolled(const Mesh& mesh, double angle) {
   return bent.energy() / (rigidity * curvature * curvature / 2 * area_of(mesh));
 }
 
-// Edges of the border do not bend: of n rows, some 1/n of the area has no say. Triangles with equal sides are the same
-// in all directions. Of a second derivative H, squares halved along one diagonal have the energy D / 2 times
-// (Hxx - Hxy)^2 + (Hyy - Hxy)^2 + 4 Hxy^2 per area: that of a plate along the sides; along the diagonals, where
-// Hxx = Hyy = +-Hxy, once and thrice that.
+// Edges of the border do not bend: with n rows, some 1/n of the area does not contribute. Triangles with equal sides
+// are isotropic. For a second derivative H, squares halved along one diagonal have the energy D / 2 times (Hxx - Hxy)^2
+// + (Hyy - Hxy)^2 + 4 Hxy^2 per area: that of a plate along the sides; along the diagonals, where Hxx = Hyy = +-Hxy,
+// once and three times that.
 TEST(Bending, IsThatOfAPlateOfItsRigidity) {
   constexpr double degree = std::numbers::pi / 180;
   for (const double angle : {0.0, 17.0, 30.0, 45.0, 90.0})
@@ -183,7 +183,7 @@ TEST(Bending, FollowsRandomOperationsUntilNothingIsLeft) {
   for (const char* kind : {"triangles", "quadrilaterals", "both"}) expect_followed<SecondNeighbours>(sheet_of(kind));
 }
 
-// A cut through an edge takes what is across that edge, and nothing else.
+// A cut through an edge removes the bending across that edge, and nothing else.
 template <class Row>
 void expect_energy_of_cut_edges(const Mesh& mesh) {
   Sheet<Row> sheet(mesh);
@@ -230,7 +230,7 @@ TEST(Bending, OfSecondNeighboursIsSharedByACutAlongThem) {
     }
     ASSERT_EQ(line.size(), 4u);
     for (const Dart d : line) sheet.follow(dissociate_edge(sheet.body.map, d));
-    // across, the middle one of three springs in each line is gone that reached over the cut; those that end on it stay
+    // across, the middle one of three springs in each line reached over the cut and is gone; those that end on it stay
     EXPECT_NEAR(sheet.energy(), axis == 0 ? before : before * 2 / 3, 1e-14);
   }
 }

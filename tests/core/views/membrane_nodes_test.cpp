@@ -1,4 +1,4 @@
-// Membranes on a map: their corners and rest shapes follow what happens to it.
+// Membranes on a map: their corners and rest shapes follow its changes.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using Surface = AdaptedBody<Map2>;
 
-/// Triangles are of the one law, what has quadrilaterals of the other.
+/// Triangles have the one law, surfaces with quadrilaterals the other.
 Material material_for(const Mesh& mesh) {
   Material material = sheet_material();
   if (mesh.nodes.size() > 3 * mesh.cell_count()) material.model = Model::corotational;
@@ -33,7 +33,7 @@ Problem problem_of(Mesh mesh) {
   return problem;
 }
 
-/// The views and the term of a surface, whichever of both kinds it needs.
+/// The views and the term of a surface, for either kind.
 struct SurfaceViews {
   TriangleNodesView triangles;
   SolidNodesView cells;
@@ -84,8 +84,8 @@ struct Sheet {
 
 std::vector<Mesh> sheets() { return {saddle(crooked_triangles(6, 5)), saddle(mixed_sheet(6, 5))}; }
 
-// With the corners of each cell where the mesh has them, its rest shape is that of the mesh, to the bit. So forces and
-// energies are those of a surface that is built of the cells left, which the last lines do.
+// If the corners of each cell are at the mesh's points, its rest shape is that of the mesh, to the bit. So forces and
+// energies are those of a surface that is built from the remaining cells, which the last lines build.
 void expect_to_be_as_built_anew(const Sheet& sheet) {
   SurfaceViews rebuilt;
   rebuilt.rebuild(sheet.body);
@@ -102,7 +102,7 @@ void expect_to_be_as_built_anew(const Sheet& sheet) {
   if (!sheet.body.cell_triangle.empty()) {
     ASSERT_EQ(sheet.body.cell_triangle, anew.triangle_shape);
   }
-  // what is left of a mixed sheet may be triangles alone
+  // the rest of a mixed sheet may be triangles alone
   if (sheet.body.cell_membrane.empty() || !anew.shape.empty()) {
     ASSERT_EQ(sheet.body.cell_membrane, anew.shape);
     ASSERT_EQ(sheet.energy(), anew.energy());
@@ -122,7 +122,7 @@ TEST(MembranesOnAMap, FollowAThousandRandomOperations) {
     const auto operate = [&](const TopologyChange& change) {
       sheet.follow(change);
       ++operations;
-      // some, as each looks at the whole sheet: what is wrong once stays wrong
+      // not after each, as it inspects the whole sheet: a fault stays
       if (operations % 10 == 0) expect_to_be_as_built_anew(sheet);
     };
     for (int k = 0; k < 300; ++k) operate(dissociate_something(sheet.body.map, random));
@@ -185,8 +185,8 @@ TEST(MembranesOnAMap, TakeTheirShapesAlongWhenAPartIsSplitOff) {
   }
 }
 
-// One vertex at a time and all at once: the same stress, to the bit; of a uniform strain, Cauchy's tension: that of
-// the length as it is now.
+// One vertex at a time and all at once: the same stress, to the bit; for a uniform strain, Cauchy's tension: that per
+// present length.
 TEST(MembranesOnAMap, HaveTheStressOfTheirLawAtEveryVertex) {
   SurfaceGradient f;
   f << 1.2, 0.1, 0.05, 0.9, -0.3, 0.4;
@@ -210,7 +210,7 @@ TEST(MembranesOnAMap, HaveTheStressOfTheirLawAtEveryVertex) {
     }
 }
 
-// A surface of springs holds none of it, and one of membranes of its one kind alone.
+// A surface of springs holds no membrane data, and one of membranes only those of its kind.
 TEST(MembranesOnAMap, AreHeldWhereTheyAreNeeded) {
   Problem springs = problem_of(mixed_sheet(3, 3));
   springs.material = {.density = 0.5, .stiffness = 4.0};

@@ -1,4 +1,4 @@
-// What a place can be inside of: tetrahedra and triangles along the boundary that follow what happens to the map.
+// The solids that a point can be inside of: tetrahedra and triangles along the boundary that follow changes of the map.
 
 #include "core/views/skin_solids_view.h"
 
@@ -157,8 +157,8 @@ TEST(SkinSolidsOfHexahedra, FollowEveryOperationUntilNothingIsLeft) {
   }
 }
 
-// Cells that share a face cut it alike, so that what is within the body is in one of their tetrahedra, or on a face of
-// two: every face of a tetrahedron that is none of the boundary stands there twice. Also after numbers have changed.
+// Cells that share a face cut it alike, so that every point of the body is in one of their tetrahedra, or on a face of
+// two: every face of a tetrahedron that is not on the boundary occurs twice. Also after numbers have changed.
 TEST(SkinSolidsOfHexahedra, HaveNoGapsBetweenCells) {
   for (const Mesh& mesh : {hexahedron_box(3, 2, 2, 1.0), mixed_box(3, 2, 2, 0.5)}) {
     auto body = at_rest<Map3>(mesh);
@@ -237,7 +237,7 @@ void cut_through(AdaptedBody<Map>& body, Visit&& visit) {
 }
 
 // A body that is bent and pressed together has no contact while it is cut, to the last bit: neither does its energy
-// jump. What has been cut off and pushed into the other part then has the pressure of the law over the cut.
+// jump. The part that has been cut off and pushed into the other then has the pressure of the law over the cut.
 TYPED_TEST(SkinSolidsOf, ABodyHaveNoContactInAFreshCut) {
   for (const bool bent : {false, true}) {
     const int p = bent ? 3 : 2;
@@ -260,7 +260,7 @@ TYPED_TEST(SkinSolidsOf, ABodyHaveNoContactInAFreshCut) {
       ASSERT_EQ(contact.state_at(now.vertices.position).contacts, 0u);
       ASSERT_EQ(contact.energy(now.vertices.position), 0.0);
     });
-    // what is a vertex of the right part
+    // the vertices of the right part
     std::vector<std::uint8_t> right(body.vertices.size(), 0);
     for (std::uint32_t c = 0; c < body.cell_dart.size(); ++c) {
       bool is_right = false;
@@ -274,13 +274,13 @@ TYPED_TEST(SkinSolidsOf, ABodyHaveNoContactInAFreshCut) {
     contact.add_forces({x}, force);
     double pushed = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) pushed += right[i] * force[i][0];
-    // as boxes on each other: those at the border have no depth
+    // as for boxes on each other: those at the border have no depth
     const double expected = (0.75 + 0.25 * 9 / 16) * law.force(1.0, depth);
     EXPECT_NEAR(pushed, expected, 1e-11 * expected) << p;
   }
 }
 
-// A surface has no inside, and what does not know its rest no right way round.
+// A surface has no inside, and a body without places at rest no orientation.
 TEST(SkinSolidsOfASurface, AreNone) {
   auto sheet = at_rest<Map2>(triangle_sheet(3, 2, 0.1));
   SkinSolidsView view = view_of(sheet);

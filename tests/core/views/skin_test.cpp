@@ -1,4 +1,4 @@
-// Where a body feels contact: weights that integrate, and that follow what happens to the map.
+// Samples at which a body feels contact: weights that integrate, and that follow changes of the map.
 
 #include "core/views/skin.h"
 
@@ -101,7 +101,7 @@ TYPED_TEST(SkinOf, ABodyFollowsAThousandOperationsUntilNothingIsLeft) {
   EXPECT_GT(operations, 1000);
 }
 
-// Beside refinement, which moves no boundary but puts vertices into it. Some edges, faces and volumes are cut as well.
+// Together with refinement, which moves no boundary but adds vertices to it. Some edges, faces and volumes are cut too.
 TYPED_TEST(SkinOf, ABodyFollowsRefinement) {
   auto body = at_rest<TypeParam>(with_left_handed_cells(kuhn_grid(2, 2, 1, 0.25, 0.1, 3)));
   Skin skin = skin_of(body);
@@ -175,7 +175,7 @@ TEST(SkinOfABox, HasItsArea) {
   EXPECT_EQ(skin.samples().size(), 6u * 16u + 125u - 27u);
 }
 
-// Where it is at rest, not where it is now; without a place at rest, nothing.
+// At the places at rest, not at the present ones; without places at rest, nothing.
 TEST(SkinOfABody, IsThatOfItsRest) {
   auto body = at_rest<Map3>(kuhn_grid(2, 2, 1, 0.5));
   const Skin skin = skin_of(body);
@@ -202,8 +202,8 @@ Mesh flat_sheet(bool triangles) {
   return mesh;
 }
 
-// The same rule on every triangle halved three times, until corners alone are exact to (1/8)^2 of what is bent: with
-// differences of that extrapolated, by the trapeze of triangles T_k -> (4 T_k+1 - T_k) / 3, exact for quadratics.
+// The same rule on every triangle halved three times, until corners alone are exact to (1/8)^2 of the curvature, then
+// extrapolated, by the trapezoidal rule of triangles T_k -> (4 T_k+1 - T_k) / 3, exact for quadratics.
 template <class F>
 double over_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, F&& f) {
   const double area = 0.5 * (b - a).cross(c - a).norm();
@@ -231,7 +231,7 @@ TEST(SkinOfASurface, IntegratesAQuadraticPressureExactly) {
   }
 }
 
-// Any flat convex quadrilateral, as exact as its middle allows: of what is linear.
+// Any flat convex quadrilateral, as exact as its middle allows: for linear functions.
 TEST(SkinOfASurface, IntegratesALinearPressureOverAnyQuadrilateral) {
   SplitMix64 random(3);
   const auto pressure = [](const Vector3d& x) { return 1 + 3 * x[0] - 2 * x[1] + x[2]; };
@@ -261,7 +261,7 @@ TEST(SkinOfASurface, IntegratesALinearPressureOverAnyQuadrilateral) {
     }
 }
 
-// A plate whose face is tilted against a plane: with p = 3 the pressure is quadratic, and what it adds up to exact.
+// A plate whose face is tilted against a plane: with p = 3 the pressure is quadratic, and its sum exact.
 TEST(SkinOfASurface, FeelsTheWholeForceOfATiltedPlane) {
   const double slope = 0.25, side = 0.5, top = 0.2;
   const auto body = at_rest<Map2>(triangle_sheet(3, 5, 0.1));
@@ -301,7 +301,7 @@ TYPED_TEST(SkinOf, AFreshCutHasNoForceAndNoJump) {
   EXPECT_GT(skin.samples().size(), before + 60);
 }
 
-// What lies in the obstacle and is cut elsewhere has the forces it had, to the last bit of each sample.
+// Samples in the obstacle, of a body that is cut elsewhere, keep their forces to the last bit.
 TYPED_TEST(SkinOf, ACutAwayFromTheContactLeavesItsForces) {
   auto body = at_rest<TypeParam>(kuhn_grid(3, 3, 4, 0.25));
   Skin skin = skin_of(body);

@@ -1,4 +1,4 @@
-// A body with its views, stored and read into another one of the same mesh: operations go on as if on the first.
+// A body with its views, stored and read into another one of the same mesh: later operations act as on the first.
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ struct Followed {
   SplitMix64 random;
 };
 
-/// Everything that is seen of it, in its order.
+/// All visible data of the body, in order.
 template <class Map>
 std::vector<std::uint64_t> seen(const Followed<Map>& f) {
   const auto& body = f.body;

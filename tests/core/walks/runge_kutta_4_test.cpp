@@ -185,7 +185,7 @@ TEST(RungeKutta4, MayTakeBodiesOfAnySizeInTurn) {
   EXPECT_EQ(large.state_hash(), alone.state_hash());
 }
 
-// It would move them like dust: a walk meets no force but that of springs along edges.
+// Such a body would move without these forces: a walk computes no force but that of springs along edges.
 TEST(RungeKutta4, RefusesABodyWithForcesThatItDoesNotKnow) {
   const auto refused = [](Mesh mesh, const Material& material, auto map) {
     Problem problem = without_losses(std::move(mesh));

@@ -41,7 +41,7 @@ def cells_of(lists):
 
 
 def surface(strip=False):
-    """With a vertex and a line that no body is made of; as a strip the two triangles are one cell."""
+    """With a vertex and a line that are part of no body; as a strip the two triangles are one cell."""
     data = vtk.vtkPolyData()
     data.SetPoints(points_of(POINTS))
     data.SetVerts(cells_of([(3,)]))

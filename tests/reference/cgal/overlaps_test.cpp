@@ -87,7 +87,7 @@ TEST(Overlaps, AreSeenOfOneThatIsWhollyInsideAnother) {
 }
 
 TEST(Overlaps, AreNoneWithinABodyAtRestWhoseCellsShareCorners) {
-  // of a box only those that touch in no corner at all are asked for, and these are apart
+  // for a box only tetrahedra without a common corner are tested, and these are apart
   Tetrahedra box;
   box.add(kuhn_grid(3, 2, 2, 0.5, 0.1, 5), {0, 0, 0});
   EXPECT_TRUE(box.overlaps().empty());

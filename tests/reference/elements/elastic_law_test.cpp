@@ -80,7 +80,7 @@ TEST(WitnessLaw, FindsTheRotationOfSingularValues) {
   }
 }
 
-// In moves by quadrature and by differences alike; the two meet at 0.02.
+// In steps by quadrature and by differences alike; the two methods meet at 0.02.
 TEST(WitnessLaw, HasADiscreteGradientWhoseWorkIsTheChangeOfEnergy) {
   SplitMix64 random(4);
   for (const Model model : laws)
@@ -108,7 +108,7 @@ TEST(WitnessLaw, OfAShortMoveIsTheStress) {
 TEST(WitnessLaw, BoundsWhatRestResists) {
   for (const Model model : laws) {
     const auto slope = stress_slope(of(model, 0.45), Matrix::Identity());
-    // a swelling is what is resisted most: 2 mu + 3 lambda, or, rescaled for the same, what they are together
+    // a swelling is resisted most: 2 mu + 3 lambda, or, rescaled to the same effect, their sum
     EXPECT_LE((slope * Matrix::Identity().eval().reshaped()).norm() / std::sqrt(3.0L),
               modulus(of(model, 0.45)) * (1 + 1e-15L));
   }

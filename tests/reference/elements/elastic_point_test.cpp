@@ -119,8 +119,8 @@ TEST(ElasticPoint, IsNotOfPyramidsAndSprings) {
   EXPECT_THROW(elastic_points(kuhn_box(1, 1, 1, 1.0), 0, Material{}), InputError);
 }
 
-// What it takes is 2 mu E':E' + lambda tr(E')^2 times volume and time, E' from the difference of Green's strains; no
-// rotation loses anything.
+// The power lost is 2 mu E':E' + lambda tr(E')^2 times volume and time, E' from the difference of Green's strains; a
+// rotation loses nothing.
 TEST(ElasticPoint, IsDampedByTheRateOfGreensStrain) {
   Material material = solid();
   material.damping_time = 0.5;

@@ -23,7 +23,7 @@ QuadraticSolid beam(int n, double poisson, double jitter = 0.0) {
 bool at_start(const Vector3d& x) { return x[0] < 1e-9; }
 bool at_end(const Vector3d& x) { return x[0] > 1.0 - 1e-9; }
 
-// K is singular for the six rigid motions and no others; M knows the mass and where its centre is.
+// K is singular for the six rigid motions and no others; M has the mass and its centre.
 TEST(QuadraticSolid, HasTheMassOfItsVolumeAndNoForceInRigidMotions) {
   const QuadraticSolid solid = beam(1, 0.3, 0.2);
   const auto unknowns = static_cast<Eigen::Index>(3 * solid.nodes().size());
@@ -40,7 +40,7 @@ TEST(QuadraticSolid, HasTheMassOfItsVolumeAndNoForceInRigidMotions) {
 }
 
 // sigma_xx = M z / I by tractions on both ends: u = (x z, -nu y z, (nu (y^2 - z^2) - x^2) / 2) M / EI is quadratic, so
-// the elements have it exactly, whatever their shapes, and the energy is M^2 L / 2 EI.
+// the elements represent it exactly, whatever their shapes, and the energy is M^2 L / 2 EI.
 TEST(QuadraticSolid, BendsExactly) {
   const double poisson = 0.3, inertia = side * side * side * side / 12.0, moment = 2.0;
   const QuadraticSolid solid = beam(2, poisson, 0.2);

@@ -1,4 +1,4 @@
-// The witnesses of elements beside scikit-fem, whose numbers are committed.
+// The witnesses of elements compared with scikit-fem, whose numbers are committed.
 
 #include "tests/support/reference_values_for_tests.h"
 

@@ -36,9 +36,9 @@ TEST(ReleasedMotion, OfOneMassIsAnOscillationInEachDirection) {
       EXPECT_NEAR(motion.displacements(t)[c], f[c] / k[c] * std::cos(std::sqrt(k[c] / 2.0) * t), 1e-13) << t;
 }
 
-// All modes of a small bar, by dense matrices that know nothing of Ritz vectors. Of its 162 modes those that bend it
-// that way, about half, take part: with as many vectors nothing is left out. The load excites modes across the bar by
-// the square of their periods, so that sixty vectors leave out some thousandth over four periods.
+// All modes of a small bar, by dense matrices without Ritz vectors. Of its 162 modes those that bend it that way, about
+// half, take part: with as many vectors nothing is left out. The load excites modes across the bar by the square of
+// their periods, so that sixty vectors leave out some thousandth over four periods.
 TEST(ReleasedMotion, IsThatOfAllModesOfABentBar) {
   const QuadraticSolid solid = bar();
   const VectorXd force = solid.load(at_end, [](const Vector3d&) { return Vector3d(0, 0, 1.0); });

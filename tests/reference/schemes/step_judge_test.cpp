@@ -27,7 +27,7 @@ struct Point {
 PointState state(Point p) {
   return {{{0, 0, 0}, {static_cast<double>(1 + p.q), 0, 0}}, {{0, 0, 0}, {static_cast<double>(p.v), 0, 0}}};
 }
-/// As the judge reads it back: displacements are known to a rounding of the position.
+/// As the judge reads it back: displacements are exact to a rounding of the position.
 Point rounded(Point p) {
   return {static_cast<long double>(static_cast<double>(1 + p.q)) - 1, static_cast<double>(p.v)};
 }
@@ -98,7 +98,7 @@ TEST(StepJudge, CallsTheClosedFormOfEveryImplicitMethodRight) {
     }
 }
 
-// The bound is rounding, or a tolerance of 1e-10 or 1e-12 of what acts: a ten-thousandth of the motion is far beyond.
+// The bound is rounding, or a tolerance of 1e-10 or 1e-12 of the motion: a ten-thousandth of the motion is far beyond.
 TEST(StepJudge, SeesATenThousandthOfTheMotionInEveryImplicitMethod) {
   const SpringNetwork network = oscillator();
   for (const char* name : implicit_methods)
@@ -106,7 +106,7 @@ TEST(StepJudge, SeesATenThousandthOfTheMotionInEveryImplicitMethod) {
       const Point p = rounded({0.01, 0.02}), last = rounded({0.0095, 0.019});
       const Point end = step_by_hand(name, p, last, h);
       const StepJudge judge(name, network);
-      // the last of these goes with its velocity, so that nothing but the forces tells
+      // the last of these moves with its velocity, so that only the forces show it
       for (const Point by : {Point{1e-6, 0}, Point{0, 1e-6}, Point{h * 1e-6, 1e-6}})
         EXPECT_GT(judge.judge({h, state(p), state({end.q + by.q, end.v + by.v}), state(last)}).excess, 1.0)
             << name << " " << h;
@@ -120,13 +120,13 @@ TEST(StepJudge, TellsMethodsApart) {
   for (const char* judged_as : implicit_methods)
     for (const char* taken_by : implicit_methods) {
       const Point end = step_by_hand(taken_by, p, last, 0.5);
-      const auto family = [](const std::string& name) {  // methods that are one on a linear spring
+      const auto family = [](const std::string& name) {  // methods that are the same on a linear spring
         if (name == "baraff-witkin" || name == "local-global") return std::string("backward-euler");
         if (name == "energy-momentum") return std::string("implicit-midpoint");
         return name;
       };
       const StepJudgement judgement = StepJudge(judged_as, network).judge({0.5, state(p), state(end), state(last)});
-      // both two-stage methods have the same stability function: on a linear system they are one
+      // both two-stage methods have the same stability function: on a linear system they are the same
       const bool two_stages = (family(judged_as) == "sdirk2" || family(judged_as) == "ros2") &&
                               (family(taken_by) == "sdirk2" || family(taken_by) == "ros2");
       EXPECT_EQ(judgement.right(), two_stages || family(judged_as) == family(taken_by)) << judged_as << " " << taken_by;
@@ -152,7 +152,7 @@ TEST(StepJudge, CallsWhatIsNotANumberWrong) {
   }
 }
 
-// A held point that no spring reaches, so that nothing else tells.
+// A held point without a spring, so that only the judge of held points can see it.
 TEST(StepJudge, HoldsWhatIsHeldToItsVelocity) {
   SpringNetwork network = oscillator();
   network.mass.push_back(1.0);

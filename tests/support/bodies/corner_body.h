@@ -1,6 +1,6 @@
 #pragma once
-// A body of triangles or tetrahedra that is no map and shares no line with core's motion: every cell has corners of its
-// own, and what is glued is told by the faces between cells. For what a scene has to end with, by another way.
+// A body of triangles or tetrahedra without a map or a shared line with core's motion: every cell has corners of its
+// own, glued by the faces between cells. An independent way to the expected end of a scene.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace dartboard {
 class CornerBody {
  public:
   using Vector = Eigen::Vector3d;
-  /// Where a driven point of the mesh is at a time, and how fast; nothing for one that is not driven.
+  /// The place and velocity of a driven point of the mesh at a time; nothing for a point that is not driven.
   using Drive = std::function<bool(std::uint32_t point, double time, Vector& x, Vector& v)>;
 
   explicit CornerBody(const Problem& problem, Drive drive = {}) : problem_(problem), drive_(std::move(drive)) {
@@ -74,7 +74,7 @@ class CornerBody {
     const auto k1 = slope(time, x, v);
     const auto k2 = slope(time + h / 2, moved(x, k1.first, h / 2), moved(v, k1.second, h / 2));
     const auto k3 = slope(time + h / 2, moved(x, k2.first, h / 2), moved(v, k2.second, h / 2));
-    // just before the end: what is driven may turn round there
+    // just before the end: a driven vertex may turn round there
     const auto k4 = slope(time + h * (1 - 1e-9), moved(x, k3.first, h), moved(v, k3.second, h));
     for (std::size_t n = 0; n < x.size(); ++n) {
       x[n] += h / 6 * (k1.first[n] + 2 * k2.first[n] + 2 * k3.first[n] + k4.first[n]);
@@ -86,7 +86,7 @@ class CornerBody {
     for (int k = 0; k < steps; ++k) step(from + (to - from) * k / steps, (to - from) / steps);
   }
 
-  // ---- what it is like
+  // ---- its properties
 
   /// The class of some corner at a point of the mesh.
   std::size_t class_at(std::uint32_t point) const {
@@ -94,7 +94,7 @@ class CornerBody {
       if (alive_[k / static_cast<std::size_t>(corners_)] && problem_.mesh.nodes[k] == point) return node_[k];
     return x.size();
   }
-  /// Centre of mass, velocity of it and mass of all cells that hang together with that of a point.
+  /// Centre of mass, its velocity, and mass of all cells connected with that of a point.
   struct Part {
     Vector centre, velocity;
     double mass;
@@ -125,7 +125,7 @@ class CornerBody {
     for (int k = 0; k < corners_; ++k) sum += x[corner(c, k)];
     return sum / corners_;
   }
-  /// How strongly the springs that cross a seam pull at what is on its one side, in a direction.
+  /// The force in a direction of the springs that cross a seam on the part on one side of it.
   double pull_across(const std::function<bool(const Vector&)>& side_at_rest, const Vector& along) const {
     double sum = 0.0;
     for (const Spring& s : springs_) {
@@ -167,7 +167,7 @@ class CornerBody {
     return static_cast<int>(std::ranges::find(cell, point) - cell.begin());
   }
 
-  /// Classes of corners and of edges anew; each class has the state of the class that it was part of.
+  /// Builds the classes of corners and of edges anew; each class has the state of the class that it was part of.
   void glue() {
     const Mesh& mesh = problem_.mesh;
     const auto n = static_cast<std::size_t>(corners_);

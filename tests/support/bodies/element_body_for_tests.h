@@ -19,7 +19,7 @@
 namespace dartboard {
 
 struct ElementBody {
-  // on the heap: the term goes on looking at them when the body is moved
+  // on the heap: the term keeps pointers to them when the body is moved
   struct Columns {
     std::vector<TetrahedronNodes> nodes;
     std::vector<RestShape> shape;
@@ -74,7 +74,7 @@ struct ElementBody {
             .terms = {&terms, 1}};
   }
   Motion motion() { return {x, v}; }
-  /// Every coordinate by up to `size`, from a seed.
+  /// Moves every coordinate by up to `size`, from a seed.
   void shake(double size, std::uint64_t seed) {
     SplitMix64 random(seed);
     for (Eigen::Vector3d& p : x)
@@ -82,7 +82,7 @@ struct ElementBody {
   }
 };
 
-/// No net force and no torque, but for a rounding of what is summed.
+/// No net force and no torque, except for a rounding of the terms.
 inline void expect_no_net_pull(std::span<const Eigen::Vector3d> force, std::span<const Eigen::Vector3d> x,
                                std::string_view what) {
   Eigen::Vector3d sum(0, 0, 0), torque(0, 0, 0);

@@ -31,7 +31,7 @@ struct MembraneBody {
   std::vector<Eigen::Vector3d> x;
   std::vector<SolidNodes> nodes;
   std::vector<MembraneShape> shape;
-  std::vector<TriangleNodes> triangles;  // of a mesh of triangles alone, in place of both
+  std::vector<TriangleNodes> triangles;  // for a mesh of triangles alone, in place of both
   std::vector<PlaneInverse> triangle_shape;
   std::unique_ptr<ForceTerm> term;
 
@@ -57,7 +57,7 @@ struct MembraneBody {
     term = all_triangles ? make_membranes(material, TriangleColumns{triangles, triangle_shape})
                          : make_membranes(material, MembraneColumns{nodes, shape});
   }
-  MembraneBody(const MembraneBody&) = delete;  // the term looks at the columns where they are
+  MembraneBody(const MembraneBody&) = delete;  // the term keeps pointers to the columns
 
   double energy() const { return term->energy(x); }
   void shake(double size, std::uint64_t seed) {
@@ -88,7 +88,7 @@ inline Mesh mixed_sheet(int nx, int ny, std::uint64_t seed = 3) {
       for (int k = 0; k < 2; ++k) p[k] += 0.03 * random.next_signed();
   return mesh;
 }
-/// The same of triangles alone.
+/// The same with triangles only.
 inline Mesh crooked_triangles(int nx, int ny, std::uint64_t seed = 4) {
   Mesh mesh = triangle_sheet(nx, ny, 0.1);
   mesh.points = mixed_sheet(nx, ny, seed).points;

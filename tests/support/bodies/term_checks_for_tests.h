@@ -1,5 +1,5 @@
 #pragma once
-// What every force term has to be: a slope of its energy, its tangents the slopes of its forces.
+// Properties of every force term: a slope of its energy, its tangents the slopes of its forces.
 
 #include <gtest/gtest.h>
 
@@ -50,8 +50,8 @@ inline std::vector<Eigen::Vector3d> moved(std::vector<Eigen::Vector3d> x, const 
   return x;
 }
 
-/// At x, where it is out of rest. Differences of a step d = 1e-4 lengths taken at d and 2 d, their errors of d^2
-/// cancelled: what is left is d^4, and the rounding of energies and forces over d.
+/// At x, which is not at rest. Differences of a step d = 1e-4 lengths are taken at d and 2 d, so that errors of d^2
+/// cancel: errors of d^4 remain, and the rounding of energies and forces over d.
 inline void expect_consistent(const ForceTerm& term, const std::vector<Eigen::Vector3d>& x, double length) {
   SplitMix64 random(7);
   std::vector<Eigen::Vector3d> w(x.size());
@@ -107,7 +107,7 @@ inline void expect_consistent(const ForceTerm& term, const std::vector<Eigen::Ve
   EXPECT_NEAR(term.power(all, x, w), power, 1e-12 * size);
   for (std::size_t first = 0; first < 3; ++first) shares += term.energy(x, first, 3);
   EXPECT_NEAR(shares, before, 1e-14 * before);
-  // a bound of what was summed, and a constant matrix that is no less stiff
+  // a bound on the sum, and a constant matrix that is at least as stiff
   std::vector<double> sizes(x.size(), 0.0);
   term.add_force_sizes({x}, sizes);
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_GE(sizes[i], force[i].norm() * (1 - 1e-12));

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies of elements that touch each other: one mesh of several, with samples and solids by its own points.
+// Bodies of elements that touch each other: one mesh of several bodies, with samples and solids by its own points.
 
 #include <Eigen/Geometry>
 #include <cstdint>

@@ -22,7 +22,7 @@ inline ContactLaw contact_law(int exponent, double restitution, double friction)
   return law;
 }
 
-/// Vertices in contact, in gravity, and joined by springs if it has any: velocity Verlet around the impulses.
+/// Vertices in contact, in gravity, and joined by springs if there are any: velocity Verlet around the impulses.
 struct TouchingVertices {
   static constexpr double mass = 0.25, area = 0.03;  // [kg] of one, [m^2] of its sample
 
@@ -80,7 +80,7 @@ inline TouchingVertices one_vertex(const Eigen::Vector3d& x, const Eigen::Vector
   return {{x}, {v}, {1.0 / TouchingVertices::mass}, {}, {}, {{{0}, 1, TouchingVertices::area}}, {0, 0, 0}, 0.0};
 }
 
-/// Fly towards the plane z = 0 at this velocity; the velocity afterwards. Steps are a share of the time in contact.
+/// Flies towards the plane z = 0 at this velocity; returns the final velocity. Steps are a share of the contact time.
 inline Eigen::Vector3d bounce(const ContactLaw& law, const Eigen::Vector3d& v, double share,
                               ContactLosses* losses = nullptr) {
   const double time = law.depth_at_impact(0.5 * TouchingVertices::mass * v[2] * v[2] / TouchingVertices::area) /

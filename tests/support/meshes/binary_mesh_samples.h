@@ -18,7 +18,7 @@ namespace dartboard::samples {
 
 inline const std::vector<double> coordinates{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
 
-/// Numbers as bytes, on a machine that has the last byte first.
+/// Numbers as bytes, on a little-endian machine: the last byte first.
 template <class T>
 std::string bytes_of(const std::vector<T>& values, bool big_endian = false) {
   std::string bytes;
@@ -82,7 +82,7 @@ inline std::string stored(const std::string& bytes, const VtuVariant& v) {
   return is_raw ? lengths(head, v) + blocks : encode_base64(lengths(head, v)) + encode_base64(blocks);
 }
 
-/// An XML VTK file of one piece: `write` writes what is in it, with an array for each call of what it is handed.
+/// An XML VTK file of one piece: `write` writes its content, with an array for each call of its argument.
 template <class Write>
 std::string vtk_xml(const VtuVariant& v, const std::string& type, const std::string& counts, const Write& write) {
   std::string appended;
@@ -129,7 +129,7 @@ inline std::vector<VtuVariant> vtu_variants() {
   return variants;
 }
 
-// ---- legacy VTK, whose bytes are always the first one first
+// ---- legacy VTK, which is always big-endian
 
 inline std::string vtk_binary() {
   return "# vtk DataFile Version 3.0\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nFIELD FieldData 1\n"
@@ -244,7 +244,7 @@ inline constexpr std::string_view off = R"(OFF
 3 0 2 3
 )";
 
-/// Numbers of 32 bits with the first byte first; each point has an opacity and a colour, the second polygon a colour.
+/// Big-endian numbers of 32 bits; each point has an opacity and a colour, the second polygon a colour.
 inline std::string off_binary(std::string_view word = "COFF") {
   const auto ints = [](const std::vector<std::int32_t>& values) { return bytes_of(values, true); };
   const auto reals = [](const std::vector<float>& values) { return bytes_of(values, true); };

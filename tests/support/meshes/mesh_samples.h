@@ -226,7 +226,7 @@ inline const std::vector<Eigen::Vector3d> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, 
 
 inline std::string tetgen() { return std::string(tetgen_node) + std::string(tetgen_ele); }
 
-/// The text with one part of it exchanged for another.
+/// The text with one part of it replaced by another.
 inline std::string with(std::string_view text, std::string_view old_part, std::string_view new_part) {
   std::string out(text);
   const auto at = out.find(old_part);
@@ -245,7 +245,7 @@ inline void expect_two_tetrahedra(const LoadedMesh& loaded) {
   EXPECT_DOUBLE_EQ(signed_measure(mesh, 1), 1.0 / 3.0);
 }
 
-/// What the reader says of a text that it must refuse; empty, and a failure, when it takes it.
+/// The reader's message on a text that it must refuse; empty, and a failure, when the reader accepts it.
 inline std::string refusal(std::string_view text, MeshFormat format) {
   try {
     parse_mesh(text, format, "file");

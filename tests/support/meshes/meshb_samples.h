@@ -32,7 +32,7 @@ class MeshbWriter {
     const std::size_t place_bytes = version_ > 2 ? 8 : 4;
     out_ += word(code) + place(out_.size() + 4 + place_bytes + content.size()) + content;
   }
-  /// Lines of integers, after how many they are.
+  /// Lines of integers, after their number.
   void lines(std::int32_t code, std::int64_t count, const std::vector<std::int64_t>& values) {
     section(code, integers({count}) + integers(values));
   }

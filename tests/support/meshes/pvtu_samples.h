@@ -8,7 +8,7 @@
 
 namespace dartboard::samples {
 
-/// A tetrahedron on four points; `more` is put among the data of cells.
+/// A tetrahedron on four points; `more` is added to the data of cells.
 inline std::string vtu_piece(std::string_view points, std::string_view more = "") {
   return "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
          "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">\n<CellData>" +

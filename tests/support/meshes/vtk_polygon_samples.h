@@ -57,7 +57,7 @@ inline std::string vtp(const VtuVariant& v) {
     text += array("type=\"Float64\" NumberOfComponents=\"3\" Name=\"Points\"",
                   bytes_of<double>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, v.big_endian));
     text += "</Points>\n";
-    // one after the other: where arrays are appended depends on it
+    // one after the other: the places of arrays in the appended data depend on it
     for (const auto& [name, points] : {std::pair{"Verts", std::vector<std::int64_t>{3}},
                                        {"Lines", {0, 1, 3}},
                                        {"Strips", {0, 2, 3}},

@@ -1,4 +1,4 @@
-// What CGAL is timed at in `bench topology`: numbers that theory tells of its maps, found again after each restoring.
+// CGAL's tasks in `bench topology`: numbers that theory predicts for its maps, found again after each restoring.
 
 #include "validation/cgal/cgal_topology_tasks.h"
 
@@ -23,7 +23,7 @@ std::uint32_t point_of(const Mesh& mesh, std::uint32_t d) {
   return mesh.cell(d / 24)[shape_of(CellKind::tetrahedron).node[d % 24]];
 }
 
-/// A dart of each vertex of the mesh; the faces are told by their points.
+/// A dart of each vertex of the mesh; the faces are given by their points.
 TopologyWork work_on(const Mesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& cut) {
   TopologyWork work{mesh, {}, {}, {}};
   std::vector<bool> met(mesh.points.size(), false);
@@ -47,7 +47,7 @@ TopologyWork work_on(const Mesh& mesh, const std::vector<std::array<std::uint32_
   return work;
 }
 
-/// What each figure finds, twice with a restoring in between.
+/// The result of each figure, twice with a restoring in between.
 std::map<std::string, std::uint64_t> found_by(std::vector<TopologyTask> tasks) {
   std::map<std::string, std::uint64_t> found;
   for (const TopologyTask& task : tasks) {
@@ -75,7 +75,7 @@ TEST(CgalTopologyTasks, CountTheCellsOfAKuhnCube) {
   EXPECT_EQ(found_by(cgal_topology_tasks(work)), all);
 }
 
-// Two tetrahedra that lose their common face come apart in its three vertices and three edges.
+// Two tetrahedra that lose their common face come apart at its three vertices and three edges.
 TEST(CgalTopologyTasks, CountWhatComesApartWithAFace) {
   TopologyWork work = work_on(unequal_tetrahedra(), {{0, 1, 2}});
   ASSERT_EQ(work.cut.size(), 1u);
@@ -84,14 +84,14 @@ TEST(CgalTopologyTasks, CountWhatComesApartWithAFace) {
                    {"build", 48},         {"unsew-cut", 6},
                    {"unsew-scattered", 6}};
   EXPECT_EQ(found_by(cgal_topology_tasks(work)), expected);
-  // a face twice, from either side, is one; a face of the boundary is none
+  // a face listed twice, from either side, counts once; a face of the boundary does not count
   work.cut.push_back(work.cut[0]);
   for (std::uint32_t d = 0; d < 48; ++d) work.scattered = {{d}};
   EXPECT_EQ(found_by(cgal_topology_tasks(work))["unsew-cut"], 6u);
 }
 
-// Three tetrahedra around an edge: one face gone splits nothing but that face; with two gone the wedge between holds by
-// the edge's ends no longer. Kuhn's cube has six around its diagonal.
+// Three tetrahedra around an edge: one face gone splits nothing but that face; with two gone the wedge between is no
+// longer joined at the edge's ends. Kuhn's cube has six around its diagonal.
 TEST(CgalTopologyTasks, SplitTheEdgeOnlyWithTheSecondFaceAroundIt) {
   const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
   std::vector<std::array<std::uint32_t, 3>> around;  // the faces at the diagonal 0 7

@@ -120,7 +120,7 @@ TEST(CgalGmapTwin, SewsFlippedFacesAndTwoFacesOfOneTetrahedron) {
   EXPECT_EQ(twin->alpha(3, Dart{0}), Dart{0});
 }
 
-// Where its verdicts are not ours: see the header.
+// Cases in which its verdicts differ from ours: see the header.
 TEST(CgalGmapTwin, RefusesFoldsByChoiceButCanBeFolded) {
   const auto twin = make_cgal_gmap_twin(alphas_of(regular_tetrahedron()));
   EXPECT_TRUE(twin->refuses_folds());
@@ -131,7 +131,7 @@ TEST(CgalGmapTwin, RefusesFoldsByChoiceButCanBeFolded) {
   EXPECT_EQ(twin->violation(), "");
 }
 
-// Neither carries a fold: the one by choice, the other because beta would fix a dart.
+// Neither supports a fold: the one by choice, the other because beta would fix a dart.
 TEST(CgalTwins, RefuseFolds) {
   for (const auto& twin : both_oracles(alphas_of(regular_tetrahedron()))) EXPECT_TRUE(twin->refuses_folds());
   EXPECT_FALSE(make_core_twin<Map3>(regular_tetrahedron())->refuses_folds());
@@ -225,7 +225,7 @@ TEST(CgalTwins, AreIsomorphicToTheirOwnAlphasAndToNoOthers) {
   }
 }
 
-// A component alone does not decide: the change is in the second one.
+// A single component does not decide: the change is in the second one.
 TEST(CgalTwins, AreComparedInEveryComponent) {
   Mesh mesh = regular_tetrahedron();
   for (int k = 0; k < 4; ++k) mesh.points.push_back(mesh.points[static_cast<std::size_t>(k)]);

@@ -24,7 +24,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
   return hash.value();
 }
 
-// A sum of many terms, and a bound of what rounding did to it.
+// A sum of many terms, and a bound on its rounding error.
 //
 // A term is a 3 x 3 determinant over 6, of numbers that were subtracted once or not at all. Each of its six products is
 // rounded at most once in each of three factors, in two multiplications, in the subtraction within the cross product,
@@ -82,7 +82,7 @@ TEST_P(DelaunayBall, FillsTheConvexHullOfItsPoints) {
       const auto number = static_cast<std::uint32_t>(&face - faces_of(CellKind::tetrahedron).data());
       if (!built.map.is_free<3>(Dart{built.first_dart[c] + 6 * number})) continue;
       through.add(q(0).cross(q(1)).dot(q(2)) / 6.0, q(0), q(1), q(2));
-      // convex: nobody is outside of a face of the hull, but for rounding in the test
+      // convex: no point is outside of a face of the hull, except for rounding in the test
       Sum height;
       for (const auto& r : mesh.points) {
         height = {};

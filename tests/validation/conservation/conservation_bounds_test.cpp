@@ -1,4 +1,4 @@
-// The bounds of conservation: what they are derived to be, and that they are applied.
+// The bounds of conservation: their derived values, and their application.
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TEST(ConservationLedger, RefusesOtherBits) {
   EXPECT_EQ(result.violation->what, "vertices, edges, faces, volumes, dimension 1");
 }
 
-// The table at the top of conserved_sums.h, for six cells around a vertex, and 4 of the sums themselves.
+// The table at the top of conserved_sums.h, for six cells around a vertex, and 4 for the sums themselves.
 TEST(ChangeBound, IsTheSumOfTheRoundingsOfItsDerivation) {
   TwofoldSum one;
   one.add(-1.0);
@@ -98,7 +98,7 @@ TEST(ConservedSumsOfAVertex, AreItsMassMomentumSpinAndKineticEnergy) {
       {Conserved::mass, 2},    {Conserved::momentum_x, 8}, {Conserved::momentum_y, 10}, {Conserved::momentum_z, 14},
       {Conserved::spin_x, -2}, {Conserved::spin_y, 10},    {Conserved::spin_z, -6},     {Conserved::kinetic, 90}};
   for (const auto& [c, value] : expected) EXPECT_EQ(sums[c].value(), value) << static_cast<int>(c);
-  // what cancels in a spin counts in its size: 2 (2 * 7 + 3 * 5)
+  // terms that cancel in a spin count in its size: 2 (2 * 7 + 3 * 5)
   EXPECT_EQ(sums[Conserved::spin_x].magnitude, 58.0);
   sums.add_spring(8.0, 0.5, -0.25);
   EXPECT_EQ(sums[Conserved::stiffness].value(), 8.0);

@@ -1,4 +1,4 @@
-// What conservation compares now and then, on a body in which one thing is wrong.
+// The occasional comparisons of conservation, on a body with one fault.
 
 #include "validation/conservation/conservation_checks.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
 
-/// What is found first in twelve tetrahedra of which something has been spoilt; "nothing" where all is well.
+/// The first violation found in twelve tetrahedra with a fault; "nothing" if there is none.
 std::string found(const std::function<void(Subject<TetMap>&)>& spoil) {
   const Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
   Subject<TetMap> subject(start);
@@ -49,7 +49,7 @@ TEST(ConservationChecksOfABody, NameADamperAndARestLengthThatAreOff) {
             "stiffness, damping, rest length of an edge, rest length, edge 0");
 }
 
-// Of the soup's springs, which are the body's edges here: each is found for its edge, and compared in stiffness and in
+// For the soup's springs, which are the body's edges here: each is found for its edge, and compared in stiffness and in
 // damping.
 TEST(ConservationChecksOfABody, CompareEverySpringOfTheSoup) {
   const Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
@@ -64,7 +64,7 @@ TEST(ConservationChecksOfABody, CompareEverySpringOfTheSoup) {
   EXPECT_EQ(result.rows.back().checks, 3 * subject.body.springs.size());
 }
 
-// The body has a face more than there are, by its own count.
+// By its own count, the body has one face too many.
 TEST(ConservationChecksOfABody, NameANumberOfCellsThatIsOff) {
   EXPECT_EQ(found([](auto& at) { at.body.face_dart.push_back(at.body.face_dart.front()); }),
             "vertices, edges, faces, volumes, dimension 2");
@@ -81,7 +81,7 @@ TEST(ConservationChecksOfABody, NameEachViewThatIsStale) {
   expect("cell arrays", [](Views& v) { std::swap(v.cells.edges[0].ends[0], v.cells.edges[0].ends[1]); });
 }
 
-// By the cells that are left, and not by core's own rebuild.
+// By the remaining cells, and not by core's own rebuild.
 TEST(ConservationChecksOfABody, NameASpringThatEndsElsewhereInAView) {
   EXPECT_EQ(found([](auto& at) { std::swap(at.views.ends.ends[0], at.views.ends.ends[1]); }),
             "ends of springs in the views, from the cells left, view, edge 1");

@@ -1,4 +1,4 @@
-// The book of the conservation runs keeps what is not a number, and says that it breaks its bound.
+// The ledger of the conservation runs keeps NaN, and reports that it breaks its bound.
 
 #include "validation/conservation/conservation_ledger.h"
 

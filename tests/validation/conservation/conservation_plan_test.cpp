@@ -1,4 +1,4 @@
-// How a conservation run is laid out: its problem, its series, and how often it compares everything.
+// The plan of a conservation run: its problem, its series, and the number of its comparisons of everything.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ ConservationPlan plan_of(std::uint64_t seed, std::size_t operations) {
   return plan;
 }
 
-// One series at a time, on a body that no four operations can take apart.
+// One series at a time, on a body too large for four operations to take it apart.
 TEST(ConservationSeries, HaveOneToFourOperationsAfterNoneToTwoSteps) {
   std::set<std::size_t> operations, steps;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

@@ -1,4 +1,4 @@
-// The validator of conservation: it passes what is right and fails what is not.
+// The validator of conservation: it passes right bodies and fails wrong ones.
 
 #include "validation/conservation/conservation.h"
 
@@ -32,7 +32,7 @@ ConservationPlan short_plan(std::uint64_t seed, std::size_t operations = 300) {
 
 template <class Map>
 struct Conservation : testing::Test {
-  // The first violation when `fault` strikes after each series but the first four.
+  // The first violation when `fault` is applied after each series but the first four.
   template <class Fault>
   static std::string first_violation(Fault&& fault, std::size_t everything_every = 1) {
     const Problem problem = moving_problem(kuhn_box(2, 2, 2, 0.125, 0.2, 3), soft, 1);
@@ -94,7 +94,7 @@ TYPED_TEST(Conservation, FailsWhenAVertexGetsHeavierThoughOnlySumsAreSeen) {
   EXPECT_NE(what.find("mass"), std::string::npos) << what;
 }
 
-// Of an end that an array has wrong nothing but the elastic energy tells, as long as not everything is compared.
+// A wrong end in an array shows only in the elastic energy, as long as not everything is compared.
 TYPED_TEST(Conservation, NoticesByItsSumsThatASpringHasAnotherEnd) {
   const auto what = this->first_violation(
       [](auto&, auto& views) {
@@ -206,7 +206,7 @@ TYPED_TEST(Conservation, ABodyFromScratchMovesLikeOneThatWasTakenApart) {
   EXPECT_FALSE(compare_rebuilt_motion(at, 10).same_bits);
 }
 
-// Nothing but the motion depends on gravity: only the bodies from scratch can tell.
+// Only the motion depends on gravity: only the bodies from scratch can show it.
 TYPED_TEST(Conservation, FailsWhenTheBodyMovesOtherwiseThanOneFromScratch) {
   const Problem problem = moving_problem(kuhn_box(2, 2, 2, 0.125, 0.2, 3), soft, 1);
   const Follow<TypeParam> heavier = [](auto& body, Views& views, const TopologyChange& change) {
@@ -219,7 +219,7 @@ TYPED_TEST(Conservation, FailsWhenTheBodyMovesOtherwiseThanOneFromScratch) {
     EXPECT_FALSE(row(result, what).holds) << what;
 }
 
-// Nothing is taken apart: the bound is that of the same body, but for its own slack of a thousandth.
+// Nothing is taken apart: the bound is that of the same body, except for its own slack of a thousandth.
 TYPED_TEST(Conservation, MeasuresTheMotionByTheBoundOfTheBodyFromScratch) {
   const Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 3);
   Subject<TypeParam> at(start);

@@ -1,4 +1,4 @@
-// What a simulation with a cut must not depend on: the numbering of its mesh, and how the scene lies in space.
+// A simulation with a cut must not depend on these: the numbering of its mesh, and the scene's place in space.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ Problem moving_box() {
   return problem;
 }
 
-/// A random permutation: where each number goes.
+/// A random permutation: the new number of each.
 std::vector<std::uint32_t> permutation(std::size_t count, std::uint64_t seed) {
   std::vector<std::uint32_t> to(count);
   for (std::uint32_t k = 0; k < count; ++k) to[k] = k;
@@ -109,7 +109,7 @@ Triple points_of_face(const Body<Map>& body, Dart d) {
   return points;
 }
 
-/// The state at every corner of every cell, by mesh points: it tells the parts of a vertex apart, whatever their
+/// The state at every corner of every cell, by mesh points: it distinguishes the parts of a vertex, whatever their
 /// numbers.
 struct CornerState {
   Eigen::Vector3d x, v;
@@ -129,7 +129,7 @@ Corners corners(const Body<Map>& body) {
   return states;
 }
 
-/// Numbers of the points of another numbering put back.
+/// States with the point numbers of another numbering translated back.
 Corners with_points(const Corners& states, const std::vector<std::uint32_t>& back) {
   Corners other;
   for (const auto& [key, state] : states) {
@@ -177,7 +177,7 @@ struct Difference {
   double x = 0.0, v = 0.0;
 };
 
-/// A run of the scene with all that the bound asks for.
+/// A run of the scene with all quantities that the bound needs.
 template <class Map>
 class Scene {
  public:
@@ -258,7 +258,7 @@ class Scene {
   double damped_ = 0.0;
 };
 
-/// What a difference at the beginning of a leg has become at its end, with the roundings of both runs.
+/// The difference at the end of a leg that follows from one at its beginning, with the roundings of both runs.
 template <class Map>
 Difference after_leg(const Difference& before, const Scene<Map>& a, const Scene<Map>& b, double h,
                      double acceleration) {
@@ -280,7 +280,7 @@ void expect_close(const Corners& expected, const Corners& actual, const Differen
   }
   EXPECT_LE(x, bound.x);
   EXPECT_LE(v, bound.v);
-  EXPECT_LE(bound.x, 1e-8);  // a bound that says something, and what lambda supposes
+  EXPECT_LE(bound.x, 1e-8);  // a bound that is useful, and small enough for lambda
 }
 
 std::vector<Triple> with_points(const std::vector<Triple>& seam, const std::vector<std::uint32_t>& to) {
@@ -293,8 +293,8 @@ std::vector<Triple> with_points(const std::vector<Triple>& seam, const std::vect
   return other;
 }
 
-// What a rotation that is rounded changes: each entry of it is off by u, and so is each product and sum with it, so a
-// point is off by some 8 u times its size, all sqrt(3) as a length.
+// Effect of rounding in a rotation: each entry of it is off by u, and so is each product and sum with it, so a point is
+// off by some 8 u times its size, all sqrt(3) as a length.
 constexpr double turned_off = 16 * 0x1p-53;
 
 // How far accelerations of the turned problem are from the turned ones. Rest lengths: points off by e make them off by
@@ -360,7 +360,7 @@ TYPED_TEST(Invariance, ACutBodyMovesAlikeHoweverTheSceneLies) {
     a.leg();
     b.leg();
     Difference bound = after_leg(at_cut, a, b, problem.h, acceleration_off(a, problem));
-    bound.x += turned_off * 2.0 * size;  // turning what is expected
+    bound.x += turned_off * 2.0 * size;  // rotating the expected values
     bound.v += turned_off * 2.0 * speed;
     expect_close(corners(a.body), corners(b.body), bound, turn);
   }

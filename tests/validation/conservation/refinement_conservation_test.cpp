@@ -1,4 +1,4 @@
-// The validator of refinements: it passes what is right and fails what is not.
+// The validator of refinements: it passes right bodies and fails wrong ones.
 
 #include "validation/conservation/refinement_conservation.h"
 
@@ -33,7 +33,7 @@ ConservationPlan short_plan(std::uint64_t seed, std::size_t operations) {
 
 template <class Map>
 struct RefinementConservation : testing::Test {
-  // The first violation when `fault` strikes once the body has been refined a little.
+  // The first violation when `fault` is applied once the body has been refined a little.
   static std::string first_violation(const Tamper<Map>& fault) {
     std::size_t series = 0;
     const Tamper<Map> late = [&](LiveBody<Map>& body, Views& views) {
@@ -42,7 +42,7 @@ struct RefinementConservation : testing::Test {
     return violation_of(
         validate_refinement<Map>(moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1), short_plan(4, 200), late));
   }
-  // What comes of a run in which `fault` strikes at every refinement of an edge without bracing.
+  // The result of a run in which `fault` is applied at every refinement of an edge without bracing.
   template <class Fault>
   static ConservationResult refined(Fault&& fault) {
     const FollowSubdivision<Map> faulty = [&](LiveBody<Map>& body, const Subdivision& subdivision, double bracing) {
@@ -129,7 +129,7 @@ TYPED_TEST(RefinementConservation, FailsWhenANewVertexIsHeld) {
   EXPECT_NE(violation_of(result).find("duplicated"), std::string::npos) << violation_of(result);
 }
 
-// A vertex that is off by a tenth of a micrometre feels 1e-8 N: forces, energy and spin are looked at, too.
+// A vertex that is off by a tenth of a micrometre feels 1e-8 N: forces, energy and spin are compared, too.
 TYPED_TEST(RefinementConservation, LooksAtForcesEnergiesAndMomentaAroundARefinement) {
   const auto off = this->refined([](auto& body) { body.vertices.position.back().x() += 1e-7; });
   for (const char* what : {"forces around", "elastic energy", "angular momentum"})
@@ -138,8 +138,8 @@ TYPED_TEST(RefinementConservation, LooksAtForcesEnergiesAndMomentaAroundARefinem
   for (const char* what : {"linear momentum", "kinetic energy"}) EXPECT_FALSE(row(fast, what).holds) << what;
 }
 
-// By the numbers of two full comparisons, at the start and at the end, of a body too large for more: what a series of
-// dissociations and removals changed has been compared beside them. A removal makes four vertices and six edges
+// By the counts of two full comparisons, at the start and at the end, of a body too large for more: the parts changed
+// by a series of dissociations and removals have been compared in addition. A removal makes four vertices and six edges
 // lighter.
 TYPED_TEST(RefinementConservation, LooksAtWhatASeriesChanged) {
   std::size_t seen = 0;
@@ -166,8 +166,8 @@ TYPED_TEST(RefinementConservation, LooksAtWhatASeriesChanged) {
   EXPECT_EQ(operations, (std::set<std::size_t>{1, 2, 3}));
 }
 
-// Nothing pulls at the body or holds it: its centre of mass moves on, and an operation that removes nothing leaves it
-// where it is. Gershgorin's bound by vertex, 2 k / m, where the problem's own step is longer.
+// No force acts on the body from outside: its centre of mass moves on, and an operation that removes nothing leaves it
+// in place. Gershgorin's bound by vertex, 2 k / m, where the problem's own step is longer.
 TYPED_TEST(RefinementConservation, MovesInStepsOfTheProblemOrShorterOnesThatAreStable) {
   for (const double own : {1e-3, 10.0}) {
     Problem problem =
@@ -210,7 +210,7 @@ TYPED_TEST(RefinementConservation, MovesInStepsOfTheProblemOrShorterOnesThatAreS
   }
 }
 
-// A vertex that may be off moves what its springs pull at their other ends, and itself by all of that together.
+// A vertex that may be off changes the forces on the other ends of its springs, and its own by all of them together.
 TEST(SpringForceSums, MoveAVertexByAllOfItsSprings) {
   Problem problem = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
   for (auto& x : problem.mesh.points) x *= 1.01;
@@ -259,7 +259,7 @@ TYPED_TEST(RefinementConservation, LooksAtTheCellsThatARefinementMade) {
   EXPECT_GT(seen, 3u);
 }
 
-// What is wrong by 1e-9 in a component is wrong by no more in a length.
+// An error of 1e-9 in a component is at most that in a length.
 TYPED_TEST(RefinementConservation, TellsWhatItFoundBesideWhatItExpected) {
   for (const bool moved : {true, false}) {
     const auto result = this->refined(
@@ -325,7 +325,7 @@ TEST(Refinements, LoseTheKineticEnergyOfMotionRelativeToTheMean) {
   EXPECT_NEAR(after[Conserved::momentum_z].value(), 2.0, 0x1p-50);
 }
 
-// Of a regular tetrahedron with edges of L^2 = 8, each square known to gamma_12. The square of the length from the
+// For a regular tetrahedron with edges of L^2 = 8, each square known to gamma_12. The square of the length from the
 // middle of s nodes to another one, j, is a sum of squares between them: 1/s of those to j, less 1/s^2 of those among
 // the s; so in absolute values 8 (1 + (s - 1) / (2 s)); adding them up has gamma_24 of that.
 TEST(SubdividedCells, KnowTheirLengthsToTheRoundingOfTheSquaresTheyAddUp) {
@@ -358,7 +358,7 @@ TEST(SubdividedCells, ShareMassAndStiffnessAndKeepTheirVolume) {
   const auto children = cells.subdivide(0, nodes(diagonal), 0.0);
   ASSERT_EQ(children.size(), 12u);
   EXPECT_EQ(cells.count(), 12u);
-  EXPECT_EQ(cells.count_boundary(), 12u);  // the surface is as it was
+  EXPECT_EQ(cells.count_boundary(), 12u);  // the surface is unchanged
   for (const auto& child : children) {
     const auto& t = cells.cells()[child.cell];
     EXPECT_EQ(t.mass, cells.cells()[child.parent].mass / 2.0);

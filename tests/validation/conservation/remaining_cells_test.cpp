@@ -1,4 +1,4 @@
-// The witness of what is left of a mesh, on a cube whose cells are known; it looks at no map.
+// The witness of the remaining cells of a mesh, on a cube whose cells are known; it uses no map.
 
 #include "validation/conservation/remaining_cells.h"
 
@@ -47,7 +47,7 @@ TEST(RemainingCellsOfACube, ComeApartToSixTetrahedra) {
   EXPECT_EQ(counts_of(cells), (Counts{24, 36, 24, 6}));
 }
 
-// One of two neighbours around the diagonal gone: four are left in a fan, and nothing of the removed is counted.
+// One of two neighbours around the diagonal removed: four are left in a fan, and the removed one is not counted.
 TEST(RemainingCellsOfACube, AreLeftInAFanWithoutOneOfThem) {
   const Mesh mesh = kuhn_box(1, 1, 1, 1.0);
   RemainingCells cells(mesh);

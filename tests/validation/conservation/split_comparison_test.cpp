@@ -1,4 +1,4 @@
-// The comparison of a part that is split off with the body it came from.
+// The comparison of a part that is split off with the body that it came from.
 
 #include "validation/conservation/split_comparison.h"
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::array checks{Check::split_cells, Check::split_sums, Check::split_bits};
 constexpr Material soft{.density = 1000.0, .stiffness = 0.3, .damping = 0.01, .viscosity = 0.5};
 
-/// A box that moves, of which one cell has come loose.
+/// A moving box, one cell of which has come loose.
 template <class Map>
 struct LooseCell {
   Problem start = moving_problem(kuhn_box(2, 1, 1, 0.125, 0.2, 3), soft, 1);
@@ -73,7 +73,7 @@ TYPED_TEST(SplitComparison, FailsWhenASpringOfThePartHasOtherEnds) {
   edge.ends[1] = farthest;
   loose.split({4});
   ASSERT_TRUE(loose.result.violation);
-  // its elongation and its motion are others
+  // its elongation and its motion differ
   for (const char* what : {"sums of part and rest", "motion as within the body"})
     EXPECT_FALSE(row(loose.result, what).holds) << what;
 }

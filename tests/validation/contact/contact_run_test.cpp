@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t looks = 12;
 
-/// What no run does.
+/// Write access to the motion, which no run has.
 Motion motion_of(Simulation& simulation) { return const_cast<SimulatedBody&>(simulation.body()).motion(); }
 
 TEST(ContactRun, OfEverySceneIsAccountedFor) {
@@ -29,7 +29,7 @@ TEST(ContactRun, OfEverySceneIsAccountedFor) {
 }
 
 TEST(ContactRun, SeesBodiesThatPassThroughEachOther) {
-  // put into each other behind the back of all, before the last look
+  // put into each other unnoticed, before the last look
   std::size_t look = 0;
   const ContactRun run = judge_run(contact_scenes()[2], 2, [&look](Simulation& simulation) {
     if (++look != 2) return;

@@ -70,7 +70,7 @@ TEST(JudgedOverlaps, AreNotFeltWhereBodiesAreNotToTouch) {
   for (const JudgedOverlap& one : judged) EXPECT_FALSE(one.felt);
 }
 
-// A third box of other cells where the first is: it overlaps as much, and has no sample and no cell in the contact.
+// A third box of other cells, where the first is: it overlaps as much, and has no sample and no cell in the contact.
 TEST(JudgedOverlaps, AreNotFeltByAContactOfOthers) {
   TwoBoxes boxes({{0, 1, law}});
   boxes.move_second({0.13, 0.17, 0.95});

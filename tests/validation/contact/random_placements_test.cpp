@@ -16,7 +16,7 @@ const Mesh& ball() {
   return mesh;
 }
 
-// What is half an altitude inside is felt; what is not felt is a part of a face deep, and rare.
+// Overlaps of half an altitude are felt; those that are not felt are a part of a face deep, and rare.
 TEST(RandomPlacements, AreFeltWhereTheyAreDeep) {
   const PlacementsFound found = judge_placements(box(), ball(), {.placements = 150, .seed = 3});
   EXPECT_EQ(found.placements, 150u);
@@ -25,7 +25,7 @@ TEST(RandomPlacements, AreFeltWhereTheyAreDeep) {
   EXPECT_LE(found.deepest_quiet, 0.5);
   EXPECT_GT(found.by_depth.count(), 1000u);
   EXPECT_LE(found.by_depth.count_missed(), found.by_depth.count() / 100);
-  // by up to one altitude, which a face that the way out does not cross makes more of
+  // by up to one altitude; the depth can be larger if the way out crosses no face
   EXPECT_GT(found.by_depth.deepest, 0.6);
 }
 
@@ -47,7 +47,7 @@ TEST(RandomPlacements, AreOthersForAnotherSeedAndTheSameForTheSame) {
   EXPECT_NE(a.by_depth.deepest, c.by_depth.deepest);
 }
 
-// Corners of balls lie in the same directions from their middles: some are to be turned into just the opposite.
+// Corners of balls lie in the same directions from their middles: some have to be turned into exactly the opposite one.
 TEST(RandomPlacements, TurnTheBodyRoundAsItIs) {
   const PlacementsFound found =
       judge_placements(ball(), tetrahedron_ball(2, 0.7), {.placements = 250, .seed = 1'000'004});

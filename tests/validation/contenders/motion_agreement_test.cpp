@@ -1,4 +1,4 @@
-// The gate of motion: no contender passes it with other numbers, and none with no numbers.
+// The gate of motion: no contender passes it with other numbers, nor with NaN.
 
 #include "validation/contenders/motion_agreement.h"
 
@@ -24,7 +24,7 @@ Problem falling_grid() {
   return problem;
 }
 
-/// The baseline, or another contender, with one number of what it tells spoilt; of the state, where `compare_motion`
+/// The baseline, or another contender, with one wrong number in its answers; in the state, when `compare_motion`
 /// compares it.
 class Spoilt : public ContenderBody {
  public:
@@ -51,7 +51,7 @@ class Spoilt : public ContenderBody {
   }
 
  private:
-  static constexpr int start_after = 20;  // steps of the first one, before all are given its state
+  static constexpr int start_after = 20;  // steps of the first contender, before all get its state
   std::unique_ptr<ContenderBody> body_;
   int steps_ = 0;
   What what_;
@@ -87,14 +87,14 @@ TEST(CompareMotion, StopsAContenderWithOneNumberThatIsNone) {
 
 TEST(CompareMotion, StopsAContenderThatTellsOfFewerPoints) { EXPECT_FALSE(agrees(spoilt(Spoilt::What::points, 0.0))); }
 
-/// A walk of the core's whose one number is off.
+/// A walk of the core's with one number that is off.
 Contender spoilt_walk(Spoilt::What what, double by) {
   Contender walk = contender("lists");
   walk.make = [=](const Problem& problem) { return std::make_unique<Spoilt>(problem, what, by, "lists"); };
   return walk;
 }
 
-// Coordinates are below 2 m, velocities and forces here below 1 in their units, of 1e-16 and less.
+// Coordinates are below 2 m, velocities and forces here below 1 in their units, with 1e-16 and less.
 TEST(CompareMotion, StopsAWalkOfTheCoreWithOneWrongBit) {
   EXPECT_TRUE(agrees(spoilt_walk(Spoilt::What::nothing, 0.0)));
   for (const auto what : {Spoilt::What::force, Spoilt::What::position, Spoilt::What::velocity})

@@ -18,7 +18,7 @@ Problem swinging_box() {
   return problem;
 }
 
-/// The arrays of the core in another problem than they are asked about: only a little other.
+/// The arrays of the core in a problem that differs slightly from the one judged.
 Contender in(const std::function<void(Problem&)>& change) {
   Contender other = contender("arrays");
   other.make = [change](const Problem& problem) {
@@ -58,7 +58,7 @@ TEST(SecondOfMotion, IsNotThatOfABodyThatIsOffInTheTwelfthDigit) {
   EXPECT_FALSE(agrees(in([](Problem& p) { p.h *= 1.0 + 1e-12; })));
 }
 
-// Ten steps of a millisecond do not show it.
+// Ten steps of a millisecond do not show this.
 TEST(SecondOfMotion, IsNotThatOfABodyThatForgetsItsDamping) {
   EXPECT_FALSE(agrees(in([](Problem& p) { p.material.damping = 0.0; })));
   EXPECT_FALSE(agrees(in([](Problem& p) { p.material.viscosity = 0.0; })));

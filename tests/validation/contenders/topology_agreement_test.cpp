@@ -1,4 +1,4 @@
-// The gate of topology: what CGAL counts is compared with what we count, number by number.
+// The gate of topology: CGAL's counts are compared with ours, number by number.
 
 #include "validation/contenders/topology_agreement.h"
 
@@ -76,7 +76,7 @@ TEST(CompareCounts, CountBothMapsOfAMesh) {
   }
 }
 
-// Only CGAL's body refuses two tetrahedra that touch in a point: it was asked.
+// Only CGAL's body refuses two tetrahedra that touch in a point: so it was used.
 TEST(CompareCounts, AskCgal) {
   Problem problem;
   problem.mesh = regular_tetrahedron();

@@ -1,5 +1,5 @@
-// Witnesses know what they were made of and nothing of what happens to the core afterwards; and the core does not
-// notice that it is compared.
+// Witnesses depend on their input and on nothing that happens to the core afterwards; and the core is not affected by
+// the comparison.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(Witnesses, StayWhereTheyAreWhenABodyOfTheCoreMoves) {
     EXPECT_NE(core->state().x, problem.mesh.points);
     witness->step(5);
     EXPECT_NE(witness->state().x, problem.mesh.points) << c.id;
-    // it adds up in another order: the same bits in every number would be a copy
+    // it adds up in another order: the same bits in every number would show a copy
     EXPECT_NE(state_hash(witness->state()), state_hash(core->state())) << c.id;
   }
 }

@@ -46,7 +46,7 @@ TEST(BarAnswers, MotionsAreApartByTheirLargestDistanceOverTheLargestMotion) {
   EXPECT_DOUBLE_EQ(motion_error(other, truth), 0.6);
 }
 
-// The first mode has 97 % of what a load at the tip bends, the next, six times as fast, most of the rest: after half a
+// The first mode has 97 % of the bend by a load at the tip, the next, six times as fast, most of the rest: after half a
 // period the beam is on the other side, and after a whole one back.
 TEST(BarAnswers, ABeamThatIsLetGoOfSwingsForAPeriod) {
   Beats beats;
@@ -59,8 +59,8 @@ TEST(BarAnswers, ABeamThatIsLetGoOfSwingsForAPeriod) {
   EXPECT_NEAR(tip / bent, 1.0, 0.1);  // the faster modes may be anywhere
 }
 
-// Known of another program (cantilever_test.cpp): springs on this mesh bend by 59 % too little. Their modulus is 13/9
-// of Young's where 6/5 is right. What they sway too fast puts them 2 pi w' / w radians ahead: out of step altogether.
+// Known from another program (cantilever_test.cpp): springs on this mesh bend by 59 % too little. Their modulus is 13/9
+// of Young's where 6/5 is right. Their higher frequency puts them 2 pi w' / w radians ahead: out of step altogether.
 TEST(BarAnswers, ErrorsAreSharesOfTheTruth) {
   const ClampedBar bar;
   Beats beats;

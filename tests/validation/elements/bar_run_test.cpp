@@ -29,7 +29,7 @@ struct Bent {
   }
 };
 
-// Bent by 1e-4 of its length a bar is 6e-5 shorter, as a share of how far it is bent: what laws are not linear by is of
+// Bent by 1e-4 of its length a bar is 6e-5 shorter, as a share of how far it is bent: nonlinear terms of laws are of
 // that size, times the periods of its faster modes.
 TEST(BentBar, MovesAsTheLinearMotionOfItsModelSays) {
   for (const BarModel& model : {BarModel{}, BarModel{Model::neo_hookean, CellKind::hexahedron},
@@ -39,12 +39,12 @@ TEST(BentBar, MovesAsTheLinearMotionOfItsModelSays) {
     const BentBar::Run run = b.bent.follow(*verlet, 4096, b.beats, b.watched);
     ASSERT_TRUE(run.result.ok()) << in_words(model);
     EXPECT_LT(motion_error(run.motion, b.answers.motion), 5e-4) << in_words(model);
-    // again, from where it was
+    // again, from the same start
     EXPECT_EQ(b.bent.follow(*verlet, 4096, b.beats, b.watched).motion, run.motion);
   }
 }
 
-// A clock that ticks once for each look makes all steps cost the same: the method that needs the fewest steps wins, and
+// A clock that ticks once per reading makes all steps cost the same: the method that needs the fewest steps wins, and
 // with fewer of them its error would not be allowed.
 TEST(BestMethod, HasTheFewestStepsWhoseErrorIsAllowed) {
   Bent b = Bent::of({Model::neo_hookean, CellKind::hexahedron});
@@ -59,7 +59,7 @@ TEST(BestMethod, HasTheFewestStepsWhoseErrorIsAllowed) {
   const auto midpoint = make_integrator("implicit-midpoint");
   const BentBar::Run fewer = b.bent.follow(*midpoint, best.steps / 16 * 3 / 4 * 16, b.beats, b.watched);
   EXPECT_GT(motion_error(fewer.motion, b.answers.motion), 0.02);
-  // what is left of the error is the model's own
+  // the remaining error is the model's own
   EXPECT_NEAR(best.total_error, motion_error(b.answers.motion, b.truth.motion), 0.021);
 
   const std::vector<BarMethod> other{{"implicit-midpoint", 16384}, {"verlet", 8192}};
@@ -88,7 +88,7 @@ TEST(BarMethods, StartFromStepsThatAreStable) {
     const BentBar::Run run = b.bent.follow(*integrator, method.fewest_steps, b.beats, b.watched);
     EXPECT_TRUE(run.result.ok()) << method.integrator;
     EXPECT_LT(motion_error(run.motion, b.answers.motion), 0.1) << method.integrator;
-    // and twice as long they are not
+    // and with steps twice as long they are not
     const std::uint64_t half = method.fewest_steps / (2 * Beats::count) * Beats::count;
     const auto longer = b.bent.follow(*integrator, half, b.beats, b.watched);
     EXPECT_TRUE(!longer.result.ok() || !(motion_error(longer.motion, b.answers.motion) < 0.1)) << method.integrator;

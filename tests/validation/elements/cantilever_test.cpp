@@ -34,8 +34,8 @@ TEST(Cantilever, OfHexahedraIsFourTimesAsTrue) {
   EXPECT_NEAR(cantilever_of(Model::neo_hookean, 2, 0.25, CellKind::hexahedron).work / truth - 1.0, -0.12, 0.01);
 }
 
-// A uniform strain is what linear tetrahedra have exactly; springs of cubes of six tetrahedra have 13/9 of Young's
-// modulus along their axes, whatever Poisson's ratio.
+// Linear tetrahedra are exact for a uniform strain; springs of cubes of six tetrahedra have 13/9 of Young's modulus
+// along their axes, whatever Poisson's ratio.
 TEST(Cantilever, KnowsTheModulusOfWhatIsConfined) {
   for (const double poisson : {0.0, 0.25, 0.45}) {
     EXPECT_NEAR(confined_modulus_of(Model::neo_hookean, poisson) / confined_modulus(poisson), 1.0, 1e-6) << poisson;
@@ -44,7 +44,7 @@ TEST(Cantilever, KnowsTheModulusOfWhatIsConfined) {
   EXPECT_NEAR(confined_modulus(0.25) / cantilever::young, 1.2, 1e-14);
 }
 
-// Twice as coarse as what is reported: within two percent of the other code.
+// Twice as coarse as the reported ones: within two percent of the other code.
 TEST(Cantilever, OfQuadraticElementsIsThatOfAnotherCode) {
   const CantileverAnswers ours = quadratic_cantilever(2, 0.25);
   EXPECT_NEAR(ours.work / published_cantilevers[0].work, 1.0, 0.02);

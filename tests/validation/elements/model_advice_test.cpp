@@ -14,7 +14,7 @@ ModelTrend trend(double coarse, double fine) {
   return {.model = {}, .coarse = 2, .fine = 4, .coarse_error = coarse, .fine_error = fine, .fine_cost = 0.5};
 }
 
-// A quarter on a mesh twice as fine is order 2: a ninth of 0.09 needs cubes three times as fine, of 3^4 the cost.
+// A quarter on a mesh twice as fine is order 2: a ninth of 0.09 needs cubes three times as fine, at 3^4 times the cost.
 TEST(ModelTrend, ForetellsTheMeshOfAnErrorByTheOrder) {
   const ModelTrend t = trend(0.36, 0.09);
   EXPECT_NEAR(t.order(), 2.0, 1e-12);
@@ -31,7 +31,7 @@ TEST(ModelTrend, DoesNotBelieveThatAFloorFalls) {
   EXPECT_EQ(trend(0.30, 0.28).finer_for(0.29), 4);
 }
 
-// The advice, followed by hand beside a reference that it has not seen.
+// The advice, followed by hand and compared with a reference that it has not used.
 TEST(LongModelAdvice, IsWhatMeetsTheErrorWhenItIsFollowed) {
   const ClampedBar bar{.cubes = {3, 1, 1}};
   std::int64_t now = 0;

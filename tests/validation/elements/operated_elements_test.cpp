@@ -9,7 +9,7 @@ namespace {
 
 const ElementOperationsPlan brief{.operations = 400, .check_every = 50, .seed = 7};
 
-// What separates cells moves no summand; what is compared is summed otherwise, with some hundred roundings.
+// Separating cells moves no summand; the reference is summed otherwise, with some hundred roundings.
 void expect_sound(const ElementOperations& found) {
   EXPECT_EQ(found.operations(), brief.operations);
   EXPECT_GT(found.dissociated, 3 * found.removed);
@@ -43,7 +43,7 @@ TEST(OperatedElements, SeeAVertexThatMoves) {
   const ElementOperations found = operate_on_elements(mesh, Model::neo_hookean, plan);
   EXPECT_GT(found.dissociation, 1e-9);
   EXPECT_GT(found.removal, 1e-9);  // of sixteen operations some are removals
-  EXPECT_LT(found.force, 1e-13);   // both bodies have it where it is
+  EXPECT_LT(found.force, 1e-13);   // both bodies have the vertex at this place
 }
 
 TEST(OperatedElements, SeeACellThatForgetsItsShape) {

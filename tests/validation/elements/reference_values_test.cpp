@@ -1,4 +1,4 @@
-// Core's elements, and the beam that all models are held against, beside scikit-fem, whose numbers are committed.
+// Core's elements, and the beam with which all models are compared, against scikit-fem, whose numbers are committed.
 
 #include "tests/support/reference_values_for_tests.h"
 
@@ -41,8 +41,8 @@ TEST(CoresElements, HaveTheStiffnessThatAnotherCodeHas) {
   }
 }
 
-// Core's masses are at the vertices, eq. (1): of a tetrahedron what each row of the consistent mass sums to, of a
-// hexahedron the same in all.
+// Core's masses are at the vertices, eq. (1): for a tetrahedron the sum of each row of the consistent mass, for a
+// hexahedron the same in total.
 TEST(CoresElements, HaveTheMassThatAnotherCodeHas) {
   const ElementValues tetrahedron = element_values("linear tetrahedron", CellKind::tetrahedron),
                       hexahedron = element_values("hexahedron", CellKind::hexahedron);
@@ -51,7 +51,7 @@ TEST(CoresElements, HaveTheMassThatAnotherCodeHas) {
   EXPECT_NEAR(Simulated(hexahedron, Model::neo_hookean).mass.sum() / hexahedron.mass.sum(), 1.0, 1e-12);
 }
 
-// What is printed beside every report of `validate elements` is what that code made, to the digits that are printed.
+// The numbers printed in every report of `validate elements` are those of that code, to the printed digits.
 TEST(PublishedCantilevers, AreThoseOfTheCommittedNumbers) {
   std::size_t found = 0;
   const nlohmann::json values = reference_values();
@@ -75,7 +75,7 @@ TEST(PublishedCantilevers, AreThoseOfTheCommittedNumbers) {
   EXPECT_EQ(found, 3u);
 }
 
-// Of quadratic tetrahedra twice as fine the beam is within a percent of that of 27-node hexahedra, all six frequencies.
+// With quadratic tetrahedra twice as fine the beam is within a percent of that with 27-node hexahedra, six frequencies.
 TEST(PublishedCantilevers, AreNearThoseOfQuadraticTetrahedra) {
   std::size_t found = 0;
   const nlohmann::json values = reference_values();

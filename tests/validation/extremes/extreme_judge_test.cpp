@@ -40,7 +40,7 @@ TEST(ExtremeVerdict, IsSilentWhereEnergyGrowsTwoHundredfold) {
   EXPECT_TRUE(is_silent(run, "grown"));
   run.energy_after = no_number;
   EXPECT_TRUE(is_silent(run, "grown"));
-  // what rounding of positions is worth may appear at rest
+  // energy of the size of the rounding of positions may appear at rest
   run = {.energy_before = 0, .energy_after = 199, .energy_rounding = 1};
   EXPECT_FALSE(is_silent(run, ""));
   run.energy_after = 201;
@@ -52,7 +52,7 @@ TEST(ExtremeVerdict, LetsEnergyGrowAMillionfoldAfterAWarningOfInstability) {
   EXPECT_EQ(verdict_of(run).outcome, ExtremeOutcome::degraded);
   run.energy_after = 1.1e6;
   EXPECT_TRUE(is_silent(run, "grown"));
-  run = {.warned = true, .energy_before = 1, .energy_after = 201};  // of something else
+  run = {.warned = true, .energy_before = 1, .energy_after = 201};  // with another kind of warning
   EXPECT_TRUE(is_silent(run, "grown"));
 }
 
@@ -105,7 +105,7 @@ TEST(TruthBound, FallsWithTheOrderOfTheMethod) {
   }
 }
 
-// A damping ratio zeta turns a rate omega into omega (1 + 2 zeta) at most.
+// Damping with a ratio zeta turns a rate omega into omega (1 + 2 zeta) at most.
 TEST(TruthBound, TakesTheStepForLongerByWhatIsDamped) {
   for (const int order : {1, 2, 4}) {
     const TruthScale undamped{.theta = 0.25, .order = order, .steps = 40, .amplitude = 1.0};
@@ -182,13 +182,13 @@ TEST(Extremes, CallsARunRightWhereNothingIsWrong) { EXPECT_EQ(run("rk4", forty_s
 
 TEST(Extremes, CallsARunSilentWhereWhatWasInjectedIsNotFound) {
   ExtremeSetup setup = with_theta(moving_body("box"), 0.2, 80);
-  setup.halfway = [](SpringColumns&) {};  // nothing that could be found
+  setup.halfway = [](SpringColumns&) {};  // nothing that could be detected
   const ExtremeCell cell = run("rk4", setup);
   EXPECT_EQ(cell.outcome, ExtremeOutcome::silent);
   EXPECT_NE(cell.note.find("injected"), std::string::npos) << cell.note;
 }
 
-// Gravity that is switched on half way, and announced: the energy is another one, and the detector has nothing to say.
+// Gravity that is switched on half way, and announced: the energy changes, and the detector has no objection.
 TEST(Extremes, CallsARunSilentWhoseEnergyGrows) {
   const auto lifted = [](double gravity) {
     ExtremeSetup setup = forty_steps();
@@ -203,8 +203,8 @@ TEST(Extremes, CallsARunSilentWhoseEnergyGrows) {
   EXPECT_NE(lifted(1e-3).outcome, ExtremeOutcome::silent);
 }
 
-// Half way through one vertex is put elsewhere. The motion has an amplitude of some hundredths of an edge, the bound
-// of a method of order 4 is a ninth of that.
+// Half way through one vertex is displaced. The motion has an amplitude of some hundredths of an edge, the bound of a
+// method of order 4 is a ninth of that.
 TEST(Extremes, CallsARunSilentThatEndsFarFromTheTrueMotion) {
   const auto displaced = [](double by) {
     ExtremeSetup setup = forty_steps();
@@ -217,7 +217,7 @@ TEST(Extremes, CallsARunSilentThatEndsFarFromTheTrueMotion) {
   EXPECT_EQ(displaced(1e-5).outcome, ExtremeOutcome::ok);
 }
 
-/// A run at an offset of a million edges, whose twin at the origin begins elsewhere by some roundings of the offset.
+/// A run at an offset of a million edges, whose twin at the origin starts displaced by some roundings of the offset.
 ExtremeCell run_beside(double roundings) {
   ExtremeSetup setup = forty_steps();
   setup.offset = 1e6;

@@ -1,4 +1,4 @@
-// How the matrix of extremes is filled, and the runs of its axes whose outcome theory tells.
+// The filling of the matrix of extremes, and runs of its axes whose outcome theory predicts.
 
 #include "validation/extremes/extreme_matrix.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Values = std::vector<std::string>;
 
-/// The values that are left of "0" to "7".
+/// The values that remain of "0" to "7".
 Values values_of(bool quick, bool with_scenes) {
   ExtremeMatrix matrix("axis", quick);
   constexpr std::string_view scenes[]{"one", "other"};
@@ -69,7 +69,7 @@ std::vector<ExtremeCell> runs_of(std::string_view axis, std::string_view value, 
   return cells;
 }
 
-// A diagnosis is what ended a run; where nothing did there is none, and the run has all of its steps.
+// The diagnosis is the result that ended the run; a run that was not ended has none, and all of its steps.
 TEST(ExtremeEvents, AreDiagnosedByTheResultThatEndedThemAndByNothingElse) {
   std::size_t whole = 0;
   for (const char* value : {"a dissociation per step", "all dissociated", "a removal per step",
@@ -93,7 +93,7 @@ TEST(ExtremeEvents, AreJudgedByTheStepsOfTheirScheme) {
   }
 }
 
-// Of a vertex that nothing moves the mass does not matter; of one that moves it is divided by.
+// The mass of a fixed vertex does not matter; the equations of a moving one divide by it.
 TEST(ExtremeVertices, NeedAMassUnlessTheyAreHeld) {
   for (const ExtremeCell& cell : runs_of("vertices", "one massless", {"verlet", "rk4", "backward-euler"})) {
     EXPECT_EQ(cell.outcome, ExtremeOutcome::diagnosed) << cell.scene << " " << cell.integrator;
@@ -104,7 +104,7 @@ TEST(ExtremeVertices, NeedAMassUnlessTheyAreHeld) {
         << cell.scene << " " << cell.integrator << " " << cell.note;
 }
 
-/// What an axis of numbers sets up, by value.
+/// The setups of an axis of numbers, by value.
 std::vector<ExtremeMatrix::Row> rows_of(std::string_view axis) {
   ExtremeMatrix matrix(axis, false);
   add_numbers(matrix, axis);
@@ -112,14 +112,14 @@ std::vector<ExtremeMatrix::Row> rows_of(std::string_view axis) {
   return matrix.rows();
 }
 
-/// The number behind "h omega " in the name of a value.
+/// The number after "h omega " in the name of a value.
 double theta_of(const std::string& value) { return std::stod(value.substr(value.find("h omega ") + 8)); }
 
 // By Lanczos; the study's own frequency is from below, within a thousandth.
 double theta_of(const ExtremeSetup& setup) { return setup.h * fastest_mode(setup.body).omega; }
 
-// Stretched along x by 1 + e, a solid holds E e^2 V / 2 to first order where nothing keeps it from thinning; Poisson's
-// ratio 0 keeps it as wide as it is. The next term is of the order of e. At rest some roundings of E V are left.
+// Stretched along x by 1 + e, a solid holds E e^2 V / 2 to first order if it can contract sideways; Poisson's ratio 0
+// keeps its width. The next term is of the order of e. At rest some roundings of E V are left.
 TEST(ExtremeRun, CountsTheEnergyOfElements) {
   const double e = 1e-5;
   SpringColumns body =
@@ -139,7 +139,7 @@ TEST(ExtremeNumbers, TakeTheStepsThatTheirValuesName) {
       EXPECT_NEAR(theta_of(row.make("oscillator")) / theta_of(row.value), 1.0, 2e-3) << axis << " " << row.value;
 }
 
-// A tenth of the time scale of the fastest spring, however fast the body moves: what is asked is whether speed alone
+// A tenth of the time scale of the fastest spring, however fast the body moves: the question is whether speed alone
 // does harm. The mode is that of the body at rest, since the moving one is torn far apart.
 TEST(ExtremeNumbers, MoveBodiesFastInStepsThatFitTheirSprings) {
   for (const ExtremeMatrix::Row& row : rows_of("velocity")) {
@@ -148,7 +148,7 @@ TEST(ExtremeNumbers, MoveBodiesFastInStepsThatFitTheirSprings) {
     double speed = 0.0;
     for (const auto& v : setup.body.v) speed = std::max(speed, v.norm());
     EXPECT_GT(speed, 0.0);
-    EXPECT_LE(speed, 1.01 * std::stod(row.value) + 0.03) << row.value;  // beside 0.01 edges at a quarter of 10/s
+    EXPECT_LE(speed, 1.01 * std::stod(row.value) + 0.03) << row.value;  // besides 0.01 edges at a quarter of 10/s
   }
 }
 

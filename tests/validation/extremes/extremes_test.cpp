@@ -1,4 +1,4 @@
-// A sample of the matrix of extremes: no run is silent; and hostile runs are told from good ones.
+// A sample of the matrix of extremes: no run is silent; and hostile runs are distinguished from good ones.
 
 #include "validation/extremes/extremes.h"
 
@@ -75,7 +75,7 @@ TEST(Extremes, HasTheSameOutcomeForMassesAndSpringsOfAnySize) {
   EXPECT_EQ(scaled, 2 * outcomes.size());
 }
 
-/// Half way through its 40 steps everything is put to rest; no bound of an order is asked.
+/// Half way through its 40 steps all motion is stopped; no bound of an order applies.
 ExtremeCell run_to_death(std::string_view integrator, double damping = 0.0) {
   ExtremeSetup setup = with_theta(moving_body("box"), 0.2, 40);
   setup.compare = false;

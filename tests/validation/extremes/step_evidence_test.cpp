@@ -47,14 +47,14 @@ StepEvidence judged(std::string_view name, Integrator& integrator, Trial trial, 
   StepEvidence evidence(name, steps, trial.body.solid.get());
   for (std::uint64_t k = 0; k < steps; ++k) {
     evidence.before(trial.body.system(), trial.body.motion(), trial.h);
-    // an unstable step leaves the range of doubles sooner or later; what comes before is judged
+    // an unstable step leaves the range of doubles sooner or later; the steps before are judged
     if (!integrator.step(trial.body.system(), trial.body.motion(), trial.h).ok()) break;
     evidence.after(trial.body.motion());
   }
   return evidence;
 }
 
-// None of these runs was looked at when the bounds were made: they are drawn here.
+// None of these runs was used when the bounds were made: they are drawn here.
 TEST(StepEvidence, CallsEveryStepOfASoundIntegratorRight) {
   SplitMix64 random(2026);
   std::uint64_t steps = 0;
@@ -103,7 +103,7 @@ Trial draw_solid(SplitMix64& random, Model model, bool damped = false) {
     body.x[i] += size * random.next_in_ball();
     body.v[i] += size * omega * fast * random.next_in_ball();
   }
-  // e-folding in a step at most: what is left of much more is a difference of 1 and of nearly 1 in double precision
+  // e-folding in a step at most: of stronger decay only a difference of nearly equal numbers would remain
   const double h = power(-4, 3) / omega, rate = std::min(0.1 * omega, 1 / h);
   if (random.below(2) == 0)
     for (std::size_t i = 0; i < body.x.size(); ++i) body.viscosity[i] = rate * body.mass[i];
@@ -137,7 +137,7 @@ TEST(LongStepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
   EXPECT_GT(seeing, 2000u);
 }
 
-// The body is damped by a time, and is judged by one of a millionth more, or by none.
+// The body is damped by a time, and is judged with one of a millionth more, or with none.
 TEST(StepEvidence, TellsOneDampingOfElementsFromAnother) {
   for (const std::string_view kind : elastic_bodies) {
     Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
@@ -176,7 +176,7 @@ TEST(StepEvidence, SeesEveryWrongIntegratorOverElements) {
   }
 }
 
-// The body moves by one law and is judged by another, or by a modulus of a millionth more.
+// The body moves by one law and is judged by another, or with a modulus of a millionth more.
 TEST(StepEvidence, TellsOneElasticLawFromAnother) {
   const Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
   Material stiffer = right, law = right;
@@ -226,7 +226,7 @@ TEST(StepEvidence, KnowsNoForcesThatItIsNotToldOf) {
   EXPECT_FALSE(network_of(pulled).has_value());
 }
 
-// What a method kept from before an event is of no use behind it, to the judge as to the method.
+// After an event the memory of a method is of no use, to the judge as to the method.
 TEST(StepEvidence, StartsAnewWhereTheIntegratorDoes) {
   SpringColumns body = moving_body("chain");
   const double h = 0.3 / highest_frequency(body);

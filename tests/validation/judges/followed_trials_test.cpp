@@ -1,4 +1,4 @@
-// What following a recommendation says of wrong integrators.
+// Verdicts on wrong integrators by following a recommendation.
 
 #include "validation/judges/followed_trials.h"
 

@@ -68,7 +68,7 @@ TEST(WrongIntegrators, LoseNothingElseThanDamping) {
             0.0);
 }
 
-// What linearised springs are off by is of the second order in how far the body is from rest.
+// The error of linearised springs is of the second order in the distance of the body from rest.
 TEST(WrongIntegrators, AreRightForSpringsNearRestWhereTheySaySo) {
   const auto off = [](double size) {
     const SpringColumns body = moving_body("box", size);

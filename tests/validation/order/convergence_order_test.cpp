@@ -1,4 +1,4 @@
-// Observed orders: the judgement on errors made up, integrators that keep their word and some that do not.
+// Observed orders: the judgement on invented errors, integrators that have the order they claim and some that do not.
 
 #include "validation/order/convergence_order.h"
 
@@ -235,8 +235,8 @@ TEST(ForceGradient, IsMinusTheForce) {
   EXPECT_GT(compare_forces_with_energy(scene).ratio, 1.0);
 }
 
-// Of the springs around the vertex, with d = 2^-21 edges: the truncation of the difference, the rounding of two
-// energies over 2 d, and that of the forces; beside it the weight.
+// For the springs around the vertex, with d = 2^-21 edges: the truncation of the difference, the rounding of two
+// energies over 2 d, and that of the forces; in addition the weight.
 TEST(ForceGradient, IsBoundByTruncationAndRounding) {
   const PreparedScene& scene = stage(OrderCase::undamped).scene;
   const ForceGradient found = compare_forces_with_energy(scene);
@@ -275,7 +275,7 @@ TEST(CutJump, IsRounding) {
 
 TEST(CutJump, IsSeenWhenMassIsLost) {
   PreparedScene scene = stage(OrderCase::aligned_cut).scene;
-  for (double& share : scene.body.node_share) share *= 1.0 - 1e-9;  // what adapt sums masses from
+  for (double& share : scene.body.node_share) share *= 1.0 - 1e-9;  // adapt sums masses from these
   const auto jumps = cut_jumps(scene, *make_integrator("verlet"), 0.5 / scene.fastest_rate);
   EXPECT_GT(jumps[0].energy, 1e-12);
   EXPECT_GT(jumps[0].momentum, 1e-12);

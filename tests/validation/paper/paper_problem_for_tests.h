@@ -1,5 +1,5 @@
 #pragma once
-// A small body in the paper's material, and what tests of the paper's sentences share.
+// A small body in the paper's material, and code shared by the tests of the paper's sentences.
 
 #include <gtest/gtest.h>
 

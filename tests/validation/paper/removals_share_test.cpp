@@ -64,7 +64,7 @@ TEST(Removals, AreNotAnsweredWhereThereAreNone) {
   expect_no(answers.free_faces);
 }
 
-// The map is changed behind the body's back: another face is freed, too.
+// The map is changed unknown to the body: another face is freed, too.
 TEST(Removals, FreeNoOtherFace) {
   expect_no(with([](Body& body, const TopologyChange&) {
               Dart sewn = no_dart;

@@ -10,7 +10,7 @@ namespace {
 
 using Body = LiveBody<Map3>;
 
-/// What five wrong bodies answer: each is adapted, and then changed where a vertex or an edge came apart.
+/// The answers for wrong bodies: each is adapted, and then changed where a vertex or an edge came apart.
 SharesAfterCuts with(const std::function<void(Body&, const TopologyChange&)>& spoil) {
   return try_dissociations(small_tetrahedral_problem(), 200, 3, [&](Body& body, const TopologyChange& change) {
     core_adapt(body, change);

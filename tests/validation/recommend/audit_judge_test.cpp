@@ -1,4 +1,4 @@
-// An audit reports what a run is off by, and so does a work-precision study; seeds draw what they say.
+// An audit reports the error of a run, and so does a work-precision study; seeds draw what they say.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace dartboard::audit_judge_test {
 namespace {
 
-/// The error of so many steps of Verlet, without the help of any study.
+/// The error of so many steps of Verlet, independent of any study.
 double error_of(const TradeoffScene& scene, std::uint64_t steps) {
   const auto integrator = make_integrator("verlet");
   const TimedRun run = run_timed(scene, *integrator, {.steps = steps}, ticking());
@@ -98,7 +98,7 @@ TEST(WorkPrecisionJudge, ReportsTheErrorsThatItsRunsHave) {
   const TradeoffScene scene = chain_scene(4, 16.0, 4);
   WorkPrecisionOptions options;
   options.fewest_repetitions = options.most_repetitions = 1;
-  options.most_s = 2.5e-5;  // on this clock a look takes a microsecond
+  options.most_s = 2.5e-5;  // on this clock a reading takes a microsecond
   const std::vector<TradeoffContender> verlet{{"verlet", [] { return make_integrator("verlet"); }, false, false}};
   std::size_t compared = 0;
   for (const WorkPoint& p : work_precision(scene, reference_of(scene, ticking()), verlet, ticking(), options).points) {
@@ -111,7 +111,7 @@ TEST(WorkPrecisionJudge, ReportsTheErrorsThatItsRunsHave) {
   EXPECT_GE(compared, 3u);
 }
 
-// The oracle knows nothing of normal modes: it must find what the closed form of the chain says.
+// The oracle knows nothing of normal modes: it must find the closed form of the chain.
 TEST(SceneReferenceJudge, FindsTheClosedFormWithoutBeingTold) {
   TradeoffScene scene = chain_scene(4, 8.0, 2);
   const auto exact = scene.closed_form();

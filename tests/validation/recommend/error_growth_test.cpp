@@ -1,4 +1,4 @@
-// How errors go on growing, read off errors that are known.
+// The further growth of errors, estimated from known errors.
 
 #include "validation/recommend/error_growth.h"
 
@@ -45,7 +45,7 @@ TEST(ErrorGrowth, IsNoneWhereTheMotionDies) {
   EXPECT_DOUBLE_EQ(beyond(power(-1.0), 50.0, false), 1.0);
 }
 
-// The transient is a hundred times what goes on growing: 1e-6 at the end, 5e-5 after fifty times as long.
+// The transient is a hundred times the part that goes on growing: 1e-6 at the end, 5e-5 after fifty times as long.
 TEST(ErrorGrowth, StartsFromTheErrorsOfTheLastOctave) {
   const auto transient = errors([](double t) { return t < 0.1 ? 1e-4 : 1e-6 * t; });
   EXPECT_DOUBLE_EQ(beyond(transient, 50.0, true), 1.0);

@@ -1,4 +1,4 @@
-// Pilots: which runs are made before a method is given up, by a clock that tells what was looked at.
+// Pilots: the runs that are made before a method is given up, by a clock that counts its readings.
 
 #include "validation/recommend/pilots.h"
 
@@ -23,7 +23,7 @@ Candidate candidate(const char* name, bool implicit) {
   return c;
 }
 
-/// What comes of a candidate where the cheapest method so far takes `cheapest_s`.
+/// The result for a candidate if the cheapest method so far takes `cheapest_s`.
 Candidate piloted(Candidate c, double cheapest_s, RecommendOptions options = {}, const CpuClock& clock = ticking()) {
   const TradeoffScene scene = chain_scene(8, 64.0);
   options.pilot_floor_s = std::max(options.pilot_floor_s, 0.5);
@@ -33,7 +33,7 @@ Candidate piloted(Candidate c, double cheapest_s, RecommendOptions options = {},
   return c;
 }
 
-/// The seconds that its first pilot foretells for the whole run.
+/// The seconds that its first pilot predicts for the whole run.
 double foretold(const Candidate& c) {
   const Candidate pruned = piloted(c, 1e-30);
   const auto at = pruned.pruned.find("it takes ");
@@ -42,7 +42,7 @@ double foretold(const Candidate& c) {
 }
 
 // An explicit method is given up beyond 1.5 times the cheapest, an implicit one, of which coarser steps may do, beyond
-// 4 times; what is foretold is printed with two digits.
+// 4 times; the prediction is printed with two digits.
 TEST(PilotPrefix, GivesAMethodUpWhoseCoarsestRunIsTooDear) {
   for (const bool implicit : {false, true}) {
     const Candidate c = candidate(implicit ? "backward-euler" : "verlet", implicit);
@@ -55,11 +55,11 @@ TEST(PilotPrefix, GivesAMethodUpWhoseCoarsestRunIsTooDear) {
   }
 }
 
-// Each look at this clock takes ten milliseconds. One run is affordable, one of twice the steps is not: two looks more.
+// Each reading of this clock takes ten milliseconds. One run is affordable, one of twice the steps is not: two more.
 TEST(PilotPrefix, LeavesAMethodUntriedWhoseSecondRunTakesTooLong) {
   const TradeoffScene scene = chain_scene(8, 64.0);
   const auto clock = [] { return CpuClock([t = std::int64_t{0}]() mutable { return t += 10'000'000; }); };
-  // the looks of a run of 64 and of 128 steps over the prefix
+  // the readings of a run of 64 and of 128 steps over the prefix
   const auto seconds = [&](std::uint64_t steps) {
     const CpuClock ten = clock();
     return 1e-9 * static_cast<double>(
@@ -78,7 +78,7 @@ TEST(PilotPrefix, LeavesAMethodUntriedWhoseSecondRunTakesTooLong) {
   EXPECT_EQ(c.confidence, Confidence::none);
 }
 
-// The machine is suspended for an hour in the second run: what that has left behind is no pilot.
+// The machine is suspended for an hour in the second run: the rest of that run is no pilot.
 TEST(PilotPrefix, TakesNoErrorsFromARunThatWasGivenUp) {
   const TradeoffScene scene = chain_scene(8, 64.0);
   const RecommendOptions options;
@@ -95,7 +95,7 @@ TEST(PilotPrefix, TakesNoErrorsFromARunThatWasGivenUp) {
     pilots.run(candidate("verlet", false), scene, {.steps = 128}, 2);
     after_second = looks;
   }
-  // the forces are timed with two looks before and after a run, whose first look is its start and whose last is its end
+  // the forces are timed with two readings before and after a run, whose first and last readings are its start and end
   ASSERT_LT(after_first + 4, after_second - 3);
   for (suspended_at = after_first + 4; suspended_at < after_second - 2; ++suspended_at) {
     looks = 0;
@@ -226,7 +226,7 @@ TEST(Pilots, TimeTheForcesForLessWhereTheBudgetIsSmall) {
   EXPECT_EQ(timing(1e-6), 2e-5);
 }
 
-// A chain is linear, and errors of phase grow with time: what a prefix sees of it has to be grown to the whole.
+// A chain is linear, and errors of phase grow with time: the error of a prefix has to be extrapolated to the whole.
 TEST(PilotFar, FindsThatTheErrorsOfALongChainGrowWithTime) {
   const TradeoffScene scene = chain_scene(8, 2e4);
   const CpuClock clock = ticking();
@@ -251,7 +251,7 @@ TEST(PilotFar, FindsThatTheErrorsOfALongChainGrowWithTime) {
   EXPECT_LT(c.error_at(run.h), 3.0 * actual);
 }
 
-// What comes late in a motion is in no prefix of it; of a run of a millisecond the whole can be seen.
+// Late parts of a motion are in no prefix of it; of a run of a millisecond the whole can be seen.
 TEST(PilotLonger, SeesTheWholeOfAShortRunThoughTheTimeIsUp) {
   const TradeoffScene scene = chain_scene(8, 64.0);
   const CpuClock ticks = ticking();

@@ -109,7 +109,7 @@ TEST(SolveForError, StepsThatEndAtEventsAreCounted) {
   EXPECT_DOUBLE_EQ(c.predicted_evaluations, 6.0 * (864.0 + 1.0));
 }
 
-// What rounding leaves goes with the mean step, 8 s / 100 with the tolerance of the pilot, and 100^0.2 as short with a
+// The rounding error goes with the mean step, 8 s / 100 with the tolerance of the pilot, and 100^0.2 as short with a
 // hundredth of it.
 TEST(CandidateError, OfATolerancesHasTheRoundingOfItsMeanStep) {
   Candidate c;
@@ -216,7 +216,7 @@ TEST_P(RecommendChain, ThePickMeetsTheError) {
   const SceneReference reference = reference_of(scene, ticking());
   const Audit a = audit(scene, reference, r, {}, ticking());
   EXPECT_TRUE(a.met()) << pick->contender << ": " << a.actual_error << " for " << a.error;
-  // asymptotic or not, the estimate is one and no bound of convenience
+  // asymptotic or not, the estimate is a prediction and no bound of convenience
   EXPECT_GT(a.actual_error, GetParam() / 1e3);
   EXPECT_EQ(a.best, "");
 }
@@ -240,7 +240,7 @@ TEST(Recommend, EveryIntegratorIsRankedOrLeftOutForAReason) {
   EXPECT_GE(r.one_more_digit, 1.0);
 }
 
-// With fixed steps it would take more than ten, so nobody asks what it takes with others.
+// With fixed steps it would take more than ten, so its cost with others is not needed.
 TEST(Recommend, ForetellsNothingOfWhatHadNoPilots) {
   RecommendOptions options;
   options.only = "dormand-prince-54";
@@ -297,7 +297,7 @@ TEST(Recommend, AToleranceMeetsTheErrorToo) {
 }
 
 TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
-  // every look at the clock takes a tenth of a second: a few are all there is time for
+  // every reading of the clock takes a tenth of a second: there is time for a few only
   const CpuClock slow = [t = std::int64_t{0}]() mutable { return t += 100'000'000; };
   RecommendOptions options;
   options.pilot_part = 0.0;
@@ -305,7 +305,7 @@ TEST(Recommend, PilotsEndWhenTheirTimeIsUpAndOneIsPickedAllTheSame) {
   ASSERT_NE(r.pick(), nullptr);
   EXPECT_TRUE(
       std::ranges::any_of(r.candidates, [](const Candidate& c) { return c.pruned == "the time for pilots is up"; }));
-  // who was not tried is named; who was tried, or lost to the law, is not
+  // methods that were not tried are named; those that were tried, or lost by the law, are not
   const auto untried = r.untried();
   EXPECT_FALSE(untried.empty());
   for (const Candidate& c : r.candidates) {
@@ -367,7 +367,7 @@ TEST(Recommend, ACompensatedMethodGoesWherePlainOnesCannot) {
 TEST(Recommend, OnAStiffSceneImplicitMethodsAreTriedBeforeTheTimeForPilotsIsUp) {
   // springs 1e8 times as stiff as those that the motion shows, and an error that a few steps of that motion meet
   const TradeoffScene scene = stiff_scene("stiff", kuhn_box(3, 3, 3, 0.1), 1e8, {});
-  // a thousand looks at the clock: half of the explicit methods would use them up
+  // a thousand readings of the clock: half of the explicit methods would use them up
   RecommendOptions options;
   options.pilot_part = 0.0;
   options.pilot_floor_s = 1e-3;

@@ -17,7 +17,7 @@ namespace {
 
 using namespace moving;
 
-/// A clock on which every look takes a millisecond: the same choices on every machine.
+/// A clock that advances by a millisecond at each reading: the same choices on every machine.
 CpuClock ticking() {
   return [t = std::int64_t{0}]() mutable { return t += 1'000'000; };
 }
@@ -114,7 +114,7 @@ TEST(SettleAccuracy, ChoosesAStepAndAnIntegratorThatMeetIt) {
   EXPECT_EQ(pasted.at("integrator"), scene.integrator);
 }
 
-// Frames at times that the recommended step does not meet shorten it, and what is promised is of the shorter one.
+// Frames at times that the recommended step does not meet shorten it, and the promise is for the shorter one.
 TEST(SettleAccuracy, PromisesTheErrorOfTheStepThatIsTaken) {
   Json json = accurate_box(1e-3);
   json["integrator"] = "verlet";
@@ -126,7 +126,7 @@ TEST(SettleAccuracy, PromisesTheErrorOfTheStepThatIsTaken) {
   ASSERT_TRUE(alone && fitted);
   EXPECT_EQ(fitted->recommended_step, alone->recommended_step);
   ASSERT_LT(fitted->step, 0.97 * alone->step);
-  // the order is 2, and one that was seen is between half of that and that
+  // the order is 2, and an observed one is between half of that and that
   const double power =
       std::log(fitted->predicted_error / alone->predicted_error) / std::log(fitted->step / alone->step);
   EXPECT_GT(power, 0.9);

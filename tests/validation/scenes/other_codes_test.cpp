@@ -1,4 +1,4 @@
-// A motion that is known exactly, found by codes that know nothing of ours.
+// A motion that is known exactly, found by codes that share nothing with ours.
 
 #include "validation/scenes/other_codes.h"
 
@@ -16,7 +16,7 @@ TEST(OtherCodes, FindAMotionThatIsKnownExactly) {
   ASSERT_EQ(found.states.size(), chain.motion.checkpoints.size());
   EXPECT_LE(found.agreement, 1e-8);
   EXPECT_DOUBLE_EQ(found.floor, 10.0 * found.agreement);
-  // ten times their distance is what they can tell
+  // ten times their distance is their resolution
   EXPECT_LE(reference::motion_errors(chain.motion, found.states, chain.closed_form()).x, found.floor);
 }
 

@@ -1,4 +1,4 @@
-// What is told of a scene before it is run, on scenes of which it is known.
+// Predictions for a scene before it is run, on scenes with known features.
 
 #include "validation/scenes/scene_features.h"
 
@@ -35,7 +35,7 @@ TEST(SceneFeatures, CountTheSceneAndBracketItsFastestFrequency) {
   EXPECT_EQ(f.damping_ratio, 0.0);
 }
 
-// However fast the damping decays (here a hundred times as fast as the springs swing), it is no frequency.
+// However fast the damping decays (here a hundred times as fast as the springs oscillate), it is no frequency.
 TEST(SceneFeatures, TakeNoRateOfDecayForAFrequency) {
   const SceneFeatures undamped = of_a_chain(0.0), damped = of_a_chain(100.0), in_a_medium = of_a_chain(0.0, 1e6);
   EXPECT_EQ(damped.omega_low, undamped.omega_low);
@@ -64,7 +64,7 @@ TEST(StabilityLimit, IsTheLeastOfTheLimitsBeforeAndAfterEvents) {
   SceneFeatures soft = of_a_chain(0.0);
   ASSERT_EQ(soft.limits.size(), 1u);
   const double limit = stability_limit(verlet, soft, 1.0);
-  EXPECT_LE(limit, 2.0 / soft.omega_low * 1.001);  // what grows by less than is seen is stable
+  EXPECT_LE(limit, 2.0 / soft.omega_low * 1.001);  // weaker growth than this counts as stable
   EXPECT_GE(limit, 0.5 * 2.0 / soft.omega_low);
   TradeoffScene stiffer = chain_scene(8, 64.0);
   for (reference::Spring& s : stiffer.motion.network.springs) s.stiffness *= 4.0;

@@ -1,4 +1,4 @@
-// How far a reference can be trusted, and that it says so.
+// The uncertainty of a reference, and that it is reported.
 
 #include "validation/scenes/scene_reference.h"
 
@@ -40,7 +40,7 @@ TEST(CertaintyOf, SaysWhereCodesDoNotAgree) {
   }
 }
 
-/// A chain whose closed form nobody knows, and no time for the oracle.
+/// A chain whose closed form is not given, and no time for the oracle.
 SceneReference self_converged(double most_s) {
   TradeoffScene scene = chain_scene(6, 16.0, 4);
   scene.closed_form = nullptr;
@@ -72,13 +72,13 @@ TEST(ReferenceOf, AsksTheOracleWhereARunOfItIsQuickEnough) {
   };
   EXPECT_EQ(kind(1e-9 * evaluations), ReferenceKind::self_converged);
   EXPECT_EQ(kind(1e-6 * evaluations), ReferenceKind::certified);
-  // which takes a tick, and does not say how small disturbances grow unless it is asked
+  // this takes a tick, and does not report how small disturbances grow unless requested
   const SceneReference found = reference_of(scene, ticking(), {.oracle_s = 1e-6 * evaluations, .gain = true});
   EXPECT_DOUBLE_EQ(found.cpu_s, 1e-6);
   EXPECT_GE(found.gain, 1.0);
 }
 
-// A run looks at the clock at its start and at its end, or more often, so that at least half of all time is in runs.
+// A run reads the clock at its start and at its end, or more often, so that at least half of all time is in runs.
 TEST(SelfConverged, TakesTheTimeOfAllItsRuns) {
   TradeoffScene scene = chain_scene(6, 16.0, 4);
   scene.closed_form = nullptr;

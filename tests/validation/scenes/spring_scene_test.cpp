@@ -1,4 +1,4 @@
-// Scenes of the studies in time: the networks they hand to the oracle, and when their events take place.
+// Scenes of the studies in time: the networks that they pass to the oracle, and the times of their events.
 
 #include "validation/scenes/spring_scene.h"
 
@@ -29,7 +29,7 @@ SpringScene box() {
 TimedCut cut_at(double time) { return plane_cut(time, {0.5, 0.5, 0.5}, {1, 0, 0}); }
 constexpr std::uint32_t inner = 13;  // the one point within the box
 
-// By its ends, the sum of the springs side by side.
+// By its ends, the sum of the parallel springs.
 template <class Springs, class Ends>
 std::map<std::pair<std::uint32_t, std::uint32_t>, double> stiffnesses(const Springs& springs, Ends&& ends) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> sums;
@@ -89,12 +89,12 @@ TEST(SpringScene, StartsWhereItIsTold) {
     EXPECT_EQ(prepared.motion.start.v[k], scene.problem.initial_velocity[point]);
     EXPECT_EQ(prepared.body.vertices.position[k], scene.initial_position[point]);
   }
-  // the springs know the shape at rest, not that one
+  // the springs have the shape at rest, not that one
   EXPECT_EQ(reference::mean_rest_length(prepared.motion.network),
             reference::mean_rest_length(prepare(box()).motion.network));
 }
 
-// Notes the steps it is asked for, and how many vertices there were.
+// Records the steps that it is asked to take, and the numbers of vertices.
 class Recorder : public Integrator {
  public:
   const Scheme& scheme() const override {

@@ -1,4 +1,4 @@
-// The judges of linear systems and of implicit methods: what is solved badly, and what does not keep its word.
+// The judges of linear systems and of implicit methods: bad solutions, and methods that do not keep their promises.
 
 #include <gtest/gtest.h>
 
@@ -35,8 +35,8 @@ TEST(IndefiniteCellJudge, LooksAtMatricesThatAreIndefinite) {
   }
 }
 
-// Conjugate gradients stop where they are told to: a hundredth leaves errors far above rounding, and less after another
-// round.
+// Conjugate gradients stop at the requested residual: a hundredth leaves errors far above rounding, and less after
+// another round.
 TEST(SolveAccuracyJudge, TellsABadSolutionFromAGoodOne) {
   std::size_t bad = 0;
   double refined = 0.0;
@@ -64,7 +64,7 @@ TEST(FactorEditsJudge, MeasuresTheErrorsOfItsSolutions) {
   EXPECT_GE(run.componentwise, run.largest);  // the componentwise error is never below the normwise one
 }
 
-// The first edit takes a spring away and the second puts it back: up to three rank-one terms each, as many both times.
+// The first edit removes a spring and the second restores it: up to three rank-one terms each, as many both times.
 TEST(FactorEditsJudge, TakesSpringsAwayAndPutsThemBack) {
   const EditRun run = run_edits(edit_policies().at(0), 4, 0.2, 1, ticking());
   EXPECT_EQ(run.failure, "");

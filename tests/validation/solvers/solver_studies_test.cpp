@@ -86,14 +86,14 @@ TEST(BreakEven, CountsTheWorkOfAStep) {
   counters.solves = 120;
   counters.factorisations = 3;
   const ImplicitWork work = implicit_work(counters);
-  EXPECT_DOUBLE_EQ(work.forces, 10.0);  // the line search looks at every spring once an iteration, and once a trial
+  EXPECT_DOUBLE_EQ(work.forces, 10.0);  // the line search evaluates every spring once an iteration, and once a trial
   EXPECT_DOUBLE_EQ(work.linearisations, 4.0);
   EXPECT_DOUBLE_EQ(work.solves, 12.0);
   EXPECT_DOUBLE_EQ(work.factorisations, 3.0);
 }
 
-// The clock ticks once a look, so the explicit side costs the same however many steps it takes: there is no crossover,
-// and the study has to say so.
+// The clock ticks once per reading, so the explicit side costs the same however many steps it takes: there is no
+// crossover, and the study has to say so.
 TEST(Crossover, SaysWhenThereIsNone) {
   CrossoverOptions options;
   options.most_evaluations = 2;
@@ -103,7 +103,7 @@ TEST(Crossover, SaysWhenThereIsNone) {
   EXPECT_FALSE(found.failure.empty());
 }
 
-/// A clock on which every look takes two milliseconds, so that a run looks at it after each step: all steps of all
+/// A clock on which every reading takes two milliseconds, so that a run reads it after each step: all steps of all
 /// methods cost the same.
 CpuClock a_look_a_step() {
   return [t = std::int64_t{0}]() mutable { return t += 2'000'000; };
@@ -117,7 +117,7 @@ const Crossover& crossover_of_equal_steps() {
 }
 
 // Verlet takes phase / 1.8 steps, nine tenths of the longest stable ones, and up to an eighth more to end at four
-// checkpoints; the looks before and after all steps are some per cent of all.
+// checkpoints; the readings before and after all steps are some per cent of the total.
 TEST(Crossover, IsWhereBothTakeAsManyStepsWhereAllStepsCostTheSame) {
   const Crossover& found = crossover_of_equal_steps();
   ASSERT_EQ(found.failure, "");
@@ -147,7 +147,7 @@ TEST(Crossover, PredictsByTheLawFromWhatItSaysOfThePilots) {
 }
 
 // The steps lie between two runs on either side of the error, or near it, and their error is a power of them. The
-// study's own reference is Verlet's with half the step: off by a third of what it says of the explicit run.
+// study's own reference is Verlet's with half the step: off by a third of its error for the explicit run.
 TEST(Crossover, ComparesWithTheStepsThatMeetTheError) {
   for (const CostPair& costs : crossover_of_equal_steps().costs) {
     const TradeoffScene scene =

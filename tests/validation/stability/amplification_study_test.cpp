@@ -26,7 +26,7 @@ TEST(Amplification, IsThatOfTheClosedFormsForEveryIntegrator) {
   EXPECT_EQ(seen.size(), integrators().size() - 1);
 }
 
-// Phases are those of the upper half of the plane and, beyond, of the whole turn.
+// Phases are in the upper half of the plane and, beyond, over the whole turn.
 TEST(AmplificationPoint, TellsWhatWasMeasuredApartFromTheory) {
   AmplificationPoint p;
   p.measured = std::polar(0.5, 1.0);

@@ -25,7 +25,7 @@ TEST(EnergyRounding, GrowsAsTheSquareRootOfTheSteps) {
   }
 }
 
-// Plainly each step rounds x, near 2, to 2.2e-16; compensated it rounds increments, h omega = 0.05 as large.
+// A plain state rounds x, near 2, to 2.2e-16 in each step; a compensated one its increments, h omega = 0.05 as large.
 TEST(EnergyRounding, IsSmallerWhereTheStateIsCompensated) {
   const auto last = [](const char* name) { return measure_rounding_growth(name, 10000, 16).points.back().error; };
   EXPECT_LT(last("verlet-compensated"), last("verlet") / 10);

@@ -1,4 +1,4 @@
-// Lanczos' highest frequency against closed forms and all eigenvalues, and what its proof refuses.
+// Lanczos' highest frequency compared with closed forms and all eigenvalues, and refusals of its proof.
 
 #include "validation/stability/frequency_oracle.h"
 
@@ -36,7 +36,7 @@ TEST(FrequencyOracle, IsTheLargestOfAllEigenvalues) {
 }
 
 TEST(FrequencyOracle, ProvesNothingOfAMatrixWhoseLargestEigenvalueTheStartMisses) {
-  // two equal blocks make every eigenvalue double, which Lanczos does not mind; not a number is no proof
+  // two equal blocks make every eigenvalue double, which is no problem for Lanczos; NaN is no proof
   Eigen::SparseMatrix<double> a(2, 2);
   a.insert(0, 0) = 1.0;
   a.insert(1, 1) = std::nan("");

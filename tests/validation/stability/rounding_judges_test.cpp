@@ -1,4 +1,4 @@
-// The judges of rounding: exponents that are told from errors, steps that are lost, floors that are derived.
+// The judges of rounding: exponents estimated from errors, steps that are lost, floors that are derived.
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST(RoundingFloorJudge, IsARandomWalkOfTheRoundingsOfPositions) {
   EXPECT_NEAR(rounding_floor(two_points(), compensated).at(1e-4) / (4 * one), 1.0, 1e-12);
 }
 
-// A free body that flies 4 s at 10 m/s is 40 m farther out; one that is held is not.
+// A free body that flies 4 s at 10 m/s is 40 m farther out; a fixed one is not.
 TEST(RoundingFloorJudge, CountsTheWayOfTheCentreOfMass) {
   const Scheme& rk4 = make_integrator("rk4")->scheme();
   TradeoffScene flying = two_points();

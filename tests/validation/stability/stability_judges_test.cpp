@@ -46,7 +46,7 @@ TEST(StabilityLimitJudge, AllowsAThousandthWhereFrequenciesAreClosedForms) {
   for (const StabilityLimit& l : limits_of(stand_in<LongerSteps<verlet_name, 0>>("verlet"))) {
     EXPECT_TRUE(l.holds()) << l.body << " zeta " << l.zeta << ": " << l.measured << " for " << l.theory;
     EXPECT_EQ(l.tolerance, l.body == "oscillator" || l.body == "chain" ? 1e-3 : 5e-3) << l.body;
-    // the places that halving leaves are a twentieth of the tolerance
+    // the resolution of the bisection is a twentieth of the tolerance
     EXPECT_GT(l.measured, 0.0);
   }
 }
@@ -162,7 +162,7 @@ TEST(DetectionJudge, CountsTheStepsAboveTheBound) {
 // ---- frequencies
 
 // The largest eigenvalue has an eigenvector that is orthogonal to the start, which is drawn from a known seed: Lanczos
-// converges to another one, and only the proof can tell.
+// converges to another one, and only the proof shows it.
 TEST(FrequencyOracle, ProvesNothingWhereItMissesTheLargest) {
   SplitMix64 random(1);
   const double w0 = random.next_signed(), w1 = random.next_signed();

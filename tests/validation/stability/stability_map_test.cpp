@@ -1,4 +1,4 @@
-// Small maps of stability: boundaries by runs where theory has them, growth of the right sign on both sides.
+// Small maps of stability: boundaries by runs where theory puts them, growth of the right sign on both sides.
 
 #include "validation/stability/stability_map.h"
 
@@ -22,7 +22,7 @@ TEST(StabilityMap, HasTheBoundaryOfTheory) {
     const StabilityMap map = measure_stability_map(entry, map_plan(scheme, true));
     EXPECT_FALSE(map.boundary.empty()) << entry.name;
     EXPECT_FALSE(map.theory.empty()) << entry.name;
-    // the powers of the spectral radius leave out what inclined eigenvectors add (scheme_test.cpp): 0.2 %
+    // the powers of the spectral radius leave out the contribution of inclined eigenvectors (scheme_test.cpp): 0.2 %
     for (const auto& c : map.boundary)
       EXPECT_LE(c.distance(), 2e-3) << entry.name << ", zeta " << c.zeta << ": " << c.measured << " for " << c.theory;
   }
@@ -34,7 +34,7 @@ TEST(StabilityMap, OfVerletGrowsBeyondTwoAndNowhereElse) {
   for (std::size_t r = 0; r < map.zeta.size(); ++r)
     for (std::size_t c = 0; c < map.theta.size(); ++c) {
       const double growth = map.growth[r * map.theta.size() + c];
-      // what neither grows nor decays shows up to 1e-2 for want of whole periods
+      // a neutral oscillation has a growth of up to 1e-2, since its periods are not whole
       if (map.theta[c] < 1.95) {
         EXPECT_LE(growth, 1e-2) << map.theta[c] << " " << map.zeta[r];
       }

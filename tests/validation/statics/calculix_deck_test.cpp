@@ -23,7 +23,7 @@ StaticProblem two_standing(bool large) {
   return problem;
 }
 
-// What ccx 2.20 wrote of the decks of both, the last two parts of ten of the large load.
+// The output of ccx 2.20 for both decks, the last two parts of ten of the large load.
 constexpr const char* small_printed = R"(
  displacements (vx,vy,vz) for set ALL and time  0.1000000E+01
 
@@ -146,7 +146,7 @@ TEST(CalculixDisplacements, AreThoseOfCoresElements) {
     const std::vector<Vector3d> ours = displacements_by_core(two_standing(large)),
                                 theirs = calculix_displacements(large ? large_printed : small_printed, 5);
     EXPECT_LT(displacements_apart(ours, theirs), 5e-7) << large;
-    EXPECT_GT(displacements_apart(ours, theirs), 1e-9) << large;  // they are not ours
+    EXPECT_GT(displacements_apart(ours, theirs), 1e-9) << large;  // our numbers, not printed ones
   }
 }
 

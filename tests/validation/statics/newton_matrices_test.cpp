@@ -23,7 +23,7 @@ TEST(NewtonRuns, AreShortestWithTheExactTangent) {
   EXPECT_NEAR(runs[2].bent, runs[0].bent, 1e-7);
   EXPECT_NEAR(runs[0].bent, 0.35, 0.02);
   EXPECT_NEAR(runs[3].bent, 0.6, 0.02);
-  EXPECT_FALSE(runs[5].iterations);  // whole steps of warped stiffness go astray there
+  EXPECT_FALSE(runs[5].iterations);  // whole steps of warped stiffness diverge there
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(DisplacementsByCore, AreLinearOrNotAsTheProblemSays) {
   // a beam that turns is stiffer than one that only shears, and comes nearer to the clamp
   const std::vector<Vector3d> large = bent(800.0, true);
   EXPECT_LT(largest_displacement(large), 0.9 * largest_displacement(far));
-  // they part with the slope, which is 0.03 here
+  // they differ by the slope, which is 0.03 here
   const double parted = displacements_apart(bent(30.0, true), bent(30.0, false));
   EXPECT_LT(parted, 0.03);
   EXPECT_GT(parted, 1e-3);

@@ -30,7 +30,7 @@ struct Pulled {
   }
 };
 
-// Forces by the witness, in long double from the definition of the law: they hold the load, at every free vertex.
+// Forces by the witness, in long double from the definition of the law: they balance the load, at every free vertex.
 TEST(StaticRest, IsWhereTheWitnessOfTheLawHoldsTheLoad) {
   const Pulled pulled;
   const StaticRest rest = pulled.rest({.parts = 4});

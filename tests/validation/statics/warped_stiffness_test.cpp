@@ -29,7 +29,7 @@ TEST(WarpedStiffness, IsTheTangentOfABodyAtRest) {
   EXPECT_LT(apart(WarpedStiffness(b.system, b.rest)(b.rest), linearised(b.system, b.rest).stiffness), 1e-13);
 }
 
-// Turned as a whole it has no stress, and rotations change nothing of the tangent but its frame.
+// Rotated as a whole it has no stress, and a rotation changes nothing of the tangent but its frame.
 TEST(WarpedStiffness, IsTheTangentOfABodyThatHasTurned) {
   const Body b;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, Vector3d(1, 2, -1).normalized()).toRotationMatrix();

@@ -1,4 +1,4 @@
-// What lockstep compares: each answer of a carrier is made wrong in turn, and the comparison names it.
+// The comparisons of lockstep: each answer of a carrier is made wrong in turn, and the comparison names it.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace dartboard::lockstep_judge_test {
 namespace {
 
-/// Map3 twice, the second one lying.
+/// Map3 twice, the second one with wrong answers.
 MakeTwins with_a_liar(const Lies& lies) {
   return [lies](const Mesh& mesh, ScriptStorage) {
     std::vector<std::unique_ptr<MapTwin>> twins;
@@ -22,7 +22,7 @@ MakeTwins with_a_liar(const Lies& lies) {
   };
 }
 
-/// Map3, lying, and nobody else of ours.
+/// Map3 with wrong answers, and no other map of ours.
 MakeTwins only_a_liar(const Lies& lies) {
   return [lies](const Mesh& mesh, ScriptStorage) {
     std::vector<std::unique_ptr<MapTwin>> twins;
@@ -38,7 +38,7 @@ Dart sewn_dart(const Mesh& mesh) {
   return no_dart;
 }
 
-/// What one operation on six tetrahedra shows of a lie; "nothing" where it goes unnoticed.
+/// The disagreement found after one operation on six tetrahedra with this lie; "nothing" if it goes unnoticed.
 std::string seen(const Lies& lies, Operation operation) {
   const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
   if (operation.a == no_dart) operation.a = sewn_dart(mesh);
@@ -119,7 +119,7 @@ TEST(LockstepJudge, NamesAMapThatIsNotValidWhereItWasTouched) {
   EXPECT_EQ(seen({.violation_near = [] { return std::string("broken"); }}, unsew), "validity");
 }
 
-// The face that was asked for is apart, and so is one elsewhere that nobody asked for.
+// The requested face is apart, and so is one elsewhere that was not requested.
 TEST(LockstepJudge, AddsUpWhatOperationsChange) {
   const Mesh mesh = kuhn_grid(3, 1, 1, 1.0);
   const auto twin = make_core_twin<Map3>(mesh);
@@ -149,7 +149,7 @@ TEST(LockstepJudge, AddsUpWhatOperationsChange) {
   EXPECT_FALSE(replay_topology(mesh, script).disagreement);
 }
 
-// What only the full comparison asks for: who said what.
+// Questions of the full comparison only: the report names the carrier of each answer.
 TEST(LockstepJudge, NamesWhoAnswersTheFullComparisonDifferently) {
   const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
   const Lies lies{.is_orientable = [](std::optional<bool> truth) { return !*truth; }};
@@ -162,8 +162,8 @@ TEST(LockstepJudge, NamesWhoAnswersTheFullComparisonDifferently) {
   EXPECT_NE(found->theirs.find("no"), std::string::npos) << found->theirs;
 }
 
-// It tells the truth until all rows have agreed, and then calls one face free: only isomorphism is asked for after
-// that.
+// The carrier answers correctly until all rows have agreed, and then calls one face free: only isomorphism is checked
+// after that.
 TEST(LockstepJudge, AsksCgalForIsomorphism) {
   const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
   const auto honest = make_core_twin<Map3>(mesh);
@@ -182,9 +182,9 @@ TEST(LockstepJudge, AsksCgalForIsomorphism) {
   EXPECT_EQ(found->what, "isomorphic to ours");
 }
 
-// ---- all that can be asked of a map
+// ---- all questions on a map
 
-/// The rows of an honest twin and a liar in which they do not agree.
+/// The rows in which an honest twin and one with wrong answers disagree.
 std::vector<std::string> rows_that_differ(const Lies& lies) {
   const Mesh mesh = kuhn_grid(1, 1, 1, 1.0);
   const auto honest = make_core_twin<Map3>(mesh);

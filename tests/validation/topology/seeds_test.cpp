@@ -1,4 +1,4 @@
-// A seed draws what it draws again, and another seed draws something else, wherever validation takes one.
+// A seed draws the same numbers again, and another seed draws others, wherever validation takes one.
 
 #include <gtest/gtest.h>
 

@@ -47,7 +47,7 @@ TEST(Fuzz, CellsOfAllKindsAgreeWithBothOracles) {
   }
 }
 
-// Flips, folds, faces of one cell sewn to each other, i-sews of every i: only generalized maps can say that.
+// Flips, folds, faces of one cell sewn to each other, i-sews of every i: only generalized maps support them.
 TEST(Fuzz, AnythingGoesWithTheGeneralizedMap) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     expect_agreement(kuhn_grid(1, 1, 1, 1.0), plan(ScriptStorage::tetrahedral, ScriptOracles::gmap, seed, 2000));

@@ -12,7 +12,7 @@
 namespace dartboard::rounding_floor_test {
 namespace {
 
-/// Of a run whose steps are too short for anything but rounding to show.
+/// The error of a run whose steps are so short that only rounding shows.
 double error_of(const TradeoffScene& scene, const char* name, std::uint64_t steps) {
   const auto integrator = make_integrator(name);
   const TimedRun run = run_timed(scene, *integrator, {.steps = steps}, ticking());
@@ -23,7 +23,7 @@ double error_of(const TradeoffScene& scene, const char* name, std::uint64_t step
 
 TEST(RoundingFloor, BoundsWhatRoundingLeavesOfAMotionInTinySteps) {
   const TradeoffScene scene = chain_scene(8, 64.0);
-  // a constant of 0.1 to 0.6 was seen where 1.5 is counted
+  // a constant of 0.1 to 0.6 was observed; 1.5 is assumed
   for (const char* name : {"blanes-moan-4", "dormand-prince-54"}) {
     const double floor = rounding_floor(scene, make_integrator(name)->scheme()).at(scene.duration / 0x1p17);
     const double error = error_of(scene, name, 1 << 17);

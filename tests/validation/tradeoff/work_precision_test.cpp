@@ -71,7 +71,7 @@ TEST(Winners, SayHowOftenForcesAreEvaluatedBesideTheCost) {
   const auto best = winners(points, errors);
   EXPECT_NEAR(best[0].evaluations, 40.0, 1e-11);  // as the cost, halfway on both scales
   EXPECT_EQ(best[1].evaluations, 400.0);
-  EXPECT_EQ(best[2].evaluations, 0.0);  // none reaches it
+  EXPECT_EQ(best[2].evaluations, 0.0);  // no run reaches it
 }
 
 TEST(Winners, PeersDoNotTakePartAndHaveARegret) {
@@ -112,7 +112,7 @@ TEST(RunTimed, AToleranceNeedsAnIntegratorThatChoosesItsSteps) {
   EXPECT_EQ(run_timed(scene, *adaptive, {.tolerance = 1e-3}, ticking()).states.size(), 2u);
 }
 
-/// Remembers the lengths of its steps, and moves everything on at its speed.
+/// Records the lengths of its steps, and moves everything on at its speed.
 class RemembersItsSteps : public Integrator {
  public:
   const Scheme& scheme() const override { return real_->scheme(); }
@@ -232,7 +232,7 @@ TEST(ErrorOfRest, IsTheSizeOfTheMotion) {
   EXPECT_NEAR(error_of_rest(scene, reference), expected, 1e-13);
 }
 
-// A run that stays where it was is of no use, nor is one that is an edge off.
+// A run that stays at its start is of no use, nor is one that is an edge off.
 TEST(WorkPrecisionStudy, CallsErrorsUselessFromThatOfRestOnAndFromAnEdgeOn) {
   TradeoffScene scene = chain_scene(6, 16.0, 4);
   SceneReference reference = reference_of(scene, ticking());
@@ -249,7 +249,7 @@ TEST(WorkPrecisionStudy, EveryContenderMeetsItsFailurePointAndConverges) {
   const SceneReference reference = reference_of(scene, ticking());
   WorkPrecisionOptions options;
   options.fewest_repetitions = options.most_repetitions = 1;
-  options.most_s = 3e-4;  // on this clock a look takes a microsecond
+  options.most_s = 3e-4;  // on this clock a reading takes a microsecond
   std::vector<TradeoffContender> contenders;
   for (const std::string name : {"verlet", "blanes-moan-4", "rk4"})
     contenders.push_back({name, [name] { return make_integrator(name); }, false, false});
@@ -299,7 +299,7 @@ TEST(WorkPrecisionStudy, GivesARunUpThatTakesHalfAsLongAgainAsAllowed) {
   const TradeoffScene scene = chain_scene(4, 16.0, 4);
   const SceneReference reference = reference_of(scene, ticking());
   WorkPrecisionOptions options = once();
-  options.most_s = 1e-6;  // a look: the first run has more
+  options.most_s = 1e-6;  // one reading: the first run has more
   const WorkPrecision study = work_precision(scene, reference, only("rk4"), ticking(), options);
   ASSERT_EQ(study.points.size(), 1u);
   EXPECT_EQ(study.points[0].code, to_string(StepCode::budget));
@@ -382,14 +382,14 @@ TEST(WorkPrecisionEnds, WhereAMethodIsGoodEnough) {
   for (std::size_t k = 0; k + 1 < points.size(); ++k) EXPECT_FALSE(points[k].errors.x <= 1e-3) << k;
 }
 
-// With as much time as a run of 4096 steps takes, Verlet comes to some 1e-6, and not to 1e-9: that is plain at once.
+// With as much time as a run of 4096 steps takes, Verlet reaches some 1e-6, and not 1e-9: that is clear at once.
 TEST(WorkPrecisionEnds, WhereAMethodCannotBecomeUseful) {
   const TradeoffScene scene = chain_scene(4, 16.0, 4);
   const std::vector<TradeoffContender> verlet{{"verlet", [] { return make_integrator("verlet"); }, false, false}};
   const auto points_for = [&](double error) {
     WorkPrecisionOptions options;
     options.fewest_repetitions = options.most_repetitions = 1;
-    options.most_s = 4e-5;  // on this clock a look takes a microsecond
+    options.most_s = 4e-5;  // on this clock a reading takes a microsecond
     options.useful_error = error;
     return work_precision(scene, reference_of(scene, ticking()), verlet, ticking(), options);
   };

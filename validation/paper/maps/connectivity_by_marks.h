@@ -10,12 +10,12 @@
 
 namespace dartboard {
 
-/// Walks from some dart along all alphas, marking: whether all darts are marked then.
+/// Walks from some dart along all alphas, marking, and returns whether all darts are marked then.
 bool all_darts_are_marked(const Map3& map);
 
-/// Dissociate random faces of a fresh body until a piece comes off, in several series. After each dissociation, whether
-/// all darts are marked must be whether the cells hang together by joined sides, as found without a dart. No where
-/// both answers were not met.
+/// Dissociate random faces of a fresh body until a piece comes off, in several series. After each dissociation, all
+/// darts must be marked exactly if the cells are connected by joined sides, as found without a dart. The answer is no
+/// if one of the two cases never occurred.
 ClaimAnswer try_marking(const Mesh& mesh, int series, std::uint64_t seed,
                         const std::function<bool(const Map3&)>& is_connected = all_darts_are_marked);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Section 5.1: a coverage has to check every dart, whatever cells it is after.
+// Section 5.1: a coverage has to check every dart, whatever cells it looks for.
 
 #include <cstddef>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// General storage that counts how often an alpha is looked up.
+/// General storage that counts the look-ups of alphas.
 class CountingTable : public AlphaTable<3> {
  public:
   Dart alpha(int i, Dart d) const {
@@ -31,8 +31,8 @@ using Coverage = std::function<std::size_t(const CountingMap&, int i)>;
 Coverage core_coverage();
 
 /// Cover the vertices, edges, faces and volumes of some bodies and count look-ups. Their number is proportional to the
-/// darts if it is the same for each of them, at least one, in all bodies and for cells of any dimension: within
-/// 1 %.   pre  bodies of different sizes
+/// darts if the number per dart is the same, at least one, in all bodies and for cells of any dimension: within 1 %.
+/// pre  bodies of different sizes
 ClaimAnswer try_coverages(std::span<const Mesh> bodies, const Coverage& cover = core_coverage());
 
 }  // namespace dartboard

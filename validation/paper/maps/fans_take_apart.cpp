@@ -25,8 +25,8 @@ FanAnswers try_fans(const Mesh& mesh, const FanOf& fan) {
   const auto table = dart_table_of(map);
   const auto face = orbits(table, {0, 1, 3});
 
-  // Whether the corner of d parts from that across alpha_3 when the faces of some darts are dissociated: by the
-  // witness, and by what the operation reports.
+  // Whether the corner of d parts from that across alpha_3 when the faces of some darts are dissociated: according to
+  // the witness, and to the report of the operation.
   struct Parted {
     bool witnessed, reported;
   };

@@ -17,13 +17,13 @@ FanOf core_fan();
 struct FanAnswers {
   ClaimAnswer one_face;   // seldom: one inner face in ten, or fewer, takes a vertex apart
   ClaimAnswer whole_fan;  // always
-  ClaimAnswer ends;       // each fan ends where its first dart is met again or at the surface
+  ClaimAnswer ends;       // each fan ends where its first dart is reached again or at the surface
 };
 
 /// Every inner face of a mesh of tetrahedra, and the fan that starts with it at each of its corners. Whether a vertex
-/// holds together is asked of the cells around its mesh point without the sides that are dissociated, by a witness that
-/// knows no dart, and must be what core's operation reports; where a fan ends, of the letter of section 5.1 on plain
-/// numbers.
+/// stays connected is decided on the cells around its mesh point without the dissociated sides, by a witness that knows
+/// no dart, and must agree with the report of core's operation; the end of a fan is found by the letter of section 5.1
+/// on plain numbers.
 FanAnswers try_fans(const Mesh& mesh, const FanOf& fan = core_fan());
 
 }  // namespace dartboard

@@ -7,12 +7,12 @@
 
 namespace dartboard {
 
-/// A map of a mesh, in which point[d] is the mesh point of dart d: its n-free darts, gathered by the points of their
-/// facets, are the sides that one cell of the mesh has alone, each with all its darts; and no dart is free otherwise.
+/// For a map of a mesh, in which point[d] is the mesh point of dart d: its n-free darts, gathered by the points of
+/// their facets, are the sides that only one cell of the mesh has, each with all its darts; no other dart is free.
 template <class Map>
 ClaimAnswer free_darts_are_boundary(const Map& map, const std::vector<std::uint32_t>& point, const Mesh& mesh);
 
-/// All of it for an open solid, and for a sphere and a torus, which have no boundary.
+/// All of this for an open solid, and for a sphere and a torus, which have no boundary.
 ClaimAnswer try_free_darts(const Mesh& solid);
 
 extern template ClaimAnswer free_darts_are_boundary(const Map2&, const std::vector<std::uint32_t>&, const Mesh&);

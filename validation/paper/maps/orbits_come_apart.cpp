@@ -25,7 +25,7 @@ Labels cells(const reference::DartTable& table, int i) {
     return i == 0 ? orbits(table, {1, 2, 3}) : orbits(table, {0, 2, 3});
 }
 
-/// The orbits that the unsewn darts part: each pair once.
+/// The orbits separated by the unsewn darts: each pair once.
 Pairs parted(const Labels& orbit, const Pairs& darts) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> apart;
   for (const auto& [a, b] : darts)
@@ -33,7 +33,7 @@ Pairs parted(const Labels& orbit, const Pairs& darts) {
   return {apart.begin(), apart.end()};
 }
 
-/// What was reported, in the same words; twice what was reported twice.
+/// The reported pairs, in the same form; a pair that is reported twice is in it twice.
 Pairs reported(const Labels& orbit, const std::vector<DissociatedCell>& cells) {
   Pairs pairs;
   for (const auto& [kept, split] : cells) pairs.push_back(std::minmax(orbit[kept.index], orbit[split.index]));
@@ -52,7 +52,7 @@ ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed
   std::size_t asked = 0, vertices = 0, edges = 0;
   for (int k = 0; k < dissociations; ++k) {
     const auto before = dart_table_of(map);
-    // a dart that is sewn, and all that will be unsewn with it
+    // a sewn dart, and all that will be unsewn with it
     const auto from = random.below(static_cast<std::uint32_t>(before.size()));
     std::uint32_t d = from;
     while (!before.is_live(d) || before(n, d) == d)

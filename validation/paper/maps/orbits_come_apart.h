@@ -15,7 +15,7 @@ using DissociateFacet = std::function<TopologyChange(Map&, Dart)>;
 
 /// Dissociate random faces of a solid, or edges of a surface (Map2). After each the alphas, as plain numbers, are
 /// gathered into orbits by union-find; the vertices and edges whose two sides are in different ones must be those that
-/// the operation reports, each once. No where no vertex, or in a solid no edge, came apart, or all did.
+/// the operation reports, each once. The answer is no if no vertex, or in a solid no edge, came apart, or all did.
 template <class Map>
 ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed,
                        const DissociateFacet<Map>& dissociate);

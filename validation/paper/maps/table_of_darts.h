@@ -7,7 +7,7 @@
 namespace dartboard {
 
 /// The 2-g-map of Fig. 5, its dart k the paper's dart k + 1. The table gives the links of the first ten darts and the
-/// text three cells; the others, which the figure alone shows, are linked to what these leave.
+/// text three cells; the others, which only the figure shows, are linked to the remaining ones.
 Map2 map_of_fig_5();
 
 /// Whether it is a 2-g-map with the table's links and with the cells that the text names: vertex <alpha_1, alpha_2>(2),

@@ -1,4 +1,4 @@
-// What `validate conservation` says of a body: every figure in its own place.
+// The report of `validate conservation` on a body: every figure in its own place.
 
 #include "benchmarks/studies/conservation/conservation_report.h"
 

@@ -1,4 +1,4 @@
-// What `validate contact` concludes from what it found: with one wrong figure, the claim about it falls short.
+// The conclusions of `validate contact` from its results: with one wrong figure, the claim about it falls short.
 
 #include "benchmarks/studies/contact/contact_report.h"
 
@@ -34,7 +34,7 @@ ContactResults good_results() {
 }
 
 using Ids = std::vector<std::string>;
-/// The claims that fall short when one thing is not as in `good_results`.
+/// The claims that fall short when one thing differs from `good_results`.
 Ids short_with(const std::function<void(ContactResults&)>& spoil) {
   ContactResults r = good_results();
   spoil(r);

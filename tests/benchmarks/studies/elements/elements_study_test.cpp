@@ -5,7 +5,7 @@
 namespace dartboard::elements_study_test {
 namespace {
 
-/// What a sound study finds, in round numbers.
+/// The results of a sound study, in round numbers.
 ElementsResults sound() {
   ElementsResults r;
   const PublishedCantilever published{0.25, 4.0, 2.0, 9.0, 10.0, 15.0};

@@ -1,4 +1,4 @@
-// The pictures of `extremes`: what is measured and what is theory, each in its own place within the axes.
+// The pictures of `extremes`: measurements and theory, each in its own place within the axes.
 
 #include "benchmarks/studies/extremes/extremes_figures.h"
 
@@ -37,7 +37,7 @@ TEST(MapsFigure, HasAPanelForEachIntegratorWithTheRatioZeroBelowTheLogarithms) {
   EXPECT_EQ(figure.field_low, -figure.field_high);  // white is neither growth nor decay
   EXPECT_GT(figure.field_high, 0.0);
   EXPECT_EQ(figure.columns, 4);
-  EXPECT_EQ(figure.width, 2 * figure.height);  // four panels beside each other, two rows of them
+  EXPECT_EQ(figure.width, 2 * figure.height);  // four panels next to each other, two rows of them
   ASSERT_EQ(figure.panels.size(), 2u);
   EXPECT_EQ(figure.panels[1].title, "verlet");
   const Panel& panel = figure.panels[0];
@@ -67,7 +67,7 @@ TEST(MapsFigure, HasTheoryAsALineOfDotsAndRunsAsCircles) {
   ASSERT_EQ(theory.points.size(), 2u);
   expect_point(theory.points[0], 2.5, -3.0);
   expect_point(theory.points[1], 2.75, -1.0);
-  ASSERT_EQ(runs.points.size(), 2u);  // what runs did not find has no place
+  ASSERT_EQ(runs.points.size(), 2u);  // a crossing not found by runs has no place
   expect_point(runs.points[0], 2.25, -3.0);
   expect_point(runs.points[1], 3.5, -1.0);
   EXPECT_EQ(theory.symbol, 7);  // filled
@@ -108,13 +108,13 @@ TEST(AmplificationFigure, HasImplicitMethodsAboveAndExplicitOnesBelow) {
     EXPECT_EQ(panel.y_axis, y_axes[k % 3]);
     EXPECT_TRUE(panel.x_log);
     EXPECT_EQ(panel.x_low, 1e-2);
-    EXPECT_EQ(panel.x_high, k < 3 ? 1e3 : 4.0);  // explicit ones are stable no further
+    EXPECT_EQ(panel.x_high, k < 3 ? 1e3 : 4.0);  // explicit methods are stable no further
     EXPECT_EQ(panel.y_log, k % 3 != 0);
     EXPECT_EQ(panel.key, k % 3 == 1 ? "bottom right" : "");
     EXPECT_LT(panel.y_low, panel.y_high);
     EXPECT_TRUE(k % 3 == 0 || panel.y_low > 0.0);
     if (k % 3 == 0) {
-      EXPECT_GT(panel.y_high, 1.0);  // what neither grows nor decays is within
+      EXPECT_GT(panel.y_high, 1.0);  // 1, neither growth nor decay, is within
       EXPECT_LT(panel.y_high, 1.1);
     }
   }

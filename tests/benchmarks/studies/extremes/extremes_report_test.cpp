@@ -1,4 +1,4 @@
-// What the report of the extremes claims: each claim with a measurement that it must not pass.
+// The claims of the report of the extremes: each claim with a measurement that it must not pass.
 
 #include "benchmarks/studies/extremes/extremes_report.h"
 
@@ -94,7 +94,7 @@ TEST(ExtremesOffsets, HoldUpToThirtyRoundingsAndNotBeyondNorWithoutANumber) {
         << bad;
     EXPECT_EQ(verdict_on(matrix({offset("bdf2", bad), offset("rk4", 1.0)}), "offset-implicit"), Verdict::falls_short)
         << bad;
-    // explicit Euler amplifies rounding as it does everything
+    // explicit Euler amplifies rounding as everything else
     EXPECT_EQ(verdict_on(matrix({offset("explicit-euler", bad), offset("rk4", 1.0)}), "offset-explicit"),
               Verdict::holds)
         << bad;

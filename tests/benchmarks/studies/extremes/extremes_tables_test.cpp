@@ -1,4 +1,4 @@
-// What `extremes` prints and leaves: every figure of studies whose figures all differ, in its own place.
+// Tables and files of `extremes`: every figure of studies whose figures all differ, in its own place.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The table, and the heading it stands under.
+/// The table, and its heading.
 const NamedTable& named(const std::vector<NamedTable>& tables, const std::string& name) {
   for (const NamedTable& t : tables)
     if (t.name == name) return t;
@@ -168,7 +168,7 @@ TEST(ExtremesTables, HaveTheCrossingThatIsFarthestFromTheory) {
   EXPECT_EQ(table.rows()[1], (Row{"rk4", "12", "1", "0", "", "", ""}));
 }
 
-// A step that turns the oscillation by 1.25 theta instead of theta and makes 0.75 of it.
+// A step that turns the oscillation by 1.25 theta instead of theta and multiplies it by 0.75.
 TEST(ExtremesTables, HaveAStepOfEachDecadeBesideItsTheory) {
   ExtremesResults r = results();
   r.amplification.push_back(amplification(0.2, 0.75, 0.5));  // between decades

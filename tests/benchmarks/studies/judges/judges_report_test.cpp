@@ -24,7 +24,7 @@ JudgesResults results(std::size_t seen) {
 
 TEST(JudgesReport, HoldsWhereNineteenOfTwentyWrongIntegratorsAreSeen) {
   const std::vector<Claim> claims = claims_of(results(19));
-  ASSERT_EQ(claims.size(), 2u);  // nothing is said of judges that were not asked
+  ASSERT_EQ(claims.size(), 2u);  // no claims on judges that did not run
   EXPECT_EQ(claims[0].id, "extremes-see-wrong-integrators");
   EXPECT_EQ(claims[0].verdict, Verdict::holds);
   EXPECT_EQ(claims[0].measured, "95.0 %");

@@ -127,7 +127,7 @@ TEST(ModelsReport, AModelWithoutAMeshThatIsGoodEnoughLoses) {
   EXPECT_EQ(claim(r, "models-springs-coarse").verdict, Verdict::not_tested);
 }
 
-// Of few processes an interval tells nothing.
+// An interval over few processes decides nothing.
 TEST(ModelsReport, TimesOfFewProcessesCannotTell) {
   ModelsResults r = sound();
   std::erase_if(r.samples, [](const Sample& s) { return s.process > 2; });
@@ -152,13 +152,13 @@ TEST(ModelsReport, AModelReignsOverTheErrorsThatItIsTheCheapestFor) {
   EXPECT_EQ(found[0].least, 0.09);
   EXPECT_EQ(found[1].model, "neo-hookean hexahedra");
   EXPECT_EQ(found[1].below, found[0].least);
-  EXPECT_EQ(found[1].least, 0.01);  // what the reference can tell
+  EXPECT_EQ(found[1].least, 0.01);  // the resolution of the reference
   EXPECT_EQ(reigns_table(sound()).rows()[0], (std::vector<std::string>{"tip", "0.25", "9.0 % and more", "springs"}));
   EXPECT_EQ(reigns_table(sound()).rows()[1],
             (std::vector<std::string>{"tip", "0.25", "1.0 % to 9.0 %", "neo-hookean hexahedra"}));
 }
 
-// Springs of 30 % cost 1 ms, of 9 % 10 ms: of the geometric mean of the errors that of the costs.
+// Springs of 30 % cost 1 ms, of 9 % 10 ms: the geometric mean of the errors has that of the costs.
 TEST(ModelsReport, BetweenTwoMeshesCostIsAPowerOfError) {
   const ModelsResults r = sound();
   const double one = r.points[0].cost.median, ten = r.points[1].cost.median;
@@ -191,7 +191,7 @@ TEST(ModelsReport, HasARowAndALineForEachModelOnEachMesh) {
   EXPECT_EQ(panels.panels[0].series[0].points.size(), 2u);
   EXPECT_EQ(panels.panels[0].series[0].points[1].y, 0.09);
   EXPECT_EQ(panels.panels[0].series[0].points[1].x, r.points[1].cost.median);
-  EXPECT_GT(panels.panels[2].series[1].points[0].y, panels.panels[2].y_low);  // exact, and on the picture
+  EXPECT_GT(panels.panels[2].series[1].points[0].y, panels.panels[2].y_low);  // exact, and within the picture
   const auto json = json_of(r);
   EXPECT_EQ(json["points"].size(), 12u);
   EXPECT_TRUE(json["cheapest"][0]["below"].is_null());

@@ -1,4 +1,4 @@
-// What the verbs of `bench` conclude from their samples: with one task too slow, the claim about it falls short.
+// The conclusions of the verbs of `bench` from their samples: with one task too slow, the claim about it falls short.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void set_times(TopologyFigures& f, const std::string& group, const std::vector<s
   f.samples[group] = timed_samples(totals);
 }
 
-/// Every figure at 0.9 of what is asked, CGAL 25 times as slow.
+/// Every figure at 0.9 of its target, CGAL 25 times as slow.
 TopologyFigures good_topology() {
   TopologyFigures f;
   const std::pair<const char*, double> targets[]{{"vertex-orbit", 3.0}, {"full-check", 5.0},
@@ -114,14 +114,14 @@ TEST(BenchTopologyClaims, FallShortOfUnsewingThatGrowsWithTheBody) {
 }
 
 TEST(BenchTopologyClaims, AreNotTestedWhereContendersDisagreed) {
-  TopologyFigures f;  // what disagrees is not timed
+  TopologyFigures f;  // figures that disagree are not timed
   for (const Claim& c : claims_of(f)) {
     EXPECT_EQ(c.verdict, Verdict::not_tested) << c.id;
     EXPECT_NE(c.reason.find("do not find the same"), std::string::npos) << c.id;
   }
 }
 
-// What is said of all bodies is not said of one, however good it is.
+// A claim on all bodies is not made for one, however good it is.
 TEST(BenchTopologyClaims, AreNotTestedWhereABodyWasLeftOut) {
   TopologyFigures f = good_topology();
   f.all_bodies = false;
@@ -174,7 +174,7 @@ Ids operations_short_with(const std::function<void(OperationFigures&)>& spoil) {
   OperationFigures f = good_operations();
   spoil(f);
   const auto claims = claims_of(f, bodies);
-  // of the paper: 400 us are not negligible beside 4, which is known
+  // of the paper: 400 us are not negligible compared with 4, which is known
   EXPECT_EQ(find_claim(claims, "rebuild-negligible").verdict, Verdict::does_not_carry_over);
   return ids_of(claims, Verdict::falls_short);
 }
@@ -216,7 +216,7 @@ TEST(BenchOperationsClaims, FallShortOfAStepWithADissociationThatTakesTwiceAsLon
   EXPECT_EQ(operations_short_with([](auto& f) { set_step(f, "kuhn-105456", 2.1); }), Ids{"operation-step-kuhn-105456"});
 }
 
-// As in a quick run: three processes, all alike, cannot tell what others would find.
+// As in a quick run: three processes, all alike, cannot predict others.
 TEST(BenchOperationsClaims, AreNotTestedInThreeProcesses) {
   OperationFigures f = good_operations();
   for (auto& [name, samples] : f.operations) samples.resize(3);
@@ -233,7 +233,7 @@ TEST(BenchOperationsClaims, AreNotTestedOfAnOperationThatWasNotTimed) {
 }
 
 TEST(BenchOperationsClaims, CompareTheRebuildWithOneRemovalOfMapAndEmbeddings) {
-  OperationFigures f = good_operations();  // 400 us beside 1 + 3
+  OperationFigures f = good_operations();  // 400 us compared with 1 + 3
   for (OperationSample& s : f.operations["liver564:remove"]) {
     s.ns[0].assign(9, 1000);
     s.ns[1].assign(9, 3000);
@@ -305,8 +305,8 @@ TEST(BenchAblationClaims, SayNothingOfAStairWhoseLowerTaskIsTheSlowerOne) {
 
 // ---- operations
 
-// The map follows first and each view after it: where all views follow each of them takes some time, and the journal
-// knows the map alone.
+// The map follows first and each view after it: if all views follow, each of them takes some time, and the journal
+// restores the map only.
 TEST(StudyOperations, TimeEveryPhaseOfEveryOperation) {
   std::size_t operations_seen = 0;
   study_operations(

@@ -1,4 +1,4 @@
-// What `validate order` concludes from what it measured: with one wrong figure, the claim about it falls short.
+// The conclusions of `validate order` from its results: with one wrong figure, the claim about it falls short.
 
 #include "benchmarks/studies/order/order_report.h"
 
@@ -32,7 +32,7 @@ OrderResults good_results() {
   return r;
 }
 
-/// The claims that fall short when one thing is not as in `good_results`.
+/// The claims that fall short when one thing differs from `good_results`.
 std::vector<std::string> short_with(const std::function<void(OrderResults&)>& spoil) {
   OrderResults r = good_results();
   spoil(r);

@@ -1,4 +1,4 @@
-// What `validate order` prints and leaves: every figure of results whose figures all differ, in its own place.
+// Tables and files of `validate order`: every figure of results whose figures all differ, in its own place.
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 namespace dartboard::measure_test {
 namespace {
 
-// what a contender's run of so many steps took
+// the times of a contender's run of so many steps
 StepSample run_of(int steps, std::int64_t cpu_ns, std::int64_t wall_ns) {
   StepSample s{{}, steps};
   s.sample = {.task = "arrays", .process = 2, .round = 3, .position = 1, .cpu_ns = cpu_ns, .wall_ns = wall_ns};

@@ -43,7 +43,7 @@ TEST(RealTime, IsOpenWhereTheIntervalLiesOnBothSides) {
 }
 
 TEST(RealTime, IsMeasuredOnBodiesThatGrowUntilAFrameTakesTooLong) {
-  // steps of a tenth of the frame: a few of them are soon done, so the largest bodies are reached or time is up
+  // steps of a tenth of the frame: a few of them take little time, so the largest bodies are reached or time is up
   const Frames frames = time_frames(frame_s / 10.0);
   ASSERT_GE(frames.size(), 1u);
   for (std::size_t k = 1; k < frames.size(); ++k) {

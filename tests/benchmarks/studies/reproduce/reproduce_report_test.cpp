@@ -1,4 +1,4 @@
-// The answers to the paper's claims: of sound bodies and wrong ones, and of times whose ratios are known.
+// The answers to the paper's claims: for sound bodies and wrong ones, and for times whose ratios are known.
 
 #include "benchmarks/studies/reproduce/reproduce_report.h"
 
@@ -43,7 +43,7 @@ TEST(PaperClaims, ThatAreNotMetFallShortOfBodiesAndDoNotCarryOverOfTimes) {
     EXPECT_EQ(missed.reason, row.does_not_carry_over) << row.id;
     EXPECT_EQ(missed.verdict, row.about == About::bodies ? Verdict::falls_short : Verdict::does_not_carry_over)
         << row.id;
-    // a sentence on times or programs may be wrong here, for a reason that is known; a sentence on bodies never
+    // a sentence on times or programs may be wrong here, for a known reason; a sentence on bodies never
     EXPECT_EQ(exit_code(std::span(&missed, 1)), row.does_not_carry_over.empty() ? 1 : 0) << row.id;
     EXPECT_EQ(exit_code(std::span(&met, 1)), row.does_not_carry_over.empty() ? 0 : 1) << row.id;
     EXPECT_TRUE(row.about != About::bodies || row.does_not_carry_over.empty()) << row.id;
@@ -156,7 +156,7 @@ TEST(ReproduceGates, LetNobodyThroughWhereTheCellsAreNotCgals) {
   EXPECT_FALSE(gates_of({}, motion(true, true), {}).passed);
 }
 
-// The arrays stand for all walks of the core.
+// The arrays represent all walks of the core.
 TEST(ReproduceGates, LetNoWalkThroughWhereTheSecondOfMotionOfTheirKindIsNotRight) {
   const std::vector<MotionAgreement> all{
       {.id = "lists", .agrees = true}, {.id = "arrays", .agrees = true}, {.id = "graph", .agrees = true}};
@@ -177,7 +177,7 @@ TEST(ReproduceExitCode, IsOneWhereAGateHasFailed) {
   EXPECT_EQ(reproduce_exit_code({answered("map-valid", Met::no, "", "")}, true), 1);
 }
 
-// A healthy machine: everything as on the one whose answers are known.
+// A healthy machine: everything as on the one with the known answers.
 TEST(ReproduceExitCode, IsZeroWhereEveryAnswerIsTheKnownOne) {
   std::vector<Claim> claims;
   for (const PaperClaim& row : paper_claims())
@@ -269,7 +269,7 @@ TEST(ReproduceTimes, OfArraysOnTheBorderHaveAReason) {
   EXPECT_EQ(exit_code(news), 1);
 }
 
-// Few rounds on a busy machine: what they would contradict is left to a whole run, what they confirm or know is said.
+// Few rounds on a busy machine: contradictions are left to a whole run, confirmed and known answers are given.
 TEST(ReproduceTimes, OfAQuickRunContradictNothingThatIsKnown) {
   ReproduceResults results = timed(11.3, 3.0, 8.5, 0.09, 1.3, 1.0, 0.02);
   results.quick = true;

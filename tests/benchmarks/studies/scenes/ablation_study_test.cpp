@@ -1,4 +1,4 @@
-// What the ablation compares: pairs of scenes that differ in one feature, and loops that leave the same bits.
+// The pairs of the ablation: scenes that differ in one feature, and loops that leave the same bits.
 
 #include "benchmarks/studies/scenes/ablation_study.h"
 
@@ -61,7 +61,7 @@ TEST(Ablation, CountsTheBytesOfWhatABareSceneDoesNotAskFor) {
   report.push_back({Part::damping, 160});
   EXPECT_EQ(bytes_not_asked_for(report), 172u);
   EXPECT_EQ(bytes_of_damping(report, 20), 160u);
-  report[1].bytes += 160;  // beside the others in a row
+  report[1].bytes += 160;  // in addition to the others, in a row
   EXPECT_EQ(bytes_of_damping(report, 20), 320u);
 }
 

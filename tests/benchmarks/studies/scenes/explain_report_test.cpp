@@ -1,4 +1,4 @@
-// What `explain` says of a plan: every figure in its own place.
+// The report of `explain` on a plan: every figure in its own place.
 
 #include "benchmarks/studies/scenes/explain_report.h"
 

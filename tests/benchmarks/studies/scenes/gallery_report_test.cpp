@@ -1,4 +1,4 @@
-// What `gallery` says of a scene: every figure in its own place.
+// The report of `gallery` on a scene: every figure in its own place.
 
 #include "benchmarks/studies/scenes/gallery_report.h"
 

@@ -1,4 +1,4 @@
-// What `simulate` says of a run: every figure in its own place.
+// The report of `simulate` on a run: every figure in its own place.
 
 #include "benchmarks/studies/scenes/simulate_report.h"
 

@@ -1,4 +1,4 @@
-// The longest stable step of a scene, asked of everybody who says one: one number, to the last bit.
+// The longest stable step of a scene, from every part that reports one: one number, to the last bit.
 
 #include <gtest/gtest.h>
 
@@ -21,32 +21,32 @@ namespace {
 
 using namespace moving;
 
-/// A clock on which every look takes a millisecond: the same choices on every machine.
+/// A clock that advances by a millisecond at each reading: the same choices on every machine.
 CpuClock ticking() {
   return [t = std::int64_t{0}]() mutable { return t += 1'000'000; };
 }
 
-/// What the simulation, its warning, explain-dt and recommend say. A step so long that it is warned of is asked for.
+/// The limits of the simulation, its warning, explain-dt and recommend. The step is so long that a warning is due.
 void expect_one_limit(SceneFile scene) {
   scene.accuracy.reset();
   if (scene.integrator.empty()) scene.integrator = "rk4";
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   if (!(scene.step > 0.0)) scene.step = scene.duration / 16;
   const StepLimit limit = Simulation(scene).step_limit();
-  const bool is_explained = !scene.has_contact();  // which explain-dt refuses
+  const bool is_explained = !scene.has_contact();  // explain-dt refuses scenes with contact
   if (is_explained) {
     const StepExplanation explained = explain_step(scene);
     EXPECT_EQ(explained.limit.stable, limit.stable) << scene.file;
     EXPECT_EQ(explained.limit.unstable, limit.unstable) << scene.file;
   }
   SceneFile quiet = scene;
-  quiet.events.clear();  // recommend looks ahead at what they leave
+  quiet.events.clear();  // recommend also considers the bodies after events
   try {
     const TradeoffScene studied = scene_of_file(quiet);
     EXPECT_EQ(stability_limit(scheme, features_of(studied, ticking()), studied.duration),
               Simulation(quiet).step_limit().stable)
         << scene.file;
-    // what events leave may only shorten it, but is bracketed anew: to the last bit it is not the same bracket
+    // bodies after events may only shorten it, but are bracketed anew: to the last bit it is not the same bracket
     EXPECT_LE(stability_limit(scheme, features_of(scene_of_file(scene), ticking()), scene.duration),
               StableStepEstimate::excess * limit.stable)
         << scene.file;
@@ -145,7 +145,7 @@ TEST(StepAgreement, ASceneWithAnAccuracyIsNotDividedForNothing) {
 TEST(StepAgreement, ARefusedStepOfAnAccuracyNamesTheKeyThatTheSceneHas) {
   SceneFile scene = parse(accurate("refuse", 0.0));
   scene.integrator = "rk4";
-  scene.step = 0.1;  // as if that had been settled
+  scene.step = 0.1;  // as if that had been the result for the accuracy
   try {
     const Simulation simulation(scene);
     FAIL() << "ran with h = " << scene.step;

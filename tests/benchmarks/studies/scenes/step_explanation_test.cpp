@@ -1,4 +1,4 @@
-// What limits the step of bodies whose fastest oscillation is known.
+// Limits of the step for bodies whose fastest oscillation is known.
 
 #include "benchmarks/studies/scenes/step_explanation.h"
 
@@ -17,7 +17,7 @@ namespace {
 using namespace moving;
 
 /// Four equal links between two walls. Along the line its matrix over the three free masses is 2 on the diagonal and -1
-/// beside it, in units of k / m: the fastest mode is (1, -sqrt 2, 1), of 2 + sqrt 2.
+/// next to it, in units of k / m: the fastest mode is (1, -sqrt 2, 1), of 2 + sqrt 2.
 SceneFile chain(const char* integrator = "verlet", double step = 1e-3) {
   Json scene = Json::parse(R"({"name": "chain", "duration": 10.0,
     "body": {"generate": {"chain": {"links": 4, "spacing": 0.5}}},
@@ -49,8 +49,8 @@ TEST(StepExplanation, NamesTheSpringsAndVerticesThatTakeMostOfTheEnergyFirst) {
   EXPECT_NEAR(e.vertices[1].share, 0.25, 1e-9);
 }
 
-// What is left of the matrix has another largest eigenvalue, and steps are as its inverse root. The limit of a run of N
-// steps is above the 2 of Verlet's method by (ln 2 / 2 N)^2, as growth goes with the root of what is above: 92 steps of
+// The remaining matrix has another largest eigenvalue, and steps vary as its inverse root. The limit of a run of N
+// steps is above the 2 of Verlet's method by (ln 2 / 2 N)^2, as growth goes with the root of the excess: 92 steps of
 // ten seconds are 1.4e-5, or 7e-6 of it.
 TEST(StepExplanation, GivesTheStepThatEachRemedyMakesStable) {
   const StepExplanation e = explain_step(chain());
@@ -66,7 +66,7 @@ TEST(StepExplanation, GivesTheStepThatEachRemedyMakesStable) {
   expect_eigenvalue("hold the first vertex", 2.0);
   // two masses on one wall: x^2 - 3 x + 1
   expect_eigenvalue("remove the first spring", (3.0 + std::sqrt(5.0)) / 2.0);
-  // of the antisymmetric mode 2; of the symmetric ones (2 - x) (1 - x) = 1
+  // the antisymmetric mode has 2; the symmetric ones (2 - x) (1 - x) = 1
   expect_eigenvalue("double the mass of the first vertex", (3.0 + std::sqrt(5.0)) / 2.0);
   EXPECT_TRUE(std::isinf(remedy(e, "remove the 4 springs")));
 }
@@ -92,7 +92,7 @@ TEST(StepExplanation, IsNoneWhereThereIsNoLimit) {
   EXPECT_NE(to_text(e, scene).find("stable in any"), std::string::npos);
 }
 
-/// Everything has another number.
+/// Every field has another number.
 StepExplanation distinct() {
   StepExplanation e;
   e.limits.lower = 10.0;
@@ -205,7 +205,7 @@ TEST(StepExplanation, NamesTheElementThatTakesMostOfTheEnergyAndItsCornersAsTheM
       if (cell.share < 0.01) continue;
       for (const std::uint32_t corner : cell.corners) EXPECT_TRUE(corner % 6 == 2 || corner % 6 == 3) << kind;
     }
-    EXPECT_GT(sum, 0.9) << kind;  // of six tetrahedra five are named
+    EXPECT_GT(sum, 0.9) << kind;  // five of six tetrahedra are named
     EXPECT_LE(sum, 1.0 + 1e-12) << kind;
     // each of the six tetrahedra of a cube has two sides of half the section along a diagonal: 3 V / A
     EXPECT_NEAR(e.cells[0].width, kind == std::string("hexahedra") ? 0.1 : 0.1 / std::sqrt(2.0), 1e-9) << kind;
@@ -213,14 +213,14 @@ TEST(StepExplanation, NamesTheElementThatTakesMostOfTheEnergyAndItsCornersAsTheM
   }
 }
 
-// A vertex with a spring along each axis: the mode along the stiffest is gone where that axis is held.
+// A vertex with a spring along each axis: the mode along the stiffest is gone if that axis is held.
 TEST(StepExplanation, KnowsOfHeldAxes) {
   Json json = Json::parse(R"({"name": "chain", "duration": 10.0, "step": 1e-3, "integrator": "verlet",
     "body": {"generate": {"chain": {"links": 2, "spacing": 0.5}}},
     "fixed": [{"ids": [0, 2]}], "material": {"density": 2.0, "stiffness": 100.0}})");
   const StepExplanation free = explain_step(parse(json));
   EXPECT_EQ(free.vertices.size(), 1u);
-  json["fixed"].push_back({{"ids", {1}}, {"axes", {"x"}}});  // across the links nothing holds it
+  json["fixed"].push_back({{"ids", {1}}, {"axes", {"x"}}});  // nothing holds it across the links
   EXPECT_GT(explain_step(parse(json)).limit.stable, 1e3 * free.limit.stable);
 }
 

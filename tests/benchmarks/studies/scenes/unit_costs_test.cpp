@@ -1,4 +1,4 @@
-// From unit costs to the times of a plan: how often each thing happens.
+// From unit costs to the times of a plan: the number of times that each thing happens.
 
 #include "benchmarks/studies/scenes/unit_costs.h"
 #include "core/scene/file/scene_problem.h"
@@ -51,12 +51,12 @@ TEST(UnitCosts, OfTermsThatNoiseHidesAreNotBelowZero) {
   EXPECT_EQ(item->ns, 0);
   EXPECT_EQ(item->ns_below, 5);
   EXPECT_EQ(std::ranges::find(plan.items, Part::damping, &PlanItem::part)->ns_below, 0);
-  EXPECT_EQ(plan.ns(), 60);  // a whole step is known all the same
+  EXPECT_EQ(plan.ns(), 60);  // the time of a whole step is still known
 }
 
 TEST(UnitCosts, OfAStepAreWhatEachTermAddsToIt) {
   double UnitCosts::*const terms[]{&UnitCosts::fixed, &UnitCosts::damping};
-  // four evaluations of 10, 20 for the rest of the step, then 3 for what is held and 12 for damping
+  // four evaluations of 10, 20 for the rest of the step, then 3 for fixed vertices and 12 for damping
   const UnitCosts costs = step_costs(4, {10, 60, 63, 75}, terms);
   EXPECT_EQ(costs.evaluations, 4);
   EXPECT_EQ(costs.force, 10);
@@ -67,7 +67,7 @@ TEST(UnitCosts, OfAStepAreWhatEachTermAddsToIt) {
   EXPECT_EQ(costs.noise, 0);
 }
 
-// Beside the same evaluations timed here; a busy machine may take three times as long at one time as at another.
+// Compared with the same evaluations timed here; a busy machine may take three times as long at one time as at another.
 TEST(UnitCosts, OfAForceEvaluationAreItsTime) {
   const SceneFile scene = parse(moving_box());
   const Problem problem = make_problem(scene);

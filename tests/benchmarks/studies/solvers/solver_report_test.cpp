@@ -1,4 +1,4 @@
-// What `validate solvers` concludes from what it measured: with one wrong figure, the claim about it falls short.
+// The conclusions of `validate solvers` from its results: with one wrong figure, the claim about it falls short.
 
 #include "benchmarks/studies/solvers/solver_report.h"
 
@@ -145,7 +145,7 @@ TEST(SolverClaims, FallShortOfTheLawBeyondAQuarterOnEitherSide) {
   EXPECT_EQ(short_with([](auto& r) { r.crossovers[0].measured_phase = nan; }), Ids{"break-even-law"});
 }
 
-// Measured is between 990 and 1010, so 1245 may be 23.3 or 25.8 % too high.
+// The measurement lies between 990 and 1010, so 1245 may be 23.3 or 25.8 % too high.
 TEST(SolverClaims, DoNotJudgeTheLawWhereWhatEnclosesTheCrossoverDoesNotTell) {
   const auto untold_with = [](const std::function<void(Crossover&)>& spoil) {
     SolverResults r = good_results();
@@ -214,7 +214,7 @@ TEST(SolverSamples, CarryEveryMeasurementUnderTheNameOfItsStudy) {
   EXPECT_EQ(studies, (Ids{"accuracy", "indefinite", "edits", "updates", "steps", "crossover"}));
 }
 
-// Each solver steps its own copy, and what it steps to solves the equations of the step: else the study throws.
+// Each solver steps its own copy, and its result solves the equations of the step: otherwise the study throws.
 TEST(TimeImplicitStep, StepsWithEverySolver) {
   constexpr int rounds = 1;
   const SolverTimes times = time_implicit_step(1.0, rounds, 1);

@@ -1,4 +1,4 @@
-// What `validate solvers` prints and leaves: every figure of results whose figures all differ, in its own place.
+// Tables and files of `validate solvers`: every figure of results whose figures all differ, in its own place.
 
 #include <gtest/gtest.h>
 
@@ -125,7 +125,7 @@ TEST(SolverTables, HaveTheLargestErrorsOfEachPath) {
   for (const SolveStatus status : {SolveStatus::not_finite, SolveStatus::not_converged, SolveStatus::not_finite}) {
     r.cells.push_back(cell(SolvePath::updated));
     r.cells.back().status = status;
-    r.cells.back().before = r.cells.back().after = r.cells.back().normwise = 1.0;  // nobody asks
+    r.cells.back().before = r.cells.back().after = r.cells.back().normwise = 1.0;  // not requested
   }
   const Table table = table_of(r, "accuracy");
   EXPECT_EQ(alignment(table), "lrrrrrl");
@@ -305,7 +305,7 @@ TEST(CrossoverPlot, PlacesTheLawAndTheMeasurementOfEachBodyWithinIt) {
   all[1].measured_phase = 160.0;
   all[2].vertices = 9;
   all[2].predicted_phase = 1e9;
-  all[2].failure = "none was found";  // has no place
+  all[2].failure = "none was found";  // is not drawn
   const Plot plot = crossover_plot(all);
   EXPECT_EQ(plot.title, "Where implicit becomes cheaper than explicit");
   EXPECT_EQ(plot.x_axis, "vertices");
@@ -326,7 +326,7 @@ TEST(CrossoverPlot, PlacesTheLawAndTheMeasurementOfEachBodyWithinIt) {
   EXPECT_EQ(measured.points[1].x, 4096.0);
   EXPECT_EQ(measured.points[1].y, 160.0);
   EXPECT_EQ(measured.points[1].label, "-50 %");
-  // told apart in colour, symbol and line; of one size
+  // distinguished by colour, symbol and line; of one size
   EXPECT_NE(predicted.colour, measured.colour);
   EXPECT_NE(predicted.symbol, measured.symbol);
   EXPECT_NE(predicted.dash, measured.dash);
@@ -334,7 +334,7 @@ TEST(CrossoverPlot, PlacesTheLawAndTheMeasurementOfEachBodyWithinIt) {
   EXPECT_GT(predicted.size, 1.0);
   EXPECT_EQ(predicted.width, measured.width);
   EXPECT_GT(predicted.width, 0.0);
-  // room for the symbols all around and for the labels to the right, and no more of it than a factor of two
+  // room for the symbols all around and for the labels to the right, but not more than a factor of two
   EXPECT_LT(plot.x_low, 512.0);
   EXPECT_GE(plot.x_low, 512.0 / 2);
   EXPECT_GT(plot.x_high, 4096.0);

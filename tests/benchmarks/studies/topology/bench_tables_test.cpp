@@ -1,4 +1,4 @@
-// What the verbs of `bench` print of their samples: every figure in its own place.
+// Tables of the verbs of `bench` from their samples: every figure in its own place.
 
 #include <gtest/gtest.h>
 
@@ -125,7 +125,7 @@ TEST(BenchTopologyClaimsInWords, SayWhatIsAskedAndWhatWasMeasured) {
 
 // ---- operations
 
-/// By phase so many nanoseconds each time but the last, which takes ten times as long.
+/// Each phase takes so many nanoseconds every time except the last, which takes ten times as long.
 OperationSample operation(const std::vector<std::int64_t>& ns) {
   OperationSample sample;
   for (const std::int64_t each : ns) {
@@ -152,7 +152,7 @@ OperationFigures operation_figures() {
 TEST(BenchOperationsTable, HasThePartsOfEachOperationOnEachBody) {
   const Table table = operations_table(operation_figures(), {"liver564"});
   EXPECT_EQ(alignment(table), "llrrrrrr");
-  ASSERT_EQ(table.rows().size(), 2u);  // of what was timed, in the order of operations()
+  ASSERT_EQ(table.rows().size(), 2u);  // of the timed ones, in the order of operations()
   EXPECT_EQ(table.rows()[0][0], "dissociate, random");
   EXPECT_EQ(labelled(table, 1),
             (Row{"operation: remove", "body: liver564", "map [us]: 1", "embeddings [us]: 2", "four views [us]: 2.1",
@@ -215,7 +215,7 @@ double ns_of(const AblationFigures& f, const std::string& task) {
 double ratio_of(const AblationFigures& f, const AblationPair& pair) {
   return ns_of(f, pair.task) / ns_of(f, pair.baseline);
 }
-/// Bytes per tetrahedron: a thousandth of the nanoseconds, as `ablation` has it.
+/// Bytes per tetrahedron: a thousandth of the nanoseconds, as in `ablation`.
 double bytes_of(const AblationFigures& f, const AblationPair& pair) {
   return (ns_of(f, pair.task) - ns_of(f, pair.baseline)) / 1e3;
 }

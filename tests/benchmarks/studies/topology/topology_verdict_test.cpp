@@ -1,4 +1,4 @@
-// What `validate topology` says of a mesh: every figure in its own place.
+// The verdict of `validate topology` on a mesh: every figure in its own place.
 
 #include "benchmarks/studies/topology/topology_verdict.h"
 

@@ -1,4 +1,4 @@
-// What an audit of `recommend` draws.
+// Scenes and errors drawn by an audit of `recommend`.
 
 #include "benchmarks/studies/tradeoff/audit_plan.h"
 

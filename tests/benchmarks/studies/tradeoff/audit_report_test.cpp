@@ -36,12 +36,12 @@ AuditedPair good_pair() {
   return p;
 }
 
-/// A run of 2 s, of whose motion the pilots saw an eightieth.
+/// A run of 2 s; the pilots saw an eightieth of its motion.
 AuditedPair good_prediction() {
   AuditedPair p = good_pair();
   p.seen_part = 0.0125;
   p.audit.actual_s = 2.0;
-  p.audit.predicted_s = 100.0;  // at another speed of the machine: not looked at
+  p.audit.predicted_s = 100.0;  // at another speed of the machine: not used
   p.audit.printed_s = 1.9;
   p.audit.pilot_s = 0.05;
   return p;
@@ -107,7 +107,7 @@ TEST(AuditClaims, PairsBelowTheFloorOfTheReferenceSayNothingAboutErrors) {
   EXPECT_EQ(verdicts(pairs)[0], yes);
 }
 
-// Ten of twenty at 1.1 and ten at 1.4: the median is 1.25, and the interval from 1.1 to 1.4 tells nothing.
+// Ten of twenty at 1.1 and ten at 1.4: the median is 1.25, and the interval from 1.1 to 1.4 decides nothing.
 TEST(AuditClaims, AMedianOfRegretsDoesNotDecide) {
   std::vector<AuditedPair> pairs(20, good_pair());
   for (std::size_t k = 0; k < 10; ++k) pairs[k].audit.actual_cost = 1.4 * pairs[k].audit.best_cost;
@@ -116,7 +116,7 @@ TEST(AuditClaims, AMedianOfRegretsDoesNotDecide) {
   EXPECT_EQ(verdicts(pairs)[3], no);  // the sixth of twenty is 1.4
 }
 
-// Eleven good picks of regret 1.4, and nine that cost next to nothing because they missed, or nobody knows.
+// Eleven good picks of regret 1.4, and nine that cost next to nothing because they missed, or whose error is unknown.
 TEST(AuditClaims, APickThatMissesItsErrorIsNotCheap) {
   std::vector<AuditedPair> pairs(20, good_pair());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -155,7 +155,7 @@ TEST(AuditedPair, IsForetoldIfItsRunCostsTwentyTimesItsPilots) {
   EXPECT_FALSE(p.foretold());
 }
 
-// Above 2 s pilots may take a tenth of the run, which a twentieth of it is: never more than the first rule allows.
+// Above 2 s pilots may take a tenth of the run, and here take a twentieth: never more than the first rule allows.
 TEST(AuditedPair, IsForetoldByPilotsOfTwoSecondsOrATenthOfTheRun) {
   AuditedPair p = good_prediction();
   p.audit.actual_s = 100.0;
@@ -209,7 +209,7 @@ TEST(AuditClaims, OfLongMotionsLeaveOutWhatWasNoPrediction) {
   EXPECT_EQ(verdicts(pairs, long_motions), (std::vector{yes, yes, yes, yes}));
 }
 
-// ---- what is printed and drawn
+// ---- tables and pictures
 
 TEST(AuditTable, HasARowForEachPair) {
   std::vector<AuditedPair> pairs(3, good_pair());
@@ -294,7 +294,7 @@ TEST(AuditSample, HoldsEveryFigureOfAPair) {
 
 TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
   std::vector<AuditedPair> pairs(3, good_pair());
-  pairs[0].floor = 10.0;  // of a chaotic scene: two references are as far apart as that
+  pairs[0].floor = 10.0;  // a chaotic scene: two references differ by that much
   pairs[0].audit.actual_error = 2.8;
   pairs[1].floor = std::numeric_limits<double>::infinity();
   pairs[1].audit.actual_error = std::numeric_limits<double>::quiet_NaN();
@@ -316,7 +316,7 @@ TEST(AuditPlot, PlacesEachPairByWhatItPromised) {
   EXPECT_EQ(plot.subtitle, "of today");
   EXPECT_TRUE(plot.x_axis.starts_with("predicted over measured time")) << plot.x_axis;
   EXPECT_TRUE(plot.y_axis.starts_with("actual error over the error asked for")) << plot.y_axis;
-  ASSERT_EQ(plot.series.size(), 5u);  // what is met and 15 % to either side as lines, then the picks by name
+  ASSERT_EQ(plot.series.size(), 5u);  // the requested error and 15 % to either side as lines, then the picks by name
   const auto expect_line = [&](std::size_t k, double x1, double y1, double x2, double y2) {
     const PlotSeries& line = plot.series[k];
     ASSERT_EQ(line.points.size(), 2u);

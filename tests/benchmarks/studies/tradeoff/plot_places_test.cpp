@@ -1,4 +1,4 @@
-// Where diagrams put their points, read off the SVG that gnuplot draws: nothing here knows how a script is written.
+// Places of the points of diagrams, read from gnuplot's SVG: nothing here knows how a script is written.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST_F(PlotPlaces, OfPanelsFollowRowByRow) {
   }
   EXPECT_NEAR(found[7].x - found[6].x, (found[8].x - found[6].x) / 2, 2 * rounding);  // a decade of two
   EXPECT_GT(found[3].x, found[2].x);                                                  // b stands right of a,
-  EXPECT_NEAR(found[3].y, found[0].y, 2 * rounding);                                  // beside it,
+  EXPECT_NEAR(found[3].y, found[0].y, 2 * rounding);                                  // level with it,
   EXPECT_GT(found[8].y, found[0].y);                                                  // and c below a
   EXPECT_NEAR(found[6].x, found[0].x, 2 * rounding);
 }

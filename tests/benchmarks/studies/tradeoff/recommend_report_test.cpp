@@ -1,4 +1,4 @@
-// What `recommend` says: every figure in its own place.
+// The report of `recommend`: every figure in its own place.
 
 #include "benchmarks/studies/tradeoff/recommend_report.h"
 

@@ -1,4 +1,4 @@
-// When `tradeoff` says that something is wrong.
+// Cases in which `tradeoff` reports a fault.
 
 #include "benchmarks/studies/tradeoff/tradeoff_report.h"
 

@@ -1,4 +1,4 @@
-// What `tradeoff` prints and leaves: every figure of a study whose figures all differ, in its own place.
+// Tables and files of `tradeoff`: every figure of a study whose figures all differ, in its own place.
 
 #include "benchmarks/studies/tradeoff/tradeoff_tables.h"
 
@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// One run of a contender, which shows what it costs for every error down to its own.
+/// One run of a contender, which gives its cost for every error down to its own.
 WorkPoint run_of(const std::string& contender, double error, double cost, std::uint64_t evaluations, double force_s) {
   WorkPoint p;
   p.contender = contender;

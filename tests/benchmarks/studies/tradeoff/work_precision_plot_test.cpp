@@ -1,4 +1,4 @@
-// Where a work-precision diagram has each run, and what tells the methods apart.
+// The place of each run in a work-precision diagram, and the marks of the methods.
 
 #include "benchmarks/studies/tradeoff/work_precision_plot.h"
 
@@ -72,7 +72,7 @@ TEST(WorkPrecisionDiagram, HasEveryUsefulRunOfAMethodOnItsLine) {
   const Plot plot = work_precision_plot(study());
   const PlotSeries &verlet = titled(plot, "verlet"), &rk4 = titled(plot, "rk4"),
                    &fresh = titled(plot, "ros2-fresh-factor");
-  ASSERT_EQ(verlet.points.size(), 2u);  // neither what failed nor what is useless
+  ASSERT_EQ(verlet.points.size(), 2u);  // neither failed runs nor useless ones
   EXPECT_EQ(verlet.points[0].x, 40.0);
   EXPECT_EQ(verlet.points[0].y, 1e-2);
   EXPECT_EQ(verlet.points[1].x, 400.0);
@@ -81,7 +81,7 @@ TEST(WorkPrecisionDiagram, HasEveryUsefulRunOfAMethodOnItsLine) {
   EXPECT_EQ(fresh.points.size(), 1u);
   for (const PlotSeries* s : {&verlet, &rk4, &fresh}) {
     EXPECT_GT(s->width, 0.0);
-    EXPECT_LT(s->opacity, 1.0);  // faded beside the front
+    EXPECT_LT(s->opacity, 1.0);  // faded next to the front
     EXPECT_LT(s->size, 1.0);
   }
   EXPECT_TRUE(verlet.dash.empty());
@@ -106,7 +106,7 @@ TEST(WorkPrecisionDiagram, HasTheFrontInBoldAndHollowWhereTheReferenceCannotTell
   ASSERT_EQ(hollow.size(), 1u);
   EXPECT_EQ(bold[0]->colour, titled(plot, "rk4").colour);
   EXPECT_EQ(bold[0]->symbol, titled(plot, "rk4").symbol);
-  EXPECT_EQ(hollow[0]->symbol, bold[0]->symbol - 1);  // gnuplot's hollow one is before the filled one
+  EXPECT_EQ(hollow[0]->symbol, bold[0]->symbol - 1);  // gnuplot's hollow symbol is before the filled one
   EXPECT_GT(bold[0]->size, titled(plot, "rk4").size);
   EXPECT_LT(bold[0]->size, 3.0);
   EXPECT_TRUE(at(plot, 400.0, 1e-3).empty());
@@ -132,7 +132,7 @@ TEST(WorkPrecisionDiagram, HasWhatFailedAtTheBorderWithOneLabelForEachMethod) {
   const PlotSeries& legend = titled(plot, "failed, or no better than a body at rest");
   EXPECT_EQ(legend.symbol, 2);
   ASSERT_EQ(legend.points.size(), 1u);
-  EXPECT_LT(legend.points[0].y, plot.y_low);  // stands for the others, and is nowhere itself
+  EXPECT_LT(legend.points[0].y, plot.y_low);  // represents the others, and is not drawn itself
 }
 
 TEST(WorkPrecisionDiagram, HasARowAtTheBorderForEachMethodThatFailed) {

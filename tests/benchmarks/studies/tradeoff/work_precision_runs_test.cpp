@@ -65,7 +65,7 @@ TEST(WorkPrecisionPlot, TheFrontIsDrawnFromTheCheapestToTheDearest) {
   ASSERT_EQ(front->points.size(), 2u);
   EXPECT_EQ(front->points[0].x, 10.0);
   EXPECT_EQ(front->points[1].x, 100.0);
-  // what lies between two runs was not reached
+  // errors between two runs were not reached
   EXPECT_NE(plot_element(*front, "front").find("with steps"), std::string::npos);
 }
 

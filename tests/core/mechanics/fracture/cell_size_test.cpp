@@ -21,7 +21,7 @@ constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 struct Kind {
   CellKind kind;
   std::vector<Vector3d> corners;        // of the cell that it is named after, without a skew
-  std::vector<Listing> other_listings;  // of the same cell, by what a mesh may begin with; some inside out
+  std::vector<Listing> other_listings;  // of the same cell, with other first corners; some inside out
 };
 
 const Vector3d o(0, 0, 0), x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);

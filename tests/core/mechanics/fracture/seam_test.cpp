@@ -42,7 +42,7 @@ struct Plane {
 // A plane in general position through the middle of the grids below.
 const Plane slanted{{0.7, 0.55, 0.52}, {0.75, 0.5, -0.25}};
 
-// ---- what must not change when a body comes apart
+// ---- invariants when a body comes apart
 
 struct Sums {
   double mass = 0, stiffness = 0, kinetic = 0, elastic = 0;

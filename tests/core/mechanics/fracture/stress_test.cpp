@@ -67,15 +67,15 @@ void move(Body<Map>& body, const Matrix3d& matrix, const Vector3d& shift = {0, 0
   for (Vector3d& x : body.vertices.position) x = matrix * x + shift;
 }
 
-// The volume (area) at a vertex as it is now.
+// The present volume (area) at a vertex.
 template <class Map>
 double volume_now(const Body<Map>& body, std::uint32_t k) {
   VolumeRoom room;
   return vertex_volumes(body, {}, room).now[k];
 }
 
-// 1/V times the sum over the springs around a vertex of k (l + L) l: the scale of all that rounds in its stress, V the
-// volume as it is now.
+// 1/V times the sum over the springs around a vertex of k (l + L) l: the scale of all roundings in its stress, V the
+// present volume.
 template <class Map>
 double scale_of(const Body<Map>& body, std::uint32_t k) {
   double sum = 0.0;
@@ -122,7 +122,7 @@ TEST(VertexStresses, OfASingleSpringAreEqualAtItsEnds) {
   const std::vector<Spring> springs{{2.0, 4.0, 9.0}};
   const std::vector<double> mass{2.0, 2.0, 2.0};
   const std::vector<Vector3d> position{{1, 1, 1}, {1, 1, 5}, {0, 0, 0}};
-  std::vector<Matrix3d> stress{7, Matrix3d::Ones()};  // what was there does not matter
+  std::vector<Matrix3d> stress{7, Matrix3d::Ones()};  // earlier values do not matter
   vertex_stresses(ends, springs, {mass, 8.0}, position, stress);
   ASSERT_EQ(stress.size(), 3u);
   Matrix3d expected = Matrix3d::Zero();
@@ -203,7 +203,7 @@ TYPED_TEST(Stress, OfAnAffineStretchIsThatOfTheSpringsOfTheMesh) {
   for (std::size_t k = 0; k < x.size(); ++k)
     x[body.vertices.point[k]] = body.vertices.position[k].template cast<Long>();
 
-  // once for each cell: springs in parallel add up
+  // once for each cell: stiffnesses of parallel springs add up
   std::vector<Matrix> virial(x.size(), Matrix::Zero());
   std::vector<Long> volume(x.size(), 0);
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
@@ -293,9 +293,9 @@ TYPED_TEST(Stress, TimesVolumeSumsToTheVirialOfAllSprings) {
   EXPECT_LE((sum - virial).template lpNorm<Eigen::Infinity>(), bound);
 }
 
-// Around a vertex inside, six springs of 4 cells each, of tension T = 4 k a (s - 1) along an axis that is stretched by
-// s: the force on the area that a spring stands for now. On the surface springs and volume shrink alike, so that the
-// stress is the same there.
+// Around an inner vertex, six springs of 4 cells each, of tension T = 4 k a (s - 1) along an axis that is stretched by
+// s: the force on the present area of a spring. On the surface springs and volume are reduced alike, so that the stress
+// is the same there.
 TEST(StressOfHexahedra, IsTheForceOnTheAreaThereIsNowToTheSurface) {
   for (const Vector3d& stretch : {Vector3d(1, 1, 1.5), Vector3d(1.25, 0.75, 1.5), Vector3d(1.25, -0.75, 1.5)}) {
     auto body = body_of<Map3>(hexahedron_box(3, 2, 2, 0.5));
@@ -347,7 +347,7 @@ TEST(StressOfSpringsAmongElements, IsPerVolumeNow) {
     for (std::uint32_t k = 0; k < mixed.vertices.size(); ++k) {
       if (mixed.vertices.position[k].x() != 0.0) continue;
       ++at_springs;
-      // at the end a spring of one cell stands for a fourth of the section
+      // at the end a spring of one cell represents a fourth of the section
       EXPECT_NEAR(vertex_stress(mixed, k)(2, 2), 4.0 * 0.5 * 0.5 / (0.25 * 0.5 * 0.5), 64 * u * 16.0);
     }
     EXPECT_EQ(at_springs, 4);
@@ -358,7 +358,7 @@ TEST(StressOfSpringsAmongElements, IsPerVolumeNow) {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// The values as in expect_principal below; of their differences the von Mises stress takes a root of three squares.
+// The values as in expect_principal below; the von Mises stress takes a root of three squares of their differences.
 void expect_measures(const Matrix3d& stress, const StressMeasures& expected) {
   const StressMeasures measures = measures_of(stress);
   const double bound = 128 * u * stress.norm();

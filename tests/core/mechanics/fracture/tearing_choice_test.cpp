@@ -1,4 +1,4 @@
-// Which vertex a body tears at first, and which side of the starting face its fan goes on from.
+// The vertex that a body tears first, and the side of the starting face from which its fan goes on.
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ double flatness(const Body<Map>& body, const std::vector<Dart>& fan, const Vecto
   return sum / static_cast<double>(fan.size());
 }
 
-// Each vertex in turn has all the springs that pull, and is the most stressed one unless it is a large one beside a
-// small one. Where the two fans are as flat but for 24 bits, something else decides.
+// Each vertex in turn has all the springs that pull, and is the most stressed one unless it is a large one next to a
+// small one. If the two fans are equally flat to 24 bits, something else decides.
 TYPED_TEST(TearingChoice, GoesOnFromTheSideWhoseFanIsNearerToThePlaneAcrossTheStress) {
   std::size_t from_here = 0, from_across = 0;
   auto stretched = body_of<TypeParam>(jittered_box());
@@ -56,7 +56,7 @@ TYPED_TEST(TearingChoice, GoesOnFromTheSideWhoseFanIsNearerToThePlaneAcrossTheSt
   EXPECT_GT(from_across, 5u);
 }
 
-// Of vertices under one stress the one with the lowest number that has a face to tear comes first.
+// Among vertices with equal stress the one with the lowest number that has a face to tear comes first.
 TEST(TearingChoiceOfHexahedra, BeginsWithTheLowestNumberOfVerticesUnderOneStress) {
   Torn<Map3> bar(body_of<Map3>(hexahedron_box(2, 2, 3, 0.5)));
   move(bar.body, along_z);

@@ -122,7 +122,7 @@ TEST(TearingOfHexahedra, PartsAStretchedBarIntoLayersAcrossTheStretch) {
   EXPECT_EQ(torn.tears, bar.followed);
   for (const Vector3d& n : bar.normals) EXPECT_EQ(n.cwiseAbs(), Vector3d(0, 0, 1));
   EXPECT_EQ(components(bar.body.map).count, 3u);
-  // the layers are as much under stress, and have no face across it left
+  // the layers have the same stress, and no face across it left
   EXPECT_EQ(bar.tear({.threshold = 15.5}).tears, 0u);
   EXPECT_GT(bar.tear({.threshold = 15.5, .least_alignment = 0.0}).tears, 0u);
 }
@@ -325,7 +325,7 @@ TYPED_TEST(Tearing, AlongASeamTakesThePieceOfItAroundTheVertex) {
   std::set<Triple> around;
   for (const Dart d : seam)
     if (const Triple t = points_of(bar.body, d); std::find(t.begin(), t.end(), point) != t.end()) around.insert(t);
-  ASSERT_GT(around.size(), 3u);  // start and what shares an edge with it are not all
+  ASSERT_GT(around.size(), 3u);  // more than start and the faces that share an edge with it
   ASSERT_LT(around.size(), seam.size());
   const FaceSet set(bar.body.map, seam);
   move(bar.body, along_z);
@@ -334,7 +334,7 @@ TYPED_TEST(Tearing, AlongASeamTakesThePieceOfItAroundTheVertex) {
   EXPECT_EQ(std::count(bar.body.vertices.point.begin(), bar.body.vertices.point.end(), point), 2);
 }
 
-// ---- what is refused
+// ---- refusals
 
 TYPED_TEST(Tearing, RefusesARuleThatIsNone) {
   Torn<TypeParam> bar(body_of<TypeParam>(unequal_tetrahedra()));
@@ -354,7 +354,7 @@ TYPED_TEST(Tearing, RefusesAStressThatIsNotFiniteAndLeavesTheBody) {
 }
 
 // Four springs around a cycle pull and push in turn along z, by more than a number holds: at each of its vertices the
-// sum is infinity less infinity, in the last entry alone. The vertex that is looked at in any case is not among them.
+// sum is infinity less infinity, in the last entry alone. The vertex that is always inspected is not among them.
 TYPED_TEST(Tearing, RefusesAStressThatIsNoNumberInItsLastEntry) {
   Torn<TypeParam> pair(body_of<TypeParam>(two_tetrahedra()));
   std::vector<std::uint32_t> shared, single;  // vertices of the shared face, and the other two

@@ -1,4 +1,4 @@
-// Cells whose corners do not go round their faces. Which cells elements refuse, a test of elements holds against this.
+// Cells whose corners do not go round their faces. Another test checks that elements refuse the same cells.
 
 #include "core/meshes/formats/crossed_cells.h"
 
@@ -86,8 +86,8 @@ TEST(CrossedCells, AreNotQuadrilateralsWithOneCornerThatTurnsBack) {
   }
 }
 
-// In the middle of its neighbours the Jacobian of a corner is zero, and beyond it negative; at the Gauss points it is
-// not.
+// If it lies in the middle of its neighbours the Jacobian of a corner is zero, and beyond it negative; at the Gauss
+// points it is positive.
 TEST(CrossedCells, AreNotHexahedraThatBendBackAtOneCornerAlone) {
   for (const double at : {0.5, 0.45}) {
     auto points = cube;
@@ -146,7 +146,7 @@ TEST(CrossedCells, AreThePrismsWithACornerOfEachEndSwapped) {
     }
 }
 
-/// How many corners of a prism are right-handed.
+/// The number of right-handed corners of a prism.
 int right_handed_corners(const Nodes& nodes, const std::vector<Eigen::Vector3d>& points) {
   int count = 0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -158,8 +158,8 @@ int right_handed_corners(const Nodes& nodes, const std::vector<Eigen::Vector3d>&
   return count;
 }
 
-// Faces twisted by a few degrees leave volumes of either hand at the ends of the axial edge. Where all six corners are
-// of one hand the cell is whole as it is, whatever order is better; most of the others are found.
+// Faces twisted by a few degrees leave volumes of either hand at the ends of the axial edge. If all six corners are of
+// one hand the cell is valid as it is, even if another order is better; most of the others are found.
 TEST(CrossedCells, AreTheTwistedPrismsWithACornerOfEachEndSwappedThatTurnOverAtACorner) {
   std::mt19937_64 random(3);
   const Nodes nodes{0, 1, 3, 2, 4, 5};

@@ -51,7 +51,7 @@ TEST(Gmsh, TakesElementsOfSecondOrderByTheirCornersAndSaysSo) {
   EXPECT_EQ(loaded.notices.at(1), "took 1 10-node tetrahedron by their corners: edges of a body are straight");
 }
 
-// Elements of higher order are called by how many nodes they have; those that cells are made of have as many as these.
+// Elements of higher order are named by their number of nodes; those used for cells have as many as these.
 TEST(Gmsh, KnowsHowManyNodesEachElementHas) {
   int elements = 0;
   for (std::uint64_t type = 0; type < 200; ++type) {

@@ -54,7 +54,7 @@ TEST(MeditBinary, ReadsASurfaceInThePlaneWithZeroHeight) {
   EXPECT_EQ(loaded.mesh.kinds, std::vector{CellKind::triangle});
 }
 
-// A file of version 2 may say that its real numbers have 32 bits all the same.
+// A file of version 2 may state that its real numbers have 32 bits nevertheless.
 TEST(MeditBinary, ReadsRealNumbersOfTheSizeThatTheFileNames) {
   MeshbWriter file(2, false);
   file.section(155, file.integers({32}));

@@ -1,4 +1,4 @@
-// Files that other programs write: what is read of them, what is reported, and what is still refused.
+// Files of other programs: the content that is read, the notices, and the refusals that remain.
 
 #include <gtest/gtest.h>
 

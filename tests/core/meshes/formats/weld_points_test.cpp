@@ -1,4 +1,4 @@
-// Seams: how they are closed, when they are not, and what is reported of those that are open.
+// Seams: how they are closed, when they are not, and the report on those that stay open.
 
 #include "core/meshes/formats/weld_points.h"
 
@@ -57,7 +57,7 @@ TEST(WeldedPoints, AreNoneBeyondTheDistance) {
   EXPECT_EQ(loaded.notices.at(1), "welded no points: none is within 9e-07 of another");
 }
 
-// 1 + 1e-9 is not 1e-9 from 1, by the last bits of both.
+// 1 + 1e-9 is not at a distance of 1e-9 from 1, because of the last bits of both.
 TEST(WeldedPoints, AreThoseAtTheDistanceThatDecimalsSay) {
   const std::string text = "v 0 0\nv 1 0\nv 0 1\nv 1.000000001 0\nv 1 1\nv 0 1.000000001\nf 1 2 3\nf 4 5 6\n";
   EXPECT_EQ(read(text, 1e-9).mesh.points.size(), 4u);

@@ -57,7 +57,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
 template <class Map>
 long link_euler(const Map& map, Dart d) {
   const Vertex v{d};
-  // an edge with both ends at v would count twice; a mesh cell does not repeat a node, so there is none
+  // an edge with both ends at v would count twice; there are none, as a mesh cell does not repeat a node
   return static_cast<long>(incident_cells<1>(map, v).size()) - static_cast<long>(incident_cells<2>(map, v).size()) +
          static_cast<long>(incident_cells<3>(map, v).size());
 }
@@ -177,7 +177,7 @@ TEST(KuhnBox, MovesInnerPointsByAtMostTheJitterAndInvertsNothing) {
     for (std::size_t p = 0; p < mesh.points.size(); ++p) {
       const double distance = (mesh.points[p] - still.points[p]).norm();
       moved += distance > 0.0 ? 1 : 0;
-      // rounding: of the sum, half an ulp of a coordinate below 4 each; of the norm, some ulps of a length below 2
+      // rounding: half an ulp of a coordinate below 4 for each sum; some ulps of a length below 2 for the norm
       EXPECT_LE(distance, jitter * spacing + 8 * std::numeric_limits<double>::epsilon());
       const bool inside = (still.points[p].array() > 0.0).all() && (still.points[p].array() < 8 * spacing).all();
       EXPECT_TRUE(inside || distance == 0.0);
@@ -258,7 +258,7 @@ TEST(Surfaces, HaveTheCountsOfTheirSquares) {
     expect<Map2>(moebius_strip(static_cast<int>(n)), {{2 * n, 3 * n, n}, 0, 1, 2 * n, false});
 }
 
-// Neighbours run along a shared edge in opposite directions; the cones from the origin add up to what is inside.
+// Neighbours run along a shared edge in opposite directions; the cones from the origin add up to the enclosed volume.
 TEST(Surfaces, TurnTheSameWayAndClosedOnesOutwards) {
   for (const Mesh& mesh : {triangle_sheet(3, 2, 1.0), torus_surface(5, 4), octasphere(0), octasphere(2)}) {
     std::set<std::array<std::uint32_t, 2>> sides;
@@ -290,7 +290,7 @@ TEST(FewTetrahedra, ShareWhatTheirNamesSay) {
   expect<Map3>(empty_mesh(), {{0, 0, 0, 0}, 0, 0, 0});
   expect_tetrahedra(one_tetrahedron(), {{4, 6, 4, 1}, 1, 1, 4});
   expect_tetrahedra(two_tetrahedra(), {{5, 9, 7, 2}, 1, 1, 6});
-  // what two volumes share without sharing a face is not shared in the map: two of everything
+  // in the map two volumes share nothing unless they share a face: two of everything
   const Expected apart{{8, 12, 8, 2}, 2, 2, 8};
   expect_tetrahedra(touching_at_edge(), apart);
   expect_tetrahedra(touching_at_vertex(), apart);

@@ -1,4 +1,4 @@
-// Grids in several files, and what becomes of the points that two of them have.
+// Grids in several files, and the treatment of points that two of them share.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST_F(Pvtu, LooksForPiecesFromItsOwnFolder) {
 }
 
 TEST_F(Pvtu, LeavesOutCopiesOfCellsThatAnotherPieceHas) {
-  // of both names that VTK has had for them; 2 says that a neighbour was refined, which is no copy
+  // under both names that VTK has used; 2 marks a refined cell, which is no copy
   const std::string both =
       with(with(with(vtu_piece("1 0 0 0 1 0 0 0 1 1 1 1 0 0 0"), "NumberOfCells=\"1\"", "NumberOfCells=\"2\""),
                 "NumberOfPoints=\"4\"", "NumberOfPoints=\"5\""),
@@ -68,7 +68,7 @@ TEST_F(Pvtu, LeavesOutCopiesOfCellsThatAnotherPieceHas) {
 }
 
 TEST_F(Pvtu, KeepsEqualPointsOfOnePieceApart) {
-  // a tetrahedron by itself, twice in the second piece, as a torn body has it
+  // a tetrahedron without neighbours, twice in the second piece, as in a torn body
   const std::string apart = "5 0 0 6 0 0 5 1 0 5 0 1";
   const std::string torn =
       with(with(with(with(with(vtu_piece(apart + " " + apart), "NumberOfPoints=\"4\"", "NumberOfPoints=\"8\""),
@@ -105,7 +105,7 @@ TEST_F(Pvtu, RefusesPointsThatAreNearlyEqual) {
   EXPECT_EQ(read().mesh.points.size(), 6u);
 }
 
-// As a body that is torn and has begun to open; its shortest edge is 1e-4, which makes 1e-7 near.
+// As in a body that is torn and has begun to open; its shortest edge is 1e-4, so that 1e-7 is near.
 TEST_F(Pvtu, TakesPointsAsTheyAreThatAreNearInOnePieceOrFarForTheirEdges) {
   write_pieces(folder_, vtu_piece(first_points), vtu_piece("0.5 5 0 0.5001 5 0 0.5 5.0001 0 0.5 5 0.0001"));
   EXPECT_EQ(read().mesh.points.size(), 8u);
@@ -122,9 +122,9 @@ TEST_F(Pvtu, TakesPointsAsTheyAreThatAreNearInOnePieceOrFarForTheirEdges) {
   EXPECT_EQ(read().mesh.points.size(), 12u);
 }
 
-// Wherever the two points lie: what looks for near ones goes by boxes 64 times as wide as near is. The mesh has the
-// size 24 sqrt 3, so near is 4.2e-5 and a box 2.7e-3: steps of 2e-5 over one of them, of points 3e-5 apart, leave no
-// border out.
+// Wherever the two points lie: the search for near points uses boxes 64 times as wide as the distance called near. The
+// mesh has the size 24 sqrt 3, so near is 4.2e-5 and a box 2.7e-3: steps of 2e-5 over one of them, of points 3e-5
+// apart, visit every border.
 TEST_F(Pvtu, RefusesPointsThatAreNearlyEqualWhereverTheyAre) {
   for (int k = 0; k < 140; ++k) {
     const auto piece = [k](double more, const char* apex) {

@@ -96,7 +96,7 @@ TEST(VtkLegacy, TakesEveryVolumeWithCurvedEdgesByItsCorners) {
                                          "1 " + std::to_string(size + 1) + " " + cell, "1 " + std::to_string(type)));
     EXPECT_EQ(loaded.mesh.kinds, std::vector{kind}) << type;
     EXPECT_GT(signed_measure(loaded.mesh, 0), 0.16) << type;
-    ASSERT_EQ(loaded.notices.size(), 2u) << type;  // taken by its corners, and other points dropped: not turned
+    ASSERT_EQ(loaded.notices.size(), 2u) << type;  // read by its corners, without the other points: not turned
     EXPECT_TRUE(names.insert(loaded.notices[0]).second) << type << ": " << loaded.notices[0];
     expect_part(loaded.notices[0], "by their corners");
     if (type >= 69) expect_part(loaded.notices[0], type < 76 ? "took 1 Lagrange " : "took 1 Bezier ");

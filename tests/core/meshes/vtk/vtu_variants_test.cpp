@@ -13,7 +13,7 @@ using namespace samples;
 
 std::string refused(std::string_view text) { return refusal(text, MeshFormat::vtu); }
 
-/// The lengths at the head of a raw array, exchanged for others of the same size.
+/// The lengths at the head of a raw array, replaced by others of the same size.
 std::string with_head(const VtuVariant& v, std::vector<std::uint64_t> head, std::size_t array_bytes) {
   std::vector<std::uint64_t> right{array_bytes};
   if (!v.compressor.empty()) right = {(array_bytes + v.block - 1) / v.block, v.block, array_bytes % v.block};

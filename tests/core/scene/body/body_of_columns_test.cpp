@@ -1,4 +1,4 @@
-// A body without a map beside the same body on one: what a scene without events leaves out changes nothing.
+// A body without a map compared with the same body on one: leaving the map out of a scene without events has no effect.
 
 #include "core/scene/body/body_of_columns.h"
 
@@ -41,7 +41,7 @@ TEST_P(Bodies, MoveWithTheSameBits) {
   EXPECT_EQ(with->mass(), without->mass());
   EXPECT_EQ(with->counts(), without->counts());
   EXPECT_EQ(with->largest_stress(), without->largest_stress());
-  // the facets are summed in another order: n of them, each a few roundings of its own
+  // the facets are summed in another order: n of them, each with a few roundings
   const double area = with->boundary();
   EXPECT_NEAR(without->boundary(), area, area * 1024 * 0x1p-52);
 }

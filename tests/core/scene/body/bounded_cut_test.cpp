@@ -15,7 +15,7 @@ namespace {
 
 using namespace moving;
 
-// The plane x = 0.125 of the box holds 8 triangles, two for each of the four squares of 0.125 m beside (y, z).
+// The plane x = 0.125 of the box holds 8 triangles, two for each of the four squares of 0.125 m next to (y, z).
 Json cut(const char* within) {
   return with_events(moving_box(),
                      (std::string(R"([{"at": 0, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]},

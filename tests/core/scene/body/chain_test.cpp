@@ -49,7 +49,7 @@ TEST(Chain, ThatHangsStretchesByTheWeightBelowEachLink) {
   Simulation simulation(parse(scene));
   run(simulation);
   const auto& x = simulation.body().vertices().position;
-  // stretches are rounded like the places, below 2: by 2^-53, a few times; the forces too, which pass on 6 links
+  // stretches are rounded like the positions, below 2: by 2^-53, a few times; the forces too, transmitted by 6 links
   for (std::size_t i = 1; i <= 6; ++i) {
     const double below = 0.5 * (6.5 - static_cast<double>(i));
     EXPECT_NEAR(x[i].x() - x[i - 1].x() - 0.25, 8.0 / 1000 * below, 64 * 0x1p-53) << i;

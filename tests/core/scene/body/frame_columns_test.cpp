@@ -1,4 +1,4 @@
-// What frames hold beside motion and masses, of bodies whose answers are known beforehand; with a map and without.
+// Columns of frames in addition to motion and masses, for bodies with known answers; with a map and without.
 
 #include "core/scene/body/frame_columns.h"
 
@@ -35,12 +35,12 @@ std::unique_ptr<SimulatedBody> body_of(Mesh mesh, bool on_map) {
   return make_simulated_body(problem, needs);
 }
 
-/// Every vertex at `stretch` of its place, axis by axis.
+/// Moves every vertex to `stretch` times its place, axis by axis.
 void stretch_by(SimulatedBody& body, const Vector3d& stretch) {
   for (Vector3d& x : body.motion().x) x = x.cwiseProduct(stretch);
 }
 
-/// A scene that shows these fields.
+/// A scene that outputs these fields.
 SceneFile showing(Json scene, const char* fields) {
   scene["output"]["fields"] = Json::parse(fields);
   return parse(scene);
@@ -97,7 +97,7 @@ TEST(FrameColumns, ChangeNoBitOfTheMotion) {
   }
 }
 
-// ---- who holds a vertex
+// ---- held vertices
 
 TEST(HeldVertices, AreToldApartWithAllPartsOfOneThatIsCut) {
   for (const bool cut : {false, true}) {
@@ -162,12 +162,12 @@ TEST(FramePoints, AreThoseOfTheMeshInItsOrderUntilSomethingComesApart) {
   }
 }
 
-// Everything that has a row for each point goes along, and cells and lines name the points where they are then.
+// All data with a row for each point are reordered, and cells and lines refer to the points by their new numbers.
 TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   Frame f;
   f.mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
   f.mesh.add_cell(CellKind::triangle, std::array<std::uint32_t, 3>{0, 1, 3});
-  f.mesh_point = {1, -1, 0, 1};  // the second was put in by refinement, the first and the last are parts of one
+  f.mesh_point = {1, -1, 0, 1};  // the second was made by refinement, the first and the last are parts of one
   f.links = {{0, 2}};
   f.springs = {{3, 1}};
   f.refined_facets = {{.points = {0, 1, 2}, .lies_in = {0, 1, 1}}};
@@ -220,7 +220,7 @@ TEST(FrameStress, IsThatOfTheDiagnostics) {
     stretch_by(*body, {1.25, 0.875, 1.5});
     const Frame f = body->frame(all);
     EXPECT_EQ(*std::ranges::max_element(f.largest_principal_stress), body->largest_stress());
-    // each vertex its own: the measures of the stress with its number
+    // each vertex has its own: the measures of the stress with its number
     std::vector<Eigen::Matrix3d> stress;
     const SpringSystem system = body->system();
     std::vector<double> now(system.mass.size());
@@ -253,7 +253,7 @@ TEST(FrameTension, IsThatOfEachLink) {
   for (int k = 0; k < 5; ++k) points.points.emplace_back(0.5 * k, 0, 0);
   const auto body = body_of(std::move(points), false);
   auto x = body->motion().x;
-  for (std::size_t k = 2; k < 5; ++k) x[k].y() += 0.25;  // from here on everything is higher
+  for (std::size_t k = 2; k < 5; ++k) x[k].y() += 0.25;  // from now on all of these are higher
   x[1].x() -= 0.25;
   x[4].x() = infinity;
   const Frame f = body->frame(all);
@@ -270,9 +270,9 @@ TEST(FrameTension, IsThatOfEachLink) {
 
 // ---- displacement
 
-// Nothing acts on the vertices, so that each flies on a straight line: after t it is at X + t A (X - c), X being where
-// it was at rest. That holds for vertices put in between others, which have the mean of their places and velocities,
-// only if their place at rest is the mean of those at rest.
+// No force acts on the vertices, so that each flies on a straight line: after t it is at X + t A (X - c), X being its
+// place at rest. That holds for vertices made by refinement, which have the mean of their neighbours' places and
+// velocities, only if their place at rest is the mean of those at rest.
 TEST(Displacement, IsFromWhereAVertexWasAtRestAfterCutsAndRefinementsToo) {
   Json scene = with_events(moving_box(), R"([
       {"at": 0.002, "refine": {"cells": {"ids": [0, 9, 31]}}},
@@ -296,7 +296,7 @@ TEST(Displacement, IsFromWhereAVertexWasAtRestAfterCutsAndRefinementsToo) {
     // ten steps, each some 20 roundings of places and velocities below 1
     EXPECT_LE((f.displacement[k] - expected).norm(), 256 * u) << k;
     EXPECT_GT(f.displacement[k].norm(),
-              f.mesh_point[k] == 13 ? -1.0 : 1e-5);  // but for the one in the middle, all have moved
+              f.mesh_point[k] == 13 ? -1.0 : 1e-5);  // all have moved except the one in the middle
   }
 }
 

@@ -93,7 +93,7 @@ TEST(Numbering, DoesNotMatterToTheMotionButForRounding) {
   const double bound = steps * std::exp(steps * h * (omega + c)) * per_step;  // of max(|x| omega, |v|)
   ASSERT_LT(bound, 1e-6);  // it must be able to fail: motions differ by some 0.1 m/s within the body
 
-  // parts of a vertex are told apart by where they are
+  // parts of a vertex are distinguished by their positions
   double largest = 0.0;
   const VertexColumns& w = other->body().vertices();
   std::multimap<std::uint32_t, std::size_t> by_point;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace moving;
 
-// Held everywhere and at rest, so that nothing but gravity moves what is let go of.
+// Held everywhere and at rest, so that only gravity moves the released vertices.
 Json held_box(const char* events) {
   Json scene = with_events(moving_box(), events);
   scene.erase("initial_velocity");
@@ -50,7 +50,7 @@ TEST(Release, LetsGoOfThoseSelectedAndHoldsTheOthers) {
 }
 
 TEST(Release, FindsVerticesByWhereTheyAreAtRest) {
-  // the plane is where the box is at rest; at 5 ms what is free of it has moved on by half a metre
+  // the plane is at the box's place at rest; at 5 ms the free part has moved on by half a metre
   Json scene = held_box(R"([{"at": 0.005, "release": {"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}}}])");
   scene["body"]["translate"] = {0, 0, 0};
   Simulation simulation(parse(scene));

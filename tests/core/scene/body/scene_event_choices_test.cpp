@@ -1,5 +1,5 @@
-// What an event chooses where a scene leaves something open: which cells are drawn, where they are refined, how a fan
-// lies.
+// Choices of an event where a scene leaves something open: the cells drawn, the places of refinement, the direction of
+// a fan.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using namespace moving;
 
-// Of six cells two are drawn from each of 3000 seeds: 15 pairs, 200 times each. The standard deviation of a count is
+// Two of six cells are drawn from each of 3000 seeds: 15 pairs, 200 times each. The standard deviation of a count is
 // sqrt(3000 * 1/15 * 14/15) = 13.7; 70 is five of them, which 15 counts exceed once in 10^5 sets of seeds.
 TEST(SceneEvents, DrawEachSetOfCellsAsOften) {
   Problem problem;
@@ -35,8 +35,8 @@ TEST(SceneEvents, DrawEachSetOfCellsAsOften) {
 }
 
 TEST(SceneEvents, DrawFurtherCellsEachTimeTheyRepeat) {
-  // if the same places were drawn each time, twelve cells of 48 would go in the same pattern for every seed of one
-  // count
+  // if the same places were drawn each time, twelve cells of 48 would be removed in the same pattern for every seed of
+  // one count
   const auto left_after = [](const char* events) {
     Simulation simulation(parse(with_events(moving_box(), events)));
     run(simulation);

@@ -42,7 +42,7 @@ TEST(SceneEvents, SelectsCellsByPlaceWhereTheyAreNow) {
   scene["gravity"] = {0, 0, 0};
   scene["material"]["viscosity"] = 0;
   scene["initial_velocity"] = {100, 0, 0};  // 0.1 m per step
-  // after 5 steps the body, 0.25 m long, is between x = 0.5 and 0.75: none of it where it was, all of it here
+  // after 5 steps the body, 0.25 m long, is between x = 0.5 and 0.75: no part of it at the old place, all of it here
   Simulation simulation(parse(with_events(scene, R"([
     {"at": 0.005, "remove": {"box": {"min": [0, 0, 0], "max": [0.25, 1, 1]}}},
     {"at": 0.006, "remove": {"box": {"min": [0.6, 0, 0], "max": [0.85, 1, 1]}}}])")));
@@ -87,7 +87,7 @@ TEST(SceneEvents, PassesOverFacesThatHaveLostACell) {
 }
 
 TEST(SceneEvents, PassesOverFacesWhoseCellsPlaceAnotherCellHasNow) {
-  // both cubes beside two faces go, and their places are taken by the parts of the 36 other cells
+  // both cubes next to two faces are removed, and their places are taken by the parts of the 36 other cells
   const char* events = R"([{"at": 0, "remove": {"box": {"min": [0, 0, 0], "max": [0.25, 0.125, 0.125]}}},
       {"at": 0, "refine": {"cells": {"sphere": {"centre": [0, 0, 0], "radius": 1}}, "at": "centre"}},
       {"at": 0, "dissociate": {"points": [[1, 4, 13], [1, 10, 13]]}}])";
@@ -111,7 +111,7 @@ TEST(SceneEvents, TearsTheLowestOfTwoVerticesThatAreAsNear) {
 
 TEST(SceneEvents, TearsAFanAroundAVertexInsideTheBody) {
   // around the middle of 4 x 4 x 4 cubes: the six triangles of one cube's sides there, a closed fan around the corner
-  // of its six tetrahedra; the six edges between them come apart, what lies around the fan does not
+  // of its six tetrahedra; the six edges between them come apart, the edges around the fan do not
   Json scene = with_events(moving_box(), R"([{"at": 0, "tear": {"vertex": 62, "direction": [1, 0, 0]}}])");
   scene["body"]["generate"]["box"]["cells"] = {4, 4, 4};
   const CellCounts before = Simulation(parse(with_events(scene, "[]"))).body().counts();
@@ -137,7 +137,7 @@ Json stretched(double threshold) {
 }
 
 TEST(SceneEvents, TearsWhereStressedAlongItsSeamOnly) {
-  // stretched by tens of per cent, far above 1 Pa: all 8 faces of the seam tear and no other
+  // stretched by tens of per cent, far above 1 Pa: all 8 faces of the seam tear, and no others
   Simulation simulation(parse(stretched(1.0)));
   EXPECT_EQ(simulation.operations(), 0u);  // at rest nothing is stressed
   run(simulation);

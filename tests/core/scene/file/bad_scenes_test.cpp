@@ -60,7 +60,7 @@ std::vector<BadScene> bad_scenes() {
   return scenes;
 }
 
-/// The exit code that a command line gives, and the message.
+/// The exit code of a command line, and its message.
 std::pair<std::string, std::string> answer(const std::string& text) {
   try {
     SceneFile scene = parse_scene(text, "bad.json", folder);

@@ -1,8 +1,8 @@
-// What boxes, planes and spheres select and cut, compared with integers.
+// Places selected and cut by boxes, planes and spheres, compared with integers.
 //
 // Meshes and borders have small whole coordinates, so that many places lie exactly on borders, and are then scaled and
 // moved by numbers that are not exact in binary. The witness (reference/exact_sides.h) sees the whole numbers. A place
-// beside a border is at least 1/(8 |n|) or so of a cell away from it, ten million times the thickness of borders.
+// off a border is some 1/(8 |n|) or more of a cell away from it, ten million times the thickness of borders.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ namespace {
 using Eigen::Vector3d;
 using reference::WholePoint;
 
-// Where whole coordinates are in a body: cells of two units, in decimetres, millimetres, far from the origin.
+// Positions of whole coordinates in a body: cells of two units, in decimetres, millimetres, far from the origin.
 struct Placing {
   double unit;
   Vector3d origin;
@@ -99,7 +99,7 @@ struct Tally {
   int shapes = 0, differ = 0, with_some_on_the_border = 0;
 };
 
-// A place is on a border where its interior does not have it: of a box and a sphere that shrink, of a plane that is
+// A place on a border is not in the interior: of boxes and spheres that shrink, of a plane that is
 // turned.
 bool has_some_on(const reference::WholePlane& plane, std::span<const WholePoint> points) {
   return std::any_of(points.begin(), points.end(),

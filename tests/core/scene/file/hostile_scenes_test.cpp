@@ -1,4 +1,4 @@
-// Scenes whose names mean harm: read, run, written and read back.
+// Scenes with hostile names: read, run, written and read back.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(HostileScenes, AreRefusedWithLineAndColumnWhereTheyAreNoUtf8) {
     if (is_utf8(name)) continue;
     std::string text = R"({"step": 1, "duration": 1,
 "name": ")";
-    for (const char c : name)  // what JSON itself does not allow in a string
+    for (const char c : name)  // characters that JSON does not allow in a string
       if (static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\') text += c;
     try {
       parse_scene(text + "\"}", "file", "");

@@ -1,4 +1,4 @@
-// A scene counts the points of its mesh file; a body has none without a cell, and one for each of its vertices.
+// A scene counts the points of its mesh file; a body has only those of its cells, and one for each of its vertices.
 
 #include "core/scene/file/load_mesh.h"
 

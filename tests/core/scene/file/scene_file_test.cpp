@@ -103,7 +103,7 @@ TEST(SceneFile, MayAskForAnAccuracyInsteadOfAStep) {
   EXPECT_EQ(scene.integrator, "");
   json["integrator"] = "verlet";
   EXPECT_EQ(parse(json).integrator, "verlet");
-  // what depends on the step waits for it
+  // values in time wait until the step is known
   EXPECT_EQ(scene.output.in_steps_of(0.125).frame_steps, 4u);
   EXPECT_EQ(scene.output.in_steps_of(0.125).diagnostic_steps, 7u);
   EXPECT_TRUE(scene.output.in_steps_of(0.125).fields.springs);
@@ -171,7 +171,7 @@ TEST(SceneFile, NamesTheNearestKeyBySwapsToo) {
   EXPECT_EQ(edit_distance("denisty", "density"), 1u);
   EXPECT_EQ(edit_distance("", "abc"), 3u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
-  // nothing ahead of a word is looked at: the 'a' here would make a swap
+  // characters before a word are ignored: the 'a' here would make a swap
   EXPECT_EQ(edit_distance("ba", std::string_view("ab").substr(1)), 1u);
   EXPECT_EQ(edit_distance(std::string_view("ab").substr(1), "ba"), 1u);
   Json json = smallest();
@@ -226,10 +226,10 @@ TEST(SceneKeys, HaveDefaultsThatTheTableAccepts) {
   for (const SceneKey& key : scene_keys()) {
     if (key.standard.empty()) continue;
     EXPECT_FALSE(key.required) << key.name;
-    if (key.type == ValueType::object) continue;  // its own keys are looked at here one by one
+    if (key.type == ValueType::object) continue;  // its own keys are checked here one by one
     EXPECT_TRUE(Json::accept(key.standard)) << key.name;
   }
-  // smallest() takes every default of the scene; the shapes within a selection or event have none that fails there
+  // smallest() uses every default of the scene; the shapes within a selection or event have no defaults that fail there
   EXPECT_NO_THROW(check_and_complete(smallest(), Shape::scene, "file"));
 }
 
@@ -273,7 +273,7 @@ TEST(SceneSchema, WantsWordsOfAListOnce) {
   EXPECT_EQ(fields.at("default"), Json::parse(R"(["held", "stress"])"));
 }
 
-// Of a number, where it begins and ends: what has no end has no key for it.
+// The lower and upper end of a number; a range without an end has no key for it.
 TEST(SceneSchema, HasTheRangesOfTheTable) {
   const Json schema = scene_schema();
   std::size_t ends = 0;

@@ -1,4 +1,4 @@
-// Every key of a scene, each with a value of its own, and where it is read to.
+// Every key of a scene, each with a value of its own, and the member that stores it.
 
 #include <gtest/gtest.h>
 
@@ -273,7 +273,7 @@ TEST(SceneReading, MakesAProblemOfWhatItSays) {
   EXPECT_EQ(problem.mesh.points[0], Vector3d(1, 2, 3));
   EXPECT_EQ(problem.mesh.points[1], Vector3d(2, 2, 3));  // half a metre, twice as large
   EXPECT_EQ(problem.surroundings.gravity, Vector3d(4, 5, 6));
-  EXPECT_EQ(problem.initial_velocity[1], Vector3d(2, 4, 9));  // of the place where the body is
+  EXPECT_EQ(problem.initial_velocity[1], Vector3d(2, 4, 9));  // at the place of the body
   EXPECT_EQ(problem.fixed, (std::vector<std::uint32_t>{3, 5, 7}));
   EXPECT_EQ(problem.h, 0.25);
 }

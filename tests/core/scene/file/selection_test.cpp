@@ -29,9 +29,9 @@ TEST(Selection, OfASphereIncludesItsSurface) {
 TEST(Selection, AroundAPathIsWhatIsNearTheSweptRectanglesTheirEdgesAndTheirCorners) {
   const AroundSelection around{{{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, {0, 0, 2}}, 1.0};
   const auto is_in = [&around](double x, double y, double z) { return contains(around, {x, y, z}, 0.0); };
-  for (const double y : {-1.0, 0.5}) EXPECT_TRUE(is_in(2, y, 1));  // beside the first
+  for (const double y : {-1.0, 0.5}) EXPECT_TRUE(is_in(2, y, 1));  // next to the first
   EXPECT_FALSE(is_in(2, -1.01, 1));
-  EXPECT_TRUE(is_in(4.9, 2, 1));  // beside the second
+  EXPECT_TRUE(is_in(4.9, 2, 1));  // next to the second
   EXPECT_FALSE(is_in(5.1, 2, 1));
   EXPECT_TRUE(is_in(2, 0, 3));  // beyond an edge
   EXPECT_FALSE(is_in(2, 0.1, 3));
@@ -63,8 +63,8 @@ TEST(Selection, RefusesAnIdThatIsNoPointAndNamesIt) {
   }
 }
 
-// A cross of five unit squares in the plane x = 7, seen along x: the notches between its arms are outside. It is told
-// from each of its corners on, so that each side is the last once, and in either sense.
+// A cross of five unit squares in the plane x = 7, seen along x: the notches between its arms are outside. It is listed
+// from each of its corners on, so that each side is the last once, and in both senses.
 TEST(Selection, OfAPolygonIsWhatIsSeenInItThoughItIsNotConvex) {
   std::vector<Eigen::Vector3d> corners{{7, 1, 0}, {7, 2, 0}, {7, 2, 1}, {7, 3, 1}, {7, 3, 2}, {7, 2, 2},
                                        {7, 2, 3}, {7, 1, 3}, {7, 1, 2}, {7, 0, 2}, {7, 0, 1}, {7, 1, 1}};
@@ -88,7 +88,7 @@ TEST(Selection, OfAPolygonIncludesItsSides) {
     EXPECT_FALSE(contains(triangle, x, 1e-9)) << x.transpose();
 }
 
-// 3 x 0.1 is 0.30000000000000004, and a unit normal rounds what was exact.
+// 3 x 0.1 is 0.30000000000000004, and a unit normal rounds exact coordinates.
 TEST(Selection, HoldsAWholeLayerWhereverRoundingPutsItsPoints) {
   const auto layer = [](const Mesh& mesh, const VertexSelection& selection) {
     return select_points(selection, mesh.points, "").size();

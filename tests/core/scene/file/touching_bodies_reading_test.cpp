@@ -1,4 +1,4 @@
-// Which bodies of a scene touch, and by which law: what is read.
+// The bodies of a scene that touch, and their laws, as they are read.
 
 #include <gtest/gtest.h>
 
@@ -96,7 +96,7 @@ TEST(TouchingBodiesRead, AreRefusedWhereTheyAreMoreThanATableHolds) {
   }
 }
 
-// Bodies of 6, 12 and 18 tetrahedra.
+// For bodies of 6, 12 and 18 tetrahedra.
 TEST(FirstCells, AreWhereEachBodyBegins) {
   const SceneFile scene = parse(with_contact(3, R"({"bodies": "all"})"));
   const std::vector<std::size_t> first = first_cells(scene);

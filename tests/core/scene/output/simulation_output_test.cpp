@@ -1,4 +1,4 @@
-// Files that a run writes, column by column: each value under the name that stands for it.
+// Files that a run writes, column by column: each value under its own name.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ using Reals = std::vector<double>;
 using Integers = std::vector<std::int64_t>;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Two tetrahedra, and no two numbers the same.
+/// Two tetrahedra, with no two equal numbers.
 Frame telling_frame() {
   Frame frame;
   frame.time = 0.1;
@@ -91,7 +91,7 @@ TEST(WriteVtu, SaysOfWhichSortAColumnIs) {
   EXPECT_NE(vtu.find("Name=\"mass\" NumberOfComponents=\"1\""), std::string::npos);
 }
 
-/// The same with all that a scene may ask for, and a spring.
+/// The same with all fields that a scene may request, and a spring.
 Frame full_frame() {
   Frame frame = telling_frame();
   frame.fields = {.held = true, .stress = true, .displacement = true, .springs = true, .contact = true};
@@ -204,7 +204,7 @@ TEST(WriteVtu, RefusesEachColumnOfAnotherLength) {
       [](Frame& f) { f.displacement.pop_back(); }, [](Frame& f) { f.springs.pop_back(); },
       [](Frame& f) { f.strain.pop_back(); }, [](Frame& f) { f.tension.push_back(1.0); },
       [](Frame& f) { f.contact_force.pop_back(); }, [](Frame& f) { f.contact_depth.pop_back(); },
-      // what no field asks for
+      // columns that no field requests
       [](Frame& f) { f.fields.held = false; }, [](Frame& f) { f.fields.displacement = false; },
       [](Frame& f) { f.fields.contact = false; }};
   EXPECT_NO_THROW(to_vtu(full_frame()));

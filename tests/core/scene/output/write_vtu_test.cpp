@@ -35,13 +35,13 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-// A folder that is gone when the test is over.
+// A folder that is removed at the end of the test.
 struct TemporaryFolder {
   fs::path path = fs::temp_directory_path() / ("write_vtu_test-" + std::to_string(getpid()));
   ~TemporaryFolder() { fs::remove_all(path); }
 };
 
-// Every cell with its nodes as places, which do not depend on the numbering of points.
+// Every cell with its nodes as positions, which do not depend on the numbering of points.
 std::vector<std::vector<Eigen::Vector3d>> places(const Mesh& mesh) {
   std::vector<std::vector<Eigen::Vector3d>> cells;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {

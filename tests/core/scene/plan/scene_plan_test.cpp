@@ -1,4 +1,4 @@
-// The plan of a scene beside the scene itself: every part that takes memory is planned, and takes what it must.
+// The plan of a scene compared with the scene itself: every part that takes memory is planned, with its exact memory.
 
 #include "core/scene/plan/scene_plan.h"
 
@@ -205,7 +205,7 @@ TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
   EXPECT_NEAR(planned.mean.cells, (2 * 48 + 2 * 44 + 2 * 40 + 4 * 36) / 480.0, 1e-12);
 }
 
-// A vertex is torn off each time that this is asked for, a plane cut at the first.
+// A vertex is torn off at every time of the event, a plane is cut at the first.
 TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
   const ScenePlan planned = plan(parse(with_events(
       moving_box(), R"([{"every": 0.002, "from": 0.002, "until": 0.006, "tear": {"vertex": 0, "direction": [1, 0, 0]}},
@@ -219,7 +219,7 @@ TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
   EXPECT_EQ(planned.events[2].with_operations, 1.0);
 }
 
-// At every step from 0 on, and counted without going through them: more times than could be gone through.
+// At every step from 0 on, and counted without iterating over them: there are too many times for that.
 TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
   const std::uint64_t steps = std::uint64_t{1} << 42;
   SceneFile scene = parse(with_events(moving_box(), R"([{"from": 0, "until": 0.01, "remove": {"ids": [3]}}])"));
@@ -230,7 +230,7 @@ TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
   EXPECT_EQ(forecast_events(scene, mesh, tally_of(mesh)).at(0).times, steps + 1);
 }
 
-// ---- what no item plans
+// ---- memory that no item plans
 
 TEST(MeasuredPlan, TellsApartWhatNoItemPlans) {
   const SceneFile scene = parse(with_events(moving_box(), one_removal));

@@ -1,4 +1,4 @@
-// The file of a checkpoint: what is wrong with it, or with what it was made of, is said before anything is done.
+// The file of a checkpoint: faults of it, or of its inputs, are reported before anything is done.
 
 #include "core/scene/restart/checkpoint.h"
 
@@ -23,7 +23,7 @@ class CheckpointTest : public FolderTest {
  protected:
   std::filesystem::path file() const { return folder_ / "checkpoint"; }
 
-  /// That of a run of the scene after some steps.
+  /// Leaves the checkpoint of a run of the scene after some steps.
   void leave(const SceneFile& scene, int steps = 3) const {
     Simulation simulation(scene);
     for (int n = 0; n < steps; ++n) ASSERT_FALSE(simulation.advance());
@@ -170,9 +170,9 @@ TEST_F(CheckpointTest, OfASceneThatHasChangedSinceIsRefused) {
   write_mesh_file(0.125);
   write("scene.json", scene_on_mesh());
   leave(read_scene(folder_ / "scene.json"));
-  write("scene.json", scene_on_mesh() + "\n");  // says the same
+  write("scene.json", scene_on_mesh() + "\n");  // the same content
   EXPECT_EQ(complaint(), "accepted");
-  write("scene.json", changed("duration", 9.0));  // and for longer
+  write("scene.json", changed("duration", 9.0));  // and with a longer duration
   EXPECT_EQ(complaint(), "accepted");
   EXPECT_EQ(Checkpoint(file()).scene().duration, 9.0);
   write("scene.json", changed("duration", 1e-3));

@@ -1,4 +1,4 @@
-// The folder of a run that is gone on with: cut back to the checkpoint, or left alone where it is damaged.
+// The folder of a continued run: cut back to the checkpoint, or left alone if it is damaged.
 
 #include <gtest/gtest.h>
 

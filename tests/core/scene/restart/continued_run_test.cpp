@@ -1,4 +1,4 @@
-// A run that is interrupted and gone on with ends in the bits of one that is not, and hands out the same.
+// A run that is interrupted and continued ends in the bits of one that is not, with the same output.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Json with_body(Json scene, const char* generate) {
   return scene;
 }
 
-/// After every step but the last.
+/// Interrupts after every step but the last.
 void expect_same_wherever_interrupted(const Json& json, bool of_elements = false) {
   Json recorded = recorded_scene(json);
   if (of_elements) recorded["output"]["fields"] = {"held", "stress", "displacement"};  // there are no springs
@@ -42,7 +42,7 @@ void expect_same_wherever_interrupted(const Json& json, bool of_elements = false
   }
 }
 
-// Cuts, tears, and cells drawn at random; slots of removed cells are used again by those that refinement makes.
+// Cuts, tears, and cells drawn at random; refinement uses slots of removed cells again.
 const char* const eventful = R"([
   {"at": 0, "remove": {"ids": [7]}},
   {"at": 0.002, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
@@ -67,7 +67,7 @@ TEST(ContinuedRun, OfABodyOfElementsIsTheSame) {
 }
 
 TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {
-  // what all of the following would be worth little without
+  // conditions without which the following tests would prove little
   const RecordedRun one = whole(parse(recorded_scene(with_events(moving_box(), eventful))));
   ASSERT_FALSE(one.result.divergence);
   ASSERT_GT(one.simulation->operations(), 20u);
@@ -160,7 +160,7 @@ TEST_P(ContinuedRunBy, IsTheSame) {
   expect_same_wherever_interrupted(scene);
 }
 
-// Whose factors are updated: their bits are not those of fresh ones.
+// The factors are updated: their bits differ from those of fresh ones.
 TEST_P(ContinuedRunBy, OfABodyThatIsCutIsTheSame) {
   Json scene = with_events(moving_box(), eventful);
   scene["integrator"] = GetParam();
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Every, ContinuedRunBy, testing::ValuesIn(all_names()));
 int looks_left = 0;
 bool after_some_looks() { return --looks_left < 0; }
 
-/// Stopped after each number of looks; how many of the runs left a checkpoint.
+/// Stopped at each number of calls of the check; returns how many of the runs left a checkpoint.
 int expect_same_wherever_stopped(const Json& json) {
   const SceneFile scene = parse(recorded_scene(json));
   const RecordedRun one = whole(scene);
@@ -194,7 +194,7 @@ int expect_same_wherever_stopped(const Json& json) {
       const StopRequest request(after_some_looks);
       if (!run_scene(stopped, scene.output, record).interrupted) break;
     }
-    // none where the step could not be taken back
+    // no checkpoint if the step could not be taken back
     if (!record.state) continue;
     EXPECT_EQ(record.checkpoints, std::vector<std::uint64_t>{stopped.steps_done()});
     ++continued_runs;

@@ -1,4 +1,4 @@
-// Forces from outside: how large they are, whom they act on, when, and what becomes of them in a cut.
+// Forces from outside: their size, the vertices they act on, their times, and the effect of a cut on them.
 
 #include "core/scene/run/applied_forces.h"
 
@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr const char* side = R"({"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}})";
 
-// A box that floats at rest, and nothing that would take its momentum.
+// A box that floats at rest, and nothing that would change its momentum.
 Json floating_box(const char* forces) {
   Json scene = moving_box();
   scene.erase("initial_velocity");
@@ -32,7 +32,7 @@ Json floating_box(const char* forces) {
   scene["forces"] = Json::parse(forces);
   return scene;
 }
-/// On the vertices of one side of the box.
+/// Applies to the vertices of one side of the box.
 Json with_key(const char* key, const Json& value) {
   Json force = Json::parse(side);
   force[key] = value;
@@ -45,7 +45,7 @@ Json pulled_box() {
 }
 const Vector3d pull_of_box(3, -1, 2);
 
-/// All that is applied now [N].
+/// The sum of all forces applied now [N].
 Vector3d sum_of_forces(const Simulation& simulation) {
   const VertexColumns& v = simulation.body().vertices();
   Vector3d sum(0, 0, 0);
@@ -59,7 +59,7 @@ TEST(AppliedForces, GiveABodyTheirSumTimesTheTimeAsMomentumWithEveryIntegrator) 
     scene["integrator"] = entry.name;
     Simulation simulation(parse(scene));
     run(simulation);
-    // inner forces have no sum; what implicit methods leave unsolved has one, of 1e-12 of the forces in a step
+    // inner forces have no sum; the residual of implicit methods has one, of 1e-12 of the forces in a step
     EXPECT_LE((simulation.diagnostics().momentum - 0.01 * pull_of_box).norm(), 1e-11 * 0.01 * pull_of_box.norm())
         << entry.name;
   }
@@ -75,7 +75,7 @@ TEST(AppliedForces, StretchEachLinkOfAChainByTheForceOverItsStiffness) {
     Simulation simulation(parse(scene));
     run(simulation);
     const auto& x = simulation.body().vertices().position;
-    // as of the chain that hangs (chain_test.cpp): at rest after 4 s, to 4e-18; implicit methods stop at 1e-10 of a
+    // as for the chain that hangs (chain_test.cpp): at rest after 4 s, to 4e-18; implicit methods stop at 1e-10 of a
     // step
     for (std::size_t i = 1; i <= 6; ++i) EXPECT_NEAR(x[i].x() - x[i - 1].x() - 0.25, 0.005, 1e-11) << integrator;
   }
@@ -118,7 +118,7 @@ TEST(AppliedForces, AreSharedInProportionToMasses) {
   }
 }
 
-// A cut through the middle of the side: its vertices come apart, and their masses sum to what they had.
+// A cut through the middle of the side: its vertices come apart, and their masses sum to the old ones.
 TEST(AppliedForces, KeepTheirSumWhenVerticesComeApart) {
   Json scene = pulled_box();
   scene["events"] =
@@ -160,7 +160,7 @@ TEST(AppliedForces, OfAPressureAreItsProductWithTheAreaAgainstTheNormal) {
   }
 }
 
-// Of a quarter of the side as much as of a cube's face: each corner has a quarter of it.
+// A quarter of the side has the same force as a face of a cube: each corner has a quarter of it.
 TEST(AppliedForces, OfAPressureAreSharedByTheCornersOfEachFace) {
   Json scene = floating_box("[]");
   scene["body"]["generate"]["box"]["kind"] = "hexahedra";
@@ -183,7 +183,7 @@ TEST(AppliedForces, OfAPressureAllRoundHaveNoSumAndNoMoment) {
   EXPECT_LE(sum_of_forces(simulation).norm(), 1e-14);
   ASSERT_FALSE(simulation.advance());
   EXPECT_LE(simulation.diagnostics().angular_momentum.norm(), 1e-16);
-  // inwards: what is pressed from all round shrinks
+  // inwards: a body under pressure from all sides shrinks
   const VertexColumns& v = simulation.body().vertices();
   double along = 0.0;
   for (std::size_t k = 0; k < v.size(); ++k) along += v.velocity[k].dot(v.position[k] - Vector3d::Constant(0.125));
@@ -217,7 +217,7 @@ TEST(AppliedForces, OfAPressurePointInwardsHoweverTheCornersOfACellAreNamed) {
   }
 }
 
-// A mass of 1 kg on a spring: what it moves as, the force has done.
+// A mass of 1 kg on a spring: its kinetic energy is the work of the force.
 TEST(AppliedForces, HaveAPotentialThatEnergyComesFrom) {
   Json scene = Json::parse(R"({"name": "mass", "step": 0.01, "duration": 1, "gravity": [0, 0, 0],
     "body": {"generate": {"chain": {"links": 1, "spacing": 1}}}, "fixed": [{"ids": [0]}],
@@ -242,7 +242,7 @@ TEST(AppliedForces, AreNotToldWhereASceneHasNone) {
   EXPECT_TRUE(Simulation(parse(moving_box())).body().vertices().pull.empty());
 }
 
-// From rest to thousands of times any energy that it had: nothing diverges.
+// From rest to thousands of times any earlier energy: this is no divergence.
 TEST(AppliedForces, AreNoDivergenceHoweverMuchWorkTheyDo) {
   for (const char* integrator : {"rk4", "backward-euler"}) {
     Json scene = floating_box("[]");
@@ -256,7 +256,7 @@ TEST(AppliedForces, AreNoDivergenceHoweverMuchWorkTheyDo) {
   }
 }
 
-// With a method of two steps, which begins anew whenever a force does: not where a run goes on.
+// With a method of two steps, which begins anew whenever a force changes: not where a run is continued.
 TEST(AppliedForces, GoOnWithTheSameBitsWhereARunIsInterrupted) {
   Json scene = pulled_box();
   scene["forces"].push_back(Json::parse(R"({"ids": [0, 1], "force": [0, 9, 0], "from": 0.003, "until": 0.007})"));

@@ -1,4 +1,4 @@
-// A body in figures that a person can check.
+// A body in figures that a reader can check.
 
 #include "core/scene/run/body_in_words.h"
 

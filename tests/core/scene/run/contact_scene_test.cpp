@@ -1,4 +1,4 @@
-// Contact in scenes: what a run does with obstacles, what it reports of them, and what is told before it begins.
+// Contact in scenes: the effect of obstacles on a run, the report on them, and the warnings before it begins.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ Json above_a_floor() {
     "contact": {"pressure": 2000, "depth": 0.002,
                 "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]}})");
 }
-/// It slides and bounces.
+/// The same cube, sliding and bouncing.
 Json thrown() {
   Json scene = above_a_floor();
   scene["initial_velocity"] = {0.4, 0.1, -0.6};
@@ -41,7 +41,7 @@ Json thrown() {
   scene["contact"]["friction"] = 0.3;
   return scene;
 }
-/// A floor that comes up, and a body that nothing else moves.
+/// A floor that rises, and a body that no other force moves.
 Json lifted() {
   Json scene = above_a_floor();
   scene["gravity"] = {0, 0, 0};
@@ -52,13 +52,13 @@ bool some_warning_has(const std::vector<std::string>& warnings, const std::strin
   return std::ranges::any_of(warnings, [&words](const std::string& w) { return w.find(words) != std::string::npos; });
 }
 
-// ---- what a run does
+// ---- runs
 
 // The vertices along the edges stand for a twelfth of each triangle of the sides, too: 0.0125 m^2 press onto the floor.
 constexpr double lower_area = 0.01 + 4 * 6 * 0.00125 / 12;
 
-// The weight of 1 kg on them needs sqrt(9.81 / 0.0125 / 2000) of 2 mm. What moves falls off as exp(-15 t), to 1e-13 in
-// 2 s.
+// The weight of 1 kg on them needs sqrt(9.81 / 0.0125 / 2000) of 2 mm. Motion decays as exp(-15 t), to 1e-13 in 2
+// s.
 TEST(ContactScene, RestsOnAFloorAtTheDepthThatItsWeightNeeds) {
   for (const char* integrator : {"verlet", "rk4", "backward-euler", "energy-momentum", "bdf2"}) {
     Json scene = above_a_floor();
@@ -141,7 +141,7 @@ TEST(ContactScene, StopsWhereFrictionSays) {
   EXPECT_GT(simulation.body().vertices().position[0].x(), start);
 }
 
-// The only energy there is comes from the floor: a run that did not know would be stopped.
+// All energy comes from the floor: a detector without this knowledge would stop the run.
 TEST(ContactScene, KnowsTheWorkOfAnObstacleThatMoves) {
   for (const char* integrator : {"verlet", "rk4", "energy-momentum"}) {
     Json scene = lifted();
@@ -149,7 +149,7 @@ TEST(ContactScene, KnowsTheWorkOfAnObstacleThatMoves) {
     Simulation simulation(parse(scene));
     run(simulation);
     const Diagnostics d = simulation.diagnostics();
-    // thrown ahead at nearly twice the speed of the floor, but for what goes into its vibrations
+    // thrown ahead at nearly twice the speed of the floor, less the energy of its vibrations
     EXPECT_GT(d.momentum.z(), 0.8) << integrator;
     EXPECT_EQ(d.contact->contacts, 0u) << integrator;
     EXPECT_NEAR(d.energy(), d.contact->supplied, 2e-3 * d.energy()) << integrator;
@@ -235,12 +235,12 @@ TEST(ContactScene, DividesAStepAroundTheImpulses) {
   const Diagnostics before = simulation.diagnostics();
   run(simulation);
   const Diagnostics after = simulation.diagnostics();
-  // parts near the limit leave an energy that oscillates by as much as it is
+  // parts near the limit leave an energy that oscillates by its own size
   EXPECT_NEAR(after.energy() + after.contact->damped + after.contact->rubbed, before.energy(), 0.2 * before.kinetic);
   EXPECT_GT(after.contact->damped, 0.1 * before.kinetic);
 }
 
-// Obstacles are where they are in the middle of each part.
+// Obstacles are at their places in the middle of each part.
 TEST(ContactScene, AccountsForFloorsThatMoveWhereAStepIsDivided) {
   Json scene = lifted();
   scene["step"] = 0.005;
@@ -249,7 +249,7 @@ TEST(ContactScene, AccountsForFloorsThatMoveWhereAStepIsDivided) {
   ASSERT_GT(divided.step_warning()->parts, 2u);
   while (divided.steps_done() < divided.step_count()) {
     ASSERT_FALSE(divided.advance());
-    // the floor has come up at 0.5 m/s to where it is at the end of the last part
+    // the floor has risen at 0.5 m/s to its place at the end of the last part
     const double depth = divided.body().contact()->penetration_in(0, {0, 0, 0}).depth;
     EXPECT_NEAR(depth, 0.5 * divided.time(), 1e-15);
   }
@@ -267,7 +267,7 @@ TEST(ContactScene, KeepsTheOrderOfEventsAtTheirTimesWithObstaclesThatMove) {
   EXPECT_NEAR(d.energy(), d.contact->supplied, 2e-3 * d.energy());
 }
 
-// ---- what is shown
+// ---- output
 
 TEST(ContactScene, ShowsForcesAndDepthsOfVerticesWhereTheyAreAskedFor) {
   Json scene = above_a_floor();
@@ -293,7 +293,7 @@ TEST(ContactScene, ShowsForcesAndDepthsOfVerticesWhereTheyAreAskedFor) {
   EXPECT_EQ(to_vtu(simulation.frame({})).find("contact"), std::string::npos);
 }
 
-// ---- what is told before
+// ---- forecasts
 
 // Numbers by hand: 1000 kg/m^3, 0.1 m high, falling from a highest place of 0.101 m onto the floor.
 TEST(ContactForecast, HasTheClosedFormsOfAColumn) {
@@ -348,8 +348,8 @@ TEST(ContactForecast, KnowsHowFastVerticesAreDriven) {
   EXPECT_DOUBLE_EQ(forecast_contacts(file, make_problem(file))[0].speed, 5.0);
 }
 
-// A mass on a spring of the contact's stiffness is what the limit is for: 2 / omega of Verlet's method. The bound is
-// not below it: what is stable by it is stable.
+// The limit is for a mass on a spring of the contact's stiffness: 2 / omega of Verlet's method. The bound is not below
+// it: a step that is stable by the bound is stable.
 TEST(ContactScene, ExplainsTheLongestStepAtTheDepthOfTheImpact) {
   Json scene = above_a_floor();
   scene["contact"]["pressure"] = 2e6;
@@ -361,7 +361,7 @@ TEST(ContactScene, ExplainsTheLongestStepAtTheDepthOfTheImpact) {
   EXPECT_LT(plan.contact->stable_step, plan.contact->body_step);
   EXPECT_NEAR(plan.contact->stable_step, 2.0 / std::hypot(plan.contact->contact_rate, plan.contact->body_rate),
               0.01 * plan.contact->stable_step);
-  // what the run goes by
+  // the limit used by the run
   EXPECT_NEAR(Simulation(file).step_limit().stable, plan.contact->stable_step, 1e-6 * plan.contact->stable_step);
 }
 
@@ -461,7 +461,7 @@ TEST(ContactScene, WarnsOfAVertexThatMayPassThroughAnObstacleInAStep) {
   scene["contact"]["obstacles"] = Json::parse(R"([{"box": {"min": [-1, -1, -2], "max": [1, 1, -1.99]}}])");
   const SceneFile file = parse(scene);
   Simulation simulation(file);
-  // 6 mm in a step, and the plate is 5 mm deep in its middle: told before, and when it is so
+  // 6 mm in a step, and the plate is 5 mm deep in its middle: a warning before the run, and one when it happens
   ASSERT_EQ(simulation.contact_warnings().size(), 1u);
   EXPECT_EQ(simulation.contact_warnings()[0].kind, ContactWarning::Kind::will_be_fast);
   EXPECT_TRUE(

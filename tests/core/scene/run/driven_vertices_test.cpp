@@ -1,4 +1,4 @@
-// Driven vertices go where the scene says, whatever the integrator, the springs and the events do.
+// Driven vertices are where the scene puts them, whatever the integrator, the springs and the events do.
 
 #include "core/scene/run/driven_vertices.h"
 
@@ -29,7 +29,7 @@ Json pulled_box(const char* driven) {
 constexpr const char* plate = R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}, "velocity": [3, 0.5, -1]}])";
 
 // Each step adds h v, rounded, with a rounding of the sum: after n steps at most 2 n roundings of the largest place,
-// and some more for the stages of a method, of which none has ten.
+// and some more for the stages of a method, which has fewer than ten.
 double rounding(std::uint64_t steps, double place) { return 20.0 * static_cast<double>(steps) * 0x1p-53 * place; }
 
 TEST(DrivenVertices, AreWhereTheirVelocityTakesThemWithEveryIntegrator) {
@@ -106,7 +106,7 @@ TEST(DrivenVertices, TurnRoundAgainAndAgain) {
             (std::vector<double>{0, 1, 2, 1, 0, 1, 2, 1, 0, 0}));
 }
 
-// a method that goes on from its last steps must be told: their velocity is not that of the next
+// a method that continues from its last steps must be restarted: their velocity is not that of the next
 TEST(DrivenVertices, TurnRoundWithEveryIntegrator) {
   for (const IntegratorEntry& entry : integrators())
     EXPECT_EQ(path(R"([{"ids": [26], "velocity": [1, 0, 0], "from": 0.002, "reverse_every": 0.003}])", entry.name),

@@ -124,7 +124,7 @@ TEST(ElementScene, IsDampedByARatioAtAFrequency) {
             "damping and viscosity of 0, no driven vertices or events, and forces from start to end");
 }
 
-// Regions are of materials of their own, damped or not; what is left of the energy tells.
+// Regions are of materials of their own, damped or not; the remaining energy shows it.
 TEST(ElementScene, DampsEveryRegionAsItsMaterialSays) {
   const auto left = [](double ratio_of_all, double ratio_of_half) {
     Json scene = damped(of_elements(), ratio_of_all);
@@ -187,8 +187,8 @@ TEST(ElementScene, MovesABodyWithTheSameBitsOnAMapAndWithout) {
   }
 }
 
-// Let go at once, a bar that hangs by its top sinks until a wave has come back from there: its foot is lowest after
-// 2 L / c, by rho g L^2 / E, twice what it hangs by at rest. Poisson's ratio 0 makes it one-dimensional.
+// Released at once, a bar that hangs by its top sinks until a wave has come back from there: its foot is lowest after 2
+// L / c, by rho g L^2 / E, twice its extension at rest. Poisson's ratio 0 makes it one-dimensional.
 TEST(ElementScene, LetsABarSinkAsTheWaveInItHasIt) {
   const double young = 1e6, length = 1.0, speed = std::sqrt(young / 1000.0);
   for (const char* model : models) {
@@ -282,7 +282,7 @@ TEST(ElementScene, IsPlannedToTheByte) {
         }
 }
 
-// 1e9 m from the origin the 0.125 m of an edge are rounded by 1.8e-6 of themselves: told before the first step.
+// 1e9 m from the origin the 0.125 m of an edge are rounded by 1.8e-6 of themselves: a warning before the first step.
 TEST(ElementScene, IsToldWhereItsCoordinatesAreTooCoarse) {
   for (const char* kind : {"tetrahedra", "hexahedra", "mixed"}) {
     Json scene = in_cells(of_elements(), kind);

@@ -1,4 +1,4 @@
-// What an event changes that it must not, measured on bodies that are changed on purpose.
+// Changes by an event that must not happen, measured on bodies that are changed on purpose.
 
 #include "core/scene/run/event_jumps.h"
 
@@ -24,7 +24,7 @@ Problem link() {
   return problem;
 }
 
-/// An event that does to a body whatever it is told to.
+/// An event with an arbitrary effect on a body.
 struct Push : ReadyEvent {
   explicit Push(std::function<std::size_t()> what) : act(std::move(what)) {}
   std::size_t apply() override { return act(); }
@@ -111,7 +111,7 @@ TEST(EventJumps, OfAnEventThatFindsNothingToDoAreNotCounted) {
   EXPECT_EQ(jumps.events, 0u);
 }
 
-// A dissociation touches no mass of a cell: what goes missing does so where a vertex or an edge comes apart.
+// A dissociation changes no mass of a cell: any loss occurs where a vertex or an edge comes apart.
 TEST(EventJumps, AreOfTheMassesOfVerticesAndTheStiffnessesOfSprings) {
   Problem problem;
   problem.mesh = kuhn_box(2, 2, 2, 0.125);

@@ -1,4 +1,4 @@
-// Events at their very times, between two steps.
+// Events at their exact times, between two steps.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Json exact(Json scene, double step, double duration, const char* events) {
   return with_events(scene, events);
 }
 
-/// All held, without springs: free fall from where they are let go.
+/// All held, without springs: free fall from the place of release.
 Json held_box(double step, double duration, const char* events) {
   Json scene = exact(moving_box(), step, duration, events);
   scene["material"] = {{"density", 768}, {"stiffness", 0}, {"damping", 0}, {"viscosity", 0}};
@@ -46,7 +46,7 @@ TEST(ExactEvents, HappenAtTheirTimeAndNotAtTheEndOfTheStep) {
   }
 }
 
-// Two halves let go in one step, the one above first.
+// Two halves released in one step, the one above first.
 TEST(ExactEvents, OfOneStepHappenInTheOrderOfTheirTimes) {
   const Json scene = held_box(0.05, 0.1, R"([
       {"at": 0.031, "release": {"plane": {"point": [0, 0, 0.05], "normal": [0, 0, -1]}}},
@@ -100,7 +100,7 @@ TEST(ExactEvents, OfEveryStepFromATimeBetweenTwoHappenThereAndThenAtEachBoundary
   }
 }
 
-/// By the fall of the error when the step is halved twice; the error is the distance from a run of shorter steps yet.
+/// Order by the fall of the error when the step is halved twice; the error is the distance from a run of shorter steps.
 double order_through_a_removal(const char* integrator, const char* event_times, double step) {
   const auto end = [&](double h, const char* times) {
     Json scene =

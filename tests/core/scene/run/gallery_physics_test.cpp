@@ -1,5 +1,5 @@
-// What the scenes of the gallery expect to end with, by other ways than core's: closed forms, a chain in the plane, and
-// a body of corners (corner_body.h) that is no map and is integrated here.
+// Expected ends of the scenes of the gallery, by other ways than core's: closed forms, a chain in the plane, and a body
+// of corners (corner_body.h) without a map, integrated here.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ void expect_place(const SceneFile& scene, const ExpectedPlace& place, const Vect
   EXPECT_FALSE(place.why.empty()) << scene.name << ": the reader is not told where the place comes from";
 }
 
-/// After a time, of what starts at x with v, pulled by gravity and held back by viscosity alone: v' = g - c v.
+/// The position after a time, from x with v, under gravity and viscosity alone: v' = g - c v.
 Vector3d flight(const Vector3d& x, const Vector3d& v, const SceneFile& scene, double time) {
   const double c = scene.material.viscosity;
   return x + scene.gravity / c * time + (v - scene.gravity / c) * (1 - std::exp(-c * time)) / c;
@@ -99,7 +99,7 @@ CornerBody body_at_end(const SceneFile& scene) {
   return body;
 }
 
-// ---- scenes that a body of corners can follow to the end
+// ---- scenes that a body of corners can simulate to the end
 
 class FollowedScene : public testing::TestWithParam<const char*> {};
 
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Gallery, FollowedScene,
                                          "liver_removal", "sheet_cut"),
                          [](const auto& which) { return which.param; });
 
-// The part that is cut off is a free body: whatever its springs do, its centre of mass flies.
+// The part that is cut off is a free body: whatever its springs do, its centre of mass moves as in free flight.
 TEST(GalleryPhysics, ThePartCutOffTheLiverFlies) {
   SceneFile scene = gallery("liver_cut");
   const std::uint32_t point = point_of(scene.probes.at(place_of(scene, "right", true).probe), make_problem(scene).mesh);
@@ -267,9 +267,9 @@ TEST(GalleryPhysics, TheBlockThatTearsStaysWhereItIs) {
   EXPECT_NEAR(*scene.expect.mass, scene.material.density * 8 * centre.prod(), 1e-14);
 }
 
-// A block that spins about its centre, as a rigid one: what is removed takes its momentum along, and the rest goes the
+// A block that spins about its centre, as a rigid one: the removed part takes its momentum along, and the rest goes the
 // other way. Springs let it grow by some percent, and whole tetrahedra are removed, so the estimate is good to a third
-// of the way.
+// of the distance.
 TEST(GalleryPhysics, TheSpinningBlockGivesWayWhereACornerIsTaken) {
   const SceneFile scene = gallery("corner_refined");
   const auto& box = std::get<BoxMesh>(scene.body.mesh);
@@ -315,7 +315,7 @@ TEST(GalleryPhysics, TheErodedBlockIsGoneWhenEveryTetrahedronHasBeenDrawn) {
   EXPECT_FALSE(scene.expect.why.empty());
 }
 
-// ---- what tears by stress
+// ---- tearing by stress
 
 TEST(GalleryPhysics, ThePlateIsWhereItsSpeedTakesIt) {
   const SceneFile scene = gallery("plate_pulled");
@@ -325,8 +325,8 @@ TEST(GalleryPhysics, ThePlateIsWhereItsSpeedTakesIt) {
   expect_place(scene, place, rest + *plate.until * plate.velocity.constant);
 }
 
-// The seam tears at vertices where the largest stress passes the threshold. The mean over the section cannot be above
-// it by then, and is not below half of it: two times, and from each the part below flies. The end has to lie between.
+// The seam tears at vertices where the largest stress passes the threshold. The mean over the section is then between
+// half of it and all of it: two times, and from each the part below flies. The expected end lies between.
 TEST(GalleryPhysics, TheBarFallsFromWhenItsWeightPullsEnough) {
   const SceneFile scene = gallery("bar_torn_by_weight");
   const auto& tear = std::get<TearWhereStressed>(scene.events.at(0).action);
@@ -350,7 +350,7 @@ TEST(GalleryPhysics, TheBarFallsFromWhenItsWeightPullsEnough) {
   const ExpectedPlace& place = place_of(scene, "foot", true);
   expect_place(scene, place, ends[0]);
   expect_place(scene, place, ends[1]);
-  // no wider than what lies between
+  // not wider than the distance between them
   EXPECT_LE(place.within, 0.55 * (ends[1] - ends[0]).norm() + 1e-3);
 }
 
@@ -367,7 +367,7 @@ TEST(GalleryPhysics, TheBarOfElementsIsLowestWhenItsWaveIsBack) {
   expect_place(scene, place_of(scene, "foot"), {0, 0, -sinks});
 }
 
-// Elements or springs, what is cut off is a free body.
+// Elements or springs, the part that is cut off is a free body.
 TEST(GalleryPhysics, ThePartCutOffTheLiverOfElementsFlies) {
   SceneFile scene = gallery("liver_of_elements");
   const double end = scene.duration, cut = scene.events.at(0).from;
@@ -397,7 +397,7 @@ TEST(GalleryPhysics, ThePartCutOffTheLiverOfElementsFlies) {
                flight(centre / mass, velocity / mass, scene, end - scene.duration));
 }
 
-// ---- springs that no edge stands for, and bending
+// ---- springs that are not edges, and bending
 
 // A bar of a Young's modulus E under its weight: density g L^2 / (2 E) longer, of which 3/4 at half its length, and
 // thinner by Poisson's ratio 1/4 times the strain there.
@@ -412,7 +412,7 @@ TEST(GalleryPhysics, TheLatticeHangsAsASolidOfItsYoungsModulus) {
 }
 
 // Rows of a wide sheet at distance h are a beam with a hinge of D / h at each: D times the fourth difference of the sag
-// is the load. That has a polynomial which vanishes on the last two rows held still on either side.
+// is the load. A polynomial solves this; it vanishes on the last two rows, which are held, on either side.
 TEST(GalleryPhysics, TheSheetSagsAsAPlateOfItsRigidity) {
   const SceneFile scene = gallery("sheet_sags");
   const auto& sheet = std::get<SheetMesh>(scene.body.mesh);
@@ -498,7 +498,7 @@ TEST(GalleryPhysics, TheMembraneHangsAsAStripOfItsYoungsModulus) {
 
 // ---- contact
 
-// A point that slides: gravity along the slope less mu times what presses on it; a box is the mean of its points.
+// A point that slides: gravity along the slope less mu times its normal force; a box is the mean of its points.
 TEST(GalleryPhysics, TheBlockSlidesAsAPointWithFriction) {
   const SceneFile scene = gallery("block_slides");
   const SceneObstacle& slope = scene.obstacles.at(0);
@@ -520,7 +520,7 @@ TEST(GalleryPhysics, TheSheetHangsFromTheHighestPointOfTheBall) {
   const SceneFile scene = gallery("sheet_drapes");
   const Ball& ball = std::get<Ball>(scene.obstacles.at(0).obstacle.shape);
   const ExpectedPlace& crown = place_of(scene, "crown");
-  // anywhere from the surface to the depth that is allowed
+  // anywhere from the surface to the depth allowed
   EXPECT_LE(crown.within, scene.obstacles.at(0).law.depth / 2);
   expect_place(scene, crown, ball.centre + Vector3d(0, 0, ball.radius - crown.within));
   const Mesh mesh = make_problem(scene).mesh;
@@ -529,7 +529,7 @@ TEST(GalleryPhysics, TheSheetHangsFromTheHighestPointOfTheBall) {
   EXPECT_LE((centre - ball.centre).head<2>().norm(), 1e-12);
 }
 
-// A table without friction pushes up alone: along it, what has landed goes on as it flew.
+// A table without friction pushes only upwards: along it, a part that has landed goes on with its old velocity.
 TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
   SceneFile scene = gallery("liver_lands");
   const ExpectedPlace& place = place_of(scene, "right", true);
@@ -540,7 +540,7 @@ TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
   const CornerBody::Part part = body_at_end(until_cut).part_of(point_of(scene.probes.at(place.probe), mesh));
   const Vector3d flown = flight(part.centre, part.velocity, scene, end - cut);
   EXPECT_LE((flown - place.position).head<2>().norm(), place.within) << flown.transpose();
-  // and above the table, by no more than it is large
+  // and above the table, by at most its own size
   const HalfSpace& table = std::get<HalfSpace>(scene.obstacles.at(0).obstacle.shape);
   EXPECT_EQ(table.normal, Vector3d(0, 0, 1));
   EXPECT_LT(flown.z(), table.point.z());
@@ -548,8 +548,8 @@ TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
   EXPECT_LT(place.position.z(), table.point.z() + 0.15);
 }
 
-// Columns on each other: each is as deep in what is below as the weight from it upwards needs, and shorter by the mean
-// of the weight on its two ends.
+// Columns on each other: each is as deep in the one below as the weight above needs, and shortened by the mean of the
+// weights on its two ends.
 TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
   const SceneFile scene = gallery("boxes_stacked");
   struct Column {
@@ -580,7 +580,7 @@ TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
   expect_place(scene, place_of(scene, "top", true), {0.05, 0.05, centre[2]});
 }
 
-// ---- none is left out
+// ---- all scenes are tested
 
 TEST(GalleryPhysics, IsExpectedOfEveryScene) {
   for (const auto& entry : fs::directory_iterator(source_folder() / "benchmarks" / "scenes")) {

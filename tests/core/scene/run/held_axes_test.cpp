@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 
 constexpr double spacing = 0.125;
 
-/// A box that falls, is stretched along x and turns about x, its middle at x = 0; or its half from there on, which the
+/// A box that falls, is stretched along x and turns about x, its middle at x = 0; or its half for positive x, which the
 /// middle plane holds along x. Cubes are cut alike in both, and each way of cutting has its mirror image. With `axis` 1
-/// or 2, all that along y or z in place of x.
+/// or 2, the same along y or z in place of x.
 Json box(bool half, const char* material, std::size_t axis = 0) {
   const auto turned = [axis](const Json& vector) {
     Json result = vector;
@@ -44,7 +44,7 @@ Json box(bool half, const char* material, std::size_t axis = 0) {
 }
 
 using ByPlace = std::map<std::array<long, 3>, VertexMotion>;
-/// Where the vertices of the half are in the end, by their places at rest in units of the spacing.
+/// Final positions of the vertices of the half, by their places at rest in units of the spacing.
 ByPlace of_half(const Json& scene, std::size_t axis) {
   const SceneFile file = parse(scene);
   const Mesh mesh = make_mesh(file);
@@ -60,7 +60,7 @@ ByPlace of_half(const Json& scene, std::size_t axis) {
   return found;
 }
 
-/// The largest difference of the half of a whole from a half by itself, in metres and metres a second.
+/// The largest difference between a half of the whole and a half alone, in metres and metres a second.
 double difference_from_whole(const char* material, const Json& changes, std::size_t axis = 0) {
   Json whole = box(false, material, axis), half = box(true, material, axis);
   whole.update(changes);
@@ -80,7 +80,7 @@ double difference_from_whole(const char* material, const Json& changes, std::siz
 constexpr const char* springs = R"({"density": 768, "stiffness": 640, "damping": 0, "viscosity": 0.5})";
 constexpr const char* elements = R"({"density": 768, "young": 2e4, "poisson": 0.3, "viscosity": 0.5})";
 
-// To rounding, and of implicit methods to their tolerance of 1e-10 of what acts in 64 steps.
+// To rounding, and for implicit methods to their tolerance of 1e-10 of the motion in 64 steps.
 TEST(HeldAxes, MakeAHalfMoveAsTheWholeWithEveryIntegrator) {
   for (const IntegratorEntry& entry : integrators())
     for (const char* material : {springs, elements})
@@ -92,7 +92,7 @@ TEST(HeldAxes, MakeAHalfMoveAsTheWholeWithEveryIntegrator) {
 }
 
 TEST(HeldAxes, MakeAHalfMoveAsTheWholeWithEverySolverOfLinearSystems) {
-  for (const char* integrator : {"backward-euler", "baraff-witkin"})  // of the second one solution is the step
+  for (const char* integrator : {"backward-euler", "baraff-witkin"})  // for the second a single solution is the step
     for (const char* solver : {"fresh-factor", "kept-factor", "conjugate-gradients"})
       for (const char* material : {springs, elements})
         EXPECT_LT(difference_from_whole(material, {{"integrator", integrator}, {"solver", solver}}), 1e-7)
@@ -114,7 +114,7 @@ TEST(HeldAxes, MakeAHalfMoveAsTheWholeWhereItIsDamped) {
     }
 }
 
-// Of a bar on three symmetry planes pulled at its end stress is uniform: it grows longer by F / (E A) and thinner by
+// In a bar on three symmetry planes pulled at its end stress is uniform: it grows longer by F / (E A) and thinner by
 // Poisson's ratio times that, to the second order of a strain of 1e-5.
 TEST(HeldAxes, LetABarGrowThinnerAsItIsPulled) {
   for (const char* kind : {"tetrahedra", "hexahedra"})
@@ -147,8 +147,8 @@ TEST(HeldAxes, LetABarGrowThinnerAsItIsPulled) {
     }
 }
 
-// What an operation makes of a vertex is held as it was, and one that refinement puts between held ones along the axes
-// that all of them are; a vertex of two selections is held along the axes of both.
+// The parts of a vertex after an operation are held as it was, and a vertex that refinement puts between held ones
+// along the axes common to all of them; a vertex of two selections is held along the axes of both.
 TEST(HeldAxes, FollowOperations) {
   Json scene = with_events(box(true, springs), R"([
     {"refine": {"cells": {"box": {"min": [0, 0, 0], "max": [0.125, 0.125, 0.125]}}}, "at": 0.01},

@@ -1,4 +1,4 @@
-// A box hung from its top goes down and, by symmetry, not sideways; what a mesh with a direction does instead.
+// A box hung from its top goes down and, by symmetry, not sideways; a mesh with a direction breaks this symmetry.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Json hung(const char* pattern, const char* material) {
   return scene;
 }
 
-/// Where the mean of the foot goes until it is at rest [m].
+/// The displacement of the mean of the foot until it is at rest [m].
 Vector3d moved(const Json& scene) {
   Simulation simulation(parse(scene));
   const auto foot = [&simulation] {

@@ -1,4 +1,4 @@
-// A run that diverges leaves its last good state: handed out, at its own time, and nothing after it.
+// A run that diverges outputs its last good state, at its own time, and nothing after it.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ struct Keeper : RunWatcher {
   void diagnostics(const Diagnostics& d) override { times_of_diagnostics.push_back(d.time); }
 };
 
-/// Sound for a while, since its energy has to grow from rounding: the step is above the limit by a hundredth.
+/// Stable for a while, since its energy has to grow from rounding: the step is above the limit by a hundredth.
 Json slowly_unstable() {
   Json json = moving_box();
   json["step"] = 1.01 * Simulation(parse(json)).step_limit().stable;

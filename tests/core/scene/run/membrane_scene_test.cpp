@@ -49,13 +49,13 @@ Json corotational(Json scene) {
   scene["material"]["model"] = "corotational";
   return scene;
 }
-/// Cells of both kinds, of either law, whose energy nothing takes.
+/// Cells of both kinds, of either law, without loss of energy.
 std::vector<Json> undamped() {
   const char* material = R"({"density": 2, "young": 200, "poisson": 0.3, "viscosity": 0})";
   return {sheet("triangles", material), sheet("quadrilaterals", material), corotational(sheet("triangles", material)),
           corotational(sheet("quadrilaterals", material))};
 }
-/// All that a surface may be of.
+/// All models that a surface may have.
 std::vector<Json> all_kinds() {
   return {sheet("triangles"),
           corotational(sheet("triangles")),
@@ -80,7 +80,7 @@ TEST(MembraneScene, IsOfStVenantAndKirchhoffUnlessItIsOfSprings) {
   Json springs = sheet("triangles");
   springs["material"].erase("poisson");
   EXPECT_EQ(make_problem(parse(springs)).material.model, Model::springs);
-  // a box is what it was
+  // a box is unchanged
   Json box = moving_box();
   box["material"] = sheet("triangles")["material"];
   EXPECT_EQ(make_problem(parse(box)).material.model, Model::neo_hookean);
@@ -130,8 +130,8 @@ TEST(MembraneScene, MovesABodyWithTheSameBitsOnAMapAndWithout) {
   }
 }
 
-// Let go at once, a strip that hangs by its top sinks until a wave has come back from there: its foot is lowest after
-// 2 L / c, c^2 = Y / rho, by rho g L^2 / Y, twice what it hangs by at rest. Poisson's ratio 0 makes it one-dimensional.
+// Released at once, a strip that hangs by its top sinks until a wave has come back from there: its foot is lowest after
+// 2 L / c, c^2 = Y / rho, by rho g L^2 / Y, twice its extension at rest. Poisson's ratio 0 makes it one-dimensional.
 TEST(MembraneScene, LetsAStripSinkAsTheWaveInItHasIt) {
   const double young = 2000.0, density = 2.0, length = 1.0, speed = std::sqrt(young / density);
   for (const Json& kind : undamped()) {
@@ -153,7 +153,7 @@ TEST(MembraneScene, LetsAStripSinkAsTheWaveInItHasIt) {
   }
 }
 
-// What a step of a fourth order method loses of the energy goes with the fourth power of the step: halved, it is a
+// The error of a fourth order method in the energy goes with the fourth power of the step: with half the step, it is a
 // sixteenth, up to terms of higher orders.
 TEST(MembraneScene, KeepsItsEnergyToTheOrderOfTheIntegrator) {
   for (const Json& kind : undamped()) {
@@ -178,7 +178,7 @@ TEST(MembraneScene, KeepsItsEnergyToTheOrderOfTheIntegrator) {
   }
 }
 
-// Nothing takes energy, and a cut takes none.
+// The body loses no energy, not even by a cut.
 TEST(MembraneScene, KeepsTheEnergyOfAFreeBodyThatIsCut) {
   for (Json scene : undamped()) {
     scene["integrator"] = "energy-momentum";
@@ -192,7 +192,7 @@ TEST(MembraneScene, KeepsTheEnergyOfAFreeBodyThatIsCut) {
     const Diagnostics last = simulation.diagnostics();
     EXPECT_EQ(simulation.operations(), 3u);
     EXPECT_GT(last.elastic, 1e-6 * first.kinetic);
-    // ten steps, each to some roundings of what there is
+    // ten steps, each to some roundings of the present energy
     EXPECT_NEAR(last.energy(), first.energy(), 1e-13 * first.kinetic);
     EXPECT_LE((last.angular_momentum - first.angular_momentum).norm(), 1e-12 * first.angular_momentum.norm());
   }
@@ -209,7 +209,7 @@ std::vector<Eigen::Vector3d> momenta(const Simulation& simulation) {
   return sums;
 }
 
-// Membranes of one half know nothing of the vertices of the other.
+// Membranes of one half do not depend on the vertices of the other.
 TEST(MembraneScene, LetsTwoPartsFlyOnTheirOwn) {
   for (Json scene : undamped()) {
     scene["gravity"] = {0, 0, 0};
@@ -249,7 +249,7 @@ TEST(MembraneScene, GoesOnWithTheSameBitsAfterAnInterruption) {
   }
 }
 
-// Of two bodies each is of its own material, and moves as if it were alone.
+// Each of two bodies has its own material, and moves as if it were alone.
 TEST(MembraneScene, HasBodiesOfSeveralMaterials) {
   const char* bodies = R"([
     {"generate": {"sheet": {"cells": [4, 3], "spacing": 0.125}}},

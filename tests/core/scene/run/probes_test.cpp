@@ -92,8 +92,8 @@ TEST(Probes, AreRecordedWithTheDiagnosticsOrAtTimesOfTheirOwn) {
 }
 
 TEST(Probes, FollowTheirVertexWhenNumbersMove) {
-  // Cells disappear until few are left. A probe is a vertex of its mesh point, and moves by no more than its velocity
-  // takes it, a hundredth of the distance between points.
+  // Cells disappear until few are left. A probe is a vertex of its mesh point, and moves by at most its velocity times
+  // the step, a hundredth of the distance between points.
   Json scene = probed("[]");
   for (int p = 0; p < 27; ++p) scene["output"]["probes"].push_back({{"name", std::to_string(p)}, {"vertex", p}});
   scene["events"] = Json::parse(R"([{"every": 0.001, "remove": {"random": {"count": 4, "seed": 3}}}])");

@@ -189,14 +189,14 @@ TEST(Verdict, LooksWhereTheCentreOfThePartIsThatAProbeIsIn) {
   };
   EXPECT_TRUE(place("left", 0.0925, "part").holds) << place("left", 0.0925, "part").actual;
   EXPECT_TRUE(place("right", 0.2175, "part").holds) << place("right", 0.2175, "part").actual;
-  EXPECT_FALSE(place("left", 0.155, "part").holds);  // that of both
+  EXPECT_FALSE(place("left", 0.155, "part").holds);  // the centre of both parts
   EXPECT_FALSE(place("left", 0.0925, "vertex").holds);
   EXPECT_EQ(place("left", 0.0925, "part").what, "place of the part of left [m]");
   scene["events"][1] = Json::parse(R"({"at": 0, "remove": {"sphere": {"centre": [0, 0, 0], "radius": 9}}})");
   EXPECT_EQ(place("left", 0.0925, "part").actual, "removed");
 }
 
-// Masses of one cell to six: a vertex at a corner weighs less than the one in the middle.
+// Masses of one to six cells: a vertex at a corner weighs less than the one in the middle.
 TEST(Verdict, WeighsTheVerticesOfAPart) {
   Json json = moving_box();
   json["output"]["probes"] = Json::parse(R"([{"name": "corner", "vertex": 0}])");
@@ -224,7 +224,7 @@ TEST(Scenes, OfTheProjectEndAsTheyExpect) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(source_folder() / "benchmarks" / "scenes")) {
     const SceneFile scene = read_scene(entry.path());
-    if (scene.accuracy) continue;  // settle_accuracy_test.cpp chooses its step
+    if (scene.accuracy) continue;  // settle_accuracy_test.cpp chooses the step of these
     ++count;
     EXPECT_FALSE(scene.expect.empty()) << entry.path();
     Simulation simulation(scene);

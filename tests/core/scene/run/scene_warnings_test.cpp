@@ -1,4 +1,4 @@
-// What a run is warned of before its first step, and what is no warning.
+// Warnings of a run before its first step, and cases without a warning.
 
 #include "core/scene/run/scene_warnings.h"
 
@@ -58,7 +58,7 @@ TEST(SceneWarnings, SayWhatAnImplicitStepDoesNotResolve) {
 TEST(SceneWarnings, OfATearThatNeverHappensSayHowFarTheStressIsFromIt) {
   const SceneFile scene = parse(with_events(moving_box(), R"([{"tear_where_stressed": {"threshold": 1e9}}])"));
   Simulation simulation(scene);
-  EXPECT_TRUE(warnings_of(scene, simulation).empty());  // it may tear yet
+  EXPECT_TRUE(warnings_of(scene, simulation).empty());  // it may still tear
   EXPECT_FALSE(simulation.advance());
   const auto said = warnings_of(scene, simulation);
   ASSERT_EQ(said.size(), 1u);

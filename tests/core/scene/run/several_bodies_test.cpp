@@ -36,7 +36,7 @@ TEST(SceneRegions, ReplaceTheMaterialOfTheCellsTheyHold) {
   ASSERT_EQ(problem.materials.size(), 2u);
   EXPECT_EQ(problem.materials[0].stiffness, 64.0);
   EXPECT_EQ(problem.materials[1].stiffness, 256.0);
-  EXPECT_EQ(problem.materials[1].viscosity, 0.5);  // of what surrounds everything
+  EXPECT_EQ(problem.materials[1].viscosity, 0.5);  // of the surroundings
   for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c) {
     double x = 0.0;
     for (const std::uint32_t p : problem.mesh.cell(c)) x += problem.mesh.points[p].x() / 4.0;
@@ -64,7 +64,7 @@ TEST(SceneRegions, OfWhichTheLastCounts) {
   EXPECT_EQ(problem.cell_material[1], 2);
 }
 
-// Springs of a Young's modulus have the stiffness that they would have in a body of their own.
+// Springs of a Young's modulus have the same stiffness as in a body of their own.
 TEST(SceneRegions, OfSpringsOfYoungAreAsStiffAsABodyOfThem) {
   Json scene = with_region(left_half, R"({"density": 768, "young": 3e4, "damping": 2})");
   scene["body"]["generate"]["box"]["jitter"] = 0.2;  // no two cells alike
@@ -85,7 +85,7 @@ TEST(SceneRegions, OfSpringsOfYoungAreAsStiffAsABodyOfThem) {
 
 // A body of corners that knows no map: it adds up each cell's springs by the cell's own numbers. A cut through both
 // materials in between; errors of both fourth-order methods are far below the bound, which a hundredth of the
-// difference to a body of one material passes.
+// difference from a body of one material exceeds.
 TEST(SceneRegions, MoveAsABodyOfCornersDoes) {
   for (const char* material : {heavy, R"({"density": 1536, "young": 3e4, "damping": 1})"}) {
     Json json =
@@ -110,7 +110,7 @@ TEST(SceneRegions, MoveAsABodyOfCornersDoes) {
   }
 }
 
-// Springs in one half and elements in the other: what leaves one is in the other, and in the motion.
+// Springs in one half and elements in the other: energy that leaves one goes into the other, or into the motion.
 TEST(SceneRegions, OfSpringsBesideElementsKeepTheirEnergy) {
   Json json = with_region(left_half, rubber);
   json["material"] = Json::parse(R"({"density": 768, "stiffness": 64, "damping": 0, "viscosity": 0})");
@@ -261,7 +261,7 @@ TEST_F(MarkedMesh, TellsEventsTheirCellsToo) {
   json["body"] = {{"mesh", "two.mesh"}};
   json["events"] = Json::parse(R"([{"at": 0.005, "remove": {"tag": {"value": 7}}}])");
   SceneFile scene = parse_scene(json.dump(), "file", folder_);
-  EXPECT_THROW(Simulation{scene}, InputError);  // nobody has looked them up
+  EXPECT_THROW(Simulation{scene}, InputError);  // the marks have not been resolved yet
   load_mesh(scene);
   Simulation simulation(scene);
   run(simulation);
@@ -300,7 +300,7 @@ TEST(SceneBodies, StandSideBySideEachOfItsOwnMaterialAndMotion) {
   EXPECT_EQ(simulation.body().mass(), 48 * 0.25 + 48 * 0.5);
 }
 
-// They know nothing of each other: each moves as it would alone, but for the order in which its forces are summed.
+// The bodies are independent: each moves as it would alone, except for the order in which its forces are summed.
 TEST(SceneBodies, MoveAsEachWouldAlone) {
   Json second = moving_box();
   second["body"]["translate"] = {1, 0, 0};

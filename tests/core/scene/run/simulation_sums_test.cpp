@@ -1,4 +1,4 @@
-// What a simulation reports of itself, in scenes whose numbers are known beforehand and exact.
+// Reports of a simulation, in scenes whose numbers are known beforehand and exact.
 
 #include <gtest/gtest.h>
 
@@ -191,8 +191,8 @@ TEST(SceneRun, AccountsForMassThatWasRemoved) {
 }
 
 // A driven end starts after two steps, and the third cannot be taken: a spring of 1e300 N/m is stretched by 1e-3 m,
-// pulls by 1e297 N, and that moves its end by 1e291 m within the step, where it pulls with more than there are numbers
-// for. The state kept last is that of the drive's start: one step, which nobody but the integrator has seen, is taken
+// pulls by 1e297 N, and that moves its end by 1e291 m within the step, where its force is beyond the range of
+// doubles. The state kept last is that of the drive's start: one step, which only the integrator has seen, is taken
 // back.
 TEST(Simulation, TakesBackAStepThatTheIntegratorCouldNotTake) {
   Json scene = free_chain();

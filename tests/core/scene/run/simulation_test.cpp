@@ -239,7 +239,7 @@ TEST(Simulation, StopsWhereAVertexIsFasterThanLight) {
   scene["initial_velocity"] = {2.997e8, 0, 0};
   scene["gravity"] = {1e9, 0, 0};  // 1e6 m/s in a step
   Simulation simulation(parse(scene));
-  const auto found = simulation.advance();  // the first step is looked at, then ever fewer, up to every sixteenth
+  const auto found = simulation.advance();  // the first step is checked, then ever fewer, up to every sixteenth
   ASSERT_TRUE(found);
   EXPECT_EQ(found->quantity, "speed");
   EXPECT_GT(found->value, 299792458.0);
@@ -330,7 +330,7 @@ TEST(Simulation, RefusesAStepThatIsTooLongWhereTheSceneSaysSo) {
   EXPECT_EQ(message.rfind("file: /step: a step of 0.01 s is too long for rk4; expected at most ", 0), 0u) << message;
 }
 
-// What is not written in the scene is not what the user can change.
+// Keys that are not written in the scene cannot be changed by the user.
 TEST(Simulation, NamesTheAccuracyThatAStepWasChosenForWhereItRefusesOne) {
   SceneFile scene = parse(too_stiff("refuse"));
   scene.accuracy = 1e-3;
@@ -434,7 +434,7 @@ TEST(Simulation, RefusesAStepThatIsTooLongForViscosityAlone) {
   EXPECT_GE(divided.step_warning()->parts, 36u);
 }
 
-// ---- what no further step would look at
+// ---- faults that no further step would find
 
 // A body so small that energies fit the numbers, but over its volume of 1e-315 m^3 do not. All vertices are held but
 // the last, so that the springs of its cube alone are stretched.
@@ -463,7 +463,7 @@ TEST(Simulation, NamesTheVertexWhoseStressIsNotFiniteAndGoesBack) {
   EXPECT_EQ(simulation.body().vertices().position, start);
 }
 
-// Cell 0 is gone then, so that the state kept is not one of this body.
+// Cell 0 is gone then, so that the kept state does not fit this body.
 TEST(Simulation, StaysWhereItIsWhereAnEventOfTheStepHasChangedTheBody) {
   Simulation simulation(parse(tiny_box(
       R"([{"at": 5e-113, "remove": {"ids": [0]}}, {"at": 5e-113, "tear_where_stressed": {"threshold": 1}}])")));
@@ -481,7 +481,7 @@ TEST(Simulation, SaysHowFarItGoesBack) {
   std::optional<Divergence> divergence;
   while (!divergence && simulation.steps_done() < 64) divergence = simulation.advance();
   ASSERT_TRUE(divergence);
-  // before 64 steps no other state is kept than the start
+  // before 64 steps only the start is kept
   EXPECT_EQ(divergence->taken_back, simulation.steps_done());
 }
 

@@ -1,4 +1,4 @@
-// Scenes with springs that no edge stands for, and with bending.
+// Scenes with springs that are not edges, and with bending.
 
 #include <gtest/gtest.h>
 
@@ -98,7 +98,7 @@ TEST(SpringsBesideEdges, BendFromAFlatSheetAlone) {
   EXPECT_NE(refused(), "");
 }
 
-// A Young's modulus for cells whose edges alone do not hold them: the mean over their edges is what the springs have.
+// A Young's modulus for cells that their edges alone do not hold: the springs have the mean over their edges.
 TEST(SpringsBesideEdges, TakeAYoungsModulusForHexahedra) {
   Json scene = block("hexahedra");
   scene["material"].erase("stiffness");
@@ -186,7 +186,7 @@ std::vector<Eigen::Vector3d> momenta(const Simulation& simulation) {
   return sums;
 }
 
-// What bends one of them knows nothing of the other.
+// The bending of one of them does not depend on the other.
 TEST(SpringsBesideEdges, LetTwoPartsFlyOnTheirOwn) {
   for (const Json& whole : {sheet("triangles", rigid), sheet("triangles", sprung), sheet("quadrilaterals", sprung)}) {
     Json scene =
@@ -204,7 +204,7 @@ TEST(SpringsBesideEdges, LetTwoPartsFlyOnTheirOwn) {
   }
 }
 
-// Nothing takes energy: what a cut takes is what was across it.
+// The body loses no energy: a cut takes the springs across it.
 TEST(SpringsBesideEdges, KeepTheEnergyOfAFreeBody) {
   for (Json scene : {block("hexahedra"), sheet("triangles", rigid), sheet("quadrilaterals", sprung)}) {
     scene["material"]["damping"] = scene["material"]["viscosity"] = 0;
@@ -216,7 +216,7 @@ TEST(SpringsBesideEdges, KeepTheEnergyOfAFreeBody) {
     run(simulation);
     const Diagnostics last = simulation.diagnostics();
     EXPECT_GT(last.elastic, 1e-8 * first.kinetic);
-    // ten steps, each to some roundings of what there is
+    // ten steps, each to some roundings of the present energy
     EXPECT_NEAR(last.energy(), first.energy(), 1e-14 * first.kinetic);
     EXPECT_LE((last.angular_momentum - first.angular_momentum).norm(), 1e-12 * first.angular_momentum.norm());
   }

@@ -31,7 +31,7 @@ SceneFile implicit_scene() {
   return parse(scene);
 }
 
-/// Stopped when somebody has looked so many times whether it should.
+/// Stopped when the check for a stop has been called so many times.
 RunResult stopped_run(Simulation& simulation, const SceneFile& scene, int looks, Times& times) {
   looks_left = looks;
   const StopRequest request(after_some_looks);
@@ -53,7 +53,7 @@ TEST(StoppedRun, KeepsTheStateOfTheLastStepThatWasTaken) {
   }
 }
 
-// What contact did to the velocities before the step is undone, and obstacles and losses are where they were.
+// The changes of contact to the velocities before the step are undone, and obstacles and losses are restored.
 TEST(StoppedRun, UndoesWhatContactHasBegun) {
   Json json = moving_box();
   json["integrator"] = "backward-euler";

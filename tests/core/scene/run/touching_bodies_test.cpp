@@ -1,4 +1,4 @@
-// Contact between the bodies of a scene, and of a body with itself: what a run does, what it reports, and what is told.
+// Contact between the bodies of a scene, and of a body with itself: the run, its reports, and its warnings.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Json small_on_large() {
     "material": {"density": 1000, "young": 200000, "damping": 0, "viscosity": 0},
     "contact": {"pressure": 4000, "depth": 0.002, "bodies": "others"}})");
 }
-/// Nothing holds them, and the small one comes down on the large one, turning and across.
+/// No vertex is held, and the small one comes down on the large one, turning and across.
 Json colliding() {
   Json scene = small_on_large();
   scene["gravity"] = {0, 0, 0};
@@ -61,10 +61,10 @@ const ContactWarning* warning_of(const Simulation& simulation, ContactWarning::K
   return found == all.end() ? nullptr : &*found;
 }
 
-// ---- what a run does
+// ---- runs
 
-// Drag takes what moves, by exp(-15 t), 1e-6 of it is left after a second; what creeps against it on the soft contact
-// takes longer, and presses with 1e-4 of the weight still.
+// Drag damps the motion by exp(-15 t), 1e-6 of it is left after a second; creep against drag on the soft contact takes
+// longer, and still presses with 1e-4 of the weight.
 TEST(TouchingBodies, RestOnEachOtherAndCarryTheWeight) {
   for (const char* integrator : {"verlet", "rk4", "backward-euler"}) {
     Json scene = small_on_large();
@@ -86,8 +86,8 @@ TEST(TouchingBodies, RestOnEachOtherAndCarryTheWeight) {
     }
     EXPECT_NEAR(force[1].z(), 0.512 * g, 1e-3) << integrator;
     EXPECT_NEAR(force[0].z(), g, 1e-3) << integrator;
-    // 4000 Pa on 0.0064 m^2 at 2 mm: the weight needs 0.44 of that depth; the vertices of edges stand for sides, too,
-    // and samples of one side are not where those of the other are
+    // 4000 Pa on 0.0064 m^2 at 2 mm: the weight needs 0.44 of that depth; the vertices of edges represent sides, too,
+    // and samples of one side are not at the places of those of the other
     EXPECT_NEAR(deepest, 0.002 * std::sqrt(0.512 * g / 0.0064 / 4000), 0.25 * 0.0009) << integrator;
   }
 }
@@ -115,8 +115,8 @@ TEST(TouchingBodies, AccountForAllThatACollisionLoses) {
     EXPECT_EQ(after.contact->supplied, 0.0) << integrator;
     EXPECT_NEAR(after.energy() + after.contact->damped + after.contact->rubbed, before.energy(), 4e-3 * before.kinetic)
         << integrator;
-    // 250 steps of some hundred forces each: roundings of 0.36 kg m/s; and what an implicit one's solver leaves, 1e-10
-    // of forces that turn that round
+    // 250 steps of some hundred forces each: roundings of 0.36 kg m/s; and the residual of an implicit one's solver,
+    // 1e-10 of forces that reverse that
     const bool implicit = std::string_view(integrator) == "implicit-midpoint";
     EXPECT_LE((after.momentum - before.momentum).norm(), (implicit ? 1e-10 : 250 * 100 * 1.2e-16) * 0.36) << integrator;
   }
@@ -198,7 +198,7 @@ TEST(TouchingBodies, KeepTheSidesOfACutApart) {
   }
   EXPECT_GT(deepest, 1e-4);
   EXPECT_LT(deepest, 0.004);
-  // each half has turned round: the part of the vertices that were at x > 0 goes on to there
+  // each half has turned round: the vertices that were at x > 0 move to positive x
   const VertexColumns& v = simulation.body().vertices();
   double momentum = 0.0;
   for (std::uint32_t k = 0; k < v.size(); ++k)
@@ -220,7 +220,7 @@ TEST(TouchingBodies, KnowWhichBodyWhatIsLeftOfACutIsOf) {
   const SkinSolids& solids = simulation.body().body_contact()->solids();
   std::size_t of[2] = {0, 0};
   for (const SkinTetrahedron& t : solids.tetrahedra()) {
-    // vertices put in have no point of the mesh: one that has
+    // vertices made by refinement have no point of the mesh: one that has
     const auto known =
         std::ranges::find_if(t.nodes, [&](std::uint32_t k) { return simulation.body().vertices().point[k] < 2 * 27u; });
     ASSERT_NE(known, t.nodes.end());
@@ -260,7 +260,7 @@ TEST(TouchingBodies, GoOnFromACheckpointAfterACut) {
   recorded::expect_same(recorded::whole(file), recorded::in_two(file, 60));
 }
 
-// ---- what is told
+// ---- warnings
 
 // 0.005 m of the small cube is in the large one: its lower corners are the nearest to the upper side of that.
 TEST(TouchingBodies, AreNamedWhereTheyStartInsideEachOther) {
@@ -353,9 +353,9 @@ TEST(TouchingBodies, AreToldWhereNoWayOutIsFound) {
   EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "so far inside a body that no way out is found"));
 }
 
-// ---- what is expected
+// ---- forecasts
 
-// By hand: two cubes of 1000 kg/m^3, 0.1 and 0.08 m high; the heights of both less the lesser one is 0.1 m. The higher
+// By hand: two cubes of 1000 kg/m^3, 0.1 and 0.08 m high; the heights of both less the smaller one is 0.1 m. The higher
 // falls from 0.181 m to 0.1 m.
 TEST(TouchForecast, HasTheClosedFormsOfAColumn) {
   Json scene = small_on_large();
@@ -372,7 +372,7 @@ TEST(TouchForecast, HasTheClosedFormsOfAColumn) {
   EXPECT_NEAR(f[0].contact.speed, speed, 1e-12);
   EXPECT_NEAR(f[0].contact.depth_at_impact, 0.002 * std::cbrt(3 * 100 * speed * speed / 2 / (4000 * 0.002)), 1e-15);
   EXPECT_NEAR(f[0].contact.share, f[0].contact.depth_at_impact / 0.002, 1e-12);
-  // no faster than in the time that the run lasts
+  // no faster than possible in the time that the run lasts
   const SceneFile brief = parse(small_on_large());
   EXPECT_NEAR(forecast_touches(brief, make_problem(brief))[0].contact.speed, 0.05 * g, 1e-12);
 }
@@ -402,7 +402,7 @@ TEST(TouchForecast, HasARowForEachKeyAndOfItsPairsTheDeepest) {
   EXPECT_EQ(f[0].law.depth, 0.004);
   EXPECT_NEAR(f[0].contact.mass_behind, 100, 1e-11);
   EXPECT_EQ(f[0].contact.speed, 0.0);
-  // of 0 with 1, and 1 with itself, which does not fall on itself
+  // 0 with 1, and 1 with itself, which does not fall on itself
   EXPECT_EQ(f[1].path, "/contact/bodies");
   EXPECT_EQ(f[1].first, 0u);
   EXPECT_EQ(f[1].second, 1u);

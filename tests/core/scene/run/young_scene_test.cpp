@@ -71,7 +71,7 @@ TEST(YoungsModulus, IsPlannedToTheByte) {
     }
 }
 
-// Links in series: whatever their number, the whole is as stiff as one link of its length.
+// Links in series: whatever their number, the whole is as stiff as a single link of its length.
 TEST(YoungsModulus, OfAChainStretchesItAsItsLengthSays) {
   for (const int links : {1, 5, 20}) {
     Json scene = elastic(a_chain);

@@ -29,7 +29,7 @@ constexpr Measured measured[] = {
     {hexahedra, 0.45, 4, 0.912},    {hexahedra, 0.49, 4, 0.787},  {hexahedra, 0.4999, 4, 0.304},
     {hexahedra, 0.3, 8, 0.990},     {hexahedra, 0.45, 8, 0.972},  {hexahedra, 0.49, 8, 0.910},
     {hexahedra, 0.4999, 8, 0.474}};
-/// The same of beams 1 m x 0.2 m x 0.2 m, over Timoshenko's theory, as this program has them.
+/// The same for beams 1 m x 0.2 m x 0.2 m, over Timoshenko's theory, computed by this program.
 constexpr Measured thin[] = {{tetrahedra, 0.3, 2, 0.509}, {tetrahedra, 0.45, 2, 0.309}, {tetrahedra, 0.49, 2, 0.132},
                              {hexahedra, 0.3, 2, 0.853},  {hexahedra, 0.45, 2, 0.700},  {hexahedra, 0.49, 2, 0.507}};
 

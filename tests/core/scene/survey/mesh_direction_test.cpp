@@ -21,7 +21,7 @@ TEST(MeshDirection, OfABoxCutAlikeIsItsDiagonal) {
 
 TEST(MeshDirection, OfABoxInMirrorImagesIsNone) {
   EXPECT_NEAR(direction_of(mirrored_box(2, 4, 2, 0.5))->ratio, 1.0, 1e-12);
-  EXPECT_NEAR(direction_of(mirrored_box(1, 1, 1, 0.5))->ratio, 4.0, 1e-12);  // of even counts alone
+  EXPECT_NEAR(direction_of(mirrored_box(1, 1, 1, 0.5))->ratio, 4.0, 1e-12);  // for even counts only
   EXPECT_NEAR(direction_of(hexahedron_box(3, 2, 4, 0.5))->ratio, 1.0, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// Steps that change the last digits of a motion only: what is lost plainly and kept by a compensated state.
+// Steps that change only the last digits of a motion: lost by a plain state and kept by a compensated one.
 
 #include "core/time/explicit/compensated_splitting.h"
 
@@ -51,7 +51,7 @@ TEST(CompensatedState, MovesInStepsThatAreAllLostPlainly) {
 }
 
 TEST(CompensatedState, KeepsWhatAnIncrementCoversUp) {
-  // 2^-60 beside an increment of 1: here it is the sum that does not fit into the result
+  // 2^-60 and an increment of 1: here it is the sum that does not fit into the result
   std::vector<Eigen::Vector3d> x{{0x1p-60, 0, 0}}, v{{1, 0, 0}};
   CompensatedState state;
   WorkCounters work;

@@ -31,7 +31,7 @@ TEST(FrozenDamping, LetsTheRelativeSpeedAlongOneSpringDecayExactly) {
   damping.decay_symmetric(arrays.system(), terms, 0.5, arrays.v);
   EXPECT_NEAR(arrays.v[1].x() - arrays.v[0].x(), -2.0 * std::exp(-1.0), 100 * u);
   EXPECT_NEAR(arrays.v[0].x() + 3.0 * arrays.v[1].x(), -2.0, 20 * u);
-  EXPECT_EQ(arrays.v[0].y(), 2.0);  // across the spring nothing acts
+  EXPECT_EQ(arrays.v[0].y(), 2.0);  // no force acts across the spring
   EXPECT_EQ(arrays.v[1].z(), 5.0);
 }
 
@@ -74,7 +74,7 @@ TEST(FrozenDamping, TakesEnergyAndNoMomentumHoweverLongTheStep) {
   }
 }
 
-// The sweep is symmetric: what h does, -h undoes.
+// The sweep is symmetric: a step of -h undoes one of h.
 TEST(FrozenDamping, IsUndoneByTheOppositeStep) {
   SpringArrays arrays = moving_body(2.0);
   const auto start = arrays.v;

@@ -1,5 +1,5 @@
-// The steps that Dormand and Prince's method chooses: against an implementation of the method and of its controller
-// that shares nothing with core, and what they owe to tolerances, restarts and the end of an interval.
+// The steps chosen by Dormand and Prince's method, compared with an implementation of the method and of its controller
+// that shares nothing with core, and with the requirements of tolerances, restarts and the end of an interval.
 
 #include <gtest/gtest.h>
 
@@ -150,8 +150,8 @@ TEST_F(Adaptive, TakesTheStepsOfThePiController) {
 }
 
 // Steps as long as the first call leaves them are near the limit of stability, where errors fall faster than the
-// controller expects: the step after a rejection is better than it has to be, and the one that follows may not be
-// longer for that. All is so small that errors as large as the motion do not turn the spring round.
+// controller expects: the step after a rejection is better than needed, and the next one must not be longer for that
+// reason. The motion is so small that errors of its size do not turn the spring round.
 TEST_F(Adaptive, DoesNotGrowStraightAfterARejection) {
   constexpr double small = 1.0 / 1024;
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6})
@@ -230,7 +230,7 @@ TEST_F(Adaptive, HasForgottenTheBodyBeforeARestart) {
   EXPECT_TRUE(same_bits(used.v, fresh.v));
 }
 
-// ---- what a user is promised
+// ---- guarantees to users
 
 // The errors of some tens of steps, each within the tolerance, add up; the error of the solution of order 5 that is
 // kept is smaller than that of order 4 which is estimated.
@@ -281,7 +281,7 @@ TEST_F(Adaptive, SparesTheEvaluationThatTwoStepsShare) {
 TEST_F(Adaptive, FindsItsWayFromAFirstStepThatIsFarTooLong) {
   SpringArrays arrays = a_body(0.0, 0.0), exact = arrays;
   for (auto* each : {&arrays, &exact})
-    for (auto& velocity : each->v) velocity *= 20.0;  // twice through the body: not what frequencies at rest promise
+    for (auto& velocity : each->v) velocity *= 20.0;  // twice through the body: faster than frequencies at rest predict
   ASSERT_TRUE(integrator.advance(arrays.system(), arrays.motion(), 0.25, {1e-8, 1e-7}).ok());
   run(*make_integrator("rk4"), exact, 0.25 / 16384, 16384);
   EXPECT_GT(integrator.work().rejected_steps, 0u);
@@ -314,7 +314,7 @@ TEST_F(Adaptive, RefusesWhatItCannotMeet) {
   EXPECT_THROW(integrator.advance(arrays.system(), arrays.motion(), 1.0, {1e-6, std::nan("")}), InputError);
 }
 
-// A frequency beyond all numbers leaves no step to begin with: 2 k / m overflows.
+// A frequency beyond the range of doubles leaves no step to begin with: 2 k / m overflows.
 TEST_F(Adaptive, SaysWhenTheFirstStepIsNone) {
   SpringArrays arrays = a_body(0.0, 0.0);
   for (Spring& spring : arrays.springs) spring.stiffness = 1e300;

@@ -229,7 +229,7 @@ TEST(Sdirk2, BothStagesShareOneFactor) {
   EXPECT_EQ(integrator.work().factorisations, 1u);
 }
 
-// Equations solved to 1e-13 of what acts, 20 times there and back.
+// Equations solved to 1e-13 of the motion, 20 times forwards and back.
 TEST(ImplicitIntegrators, SymmetricOnesComeBackWhenTheStepIsReversed) {
   for (auto& integrator : all_implicit()) {
     if (!integrator->scheme().symmetric) continue;
@@ -336,10 +336,10 @@ TEST(ImplicitIntegrators, NoAmplificationExceedsOne) {
         EXPECT_LE(spectral_radius(integrator->scheme(), theta, zeta), 1.0 + 1e-9) << integrator->scheme().name;
 }
 
-// A body moved by D = 2^30 m, its coordinates rounded to what that leaves, and the same coordinates at the origin: the
-// equations of a stage are the same but for x + tau w, which is rounded to eps D / 2 in each of 40 steps. Independent
-// as they are they make some 3 eps D, which the springs pass on with factors near one. An iteration that stops at eps D
-// of the stiffness, not of the lengths, is off by 32 (backward Euler) and 112 (local/global).
+// A body moved by D = 2^30 m, with its coordinates rounded accordingly, and the same coordinates at the origin: the
+// equations of a stage are the same except for x + tau w, which is rounded to eps D / 2 in each of 40 steps. As
+// independent errors these make some 3 eps D, which the springs transmit with factors near one. An iteration that stops
+// at eps D of the stiffness, not of the lengths, is off by 32 (backward Euler) and 112 (local/global).
 TEST(ImplicitIntegrators, RoundPositionsFarFromTheOriginAndNothingMore) {
   const double offset = 0x1p30, ulp = 0x1p-22;  // of numbers from 2^30 on
   SpringArrays start = spring_grid(3, 2, 2);
@@ -360,7 +360,7 @@ TEST(ImplicitIntegrators, RoundPositionsFarFromTheOriginAndNothingMore) {
     for (std::size_t i = 0; i < near.x.size(); ++i)
       largest = std::max(largest, (far.x[i] - Vector3d(offset, 0, 0) - near.x[i]).norm());
     EXPECT_LE(largest, 30 * 0x1p-52 * offset) << entry.name << ": " << largest / (0x1p-52 * offset) << " eps D";
-    EXPECT_GT(largest, 0.0) << entry.name;  // there is something to see
+    EXPECT_GT(largest, 0.0) << entry.name;  // the effect is visible
   }
 }
 

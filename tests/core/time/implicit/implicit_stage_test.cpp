@@ -56,7 +56,7 @@ double defect(const SpringArrays& body, std::span<const Vector3d> w, double tau)
   return largest;
 }
 
-// What acts is below 10 m/s in a step of this body; the tolerance is relative to it.
+// The motion in a step of this body is below 10 m/s; the tolerance is relative to it.
 TEST(ImplicitStage, SolvesItsEquationsWithEverySolver) {
   const SpringArrays body = moving_grid();
   for (const LinearSolver solver : solvers) {
@@ -98,7 +98,7 @@ TEST(ImplicitStage, FixedVertexKeepsItsVelocityWhateverTheFirstGuess) {
   EXPECT_EQ(w[0], Vector3d(0, 0, 0));
 }
 
-// Both with the same line search; projecting where nothing asks for it slows Newton's method down to linear
+// Both with the same line search; projecting where it is not needed slows Newton's method down to linear
 // convergence.
 TEST(ImplicitStage, ProjectionOnDemandTakesFewerIterationsThanAlways) {
   for (const double size : {0.9, 0.5}) {
@@ -158,7 +158,7 @@ TEST(ImplicitStage, NotANumberIsReportedByEverySolver) {
     const StepResult result = solve(body, options, 0.01).result;
     EXPECT_EQ(result.code, StepCode::nonfinite);
     EXPECT_EQ(result.witness, Witness::vertex);
-    // the lowest of the vertex and its neighbours, whose residual is no number either
+    // the lowest of the vertex and its neighbours, whose residual is NaN, too
     EXPECT_LE(result.number, 5u);
   }
 }

@@ -1,4 +1,4 @@
-// How far Newton's iteration of an implicit stage goes, what it counts, and what it says when it stops.
+// The end of Newton's iteration of an implicit stage, its counts, and its report when it stops.
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ ImplicitOptions creeping(double tolerance) {
   return options;
 }
 
-// What acts is told where the iteration starts: at the velocities of before or at rest, whichever is larger here.
+// The scale of the tolerance is taken where the iteration starts: at the old velocities or at rest, the larger of both.
 TEST(Newton, GoesOnToItsToleranceOfWhatActs) {
   const SpringArrays body = stiff_grid();
   const double tau = 0.05;
@@ -92,14 +92,14 @@ TEST(Newton, GoesOnToItsToleranceOfWhatActs) {
     double left = 0.0;
     for (const Vector3d& d : defects(body, solved.w, tau)) left = std::max(left, d.cwiseAbs().maxCoeff());
     EXPECT_LE(left, tolerance * acts);
-    EXPECT_GT(left, 0.1 * tolerance * acts);  // it creeps: what is allowed is used
+    EXPECT_GT(left, 0.1 * tolerance * acts);  // it creeps: the tolerance is used up
   }
 }
 
-// A tolerance that rounding does not allow: the residual ends within 8 units of the last place of what it is the sum
-// of, masses times speeds and forces of which stiffness is taken of lengths, rest lengths and what tau w adds. Its
-// evaluation here rounds differently, by 8 of them again: each force by 4, and the sums of up to 15 springs by about as
-// much.
+// A tolerance below rounding: the residual ends within 8 units of the last place of its terms, masses times
+// speeds and forces, in which stiffness multiplies lengths, rest lengths and the contribution of tau w. Its
+// evaluation here rounds differently, by 8 of them again: each force by 4, and the sums of up to 15 springs by
+// about as much.
 TEST(Newton, GoesOnToTheRoundingOfItsResidual) {
   const SpringArrays body = stiff_grid();
   const double tau = 0.05;
@@ -158,7 +158,7 @@ TEST(Newton, LowersThePotentialWithEachIteration) {
       }
 }
 
-// ---- what it says
+// ---- reports
 
 // |r| in the norm of M^-1 is the root of the sum of m |defect|^2.
 TEST(Newton, TellsTheResidualThatItStallsAtInTheNormOfTheInverseMasses) {
@@ -174,7 +174,7 @@ TEST(Newton, TellsTheResidualThatItStallsAtInTheNormOfTheInverseMasses) {
   EXPECT_NEAR(solved.result.value, std::sqrt(sum), 1e-9 * std::sqrt(sum));
 }
 
-// Vertex 13 is in the middle: its neighbours' residuals are no numbers either, and the first of all is told.
+// Vertex 13 is in the middle: its neighbours' residuals are NaN, too, and the first of all is reported.
 TEST(Newton, TellsTheFirstVertexWithoutAResidual) {
   SpringArrays body = stiff_grid();
   body.v[13].y() = NAN;
@@ -190,9 +190,9 @@ TEST(Newton, TellsTheFirstVertexWithoutAResidual) {
   EXPECT_TRUE(std::isnan(result.value));
 }
 
-// ---- what it counts
+// ---- counts
 
-// A force evaluation at the start, one at rest, where it looks whether that is a better start, and one for each trial.
+// A force evaluation at the start, one at rest, to see whether that is a better start, and one for each trial.
 TEST(Newton, CountsTheTrialsOfItsLineSearch) {
   std::uint64_t trials = 0;
   for (const double size : {0.9, 0.5, 0.2, 0.05})

@@ -1,5 +1,5 @@
-// A force of one's own, written as anybody would: implicit steps end although its energy's change is a difference of
-// two energies, which is all rounding close to a solution.
+// A user's own force, written in the obvious way: implicit steps converge although the change of its energy is a
+// difference of two energies, which is all rounding close to a solution.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Pushes upwards what is below z = 0, in proportion to its depth.
+/// Pushes vertices below z = 0 upwards, in proportion to their depth.
 class Floor final : public ForceTerm {
  public:
   Floor(std::size_t vertices, double stiffness) : stiffness_(stiffness) {

@@ -1,4 +1,4 @@
-// What the schemes say of themselves against closed forms, and against what their integrators do at the limit.
+// The statements of the schemes compared with closed forms, and with their integrators at the limit.
 
 #include "core/time/method/scheme.h"
 
@@ -35,7 +35,7 @@ TEST(Scheme, AmplifiesAsTheClosedFormsSay) {
                   static_cast<double>(std::cos(reference::splitting_phase(theta))), 8 * u)
           << name;
     }
-    // what splittings do to areas is exact, here of the oscillator without a force constant: exp(-2 zeta theta)
+    // the change of areas by splittings is exact, here for the oscillator without a force constant: exp(-2 zeta theta)
     EXPECT_NEAR(scheme("verlet").amplification(theta, 0.3).determinant(), std::exp(-0.6 * theta), 16 * u);
   }
 }
@@ -84,7 +84,7 @@ TEST(Scheme, HasTheOrderItClaims) {
     }
 }
 
-// Over 10^9 steps a growth by e is one of 1e-9 per step: what is left of weak growth lies below the last digit.
+// Over 10^9 steps a growth by e is one of 1e-9 per step: weaker growth lies below the last digit.
 TEST(Scheme, IsStableOnTheImaginaryAxisUpToItsLimit) {
   for (const IntegratorEntry& entry : integrators()) {
     const Scheme& s = entry.make()->scheme();

@@ -1,5 +1,5 @@
-// The one number that says how long a step may be: against the integrators themselves, linearised about rest, and
-// against all frequencies of a body.
+// The longest step as a single number: compared with the integrators themselves, linearised about rest, and with all
+// frequencies of a body.
 
 #include "core/time/method/step_limit.h"
 
@@ -47,7 +47,7 @@ StepLimit limit_of(const SpringArrays& body, const Scheme& scheme, const Horizon
   return StableStepEstimate().refresh(body.system(), body.x).limit(scheme, of);
 }
 
-/// By how much one step of the integrator amplifies the motion that it amplifies most: its derivative at rest, by
+/// The factor by which one step of the integrator amplifies the most amplified motion: its derivative at rest, by
 /// central differences. Those are off by the rounding of the positions over 1e-7 m, 1e-9.
 double amplification(const SpringArrays& rest, Integrator& integrator, double h) {
   constexpr double small = 1e-7;
@@ -183,7 +183,7 @@ TEST(StepLimit, ThatIsQuicklyFoundIsNotAboveTheOther) {
     });
 }
 
-// A spring that is stretched resists across its direction too, and nothing damps that.
+// A spring that is stretched resists across its direction too, and that motion is undamped.
 TEST(StepLimit, OfAStretchedBodyIsNotAboveTheTrueOne) {
   for_each_explicit([](Integrator& integrator) {
     SpringArrays body;
@@ -195,7 +195,7 @@ TEST(StepLimit, OfAStretchedBodyIsNotAboveTheTrueOne) {
   });
 }
 
-// The number of steps of a run depends on their size: at the limit both say the same.
+// The number of steps of a run depends on their size: at the limit both results agree.
 TEST(StepLimit, OfADurationIsThatOfTheStepsThatItTakes) {
   const SpringArrays body = damped_cube(0.0);
   for_each_explicit([&](Integrator& integrator) {

@@ -1,4 +1,4 @@
-// What the facade of Cholesky factors reckons with and counts: costs, orderings, refinements, spare rows.
+// Estimates and counts of the facade of Cholesky factors: costs, orderings, refinements, spare rows.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(Cholesky, IsReadyForUpdatesWhereThatIsAskedFor) {
   }
 }
 
-// What is taken away makes the matrix indefinite unless what is added is there already.
+// Removed terms make the matrix indefinite unless the added ones are there already.
 TEST(Cholesky, AddsBeforeItTakesAway) {
   BodyMatrix body(disturbed_grid());
   Cholesky cholesky({.kind = FactorKind::simplicial});
@@ -111,7 +111,7 @@ TEST(Cholesky, IsOrderedAgainWhenItHasGrownByTheFactorAllowed) {
 }
 
 // A chain 0 - 1 - 2 - 3 - 4, of which 2 has been dissociated: 5 has one of its neighbours, 3. Another new vertex, 6,
-// has none. At the end a vertex would be coupled through the whole body.
+// has no neighbour. At the end of the order a vertex would be coupled through the whole body.
 TEST(Cholesky, PutsNewVerticesBesideTheirTwins) {
   SpringArrays chain;
   for (int i = 0; i < 7; ++i) chain.add_vertex(1.0, {1.0 * i, 0, 0});
@@ -123,7 +123,7 @@ TEST(Cholesky, PutsNewVerticesBesideTheirTwins) {
             (std::vector<int>{3, 1, 0, 2, 5, 4, 6, 7, 8}));
 }
 
-// Nested dissection fills in less in three dimensions.
+// Nested dissection has less fill-in in three dimensions.
 TEST(Cholesky, IsOrderedByMetisWhereThatIsAskedFor) {
   const NodePattern pattern = node_pattern_of(spring_grid(13, 13, 13).system());
   EXPECT_LT(Cholesky::predicted_nonzeros(pattern, 3, {.ordering = Ordering::metis}),

@@ -1,4 +1,4 @@
-// A factor that follows a change row by row, and the rule that chooses.
+// A factor that follows a change row by row, and the rule that chooses the way.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double far_too_slow = 1e9;  // seconds a flop: what is never chosen
+constexpr double far_too_slow = 1e9;  // seconds a flop: never chosen
 
 SpringArrays stretched_grid() {
   SpringArrays body = spring_grid(3, 3, 3);
@@ -35,7 +35,7 @@ CholeskyOptions by_rows(FactorKind kind = FactorKind::simplicial) {
   return options;
 }
 
-// 50 epsilon, as for updates in cholesky_test.cpp: it tells this matrix from any other.
+// 50 epsilon, as for updates in cholesky_test.cpp: it distinguishes this matrix from any other.
 TEST(CholeskyRows, OfADissociatedVertexAndItsTwinAreAllThatChanges) {
   for (const FactorKind kind : {FactorKind::simplicial, FactorKind::supernodal}) {
     BodyMatrix before(stretched_grid());
@@ -71,7 +71,7 @@ TEST(CholeskyRows, LeadBackWhenTheVertexIsJoinedAgain) {
   EXPECT_LT(solved_error(cholesky, before.blocks), 50 * epsilon);
 }
 
-// Terms after rows: the columns that rows were taken out of must still hold the paths that updates run along.
+// Terms after rows: the columns from which rows were removed must still hold the paths that updates run along.
 TEST(CholeskyRows, LeaveAFactorThatTermsCanUpdate) {
   BodyMatrix before(stretched_grid());
   const BodyMatrix after(with_vertex_dissociated(before.arrays));
@@ -90,7 +90,7 @@ TEST(CholeskyRows, LeaveAFactorThatTermsCanUpdate) {
   EXPECT_LT(solved_error(cholesky, harder.blocks), 50 * epsilon);
 }
 
-// Back to a spare row, which terms then lead from as they would from one that was never used.
+// Back to a spare row, which terms then start from as from one that was never used.
 TEST(CholeskyRows, GiveBackARowThatTermsCanUse) {
   BodyMatrix before(stretched_grid());
   const BodyMatrix after(with_vertex_dissociated(before.arrays));
@@ -103,7 +103,7 @@ TEST(CholeskyRows, GiveBackARowThatTermsCanUse) {
   EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
 }
 
-// Rows that change beside each other: the second to be put back meets the first.
+// Adjacent rows that change: the second to be restored meets the first.
 TEST(CholeskyRows, KeepWhatCouplesTwoOfThem) {
   BodyMatrix before(stretched_grid());
   SpringArrays arrays = before.arrays;
@@ -118,7 +118,7 @@ TEST(CholeskyRows, KeepWhatCouplesTwoOfThem) {
   EXPECT_LT(solved_error(cholesky, after.blocks), 50 * epsilon);
 }
 
-// Stiffness goes round a cycle of four vertices, off two sides and onto the two others: no diagonal tells.
+// Stiffness goes round a cycle of four vertices, off two sides and onto the two others: no diagonal changes.
 TEST(CholeskyRows, AreLeftToTermsWhereNoDiagonalChanges) {
   const BodyMatrix body(stretched_grid());
   const double weight = 0.1 * body.blocks.diagonal[0](0, 0);
@@ -153,7 +153,7 @@ TEST(CholeskyRows, CountTowardsTheRenewalOfTheFactor) {
   EXPECT_EQ(cholesky.counters().refactor_chosen, 1u);
 }
 
-// What rows and terms leave has another form than what was analysed: the next factorisation starts from the analysis.
+// Rows and terms leave a factor of another form than the analysed one: the next factorisation starts from the analysis.
 TEST(CholeskyRows, LeaveTheFormOfTheAnalysisToTheNextFactor) {
   for (const bool rows : {true, false}) {
     BodyMatrix before(stretched_grid());
@@ -238,7 +238,7 @@ TEST(BackwardError, IsTheResidualOverWhatItCouldBe) {
   EXPECT_DOUBLE_EQ(backward_error(matrix, b, x), 0.125 / (2.0 + 2.125));
   b[1].y() = NAN;
   EXPECT_TRUE(std::isnan(normwise_backward_error(matrix, b, x)));
-  b[0].x() -= 0.125;  // no residual beside it
+  b[0].x() -= 0.125;  // no other residual
   EXPECT_TRUE(std::isnan(normwise_backward_error(matrix, b, x)));
 }
 

@@ -28,9 +28,9 @@ SpringArrays crushed_grid() {
   return body;
 }
 
-// The backward error of a Cholesky solution in n unknowns is at most about 8 n epsilon componentwise in theory
-// (Higham, theorem 10.3 and 10.4, for |R'||R| near |A|) and a few epsilon in practice; 20 epsilon tells a factor of
-// this matrix from one of another.
+// The backward error of a Cholesky solution in n unknowns is at most about 8 n epsilon componentwise in theory (Higham,
+// theorem 10.3 and 10.4, for |R'||R| near |A|) and a few epsilon in practice; 20 epsilon separates a factor of this
+// matrix from one of another.
 TEST(Cholesky, SolvesByEveryKindOfFactorAndOrdering) {
   const BodyMatrix body(disturbed_grid());
   for (const FactorKind kind : {FactorKind::automatic, FactorKind::simplicial, FactorKind::supernodal})
@@ -310,7 +310,7 @@ TEST(MaxOrNan, OfCoordinatesIsNotANumberWhereverOneIsNone) {
   }
 }
 
-// What is refused is refused before anything is changed.
+// Refusals come before any change.
 TEST(Cholesky, KeepsItsFactorWhenATermIsNotANumber) {
   const BodyMatrix body(disturbed_grid());
   for (const bool in_weight : {true, false}) {

@@ -126,7 +126,7 @@ TEST(ConjugateGradients, NotANumberIsReported) {
   EXPECT_EQ(ConjugateGradients().solve(body.blocks, body.right(), x, {}).status, SolveStatus::not_finite);
 }
 
-// A step along the solution of the wrong factor overflows, and what is left of the coordinates of zero is no number.
+// A step along the solution of the wrong factor overflows, and the coordinates of zero become NaN.
 TEST(ConjugateGradients, ResidualThatIsNoNumberIsNotConverged) {
   SpringArrays speck;
   speck.add_vertex(1e-309, {0, 0, 0});

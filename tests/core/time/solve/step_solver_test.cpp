@@ -37,8 +37,8 @@ double relative_residual(const StepMatrix& matrix, std::span<const Vector3d> b, 
   return std::sqrt(r / s);
 }
 
-// The second body is another one to a factor of the first: conjugate gradients do not reach the rounding with it in the
-// four iterations that a patience of one allows.
+// For a factor of the first body the second is another body: conjugate gradients do not reach the rounding with it in
+// the four iterations that a patience of one allows.
 TEST(StepSolver, FactorsOnceWhenAKeptFactorIsWornOut) {
   SpringArrays first = spring_grid(2, 2, 2), second = first;
   for (Vector3d& p : second.x) p = Vector3d(p.y(), 2.0 * p.z(), 3.0 * p.x());
@@ -115,7 +115,7 @@ TEST(StepSolver, CountsTheSolutionsWithAKeptFactor) {
   EXPECT_EQ(work.solves, work.linear_iterations);
 }
 
-// ---- how far it goes
+// ---- the residual reached
 
 TEST(StepSolver, GoesAllTheWayWhenAskedAndAsFarAsAnIterationNeedsOtherwise) {
   const SpringArrays first = damped_grid();

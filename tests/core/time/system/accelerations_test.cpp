@@ -26,7 +26,7 @@ auto a_body(double damping, double viscosity, std::vector<std::uint32_t> fixed) 
 }
 
 std::vector<Vector3d> accelerations_of(const SpringArrays& arrays, const Terms& terms) {
-  std::vector<Vector3d> a(arrays.x.size(), Vector3d(7, 7, 7));  // what was there does not matter
+  std::vector<Vector3d> a(arrays.x.size(), Vector3d(7, 7, 7));  // earlier values do not matter
   accelerations(arrays.system(), terms, arrays.x, arrays.v, a);
   return a;
 }

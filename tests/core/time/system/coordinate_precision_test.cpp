@@ -26,7 +26,7 @@ SpringArrays row_from(double y, double length) {
 }
 
 TEST(CoordinatePrecision, IsSaidToBeCoarseAboveAMillionthOfASpring) {
-  const double edge = 1e-6 / epsilon;  // where a spring of 1 m begins to feel it
+  const double edge = 1e-6 / epsilon;  // where a spring of 1 m begins to be affected
   SpringArrays below = row_from(0.99 * edge, 1.0), above = row_from(1.01 * edge, 1.0);
   EXPECT_FALSE(find_coarse_coordinate(below.system(), below.x));
   ASSERT_TRUE(find_coarse_coordinate(above.system(), above.x));
@@ -63,7 +63,7 @@ TEST(CoordinatePrecision, IsThatOfTheEndFartherFromTheOrigin) {
   }
 }
 
-// A spring that is crushed is measured by its rest length, one that is stretched by what it is now.
+// A crushed spring is measured by its rest length, a stretched one by its present length.
 TEST(CoordinatePrecision, IsToldInUnitsOfTheLongerOfBothLengths) {
   for (const double rest : {0.25, 4.0}) {
     SpringArrays pair;

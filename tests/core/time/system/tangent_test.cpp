@@ -153,7 +153,7 @@ Eigen::MatrixXd dense(const BlockMatrix& blocks, std::size_t capacity, double sp
   return result;
 }
 
-// A vertex that is split, a spring that goes, others that change, vertices that are held and let go, and back again.
+// A vertex that is split, a removed spring, others that change, vertices that are held and released, and back again.
 // Both sides are sums of at most 50 terms of the size of the largest entry.
 TEST(StepMatrix, TermsOfAChangeLeadFromTheOldMatrixToTheNew) {
   const Assembled before;

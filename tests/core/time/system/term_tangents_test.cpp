@@ -83,13 +83,13 @@ TEST(TermTangents, AreSymmetricAndProjectedWithoutNegativeEigenvalues) {
     };
     EXPECT_LT(least(exact), -1e-3 * exact.norm()) << name(model);
     EXPECT_GE(least(projected), -1e-12 * projected.norm()) << name(model);
-    // what is fixed is coupled with nothing
+    // fixed vertices are coupled with none
     EXPECT_EQ(projected.middleCols(9, 3).norm(), 0.0);
     EXPECT_EQ(projected.middleRows(9, 3).norm(), 0.0);
   }
 }
 
-// The constant matrix is what a local-global step relies on: no softer than the body at rest.
+// A local-global step relies on the constant matrix: it is no softer than the body at rest.
 TEST(TermTangents, OfTheConstantKindAreAtLeastAsStiffAsABodyAtRest) {
   for (const Model model : element_models) {
     const ElementBody body = box(model);

@@ -1,4 +1,4 @@
-// Unstable runs are told from stable ones, early, by every explicit method; and numbers that are none are found.
+// Unstable runs are distinguished from stable ones, early, with every explicit method; and NaN is found.
 
 #include "core/time/watch/divergence.h"
 
@@ -87,7 +87,7 @@ TEST(Divergence, LeavesTheLastGoodStateToGoBackTo) {
 }
 
 TEST(Divergence, LeavesAGoodStateHoweverSlowlyItGrows) {
-  // A pair that grows by sqrt(8 excess) a step beside one that has the energy: from 2 to 100 times as much takes 125
+  // A pair that grows by sqrt(8 excess) a step next to one that has the energy: from 2 to 100 times as much takes 125
   // and 220 steps, and a state is kept after 64.
   for (const double excess : {1e-5, 3e-5}) {
     SpringArrays body = two_masses(1.0, 1.0, 100.0, 1e-4);
@@ -141,8 +141,8 @@ SpringArrays pulled_grid(double speed, double damping) {
 }
 
 TEST(Divergence, IsNotTheWorkOfDrivenVertices) {
-  // From 0.3 m to 0.9 m: where the plate is slow, the springs hold far more than 100 times what moves. Through strong
-  // dampers the work goes into springs far from the plate.
+  // From 0.3 m to 0.9 m: if the plate is slow, the springs hold far more than 100 times the kinetic energy. Through
+  // strong dampers the work goes into springs far from the plate.
   struct Pull {
     double speed, damping;
     const char* integrator;
@@ -185,7 +185,7 @@ TEST(Divergence, IsNotTheRoundingOfABodyAtRestFarAway) {
   }
 }
 
-// At a height of 5e6 m a body that has fallen by less than an ulp has lost no gravitational energy yet.
+// At a height of 5e6 m a body that has fallen by less than an ulp has lost no computed gravitational energy yet.
 TEST(Divergence, IsNotTheFallOfABodyWhoseHeightIsKnownToNoMoreThanThat) {
   for (const double offset : {5e6, 1e9, 1e12}) {
     SpringArrays body = spring_grid(2, 2, 2);
@@ -236,7 +236,7 @@ TEST(Divergence, NamesANumberThatIsNoneInjectedInMidRun) {
       }
 }
 
-/// What a careless method does: it keeps the larger of two numbers, by which a NaN passes, and reports success.
+/// A careless method: it keeps the larger of two numbers, which a NaN passes, and reports success.
 class Launderer : public Integrator {
  public:
   const Scheme& scheme() const override { return make_integrator("verlet")->scheme(); }
@@ -271,7 +271,7 @@ TEST(Divergence, RefusesToStartFromWhatIsNotFinite) {
 }
 
 TEST(Divergence, IsFoundInWhatIsOverdamped) {
-  // strong dampers let nothing move fast: the energy is that of the springs
+  // strong dampers prevent fast motion: the energy is that of the springs
   SpringArrays body = spring_grid(2, 2, 2);
   for (Spring& s : body.springs) s.damping = 1e3 * s.stiffness;
   DivergenceDetector detector;
@@ -291,7 +291,7 @@ TEST(Divergence, IsNotFoundWhereOneSpringHoldsAllEnergyCloseToTheLimit) {
   EXPECT_TRUE(run(body, *integrator, h, 2000, detector).result.ok());
 }
 
-/// Two masses that nothing joins: 1 kg and 100 kg, at 1 m/s and at rest.
+/// Two masses without a spring: 1 kg and 100 kg, at 1 m/s and at rest.
 SpringArrays two_strangers() {
   SpringArrays body;
   body.add_vertex(1.0, {0, 0, 0}, {1, 0, 0});
@@ -299,7 +299,7 @@ SpringArrays two_strangers() {
   return body;
 }
 
-// In amplitude ten times, and the check after the first step looks.
+// Ten times in amplitude, and there is a check after the first step.
 TEST(Divergence, IsAHundredTimesTheEnergyThatThereWas) {
   for (const auto& [speed, fine] : {std::pair{9.99, true}, {10.01, false}}) {
     SpringArrays body = two_strangers();
@@ -361,7 +361,7 @@ TEST(Divergence, CountsTheWorkOfADriverOnce) {
   EXPECT_FALSE(detector.check_all(body.system(), body.motion()).ok());
 }
 
-// A body that moves far faster than it is driven: the work that is done comes on top of the energy that there was.
+// A body that moves far faster than it is driven: the work done is added to the initial energy.
 TEST(Divergence, IsNotWhatABodyHasAboveTheWorkOfItsDriver) {
   SpringArrays body = two_strangers();
   body.v[0] = {100, 0, 0};
@@ -409,8 +409,8 @@ TEST(Divergence, LooksAtOneStepInSixteen) {
   EXPECT_GE(detector.checks(), 1600u / 16);
 }
 
-// Without forces and at rest there is no energy but that of rounding: one kilogram of motion has to come from
-// somewhere.
+// Without forces and at rest there is no energy but that of rounding: the energy of a moving kilogram needs a
+// source.
 TEST(Divergence, IsNotFoundInMotionThatWorkFromOutsideExplains) {
   for (const double share : {0.0, 0.02, 1.0}) {
     SpringArrays body = spring_grid(2, 2, 2);
@@ -419,7 +419,7 @@ TEST(Divergence, IsNotFoundInMotionThatWorkFromOutsideExplains) {
     for (Eigen::Vector3d& v : body.motion().v) v = {0, 0, 100};
     const double energy = kinetic_energy(body.system(), body.motion().v);
     detector.add_work(share * energy);
-    detector.add_work(-0.5 * share * energy);  // what it has been at most counts
+    detector.add_work(-0.5 * share * energy);  // the largest value so far counts
     EXPECT_EQ(detector.after_step(body.system(), body.motion()).ok(), share > 0.0) << share;
   }
 }

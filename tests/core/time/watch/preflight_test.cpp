@@ -1,4 +1,4 @@
-// What is wrong with a run is said before its first step, with the place.
+// Faults of a run are reported before its first step, with the place.
 
 #include "core/time/watch/preflight.h"
 

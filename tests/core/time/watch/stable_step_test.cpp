@@ -43,7 +43,7 @@ double true_frequency(const SpringArrays& body) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 
-/// A grid with stiffnesses and masses over two decades, off its rest shape.
+/// A grid with stiffnesses and masses over two decades, not at rest.
 SpringArrays random_body(unsigned seed, double off = 0.004) {
   SplitMix64 random(seed);
   SpringArrays body = spring_grid(1 + static_cast<int>(random.below(3)), 1 + static_cast<int>(random.below(3)),
@@ -59,7 +59,7 @@ SpringArrays random_body(unsigned seed, double off = 0.004) {
 }
 
 TEST(StableStep, IsThatOfTheDragWhereOscillationsAreFarSlower) {
-  // Explicit Euler multiplies the speed by 1 - h a: stable up to h = 2 / a, of which a step found is 3 % short at most.
+  // Explicit Euler multiplies the speed by 1 - h a: stable up to h = 2 / a; a step found is at most 3 % shorter.
   StableStep step;
   step.lower = step.upper = step.any_state = 1e-150;
   step.viscous_rate = {0.1, 0.1};
@@ -109,7 +109,7 @@ TEST(StableStep, FollowsRandomOperationsOnFiftyBodies) {
   EXPECT_GT(most_gained, 1.01);
 }
 
-// Of small bodies all eigenvalues, of larger ones Lanczos' bracket.
+// For small bodies all eigenvalues, for larger ones Lanczos' bracket.
 TEST(StableStep, HoldsTheFrequencyOfABodyThatIsHeldAlongAxes) {
   int lower = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -210,7 +210,7 @@ TEST(StableStep, IsABoundWhereRatesOfDampingLieTooCloseToBeFound) {
   EXPECT_GE(estimate.refresh(body.system(), body.x).damping_rate.upper, 4.0 * cosine * cosine);
 }
 
-// With a viscosity of 2.8 / h, what is slow decays along the real axis, of which the method holds less than 2.79; the
+// With a viscosity of 2.8 / h, slow motions decay along the real axis, of which the method covers less than 2.79; the
 // highest frequency has half of that decay.
 TEST(StableStep, IsThatOfTheSlowestWhereTheyDecayFastest) {
   StableStep step;
@@ -220,7 +220,7 @@ TEST(StableStep, IsThatOfTheSlowestWhereTheyDecayFastest) {
   EXPECT_FALSE(step.is_stable(scheme("rk4"), 1.0));
 }
 
-// A stretched body: what moves across its springs is not damped, and explicit Euler amplifies it at steps at which the
+// A stretched body: motion across its springs is not damped, and explicit Euler amplifies it at steps at which the
 // highest frequency, half of whose square lies along the springs, decays.
 TEST(StableStep, IsThatOfSlowMotionsThatNothingDamps) {
   StableStep step;
@@ -235,7 +235,7 @@ TEST(StableStep, IsThatOfSlowMotionsThatNothingDamps) {
   EXPECT_LE(step.safe_step(euler, horizon), of_undamped * (1 + 1e-6));
 }
 
-/// The largest rate at which dampers and viscosity slow down, from a matrix put together entry by entry here.
+/// The largest rate of decay by dampers and viscosity, from a matrix put together entry by entry here.
 double true_damping_rate(const SpringArrays& body) {
   const auto n = static_cast<Eigen::Index>(3 * body.x.size());
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
@@ -292,7 +292,7 @@ TEST(StableStep, IsFoundAnewWhereSpringsAreNew) {
 }
 
 TEST(StableStep, FollowsAFrequencyThatRisesWithTheState) {
-  // a rest shape that is pulled to twice its length gets stiff across the springs too
+  // springs pulled to twice their rest length get stiff in the transverse direction too
   SpringArrays body = spring_grid(3, 2, 2);
   StableStepEstimate estimate;
   const double at_rest = estimate.refresh(body.system(), body.x).upper;
@@ -361,7 +361,7 @@ TEST(StableStep, HasNoLimitWhereThereIsNone) {
   EXPECT_EQ(estimate.refresh(nothing.system(), nothing.x).upper, 0.0);
 }
 
-/// Does a body that only damps come to less speed in 200 steps?
+/// Does a body with damping only slow down in 200 steps?
 bool slows_down(SpringArrays body, Integrator& integrator, double h) {
   const auto speed = [&body] {
     double largest = 0.0;
@@ -374,7 +374,7 @@ bool slows_down(SpringArrays body, Integrator& integrator, double h) {
   return speed() <= before;
 }
 
-// Nothing oscillates, but explicit steps are limited: by 2 to 7 times the time in which speeds decay.
+// Nothing oscillates, but explicit steps are limited: by 2 to 7 times the time constant of the speeds.
 TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
   const Horizon horizon{.steps = 200, .gain = 2.0};
   for (const bool viscous : {true, false})
@@ -402,7 +402,7 @@ TEST(StableStep, IsLimitedByViscosityAndDampersWithoutStiffness) {
     }
 }
 
-// A damper among springs must not make every step too long, as an infinite damping time would.
+// A damper among springs must not make every step too long, which an infinite damping time would do.
 TEST(StableStep, AllowsStepsWhereSomeDampersHaveNoSpring) {
   SpringArrays body = spring_grid(1, 1, 1, 50.0);
   body.springs[2] = {0.1, 0.0, 1.0};

@@ -182,7 +182,7 @@ TEST(TetMapDarts, ATetrahedronWithASewnFaceCannotBeRemoved) {
   EXPECT_EQ(map.hash(), before);
 }
 
-// alpha3 must stay an involution, and the whole face follows one pair: a third of a turn is none.
+// alpha3 must stay an involution, and the whole face follows one pair: a third of a turn is not an involution.
 TEST(TetMapDarts, AFaceIsNotLinkedToItselfByATurn) {
   TetMap map;
   map.add_tetrahedron();

@@ -16,7 +16,7 @@ TEST(CostOfCoverage, IsNotWhereSomeCellsCostLess) {
       try_coverages(bodies(), [](const CountingMap& map, int i) { return i == 3 ? 0 : core_coverage()(map, i); }));
 }
 
-// All pairs of darts, as a coverage without marks would look at.
+// All pairs of darts, as a coverage without marks would visit them.
 TEST(CostOfCoverage, IsNotWhereItGrowsFasterThanTheDarts) {
   expect_no(try_coverages(bodies(), [](const CountingMap& map, int i) {
     for (std::size_t k = 0; k < map.dart_count() / 100; ++k) core_coverage()(map, i);
