@@ -149,10 +149,10 @@ FrozenMotion motion_of(const FrozenScene& scene, std::size_t checkpoints) {
   }
   if (is_beyond) {
     FrozenBody at_start(scene);
-    made.fastest_rate = fastest_rate(at_start.body());
+    made.fastest_rate = at_start.fastest_rate();
     for (std::size_t k = 0; k < motion.events.size(); ++k) {
       at_start.pass();
-      made.fastest_rate = max_or_nan(made.fastest_rate, fastest_rate(at_start.body()));
+      made.fastest_rate = max_or_nan(made.fastest_rate, at_start.fastest_rate());
     }
   }
   check(motion);

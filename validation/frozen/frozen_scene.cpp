@@ -19,6 +19,8 @@ namespace {
 
 // [edges] per step, of the run that finds what events operate on
 constexpr double tolerance = 1e-8;
+// the same through contact: h omega_max of its equal steps
+constexpr double contact_phase = 0.25;
 
 /// Why an event cannot take place alike in every run, or leaves the motion as it is; empty when it takes part.
 std::string reason_to_omit(const SceneEvent& event, const SceneFile& file) {
@@ -88,26 +90,13 @@ std::vector<Moment> moments_of(const SceneFile& file) {
   return moments;
 }
 
-/// Drives and forces of a body at a time; true where any has changed.
-bool drive(SimulatedBody& body, DrivenVertices& driven, AppliedForces& forces, std::uint64_t ticks) {
-  const std::span<const std::uint32_t> point = body.vertices().point;
-  const bool moved = driven.apply(ticks, point, body.motion().v);
-  return forces.apply(ticks, point, body.pull()) || moved;
-}
+}  // namespace
 
 /// The body on its way from change to change, to find what each of them operates on.
 class Scout {
  public:
   explicit Scout(const FrozenScene& scene)
-      : scene_(scene),
-        body_(make_simulated_body(scene.problem, scene.needs)),
-        edge_(mean_edge(scene.problem.mesh)),
-        rate_(fastest_rate(*body_)) {
-    for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
-    driven_ = DrivenVertices(scene.file, scene.problem.mesh.points, tick(scene.file));
-    forces_ = AppliedForces(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file));
-    done_.assign(events_.size(), 0);
-  }
+      : scene_(scene), at_(scene), edge_(mean_edge(scene.problem.mesh)), done_(scene.file.events.size(), 0) {}
 
   /// All that changes before the end.
   std::vector<FrozenChange> changes() {
@@ -123,7 +112,8 @@ class Scout {
       FrozenChange change{.time = time};
       for (; moment != moments.end() && moment->time == time; ++moment)
         if (moment->event) operate(*moment->event, change);
-      const bool driven = drive(*body_, driven_, forces_, step_of_time(time, tick(scene_.file)));
+      const bool driven = at_.drive(time);
+      at_.look_at_contact();
       if (change.operations.empty() && !driven) continue;
       integrator_.restart();
       found.push_back(std::move(change));
@@ -137,30 +127,46 @@ class Scout {
  private:
   void operate(std::size_t event, FrozenChange& change) {
     FrozenChange::Operation operation{event, {}};
-    const std::size_t made = events_[event]->apply(&operation.targets);
+    const std::size_t made = at_.events_[event]->apply(&operation.targets);
     done_[event] += made;
     if (made > 0) change.operations.push_back(std::move(operation));
   }
 
   void go_to(double time) {
     if (time <= time_) return;
-    // as in run_timed: the error of a velocity that belongs to one of a position
-    const Tolerance allowed{tolerance * edge_, tolerance * edge_ * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
-    const StepResult result = integrator_.advance(body_->system(), body_->motion(), time - time_, allowed);
+    if (rate_ == 0.0) rate_ = at_.fastest_rate();
+    const StepResult result = scene_.file.has_contact() ? step_to(time) : advance_to(time);
     if (!result.ok())
       throw SolverError(fmt::format("/events: the motion up to {:.6g} s ends with {}", time, to_string(result)));
     time_ = time;
   }
 
+  StepResult advance_to(double time) {
+    // as in run_timed: the error of a velocity that belongs to one of a position
+    const Tolerance allowed{tolerance * edge_, tolerance * edge_ * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
+    return integrator_.advance(at_.body().system(), at_.body().motion(), time - time_, allowed);
+  }
+
+  /// Through contact, in equal steps.
+  StepResult step_to(double time) {
+    const double steps = std::max(1.0, std::ceil((time - time_) * rate_ / contact_phase)), h = (time - time_) / steps;
+    StepResult result;
+    for (double k = 0; k < steps && result.ok(); ++k) {
+      if (at_.begin_step(time_ + k * h, h)) integrator_.restart();
+      result = integrator_.step(at_.body().system(), at_.body().motion(), h);
+      if (result.ok() && at_.end_step(time_ + k * h, h)) integrator_.restart();
+    }
+    return result;
+  }
+
   const FrozenScene& scene_;
-  std::unique_ptr<SimulatedBody> body_;
-  std::vector<std::unique_ptr<ReadyEvent>> events_;
-  std::vector<std::size_t> done_;
-  DrivenVertices driven_;
-  AppliedForces forces_;
+  FrozenBody at_;
   DormandPrince54 integrator_;
-  double edge_, rate_, time_ = 0.0;
+  double edge_, rate_ = 0.0, time_ = 0.0;  // [m]; [1/s], once it is asked for
+  std::vector<std::size_t> done_;
 };
+
+namespace {
 
 /// What a frozen event is about, where that is not what the scene says.
 std::string omission_of(const SceneEvent& event, std::size_t operations) {
@@ -174,13 +180,6 @@ std::string omission_of(const SceneEvent& event, std::size_t operations) {
 
 }  // namespace
 
-double fastest_rate(const SimulatedBody& body) {
-  const StableStep limits = StableStepEstimate().refresh(body.system(), body.vertices().position);
-  double rate = max_or_nan(limits.upper, limits.viscous_rate.upper);
-  if (limits.damping_rate.upper < Scheme::unlimited) rate = max_or_nan(rate, limits.damping_rate.upper);
-  return rate;
-}
-
 FrozenScene freeze(const SceneFile& file, const Problem& problem) {
   FrozenScene scene{.file = file, .problem = problem, .needs = {}, .changes = {}, .omissions = {}};
   scene.file.output = {};
@@ -193,6 +192,9 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem) {
     return !reason.empty();
   });
   scene.needs = needs_of(scene.file, problem).body;
+  if (file.has_contact())
+    scene.contact_share =
+        std::max(largest_share(forecast_contacts(file, problem)), largest_share(forecast_touches(file, problem)));
   Scout scout(scene);
   scene.changes = scout.changes();
   for (std::size_t e = 0; e < scene.file.events.size(); ++e)
@@ -207,6 +209,11 @@ FrozenBody::FrozenBody(const FrozenScene& scene)
       driven_(scene.file, scene.problem.mesh.points, tick(scene.file)),
       forces_(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file)) {
   for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
+  if (scene.file.has_contact()) {
+    contact_ = std::make_unique<SceneContact>(body_->contact(), body_->body_contact(), false);
+    contact_->start(body_->vertices().position, {}, {}, 0.0);
+    look_at_contact();
+  }
   while (next_ < scene.changes.size() && scene.changes[next_].time == 0.0) pass();
 }
 
@@ -214,7 +221,34 @@ void FrozenBody::pass() {
   const FrozenChange& change = scene_.changes.at(next_++);
   for (const FrozenChange::Operation& operation : change.operations)
     events_[operation.event]->repeat(operation.targets);
-  drive(*body_, driven_, forces_, step_of_time(change.time, tick(scene_.file)));
+  drive(change.time);
+  look_at_contact();
+}
+
+/// Drives and forces at a time; true where any has changed.
+bool FrozenBody::drive(double time) {
+  const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
+  const std::span<const std::uint32_t> point = body_->vertices().point;
+  const bool moved = driven_.apply(ticks, point, body_->motion().v);
+  return forces_.apply(ticks, point, body_->pull()) || moved;
+}
+
+void FrozenBody::look_at_contact() {
+  if (contact_) contact_->system_changed(body_->system(), body_->vertices().position);
+}
+
+StableStep FrozenBody::limits() const {
+  const SpringSystem system = body_->system();
+  const StableStep limits = StableStepEstimate().refresh(system, body_->vertices().position);
+  if (!contact_) return limits;
+  return with_contact(limits, contact_rate(system, contact_->obstacles(), contact_->bodies(), scene_.contact_share));
+}
+
+double FrozenBody::fastest_rate() const {
+  const StableStep found = limits();
+  double rate = max_or_nan(found.upper, found.viscous_rate.upper);
+  if (found.damping_rate.upper < Scheme::unlimited) rate = max_or_nan(rate, found.damping_rate.upper);
+  return rate;
 }
 
 }  // namespace dartboard

@@ -79,7 +79,7 @@ class Search {
       for (const Scheme& other : schemes)
         if (first && other.implicit && is_promising(other)) try_implicit(other);
     }
-    if (options_.adaptive)
+    if (options_.adaptive && !scene_.has_contact())
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)

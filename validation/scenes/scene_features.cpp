@@ -1,5 +1,7 @@
 #include "validation/scenes/scene_features.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,7 +69,7 @@ void look_at_limits(SceneFeatures& f) {
 std::vector<StableStep> limits_of(const TradeoffScene& scene) {
   SceneStage stage(scene);
   std::vector<StableStep> limits;
-  const auto look = [&] { limits.push_back(StableStepEstimate().refresh(stage.system(), stage.motion().x)); };
+  const auto look = [&] { limits.push_back(stage.limits()); };
   std::size_t passed = 0;
   for (; passed < scene.motion.events.size() && scene.motion.events[passed].time <= 0.0; ++passed) stage.pass_event();
   look();
@@ -80,11 +82,23 @@ std::vector<StableStep> limits_of(const TradeoffScene& scene) {
 
 }  // namespace
 
+PieceCounts pieces_of(const SpringSystem& system) {
+  PieceCounts pieces;
+  for (const ForceTerm* term : system.terms) pieces[std::string(term->pieces_name())] += term->size();
+  return pieces;
+}
+
+std::string sizes_in_words(std::size_t vertices, std::size_t springs, const PieceCounts& pieces) {
+  std::string text = fmt::format("{} vertices", vertices);
+  if (springs > 0 || pieces.empty()) text += fmt::format(", {} springs", springs);
+  for (const auto& [name, count] : pieces) text += fmt::format(", {} {}", count, name);
+  return text;
+}
+
 SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock, std::int64_t timing_ns) {
   SceneFeatures f;
   const reference::SpringNetwork& start = scene.motion.network;
   f.vertices = start.point_count();
-  f.springs = start.springs.size();
   f.events = scene.motion.events.size();
   f.limits = limits_of(scene);
   if (scene.beyond_references.empty() && start.elements.empty())
@@ -97,6 +111,8 @@ SceneFeatures features_of(const TradeoffScene& scene, const CpuClock& clock, std
 
   SceneStage stage(scene);
   const SpringSystem system = stage.system();
+  f.springs = system.springs.size();
+  f.pieces = pieces_of(system);
   std::vector<Eigen::Vector3d> a(f.vertices);
   accelerations(system, terms_of(system), stage.motion().x, stage.motion().v, a);
   const double speed = mass_weighted(start, stage.motion().v), push = mass_weighted(start, a);

@@ -2,6 +2,8 @@
 // What the choice of an integrator depends on: of a scene, and of this machine.
 
 #include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "core/time/method/step_limit.h"
@@ -9,9 +11,16 @@
 
 namespace dartboard {
 
+/// How many pieces there are of each force other than springs, by their name: 180 tetrahedra.
+using PieceCounts = std::map<std::string, std::size_t>;
+PieceCounts pieces_of(const SpringSystem& system);
+/// "84 vertices, 180 tetrahedra": springs are named where there are some, or nothing else.
+std::string sizes_in_words(std::size_t vertices, std::size_t springs, const PieceCounts& pieces);
+
 /// What a choice depends on.
 struct SceneFeatures {
   std::size_t vertices = 0, springs = 0, events = 0;
+  PieceCounts pieces{};
   double omega_low = 0.0, omega_high = 0.0;  // [1/s] omega_max: power iteration below, Gershgorin above; over all times
   double damping_ratio = 0.0;                // at omega_max, the largest of a spring's
   double phase = 0.0;                        // duration times omega_max

@@ -7,6 +7,7 @@
 
 #include "core/operations/dissociate_all.h"
 #include "core/plain/error.h"
+#include "core/time/watch/stable_step.h"
 
 namespace dartboard {
 
@@ -50,6 +51,10 @@ PointState SceneStage::state() const {
   return {columns_.x, columns_.v};
 }
 
+StableStep SceneStage::limits() {
+  return frozen_ ? frozen_->limits() : StableStepEstimate().refresh(system(), motion().x);
+}
+
 void SceneStage::pass_event() {
   if (frozen_) return frozen_->pass();
   const std::vector<Dart>& faces = scene_->body->faces.at(next_event_++);
@@ -62,6 +67,8 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
   if (setting.steps == 0 && !(setting.tolerance > 0.0)) throw InputError("a run needs steps, or a tolerance");
   if (setting.steps == 0 && adaptive == nullptr)
     throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
+  if (setting.steps == 0 && scene.has_contact())
+    throw InputError(fmt::format("{}: contact acts around equal steps", scene.name));
   // an error of the position that the fastest oscillation would turn into one of the velocity, of a sixteenth of that
   // rate: the motions of these scenes are slower than the fastest they could be
   const Tolerance tolerance{setting.tolerance * scene.edge, setting.tolerance * scene.edge * scene.fastest_rate / 16};
@@ -95,7 +102,9 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
       if (std::abs(h - run.h) < 0x1p-40 * run.h) h = run.h;
       const SpringSystem system = stage.system();
       for (double k = 0; k < count && run.result.ok(); ++k) {
+        if (stage.begin_step(t + k * h, h)) integrator.restart();
         run.result = integrator.step(system, stage.motion(), h);
+        if (run.result.ok() && stage.end_step(t + k * h, h)) integrator.restart();
         if (++since_look < look_after) continue;
         // the clock costs as much as a step of a small scene: look at it about every millisecond
         const std::int64_t now = clock();

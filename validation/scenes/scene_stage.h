@@ -28,6 +28,11 @@ class SceneStage {
   PointState state() const;
   /// The next event takes place. Whoever keeps something about the system has to be told.
   void pass_event();
+  /// FrozenBody::begin_step, end_step; nothing where there is no contact.
+  bool begin_step(double time, double h) { return frozen_ && frozen_->begin_step(time, h); }
+  bool end_step(double time, double h) { return frozen_ && frozen_->end_step(time, h); }
+  /// What limits the step now.
+  StableStep limits();
 
  private:
   const TradeoffScene* scene_;
@@ -59,7 +64,8 @@ struct TimedRun {
 
 /// Run a scene from its start. What is timed are the steps and the events, not the copy of the body before them.
 ///
-/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or without either
+/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or through contact, or without
+///         either
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits = {});
 

@@ -28,6 +28,8 @@ struct TradeoffScene {
   double fastest_rate = 0.0;                                  // [1/s] reference::fastest_rate, the largest over time
   double edge = 1.0;                                          // [m] mean rest length at the start
   std::vector<std::string> omissions = {};                    // what the scene leaves out, in plain sentences
+
+  bool has_contact() const { return frozen && frozen->file.has_contact(); }
 };
 
 struct TradeoffEntry {

@@ -121,7 +121,9 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
   result.duration = scene.duration;
   result.edge = scene.edge;
   result.vertices = scene.motion.network.point_count();
-  result.springs = scene.motion.network.springs.size();
+  const SceneStage start(scene);
+  result.springs = start.system().springs.size();
+  result.pieces = pieces_of(start.system());
   result.omissions = scene.omissions;
   result.useless_from = std::min(1.0, error_of_rest(scene, reference));
 
@@ -138,6 +140,10 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
   std::vector<std::vector<WorkPoint>> by_contender(contenders.size());
   for (const std::size_t which : order) {
     const TradeoffContender& contender = contenders[which];
+    if (contender.adaptive && scene.has_contact()) {
+      result.omissions.push_back(fmt::format("{}: contact acts around equal steps", contender.name));
+      continue;
+    }
     auto& points = by_contender[which];
     const auto scheme = contender.make()->scheme();
     const double first =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reference/error_norms.h"
+#include "validation/scenes/scene_features.h"
 #include "validation/scenes/scene_reference.h"
 
 namespace dartboard {
@@ -64,6 +65,7 @@ struct WorkPrecision {
   double fastest_rate = 0.0, duration = 0.0, edge = 0.0;
   double useless_from = 1.0;  // [edges] the error of a body that stands still, at most 1
   std::size_t vertices = 0, springs = 0;
+  PieceCounts pieces{};
   std::vector<WorkPoint> points;  // by contender, steps descending in size
   std::vector<std::string> omissions;
 };

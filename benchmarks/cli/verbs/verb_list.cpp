@@ -26,10 +26,9 @@ std::vector<Entry> scene_entries() {
   std::vector<Entry> entries;
   for (const std::string& name : scene_names()) {
     const SceneFile scene = read_scene(gallery_folder() / (name + ".json"));
-    const bool studied = !scene.has_contact();  // scene_of_file.h
     entries.push_back({name, scene.about,
                        std::string("simulate, explain, ") + (scene.has_contact() ? "" : "explain-dt, ") +
-                           "scene --check, gallery" + (studied ? ", tradeoff, recommend" : "")});
+                           "scene --check, gallery, tradeoff, recommend"});
   }
   for (const TradeoffEntry& s : tradeoff_scenes())
     entries.push_back({std::string(s.name), std::string(s.what), "tradeoff, recommend"});

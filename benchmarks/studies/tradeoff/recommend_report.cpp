@@ -53,6 +53,7 @@ nlohmann::json json_of(const Recommendation& r) {
           {"features",
            {{"vertices", f.vertices},
             {"springs", f.springs},
+            {"pieces", f.pieces},
             {"events", f.events},
             {"omega_low", f.omega_low},
             {"omega_high", f.omega_high},
@@ -114,10 +115,10 @@ Table candidates_table(const Recommendation& r) {
 std::string text_of(const Recommendation& r, bool realtime, double duration) {
   const SceneFeatures& f = r.features;
   std::string text = fmt::format(
-      "{} with an error of at most {:.0e} edges\n{} vertices, {} springs, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
+      "{} with an error of at most {:.0e} edges\n{}, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
       "damping ratio there {:.2g}, T omega_max = {:.4g}; a force evaluation takes {:.3g} us here\n\n{}",
-      one_line(r.scene), r.error, f.vertices, f.springs, f.events, f.omega_low, f.omega_high, f.damping_ratio, f.phase,
-      1e6 * f.force_s, to_text(candidates_table(r)));
+      one_line(r.scene), r.error, sizes_in_words(f.vertices, f.springs, f.pieces), f.events, f.omega_low, f.omega_high,
+      f.damping_ratio, f.phase, 1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
     if (!c.usable() && !c.untried) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   if (const auto untried = r.untried(); !untried.empty())

@@ -108,13 +108,13 @@ std::string bullets(const std::vector<std::string>& lines, std::string (*escaped
 
 std::string tradeoff_page(const WorkPrecision& study, const std::string& stem) {
   return fmt::format(
-      "# The trade between speed and accuracy: {}\n\n{}. T omega_max = {:.4g}; {} vertices, {} "
-      "springs.\nReference: {}; errors below {:.1e} edges say nothing.\n\n![diagram]({}.svg)\n\n"
+      "# The trade between speed and accuracy: {}\n\n{}. T omega_max = {:.4g}; "
+      "{}.\nReference: {}; errors below {:.1e} edges say nothing.\n\n![diagram]({}.svg)\n\n"
       "## The cheapest method for an error\n\n{}\n## Regret of a fixed choice\n\n{}\n{}\n\n## All "
       "runs\n\n{}\n## Omissions\n\n{}",
-      markdown_text(study.scene), markdown_line(study.what), study.duration * study.fastest_rate, study.vertices,
-      study.springs, study.reference.what, study.reference.floor, stem, to_markdown(winners_table(study)),
-      to_markdown(regrets_table(study)), reading, to_markdown(points_table(study)),
+      markdown_text(study.scene), markdown_line(study.what), study.duration * study.fastest_rate,
+      sizes_in_words(study.vertices, study.springs, study.pieces), study.reference.what, study.reference.floor, stem,
+      to_markdown(winners_table(study)), to_markdown(regrets_table(study)), reading, to_markdown(points_table(study)),
       bullets(study.omissions, markdown_text));
 }
 

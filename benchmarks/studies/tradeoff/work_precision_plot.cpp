@@ -73,8 +73,8 @@ Plot work_precision_plot(const WorkPrecision& study) {
   Plot plot;
   plot.title = fmt::format("Work and precision: {}", study.scene);
   plot.subtitle = study.what;
-  plot.x_axis = fmt::format("cost: CPU time in units of one force evaluation ({} springs, {} vertices)", study.springs,
-                            study.vertices);
+  plot.x_axis = fmt::format("cost: CPU time in units of one force evaluation ({})",
+                            sizes_in_words(study.vertices, study.springs, study.pieces));
   plot.y_axis = "error of positions [mean edge lengths]: largest over time, root mean square over mass";
 
   std::vector<std::string> names;

@@ -35,12 +35,13 @@ void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 class FrozenMotion : public ::testing::TestWithParam<Kind> {};
 
-// Steps of 1/512 of the duration, with h omega of about 0.03, leave 1e-9 to a method of order 4 or 5; what is wrong in a
-// mass, a spring, a law or an event is larger by far.
+// Steps of 1/512 of the duration, with h omega of about 0.03, leave 1e-9 to a method of order 4 or 5; what is wrong in
+// a mass, a spring, a law or an event is larger by far.
 TEST_P(FrozenMotion, IsFollowedByACodeOfTheReferences) {
   const TradeoffScene scene = scene_of_file(parse(changed(GetParam().patch)));
   EXPECT_EQ(scene.beyond_references, "");
-  const auto steps = std::max<std::uint64_t>(512, 8 * static_cast<std::uint64_t>(4 * scene.fastest_rate * scene.duration));
+  const auto steps =
+      std::max<std::uint64_t>(512, 8 * static_cast<std::uint64_t>(4 * scene.fastest_rate * scene.duration));
   const TimedRun run = run_timed(scene, *make_integrator("rk4"), {.steps = steps}, [] { return 0; });
   ASSERT_TRUE(run.result.ok()) << to_string(run.result);
   const reference::CodeRun odeint = reference::run_odeint_fehlberg(scene.motion, 0.5);
@@ -56,9 +57,11 @@ TEST_P(FrozenMotion, IsFollowedByACodeOfTheReferences) {
 
 const Kind kinds[] = {
     {"springs", "{}"},
-    {"cut and torn", R"({"events": [{"at": 0.01, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+    {"cut and torn",
+     R"({"events": [{"at": 0.01, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
                                     {"at": 0.023, "tear": {"vertex": 13, "direction": [0, 1, 0]}}]})"},
-    {"removal", R"({"events": [{"from": 0.01, "every": 0.01, "until": 0.04, "remove": {"random": {"count": 2, "seed": 3}}}]})"},
+    {"removal",
+     R"({"events": [{"from": 0.01, "every": 0.01, "until": 0.04, "remove": {"random": {"count": 2, "seed": 3}}}]})"},
     {"release", R"({"events": [{"at": 0.02, "release": {"plane": {"point": [0, 0, 0.06], "normal": [0, 0, -1]}}}]})"},
     {"drives", R"({"driven": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "velocity": [0.5, 0, 0.25],
                                "from": 0.007, "until": 0.043, "reverse_every": 0.011}]})"},
@@ -79,9 +82,11 @@ const Kind kinds[] = {
                                        "material": {"density": 500, "stiffness": 16, "damping": 0.5}}],
                           "events": [{"at": 0.03, "remove": {"ids": [5]}}]})"},
     {"springs by a modulus", R"({"material": {"stiffness": null, "young": 3000}})"},
-    {"surface", R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125, "kind": "quadrilaterals"}, "box": null}},
+    {"surface",
+     R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125, "kind": "quadrilaterals"}, "box": null}},
                     "events": [{"at": 0.03, "remove": {"ids": [3]}}]})"},
-    {"chain", R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})"},
+    {"chain",
+     R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})"},
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, FrozenMotion, ::testing::ValuesIn(kinds),
                          [](const auto& kind) { return std::to_string(kind.index); });
@@ -98,8 +103,8 @@ TEST(BeyondReferences, NamesWhatTheyDoNotKnow) {
 }
 
 TEST(BeyondReferences, LeavesARunOfItsOwnToBeComparedWith) {
-  const TradeoffScene scene = scene_of_file(parse(changed(
-      R"({"duration": 0.02, "events": [{"at": 0.007, "refine": {"cells": {"ids": [3]}}}]})")));
+  const TradeoffScene scene = scene_of_file(
+      parse(changed(R"({"duration": 0.02, "events": [{"at": 0.007, "refine": {"cells": {"ids": [3]}}}]})")));
   const SceneReference reference = reference_of(scene, [] { return 0; });
   EXPECT_EQ(reference.kind, ReferenceKind::self_converged);
   EXPECT_LT(reference.floor, 1e-9);
@@ -107,8 +112,8 @@ TEST(BeyondReferences, LeavesARunOfItsOwnToBeComparedWith) {
 }
 
 TEST(FrozenMotion, SaysWhichVertexEachPartComesFrom) {
-  const TradeoffScene scene = scene_of_file(parse(
-      changed(R"({"events": [{"at": 0.01, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
+  const TradeoffScene scene = scene_of_file(
+      parse(changed(R"({"events": [{"at": 0.01, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}},
                              {"at": 0.02, "dissociate": {"plane": {"point": [0, 0.125, 0], "normal": [0, 1, 0]}}},
                              {"at": 0.03, "remove": {"ids": [5]}}]})")));
   // a part keeps the point of the mesh, and all parts of one are where it is at rest

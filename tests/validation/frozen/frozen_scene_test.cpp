@@ -60,7 +60,8 @@ TEST_P(FrozenSceneBits, AreThoseOfTheSimulationWithTheSameIntegratorAndStep) {
   for (const char* integrator : {"rk4", "verlet", "blanes-moan-4", "baraff-witkin"}) {
     Json json = changed(GetParam().patch);
     json["integrator"] = integrator;
-    const PointState simulated = run_as_simulation(json), studied = run_as_study(scene_of_file(parse(json)), integrator);
+    const PointState simulated = run_as_simulation(json),
+                     studied = run_as_study(scene_of_file(parse(json)), integrator);
     EXPECT_EQ(simulated.x, studied.x) << integrator;
     EXPECT_EQ(simulated.v, studied.v) << integrator;
   }
@@ -71,13 +72,15 @@ const Kind kinds[] = {
     {"faces", R"({"events": [{"at": 0.015625, "dissociate": {"points": [[0, 1, 13], [0, 4, 13]]}}]})"},
     {"tear", R"({"events": [{"at": 0.03125, "tear": {"vertex": 13, "direction": [1, 0, 0]}},
                             {"at": 0.0, "dissociate": {"points": [[0, 1, 13]]}}]})"},
-    {"plane", R"({"events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
+    {"plane",
+     R"({"events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
     {"removal", R"({"events": [{"from": 0.0078125, "every": 0.0078125, "until": 0.05,
                                 "remove": {"random": {"count": 2, "seed": 3}}}]})"},
     {"refinement", R"({"events": [{"at": 0.0078125, "refine": {"cells": {"ids": [3, 40]}}},
                                   {"at": 0.015625, "refine": {"cells": {"ids": [3]}, "at": "centre"}},
                                   {"at": 0.03125, "remove": {"ids": [3]}}]})"},
-    {"release", R"({"events": [{"at": 0.015625, "release": {"plane": {"point": [0, 0, 0.06], "normal": [0, 0, -1]}}}]})"},
+    {"release",
+     R"({"events": [{"at": 0.015625, "release": {"plane": {"point": [0, 0, 0.06], "normal": [0, 0, -1]}}}]})"},
     {"drives", R"({"driven": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "velocity": [0.5, 0, 0.25],
                                "from": 0.0078125, "until": 0.046875, "reverse_every": 0.015625}]})"},
     {"forces", R"({"forces": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "force": [0.5, 0, 0.25],
@@ -91,11 +94,13 @@ const Kind kinds[] = {
     {"two materials", R"({"regions": [{"cells": {"box": {"min": [-1, -1, -1], "max": [1, 1, 0.126]}},
                                        "material": {"density": 500, "stiffness": 16, "damping": 0.5}}],
                           "events": [{"at": 0.03125, "remove": {"ids": [5]}}]})"},
-    {"surface", R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125, "kind": "quadrilaterals"}, "box": null}},
+    {"surface",
+     R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125, "kind": "quadrilaterals"}, "box": null}},
                     "events": [{"at": 0.03125, "remove": {"ids": [3]}}]})"},
     {"membrane", R"({"body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.125}, "box": null}},
                      "material": {"density": 2, "stiffness": null, "young": 300, "poisson": 0.3, "damping": null}})"},
-    {"chain", R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})"},
+    {"chain",
+     R"({"body": {"generate": {"chain": {"links": 4, "spacing": 0.125}, "box": null}}, "fixed": [{"ids": [0]}]})"},
 };
 INSTANTIATE_TEST_SUITE_P(Kinds, FrozenSceneBits, ::testing::ValuesIn(kinds),
                          [](const auto& kind) { return std::to_string(kind.index); });
@@ -118,8 +123,7 @@ TEST(FrozenScene, LooksAtTheBodyInEveryStepOnlyWhereThereIsOne) {
   const TradeoffScene scene = scene_of_file(parse(json));
   EXPECT_TRUE(scene.motion.events.empty());
   ASSERT_EQ(scene.omissions.size(), 1u);
-  EXPECT_EQ(scene.omissions[0],
-            "/events/0 is left out: it looks at the body in every step, and none has been chosen.");
+  EXPECT_EQ(scene.omissions[0], "/events/0 is left out: it looks at the body in every step, and none has been chosen.");
 }
 
 TEST(FrozenScene, NamesTheEventThatItsBodyDoesNotHave) {

@@ -50,7 +50,8 @@ TEST(StepFittingTimes, DividesTheTimesOfEventsAndOutputToo) {
 
 TEST(StepFittingTimes, DividesTheTimesOfDrivesAndForces) {
   Json json = accurate_box(1e-3);
-  json["driven"] = Json::parse(R"([{"ids": [0], "velocity": [1, 0, 0], "from": 0.02, "until": 0.08, "reverse_every": 0.03}])");
+  json["driven"] =
+      Json::parse(R"([{"ids": [0], "velocity": [1, 0, 0], "from": 0.02, "until": 0.08, "reverse_every": 0.03}])");
   EXPECT_EQ(step_fitting_times(parse(json), 0.012), 0.1 / 10);
   json.erase("driven");
   json["forces"] = Json::parse(R"([{"ids": [1], "force": [1, 0, 0], "from": 0.02, "until": 0.05}])");

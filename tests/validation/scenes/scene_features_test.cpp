@@ -9,7 +9,9 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/time/integrators.h"
 #include "reference/closed_form.h"
+#include "tests/support/moving_box.h"
 #include "tests/support/ticking_clock_for_tests.h"
+#include "validation/scenes/scene_of_file.h"
 
 namespace dartboard::scene_features_test {
 namespace {
@@ -84,6 +86,29 @@ TEST(StiffScene, IsCriticallyDampedAtItsFastestModeWhereItIsDamped) {
   for (const reference::Spring& s : damped.motion.network.springs)
     EXPECT_NEAR(0.5 * undamped.fastest_rate * s.damping / s.stiffness, 1.0, 1e-12);
   EXPECT_EQ(damped.duration, undamped.duration);
+}
+
+TEST(SizesInWords, NameSpringsWhereThereAreSomeOrNothingElse) {
+  EXPECT_EQ(sizes_in_words(5, 4, {}), "5 vertices, 4 springs");
+  EXPECT_EQ(sizes_in_words(5, 0, {}), "5 vertices, 0 springs");
+  EXPECT_EQ(sizes_in_words(5, 0, {{"tetrahedra", 3}}), "5 vertices, 3 tetrahedra");
+  EXPECT_EQ(sizes_in_words(5, 4, {{"membranes", 2}, {"tetrahedra", 3}}),
+            "5 vertices, 4 springs, 2 membranes, 3 tetrahedra");
+}
+
+// A body of elements has no network of springs to be judged by: its frequencies are those that limit a step.
+TEST(SceneFeatures, OfElementsAreThoseOfTheBodyThatASimulationSteps) {
+  moving::Json json = moving::moving_box();
+  json.merge_patch(
+      moving::Json::parse(R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null}})"));
+  const SceneFile file = moving::parse(json);
+  const SceneFeatures f = features_of(scene_of_file(file), ticking());
+  const StableStep limits = Simulation(file).stable_step();
+  EXPECT_EQ(f.omega_low, limits.lower);
+  EXPECT_EQ(f.omega_high, limits.upper);
+  EXPECT_EQ(f.damping_ratio, limits.damping_ratio().upper);
+  EXPECT_EQ(f.springs, 0u);
+  EXPECT_EQ(f.pieces, (PieceCounts{{"tetrahedra", 48}}));
 }
 
 }  // namespace

@@ -69,7 +69,8 @@ TEST(SceneOfFile, RefusesContactByItsKey) {
     scene_of_file(parse(json));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "file: /contact: says what touches; expected none: runs through contact are not compared");
+    EXPECT_STREQ(error.what(),
+                 "file: /contact: says what touches; expected none: runs through contact are not compared");
   }
 }
 

@@ -57,6 +57,7 @@ Recommendation recommendation() {
   r.features = {.vertices = 81,
                 .springs = 82,
                 .events = 83,
+                .pieces = {{"tetrahedra", 86}},
                 .omega_low = 84.0,
                 .omega_high = 85.0,
                 .damping_ratio = 0.5,
@@ -99,20 +100,21 @@ TEST(RecommendTable, HasARowForEachUsableCandidate) {
 }
 
 TEST(RecommendText, SaysWhatToTakeAndWhatElseThereIs) {
-  EXPECT_EQ(text_of(recommendation(), true, 16.0),
-            "box with an error of at most 1e-01 edges\n81 vertices, 82 springs, 83 events; omega_max 84 .. 85 1/s, "
-            "damping ratio there 0.5, T omega_max = 86; a force evaluation takes 9 us here\n\n" +
-                to_text(candidates_table(recommendation())) +
-                "1 of 3 methods were not tried for want of time, and another run may pick one of them (--budget "
-                "SECONDS grants more): bdf2\n"
-                "\nTake rk4 with h = 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
-                "it makes 285).\n"
-                "It is stable up to h = 0.5 s.\n"
-                "Runner-up: dormand-prince-54-adaptive with h = 0.25 s, 1.50 times the cost.\n"
-                "One more digit costs 1.75 times as much, with blanes-moan-4.\n"
-                "The pilots took 375 ms, 3 times the run.\n"
-                "Real time: 16 s are simulated in 125 ms, 2.50 times real time.\n"
-                "The best that real time allows: an error of 1.1e-02, with verlet.\n");
+  EXPECT_EQ(
+      text_of(recommendation(), true, 16.0),
+      "box with an error of at most 1e-01 edges\n81 vertices, 82 springs, 86 tetrahedra, 83 events; omega_max 84 .. 85 1/s, "
+      "damping ratio there 0.5, T omega_max = 86; a force evaluation takes 9 us here\n\n" +
+          to_text(candidates_table(recommendation())) +
+          "1 of 3 methods were not tried for want of time, and another run may pick one of them (--budget "
+          "SECONDS grants more): bdf2\n"
+          "\nTake rk4 with h = 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
+          "it makes 285).\n"
+          "It is stable up to h = 0.5 s.\n"
+          "Runner-up: dormand-prince-54-adaptive with h = 0.25 s, 1.50 times the cost.\n"
+          "One more digit costs 1.75 times as much, with blanes-moan-4.\n"
+          "The pilots took 375 ms, 3 times the run.\n"
+          "Real time: 16 s are simulated in 125 ms, 2.50 times real time.\n"
+          "The best that real time allows: an error of 1.1e-02, with verlet.\n");
 }
 
 TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
@@ -180,7 +182,7 @@ TEST(RecommendJson, HoldsEveryFigure) {
   r.candidates[1].full_length = false;
   r.candidates[2].least_error = 0.75;
   EXPECT_EQ(json_of(r), Json::parse(R"({"scene": "box", "error": 0.1,
-    "features": {"vertices": 81, "springs": 82, "events": 83, "omega_low": 84.0, "omega_high": 85.0,
+    "features": {"vertices": 81, "springs": 82, "pieces": {"tetrahedra": 86}, "events": 83, "omega_low": 84.0, "omega_high": 85.0,
       "damping_ratio": 0.5, "phase": 86.0, "motion_rate": 87.0, "motion_size": 88.0, "force_s": 9e-6,
       "implicit_step_s": 90.0},
     "candidates": [

@@ -61,7 +61,7 @@ TEST(WorkPrecisionDiagram, SaysWhatItIsOf) {
   const Plot plot = work_precision_plot(study());
   EXPECT_EQ(plot.title, "Work and precision: chain");
   EXPECT_EQ(plot.subtitle, "four links");
-  EXPECT_EQ(plot.x_axis, "cost: CPU time in units of one force evaluation (41 springs, 51 vertices)");
+  EXPECT_EQ(plot.x_axis, "cost: CPU time in units of one force evaluation (51 vertices, 41 springs)");
   EXPECT_TRUE(plot.y_axis.starts_with("error of positions [mean edge lengths]")) << plot.y_axis;
   EXPECT_EQ(plot.shaded_below, 1e-7);
   EXPECT_EQ(plot.shaded_label, "below 1e-07 edges the reference cannot tell (certified)");
