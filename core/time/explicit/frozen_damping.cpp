@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Springs with near numbers tend to share an end, and each would wait for the one before. Taken from eight places in
-// turn they do not, and a sweep takes half the time.
+// Springs with near numbers tend to share an end, and each would wait for the one before. Taken in turn from eight
+// distant places of the list they do not wait, and a sweep takes half the time.
 constexpr std::size_t lanes = 8;
 
 template <class F>
@@ -101,7 +101,7 @@ auto FrozenDamping::relaxation(const SpringSystem& system, std::span<Vector3d> v
   };
 }
 
-// The same where vertices are held along axes: what they follow of an impulse depends on its direction.
+// The same where vertices are held along axes: their response to an impulse depends on its direction.
 auto FrozenDamping::relaxation_along_axes(const SpringSystem& system, double h, std::span<Vector3d> v) const {
   return [this, &system, h, v, mobility = Mobility(mobility_, system.held_axes.span())](std::size_t s) {
     const auto [i, j] = system.ends[s];

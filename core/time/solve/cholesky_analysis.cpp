@@ -166,7 +166,7 @@ bool Cholesky::Implementation::shape(const NodePattern& p) {
   return true;
 }
 
-// Roughly: it decides on nothing but a thread. The ordering takes most of it.
+// A rough prediction: it only decides whether a thread is started. The ordering takes most of the time.
 double Cholesky::Implementation::predicted_analysis_seconds(const NodePattern& p) const {
   return 1e-6 * static_cast<double>(p.row.size() + p.node_count());
 }

@@ -19,7 +19,7 @@ bool positive_definite(const Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) > 0.0 && m.determinant() > 0.0;
 }
 
-// Minors and determinants are products of three entries: of the block brought near 1, none under- or overflows.
+// Minors and determinants are products of three entries: of the block scaled to near 1, they do not under- or overflow.
 std::optional<Matrix3d> inverse_of_definite(const Matrix3d& block) {
   const double scale = scale_to_one(block.cwiseAbs().maxCoeff());
   const Matrix3d scaled = scale * block;
