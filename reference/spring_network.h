@@ -26,7 +26,7 @@ struct SpringNetwork {
   std::size_t point_count() const { return mass.size(); }
 };
 
-/// Those of a body at rest in the problem's mesh, by `rebuild`; points are the mesh's.
+/// The network of a body at rest in the problem's mesh, by `rebuild`; points are the mesh's.
 ///
 /// throws  InputError as rebuild does, and as `check` does
 SpringNetwork spring_network(const Problem& problem);
@@ -35,7 +35,7 @@ SpringNetwork spring_network(const Problem& problem);
 ///         spring or an element that names no point, a spring that names one twice, a number that is not finite
 void check(const SpringNetwork& network);
 
-/// Mean rest length of the springs [m]; 1 when that is zero or there are none.
+/// Mean rest length of the springs [m]; 1 when that is zero or there are no springs.
 double mean_rest_length(const SpringNetwork& network);
 
 /// The fastest rate [1/s] at which a state near x changes: the largest omega of the undamped network, its springs taken
@@ -65,7 +65,7 @@ class NetworkRates {
       dx[i] = v[i];
       dv[i] = Real(0);
     }
-    // forces first, gathered where the accelerations will be
+    // forces first, summed in the places of the accelerations
     for (const Line& s : springs_) {
       const Real e[3] = {x[s.b] - x[s.a], x[s.b + 1] - x[s.a + 1], x[s.b + 2] - x[s.a + 2]};
       const Real length = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
@@ -99,7 +99,7 @@ class NetworkRates {
 
  private:
   struct Line {
-    std::size_t a, b;  // where the coordinates of the ends begin
+    std::size_t a, b;  // the places of the first coordinates of the ends
     Real stiffness, damping, rest_length;
   };
   const SpringNetwork* network_;
