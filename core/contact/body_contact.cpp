@@ -262,7 +262,7 @@ double BodyContact::largest_stiffness(std::uint32_t sample, double share_of_dept
   return largest;
 }
 
-// Of a contact k w w' n n' with the weights w of a site, the row of a node has |w| times the sum of all |w|, which is
+// In a contact k w w' n n' with the weights w of a site, the row of a node has |w| times the sum of all |w|, which is
 // 2. Weights of the samples at a node are 1/n, and those of triangles there at most 1.
 double BodyContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {
   std::vector<double> own(inverse_mass.size(), 0.0);

@@ -33,7 +33,7 @@ struct BendingEdge {
 /// along the diagonals that halve them, and three times that along the other diagonals.
 /// units   rigidity [N m]
 /// source  Bergou et al. 2006, A quadratic bending model for inextensible surfaces: its coefficients without the factor
-///         3, which makes a sheet thrice as stiff as its rigidity
+///         3, which makes a sheet three times as stiff as its rigidity
 std::array<double, 3> bending_coefficients(double rigidity, const Eigen::Vector3d& x0, const Eigen::Vector3d& x1,
                                            const Eigen::Vector3d& x2, const Eigen::Vector3d& x3);
 

@@ -97,7 +97,7 @@ EnergyChange Corotational::change(const Matrix3d& f, const Matrix3d& d) const {
 }
 
 // 2 mu I + lambda r r' + (lambda (tr S - 3) - 2 mu) dR/dF. With T_i = R [e_i]x as columns of nine, dR/dF is
-// T (tr(S) I - S)^-1 T': turning is what is perpendicular to stretching.
+// T (tr(S) I - S)^-1 T': turning is perpendicular to stretching.
 Hessian Corotational::hessian(const Matrix3d& f, Compression compression) const {
   const Matrix3d r = polar_rotation(f);
   Matrix3d s = r.transpose() * f;

@@ -31,7 +31,7 @@ struct EnergyChange {
   double value = 0.0, sizes = 0.0;
 };
 
-/// What a piece adds to the stress at each of its vertices.
+/// The contribution of a piece to the stress at each of its vertices.
 struct Virial {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();  // [J] symmetric, tension positive
   double growth = 0.0;  // [m^3] of its volume (of a surface [m^2] of its area) since rest; 0 of pieces without one
@@ -80,7 +80,7 @@ class ForceTerm {
   /// The same for a constant matrix at least as stiff as the term near rest, each block a multiple of the identity.
   virtual void for_each_constant_tangent(const VisitTangent& visit) const = 0;
 
-  /// What a piece adds at each of its vertices: its virial and the growth of its volume, over the number of them.
+  /// The contribution of a piece at each of its vertices: its virial and the growth of its volume, over their number.
   virtual Virial virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const = 0;
 
   /// The damping of its pieces (term_damping.h), which the forces above do not contain; null without damping.

@@ -14,7 +14,7 @@ namespace dartboard {
 /// The numbers of the vertices at the two ends of a spring.
 using SpringEnds = std::array<std::uint32_t, 2>;
 
-/// What an edge embeds: one spring.
+/// The embedding of an edge: one spring.
 struct Spring {
   double rest_length;  // [m]
   double stiffness;    // [N/m], the sum of the contributions of the incident cells

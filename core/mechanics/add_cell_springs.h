@@ -11,7 +11,7 @@ namespace dartboard {
 /// body whose cells have no such diagonals keeps no column for them.
 ///
 /// pre     the body was just built from this mesh, and has not moved
-/// throws  InputError for a diagonal whose stiffness is not a number
+/// throws  InputError for a diagonal whose stiffness is not finite
 template <class Map>
 void add_cell_springs(MassSpringBody<Map, Held::by_every_dart>& body, const Mesh& mesh, Diagonals which);
 

@@ -16,7 +16,7 @@ using Body = MassSpringBody<Map, Held::by_every_dart>;
 
 constexpr std::size_t other_end(std::size_t p) { return tet_darts.node[tet_darts.alpha[0][p]]; }
 
-/// Numbers of the embeddings of a tetrahedron that went away, by its nodes, edges (01 02 03 12 13 23) and faces.
+/// Numbers of the embeddings of a removed tetrahedron, by its nodes, edges (01 02 03 12 13 23) and faces.
 struct OldNumbers {
   std::array<std::uint32_t, 4> vertices, faces;
   std::array<std::uint32_t, 6> edges;
@@ -24,7 +24,7 @@ struct OldNumbers {
   std::uint32_t cell;
 };
 
-/// One subdivision, step by step; every step reads what the ones before wrote.
+/// One subdivision, step by step; every step reads the results of those before.
 template <class Map>
 class Refinement {
  public:

@@ -35,7 +35,7 @@ std::span<const MeshFormatInfo> mesh_formats();
 LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
-/// the .ele file; the pieces of a .pvtu are files, looked for from the folder of `name`.
+/// the .ele file; the pieces of a .pvtu are files, searched from the folder of `name`.
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name,
                       const MeshReading& reading = {});
 

@@ -13,7 +13,7 @@ struct DissociatedCell {
   Dart kept, split;
 };
 
-/// The cells that an operation split or removed, by dimension. The operation itself knows no physics.
+/// The cells that an operation split or removed, by dimension. The operation itself contains no physics.
 ///
 /// After a series of operations the parts of a pair may have come apart further, or be removed; their darts still
 /// identify the cells that were touched.

@@ -62,7 +62,7 @@ bool is_ascii_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <
 /// A digit, an ASCII letter, or a byte of a character beyond ASCII.
 bool is_word(char c) { return is_digit(c) || is_ascii_letter(c) || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Would Markdown act on a character between these two? 0 stands for what is not known.
+/// Would Markdown act on a character between these two? 0 stands for an unknown character.
 bool markdown_acts(char before, char c, char after) {
   switch (c) {
     case '\\':

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// The node of each of a cell's darts, by the dart's number in the cell, and where its facets begin. A facet is what two
-// cells can share: a face of a volume, an edge of a polygon.
+// The node of each of a cell's darts, by the dart's number in the cell, and where its facets begin. Two cells can share
+// a facet: a face of a volume, an edge of a polygon.
 struct Template {
   std::vector<std::uint8_t> node;         // local node per dart
   std::vector<std::uint8_t> facet_first;  // first dart of each facet, then the number of darts

@@ -122,7 +122,7 @@ void Skin::find_face(const Body& body, std::uint32_t k) {
   set(2 * k + 1, sample);
 }
 
-// The shares are summed in the order of the faces' darts: numbers depend on what came before.
+// The shares are summed in the order of the faces' darts: numbers depend on earlier changes.
 template <class Body>
 void Skin::find_vertex(const Body& body, std::uint32_t k) {
   around_.clear();

@@ -39,7 +39,7 @@ class Skin {
 
   /// Follow what `adapt` reports; gives the samples of `rebuild`.
   ///
-  /// cost    O(changed faces and what is around their vertices and changed vertices), whatever the size of the body
+  /// cost    O(changed faces and the faces around their vertices and changed vertices), whatever the size of the body
   template <class Body>
   void apply(const Body& body, const ChangedEmbeddings& changed);
 

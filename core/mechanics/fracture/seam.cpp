@@ -17,7 +17,7 @@ template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 using Numbers = boost::container::small_vector<std::uint32_t, 48>;
 
-// f(lowest dart) for what two cells share: interior faces of a solid, interior edges of a surface.
+// Calls f(lowest dart) for every facet that two cells share: interior faces of a solid, interior edges of a surface.
 template <class Map, class F>
 void for_each_interior_facet(const Map& map, F&& f) {
   constexpr int n = Map::dimension;

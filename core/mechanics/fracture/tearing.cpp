@@ -43,7 +43,7 @@ double alignment(const Body<Map>& body, Dart d, const Eigen::Vector3d& direction
   return std::abs(twice_area.dot(direction)) / norm;
 }
 
-/// The accepted faces around the vertex of `start` that hang together with its face by edges at that vertex.
+/// The accepted faces around the vertex of `start` that are connected with its face by edges at that vertex.
 template <class Map>
 std::vector<Dart> seam_around(const Map& map, Dart start, const FaceFilter& filter) {
   std::vector<Dart> faces;

@@ -22,7 +22,7 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number);
 ///
 /// Stresses are those of `vertex_stresses`, strains (l - L) / L. A number that is not finite, as the strain of a spring
 /// without length at rest, is infinity.
-/// pre   the cells and links of the frame are there; vertices have their places at rest where displacement is asked for
+/// pre   the frame has its cells and links; vertices have their rest positions if displacement is asked for
 /// cost  O(vertices + springs)
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
                   const VertexVolumes& volumes);

@@ -18,7 +18,7 @@ enum class Part {
   marks,         // stamps by dart
   embeddings,    // the number of the embedding at every dart
   cell_darts,    // the lowest dart of each vertex, edge, face and cell
-  cells,         // masses of cells, and what of them changes follow from
+  cells,         // masses of cells, and the data of cells that changes need
   components,    // the connected component of each cell
   vertices,      // mass, 1/mass, position, velocity, point of the mesh
   viscosity,     // by vertex

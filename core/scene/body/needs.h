@@ -19,7 +19,7 @@ Storage storage_of(const Mesh& mesh);
 /// "no map", "2-g-map", "tetrahedral 3-g-map", "3-g-map"
 std::string_view map_name(Storage storage);
 
-/// What a body must have.
+/// The needs of a body.
 struct BodyNeeds {
   Storage storage;
   bool topology_changes;                   // otherwise the map it was built with is freed
@@ -38,7 +38,7 @@ struct BodyNeeds {
 /// The needs of a problem alone; `needs_of` adds those of the rest of the scene.
 BodyNeeds body_needs(const Problem& problem, bool topology_changes);
 
-/// What a scene must have.
+/// The needs of a scene.
 struct Needs {
   BodyNeeds body;
   bool damping, gravity;  // force terms

@@ -86,7 +86,7 @@ class SimulatedBody {
   /// [Pa] Largest principal stress of a vertex, of a chain [N] largest tension of a link or 0; infinite where one is
   /// not finite; 0 for an empty body.
   virtual double largest_stress() const = 0;
-  /// pre  made with places at rest where `fields` asks for displacement
+  /// pre  the body was made with rest positions if `fields` asks for displacement
   virtual Frame frame(const FrameFields& fields) const = 0;
   /// A hash of positions and velocities, in the order of the embeddings' numbers.
   virtual std::uint64_t state_hash() const = 0;

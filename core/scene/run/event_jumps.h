@@ -34,7 +34,7 @@ struct EventJumps {
   }
 };
 
-/// Apply an event to its body, and add what changed where it did anything.
+/// Apply an event to its body, and add the changes of the sums if it did anything.
 ///
 /// returns  operations, as ReadyEvent::apply
 std::size_t apply_watched(ReadyEvent& event, const SimulatedBody& body, EventJumps& jumps);

@@ -52,7 +52,7 @@ void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::s
     for (Vector3d& force : result) force = -force;
   }
   if (terms.damping && !system.springs.damped().empty()) {
-    // copies, since the compiler must assume that a store into the result changes what is held by reference
+    // copies, since the compiler must assume that a store into the result changes data accessed by reference
     const SpringEnds* const ends = system.ends.data();
     const Spring* const springs = system.springs.damped().data();
     const Vector3d *const along = along_.data(), *const speed = v.data();

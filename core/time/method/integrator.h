@@ -28,7 +28,7 @@ enum class StepCode : std::uint8_t {
 };
 std::string_view to_string(StepCode code);
 
-/// What a diagnosis points at.
+/// The kind of element that a diagnosis names.
 enum class Witness : std::uint8_t { none, vertex, edge };
 
 /// The outcome of a step: ok, or a diagnosis that names a witness and a quantity.
@@ -44,7 +44,7 @@ struct StepResult {
 /// "NONFINITE at vertex 12: velocity = nan".
 std::string to_string(const StepResult& result);
 
-/// What the steps so far have cost, in counts that are the same on every machine.
+/// The cost of the steps so far, in counts that are the same on every machine.
 struct WorkCounters {
   std::uint64_t steps = 0;           // taken
   std::uint64_t failed_steps = 0;    // ended with a diagnosis

@@ -15,7 +15,7 @@ namespace dartboard {
 struct Scheme {
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-  std::string_view name;  // what a user types
+  std::string_view name;  // as a user types it
   std::string_view what;  // one line
   int order = 1;
   int stages = 1;              // force evaluations per step; of an implicit method: systems of equations per step
@@ -31,7 +31,7 @@ struct Scheme {
   std::string_view source;
 };
 
-/// h times the matrix of the test oscillator in the coordinates (omega q, v): what Runge-Kutta methods put into R(z).
+/// h times the matrix of the test oscillator in the coordinates (omega q, v): the argument z of a method's R(z).
 Eigen::Matrix2d test_oscillator(double theta, double zeta);
 
 /// Largest modulus of an eigenvalue of the amplification.
@@ -39,7 +39,7 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 
 /// The first theta at which the method amplifies the test oscillator by `gain` or more within `steps` steps.
 ///
-/// That is spectral_radius^steps = gain, what a run of that length can measure: of methods with weak growth it is far
+/// There spectral_radius^steps = gain, which a run of that length can measure: for methods with weak growth it is far
 /// above the limit for infinitely many steps. Found by scanning in steps of 1e-3 and bisection.
 /// throws  InputError unless gain > 1 and steps > 0
 /// returns `unlimited` when there is no such theta below `ceiling`

@@ -32,7 +32,7 @@ struct StepLimit {
   double unstable = Scheme::unlimited;  // [s] the limit is not above this: longer steps amplify the fastest motion
 };
 
-/// What limits the step of a spring system near one state.
+/// The limits of the step of a spring system near one state.
 ///
 /// Stiffness is that of the springs along and across their directions at the state, compressed springs having none
 /// across (Compression::projected). That matrix is at least the exact one, which a compressed spring would make
@@ -40,7 +40,7 @@ struct StepLimit {
 ///
 /// Every damped oscillation x exp(s t) of M x'' + C x' + K x = 0 solves s^2 + d s + omega^2 = 0 with d = x* C x and
 /// omega^2 = x* K x over x* M x: omega lies between 0 and omega_max, and d within `damping_rates(omega)`, because C is
-/// what the springs have along their directions times their damping times, and viscosity. A step that is stable for all
+/// the springs' stiffness along their directions times damping times, and viscosity. A step that is stable for all
 /// such pairs is stable for the system, whether or not its damping is of Rayleigh's kind; Runge-Kutta methods need no
 /// more, nor do methods that damp by a splitting where stiffness and damping have the same shapes. Where the shapes are
 /// the same, as in a body of one material that is not stretched, d follows from omega, and the limit is found to 10 %;

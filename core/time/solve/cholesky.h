@@ -26,7 +26,7 @@ std::string_view to_string(SolveStatus status);
 
 enum class Ordering : std::uint8_t { amd, metis };  // METIS halves the work from some 4,000 vertices on
 enum class FactorKind : std::uint8_t { automatic, simplicial, supernodal };
-enum class AnalysisGraph : std::uint8_t { nodes, unknowns };  // what is ordered
+enum class AnalysisGraph : std::uint8_t { nodes, unknowns };  // the graph that is ordered
 
 /// Seconds that one unit of work takes, for the rule that chooses between an update and a factorisation. Constants
 /// rather than clocks, so that equal runs make equal choices; the defaults were measured with OpenBLAS on one thread,
@@ -99,7 +99,7 @@ class Cholesky {
   SolveStatus factorise(const BlockMatrix& matrix);
   SolveStatus factorise(const ScalarMatrix& matrix);
 
-  /// Change the factor as the matrix changes by `terms`. Of a scalar matrix, directions have one coordinate, the first.
+  /// Change the factor as the matrix changes by `terms`. Directions for a scalar matrix have the first coordinate only.
   ///
   /// A supernodal factor becomes a simplicial one first and stays it until the next factorisation. After failure there
   /// is no factor.

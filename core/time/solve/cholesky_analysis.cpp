@@ -103,7 +103,7 @@ bool Cholesky::Implementation::find_order(const NodePattern& p, std::size_t per_
   if (per_node == 1) {
     order = std::move(permutation);
   } else {
-    // The unknowns of a node are not kept together by their own ordering: a node stands where its first one does.
+    // An ordering of the unknowns does not keep those of a node together: a node takes the place of its first unknown.
     std::vector<std::uint8_t> seen(p.node_count(), 0);
     for (const int unknown : permutation)
       if (const std::size_t node = static_cast<std::size_t>(unknown) / per_node; !seen[node]) {

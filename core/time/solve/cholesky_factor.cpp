@@ -51,7 +51,7 @@ void Cholesky::Implementation::copy_values(const NodeEntries& m) {
     }
     sum += m.diagonal_at(j, 0, 0);
   }
-  // Spare rows are of the size of the others, so that what an update puts there is not lost against them.
+  // Spare rows are of the size of the others, so that entries added by an update are not lost against them.
   spare = m.nodes ? sum / static_cast<double>(m.nodes) : 1.0;
   for (std::size_t k = (capacity() - m.nodes) * d; k > 0; --k) *value++ = spare;
 }

@@ -49,7 +49,7 @@ class FactorArrays {
   }
 
  private:
-  // An array is stored whole, and columns with room for four times what is in them at most.
+  // An array is stored whole, and columns have room for at most four times their entries.
   template <class Element>
   void* allocate(std::size_t length) {
     constexpr std::size_t room = 64;

@@ -105,8 +105,8 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
   }
   result.residual = std::sqrt(true_residual() / b_squared);
   if (result.status != SolveStatus::ok) return result;
-  // The recurrence of the residual drifts from the residual; where by more than this, the tolerance was below what
-  // rounding allows.
+  // The residual of the recurrence drifts from the true one; if it does by more than this, the tolerance was below the
+  // limit by rounding.
   if (!std::isfinite(result.residual))
     result.status = SolveStatus::not_finite;
   else if (result.residual > 10.0 * options.tolerance)

@@ -62,8 +62,8 @@ class StepMatrix {
   /// cost    O(vertices + springs)
   void assemble(const NodePattern& pattern, BlockMatrix& matrix) const;
 
-  /// Follow a topological change while keeping what was evaluated for springs that are the same as before. Returned are
-  /// the terms that lead from the old matrix to the new one.
+  /// Follow a topological change while keeping the evaluated blocks of unchanged springs. Returned are the terms that
+  /// lead from the old matrix to the new one.
   /// pre  there are no force terms, and no vertex is held along axes
   ///
   /// Springs and vertices are matched by number; those that changed are evaluated at `tangents`. A vertex whose number

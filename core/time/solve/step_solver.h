@@ -47,7 +47,7 @@ struct TangentsAt {
   StagePlaces at{};
 };
 
-/// The matrix and what solves with it, kept between steps.
+/// The matrix and its solvers, kept between steps.
 ///
 /// A matrix that is not positive definite is replaced by that of the projected tangents. A factor that is kept is that
 /// of an earlier matrix: it preconditions conjugate gradients on the present one.
@@ -55,7 +55,7 @@ class StepSolver {
  public:
   explicit StepSolver(const ImplicitOptions& options) : options_(options), cholesky_(options.cholesky) {}
 
-  /// Exact tangents may be tried again. What is kept is noted, and the work so far, for `undo_step`.
+  /// Exact tangents may be tried again. The kept state and the work so far are noted for `undo_step`.
   void begin_step(const WorkCounters& work = {}) {
     projecting_ = options_.tangent == TangentPolicy::projected;
     wait_ = remaining_ = 0;
@@ -65,7 +65,7 @@ class StepSolver {
   ///
   /// returns  false where the factor of that time has been replaced or given up since
   bool undo_step(WorkCounters& work);
-  /// Topology or material may have changed: look at them before the next solution.
+  /// Topology or material may have changed: check them before the next solution.
   void system_changed() { changed_ = true; }
 
   /// Get ready to solve with M + tau C + tau^2 K at this linearisation.

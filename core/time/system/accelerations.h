@@ -15,7 +15,7 @@ struct Terms {
   bool fixed = false;      // some vertex
   friend bool operator==(const Terms&, const Terms&) = default;
 };
-/// cost    O(springs + vertices); ask once, not in every step
+/// cost    O(springs + vertices); to be called once, not in every step
 Terms terms_of(const SpringSystem& system);
 /// Is any of its force terms damped?
 bool has_damped_terms(const SpringSystem& system);

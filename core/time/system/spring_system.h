@@ -33,7 +33,7 @@ class OptionalColumn {
   std::span<const T> column_;
 };
 
-/// What acts on a set of vertices: springs between them, other force terms, ambient viscosity, gravity (the formulas:
+/// All effects on a set of vertices: springs between them, other force terms, ambient viscosity, gravity (the formulas:
 /// core/plain/problem.h), and forces from outside, each as an acceleration of its vertex.
 ///
 /// A view of columns that the body owns; valid until they change their size. Columns are by vertex number or by spring
@@ -60,7 +60,7 @@ inline void free_along_axes(const SpringSystem& system, std::span<Eigen::Vector3
     if (const HeldAxes held = system.held_axes[i]; held != 0) column[i] = free_part(held, column[i]);
 }
 
-/// Positions [m] and velocities [m/s] by vertex number: what an integrator advances, in place.
+/// Positions [m] and velocities [m/s] by vertex number, which an integrator advances in place.
 struct Motion {
   std::span<Eigen::Vector3d> x, v;
 };

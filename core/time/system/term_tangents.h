@@ -24,7 +24,7 @@ struct TermTangents {
 /// cost    O(vertices + pieces), each piece as its term says
 void stiffness_of_terms(const SpringSystem& system, const TermTangents& tangents, BlockMatrix& matrix);
 
-/// C of the force terms that are damped, on the same pattern: `time` times their stiffness without stress. Of constant
+/// C of the force terms that are damped, on the same pattern: `time` times their stiffness without stress. For constant
 /// tangents it is `time` times those.
 void damping_of_terms(const SpringSystem& system, const TermTangents& tangents, BlockMatrix& matrix);
 

@@ -88,7 +88,7 @@ class DivergenceDetector {
   };
   Sums sums(const SpringSystem& system, Motion motion) const;
   double available(const Sums& now) const;
-  double supply() const { return energy_ + small_ + most_work_; }  // what is available but for the work of gravity
+  double supply() const { return energy_ + small_ + most_work_; }  // available energy without the work of gravity
   void find_driven(const SpringSystem& system, Motion motion);
   double power(const SpringSystem& system, Motion motion);
   double energy_of_some(const SpringSystem& system, Motion motion);

@@ -100,7 +100,7 @@ double damping_bound(const SpringSystem& system) {
   return highest;
 }
 
-/// The same for what the springs have across their directions, as a frequency.
+/// The same for the stiffness of the springs across their directions, as a frequency.
 double across_bound(const SpringSystem& system, std::span<const SpringTangent> tangents) {
   std::vector<double> sum(system.vertex_count(), 0.0);
   for (std::size_t s = 0; s < tangents.size(); ++s)
@@ -307,7 +307,7 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
     latest_.across = unlimited;  // elements have no direction as springs have
   latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));
-  // just above a ratio of 1 the rate of decay grows with the root of what is missing: 10 % are 0.9 % of a rate
+  // just above a ratio of 1 the rate of decay grows with the root of the excess: 10 % are 0.9 % of a rate
   const Bounds ratio = latest_.damping_ratio();
   const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
   latest_.damping_rate = largest_damping_rate(system, x, is_critical ? critical_excess : std::sqrt(excess));

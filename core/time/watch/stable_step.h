@@ -31,7 +31,7 @@ StableStep quick_stable_step(const SpringSystem& system);
 /// polynomial of degree 2k - 1 that is b_1 <= 1 / sinh((2k - 1) asinh r), r^2 = e / (1 - e). A slice of a cube is at
 /// most sqrt 2 times as large as a face (Ball 1986), so b_1 <= t has a probability of at most sqrt(2 N) t. Hence
 ///
-///     omega_max <= sqrt(xi) cosh( asinh(sqrt(2 N) / failure) / (2k - 1) )    but for the probability `failure`
+///     omega_max <= sqrt(xi) cosh( asinh(sqrt(2 N) / failure) / (2k - 1) )    except with probability `failure`
 ///
 /// and k is chosen for the factor `excess`. Systems of up to 60 coordinates have their eigenvalues computed. The same
 /// is done for the rate of damping, whose bracket is `excess` wide itself: strong damping limits steps by that rate.
@@ -42,7 +42,7 @@ class StableStepEstimate {
   static constexpr double critical_excess = 1.0045;  // squared: that of the rate of damping where nearly critical
 
   /// Bracket anew: about 40 multiplications by the stiffness, each the cost of a force evaluation; where there is
-  /// damping, as many by the damping, thrice as many where it is nearly critical. Force terms are linearised once,
+  /// damping, as many by the damping, three times as many if it is nearly critical. Force terms are linearised once,
   /// projected, into a matrix that is then freed; damped terms three times, the last time for their stress.
   const StableStep& refresh(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
