@@ -246,7 +246,7 @@ class Membranes final : public ForceTerm {
   Columns columns_;
 };
 
-/// The inverse of a Jacobian with these columns, whose normal is on the side of `up`.
+/// The inverse of a Jacobian with these columns; its last number is negative if their normal points against `up`.
 PlaneInverse plane_inverse(const Vector3d& first, const Vector3d& second, const Vector3d& up) {
   const Vector3d normal = first.cross(second);
   const double length = first.norm(), area = normal.dot(up) > 0.0 ? normal.norm() : -normal.norm();

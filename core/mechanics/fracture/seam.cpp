@@ -73,7 +73,7 @@ bool crosses(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
   if (is_in_front(a, corner, normal, thickness) == is_in_front(b, corner, normal, thickness)) return false;
   const double above_a = (a - corner).dot(normal), above_b = (b - corner).dot(normal);
   const double at =
-      std::clamp(above_a / (above_a - above_b), 0.0, 1.0);  // the ratio is outside if an end is within the thickness
+      std::clamp(above_a / (above_a - above_b), 0.0, 1.0);  // outside [0, 1] where an end is within the thickness
   const Eigen::Vector3d there = a + at * (b - a) - corner;
   const double s = there.cross(w).dot(normal) / normal.squaredNorm(),
                t = u.cross(there).dot(normal) / normal.squaredNorm();

@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// All of a regular file. Errors name `wanted` as expected there.
+/// The contents of a regular file. Errors name `wanted` as expected there.
 ///
 /// throws  IoError when it does not exist, is a folder or a device, cannot be read, or is empty
 std::string file_text(const std::filesystem::path& path, std::string_view wanted);

@@ -45,7 +45,7 @@ void read_values(Data& d, std::string_view name, Scalar type, std::uint64_t comp
 }
 
 std::uint64_t checked_components(const TextScanner& scan, std::uint64_t components) {
-  constexpr std::uint64_t most = 1u << 20;  // far beyond any real number: a tensor has 9
+  constexpr std::uint64_t most = 1u << 20;  // far beyond any number that occurs: a tensor has 9
   if (components > most) scan.fail(fmt::format("{} components", components), fmt::format("at most {}", most));
   return components;
 }

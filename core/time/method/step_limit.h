@@ -44,7 +44,7 @@ struct StepLimit {
 /// such pairs is stable for the system, whether or not its damping is of Rayleigh's kind; Runge-Kutta methods need no
 /// more, nor do methods that damp by a splitting where stiffness and damping have the same shapes. Where the shapes are
 /// the same, as in a body of one material that is not stretched, d follows from omega, and the limit is found to 10 %;
-/// otherwise only a lower bound of it is. Methods that sweep over the dampers are treated separately: a symmetric sweep
+/// otherwise only a lower bound is found. Methods that sweep over the dampers are treated separately: a symmetric sweep
 /// takes nothing from the limit, and a sweep in one direction allows h d of 3.
 struct StableStep {
   double lower = 0.0, upper = 0.0;  // [1/s] of omega_max, at the state
