@@ -25,7 +25,7 @@ enum class Part {
   fixed,         // by vertex
   rest,          // rest position by vertex
   pull,          // external forces by vertex, and the points that they act on
-  driven,        // paths of driven vertices, and the springs and pieces that their work is summed over
+  driven,        // paths of driven vertices, and the lists that their work is summed over
   springs,       // rest length, stiffness, and the two ends
   damping,       // by spring, in the same row
   elements,      // rest shape and corners of each cell, in place of springs
