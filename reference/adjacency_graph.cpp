@@ -7,7 +7,7 @@
 //     positions and velocities in one structure, forces apart         0.0567
 //     blocks of 64 springs in contiguous temporaries                  0.0813  (0.067 with -fno-math-errno)
 //
-// The order is the same on 17576 points and 115075 springs (2.20 to 3.32 ms). What matters more than the layout is the
+// The order is the same on 17576 points and 115075 springs (2.20 to 3.32 ms). More important than the layout is the
 // length of the chain of dependent operations: (s / l) * d instead of s * (d / l) took the first row from 0.0630.
 
 #include "reference/adjacency_graph.h"
@@ -21,7 +21,7 @@
 namespace dartboard::reference {
 namespace {
 
-// What the spring does to its end a; end b feels the opposite.
+// The force of the spring on its end a; end b gets the opposite.
 Eigen::Vector3d pull(const Spring& spring, const Eigen::Vector3d& xa, const Eigen::Vector3d& va,
                      const Eigen::Vector3d& xb, const Eigen::Vector3d& vb) {
   const Eigen::Vector3d d = xb - xa;

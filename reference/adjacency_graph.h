@@ -1,5 +1,5 @@
 #pragma once
-// The paper's naive baseline (section 5.1): points and springs in arrays, springs naming their ends by index.
+// The paper's naive baseline (section 5.1): points and springs in arrays, with the ends of springs given by index.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace dartboard::reference {
 
 /// A mass/spring body with no topology but the end points of its springs, moved by classical Runge-Kutta of order 4.
-/// It serves twice: as the contender to beat, and as an implementation of the mechanics that shares none with core.
+/// It serves twice: as the contender to beat, and as an implementation of the mechanics that shares no code with core.
 class AdjacencyGraph {
  public:
   /// throws  InputError if the mesh is malformed, `fixed` names no point, the velocities are not one per point, h is
@@ -44,7 +44,7 @@ class AdjacencyGraph {
     Eigen::Vector3d x, v;    // at the start of the step
     Eigen::Vector3d force;   // of the springs, at the stage
     Eigen::Vector3d xs, vs;  // at the stage; equal to x, v between steps
-    Eigen::Vector3d dx, dv;  // what the step adds up
+    Eigen::Vector3d dx, dv;  // the sums of the step
     double inverse_mass;
     bool fixed;
   };

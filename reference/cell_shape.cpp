@@ -11,7 +11,7 @@ struct Shape {
   std::vector<std::pair<int, int>> edges;
 };
 
-// A cycle of corners, those that coincide with the one before left out.
+// A cycle of corners, without those that coincide with the one before.
 std::vector<int> distinct(const std::vector<int>& cycle) {
   std::vector<int> nodes;
   for (const int k : cycle)

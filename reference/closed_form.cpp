@@ -67,7 +67,7 @@ DumbbellState swing(const Dumbbell& body, const DumbbellState& start, double t) 
   const double m = body.m1 + body.m2;
   const double reduced = body.m1 * body.m2 / m;
 
-  // the centre of mass flies on, the distance swings about the rest length
+  // the centre of mass flies on, the distance oscillates about the rest length
   const double x = (body.m1 * start.x1 + body.m2 * start.x2) / m;
   const double v = (body.m1 * start.v1 + body.m2 * start.v2) / m;
   const double z = body.viscosity * t;

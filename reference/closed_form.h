@@ -1,5 +1,5 @@
 #pragma once
-// Motions that can be written down: what any simulator of the same mechanics has to reproduce.
+// Motions in closed form, which any simulator of the same mechanics has to reproduce.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,7 +22,7 @@ struct Swing {
   double q, v;
 };
 
-/// q'' + drag q' + omega2 q = 0 after `t` seconds; under-, critically and overdamped alike, and omega2 may be zero.
+/// q'' + drag q' + omega2 q = 0 after `t` seconds; under-, critically or overdamped, and omega2 may be zero.
 ///
 /// pre     drag >= 0
 /// units   omega2 1/s^2, drag 1/s
@@ -72,26 +72,26 @@ double rotating_length(double stiffness, double rest_length, double reduced_mass
 std::vector<double> hanging_lengths(std::span<const double> masses, double stiffness, double rest_length,
                                     double gravity);
 
-// ---- What methods make of motions, exactly: a simulator is compared with these up to rounding
+// ---- The exact results of methods for such motions: a simulator is compared with these up to rounding
 
-/// What one step of classical Runge-Kutta multiplies exp(lambda t) by, z = h lambda: 1 + z + z^2/2 + z^3/6 + z^4/24.
+/// The factor of exp(lambda t) in one step of classical Runge-Kutta, z = h lambda: 1 + z + z^2/2 + z^3/6 + z^4/24.
 std::complex<double> rk4_amplification(std::complex<double> z);
 
-/// What n steps of classical Runge-Kutta make of q'' + drag q' + omega2 q = 0: its discretisation error is exact,
+/// The result of n steps of classical Runge-Kutta for q'' + drag q' + omega2 q = 0: its discretisation error is exact,
 /// so a simulator is compared with it up to rounding.
 Swing rk4_oscillate(double omega2, double drag, Swing start, double h, int n);
 
-/// What one step of backward Euler and of the implicit midpoint rule multiply exp(lambda t) by, z = h lambda: 1/(1 - z)
-/// and (1 + z/2)/(1 - z/2).
+/// The factors of exp(lambda t) in one step of backward Euler and of the implicit midpoint rule, z = h lambda:
+/// 1/(1 - z) and (1 + z/2)/(1 - z/2).
 std::complex<double> backward_euler_amplification(std::complex<double> z);
 std::complex<double> implicit_midpoint_amplification(std::complex<double> z);
 
-/// That of Dormand and Prince's method: the exponential series to z^5, and z^6/600.
+/// The factor of Dormand and Prince's method: the exponential series to z^5, and z^6/600.
 std::complex<double> dormand_prince_amplification(std::complex<double> z);
-/// That of the L-stable methods of two stages, gamma = 1 - 1/sqrt(2): (1 + (1 - 2 gamma) z) / (1 - gamma z)^2.
+/// The factor of the L-stable methods of two stages, gamma = 1 - 1/sqrt(2): (1 + (1 - 2 gamma) z) / (1 - gamma z)^2.
 std::complex<double> two_stage_amplification(std::complex<double> z);
-/// The two roots of (3 - 2 z) r^2 - 4 r + 1 = 0, what BDF2 multiplies its two solutions by; the first goes to 1 with z
-/// -> 0, the other, which the start excites, to 1/3.
+/// The two roots of (3 - 2 z) r^2 - 4 r + 1 = 0, the factors of the two solutions of BDF2; the first tends to 1 as
+/// z -> 0, the other, which the start excites, to 1/3.
 std::array<std::complex<double>, 2> bdf2_roots(std::complex<double> z);
 
 /// The angle by which symplectic Euler and Verlet turn an oscillation in one step, theta = h omega < 2: 2
@@ -107,16 +107,16 @@ struct BlanesMoanNumbers {
 /// source  Blanes, Moan: Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom methods, Journal of
 ///         Computational and Applied Mathematics 142 (2002), 313-330, S6 of order 4
 BlanesMoanNumbers blanes_moan_numbers();
-/// What one step of it makes of (omega q, v), theta = h omega: unit triangular factors. With a damping ratio each kick
-/// for t is v + t (1 - z/2 + z^2/6 - z^3/24) (a - B v) with B = 2 zeta omega, z = t B.
+/// The matrix of one step of it on (omega q, v), theta = h omega: unit triangular factors. With a damping ratio each
+/// kick for t is v + t (1 - z/2 + z^2/6 - z^3/24) (a - B v) with B = 2 zeta omega, z = t B.
 Eigen::Matrix<long double, 2, 2> blanes_moan_step(long double theta, long double zeta);
 
 /// The two orders in which half and whole steps alternate.
 enum class VerletForm { drift_kick_drift, kick_drift_kick };
 
-/// What n steps of Verlet make of q'' + omega2 q = 0; h^2 omega2 < 4.
+/// The result of n steps of Verlet for q'' + omega2 q = 0; h^2 omega2 < 4.
 Swing verlet_oscillate(VerletForm form, double omega2, Swing start, double h, int n);
-/// What n steps of symplectic Euler (kick, then drift) make of it.
+/// The result of n steps of symplectic Euler (kick, then drift) for the same.
 Swing symplectic_euler_oscillate(double omega2, Swing start, double h, int n);
 
 /// The quadratic form near the energy that the method conserves exactly: v^2/2 + omega2 (1 - h^2 omega2/4) q^2/2 for

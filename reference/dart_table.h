@@ -1,5 +1,5 @@
 #pragma once
-// A generalized map as plain numbers, and what the paper says of darts by its letter.
+// A generalized map as plain numbers, with orbits and fans exactly as the paper defines them.
 
 #include <cstdint>
 #include <initializer_list>
@@ -18,11 +18,11 @@ struct DartTable {
   std::uint32_t operator()(int i, std::uint32_t d) const { return alpha[static_cast<std::size_t>(i)][d]; }
 };
 
-/// The orbits of these involutions (section 2.1) by union-find: of every dart the lowest one of its orbit.
+/// The orbits of these involutions (section 2.1) by union-find: for every dart the lowest one of its orbit.
 std::vector<std::uint32_t> orbits(const DartTable& table, std::initializer_list<int> involutions);
 
-/// The fan of section 5.1 around the vertex of d0, by its letter: d0, then dart by dart by alpha_2, alpha_3, alpha_2
-/// and alpha_1 until d0 is met again or the surface, before alpha_3; in that case, the same from alpha_1(d0), which is
+/// The fan of section 5.1 around the vertex of d0, exactly as described: d0, then dart by dart by alpha_2, alpha_3,
+/// alpha_2 and alpha_1 until d0 is met again, or the surface before alpha_3; then the same from alpha_1(d0), which is
 /// not listed itself.   pre  the table is of a 3-g-map
 struct PaperFan {
   std::vector<std::uint32_t> darts;

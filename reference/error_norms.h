@@ -1,5 +1,5 @@
 #pragma once
-// How far a motion is from its reference: in positions, velocities, energy and momenta.
+// The errors of a motion against its reference: in positions, velocities, energy and momenta.
 
 #include <cstddef>
 #include <span>
@@ -20,8 +20,8 @@ namespace dartboard::reference {
 ///                mass of the reference at that checkpoint
 ///
 /// Energy and momenta are compared with the reference's of the same time, not with the start's: they need not be
-/// conserved. A quantity whose scale is zero is compared with zero: 0 when equal, infinite otherwise. What is not a
-/// number makes an error that is not a number.
+/// conserved. A quantity whose scale is zero is compared with zero: 0 when equal, infinite otherwise. NaN makes an
+/// error of NaN.
 struct MotionErrors {
   double x = 0.0, x_p95 = 0.0,
          x_largest = 0.0;  // the others: of the points' |x_i - x'_i| / L, the 95th percentile (the

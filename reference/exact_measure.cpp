@@ -106,7 +106,7 @@ double exact_measure(const Mesh& mesh, std::size_t c) {
 //
 // Other volumes are 24 tetrahedra at most, D the diameter: two of the edges from the middle of a face are 3/4 D at
 // most, the third D. The middle is off by 5 u D and the centre by 9, which moves the determinant by
-// (5 * 3/4 + 5 * 3/4 + 14 * 9/16) u D^3, beside the 11 * 9/16 of its own: 21.6 u D^3 each, 87 u D^3 in all, and
+// (5 * 3/4 + 5 * 3/4 + 14 * 9/16) u D^3, in addition to its own 11 * 9/16: 21.6 u D^3 each, 87 u D^3 in all, and
 // their sum another 24 u of 24 / 6 * 9/16 D^3 at worst; their volumes add up to the cell's, so 3 u D^3 is enough.
 //
 // A polygon: two triangles at most, each cross product with 2 edges, 1 product, 1 difference: 4 u times 2 D^2; their
@@ -127,7 +127,7 @@ double measure_rounding(const Mesh& mesh, std::size_t c) {
 
 double rounded(const Rational& x) {
   if (x == 0) return 0.0;
-  // 64 bits of the quotient and one that says whether anything was left, so that the conversion rounds once
+  // 64 bits of the quotient and one for a remainder other than zero, so that the conversion rounds once
   const Integer size = abs(numerator(x));
   const int excess = static_cast<int>(msb(size)) - static_cast<int>(msb(denominator(x)));
   const int up = 64 - excess;

@@ -1,6 +1,6 @@
 #pragma once
-// On which side of a border a place is, where points and borders have whole coordinates: integers alone, nothing is
-// rounded.
+// The side of a border on which a place is, if points and borders have whole coordinates: in integers, without any
+// rounding.
 
 #include <Eigen/Core>
 #include <cstdint>

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// From the lowest to the highest along an axis.
+/// The interval from the lowest to the highest corner along an axis.
 struct Shadow {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -35,7 +35,7 @@ std::array<Vector3d, 4> face_normals(const TetrahedronCorners& t) {
 }  // namespace
 
 Translation least_translation(const TetrahedronCorners& a, const TetrahedronCorners& b) {
-  // near the origin, so that what is far away loses no digits
+  // moved near the origin, so that tetrahedra far away lose no digits
   TetrahedronCorners p = a, q = b;
   for (Vector3d& x : p) x -= a[0];
   for (Vector3d& x : q) x -= a[0];

@@ -18,7 +18,7 @@ namespace {
 using State = std::vector<long double>;
 static_assert(std::numeric_limits<long double>::digits >= 64, "the oracle needs more precision than double");
 
-// Odeint copies what it is given for every step, so that is two pointers.
+// Odeint copies its right-hand side for every step, so this is two pointers only.
 struct CountedRates {
   const NetworkRates<long double>* rates;
   std::uint64_t* count;

@@ -11,7 +11,7 @@
 namespace dartboard::reference {
 
 /// At `time` the network becomes another one: point i of it was point from[i] before, and takes its position and
-/// velocity. Points that nobody came from are gone.
+/// velocity. Points from which no new point comes are removed.
 struct NetworkEvent {
   /// A point that moves at another velocity from then on.
   struct Drive {
@@ -43,13 +43,13 @@ struct NetworkMotion {
 /// throws  InputError, naming the first thing that is wrong
 void check(const NetworkMotion& motion);
 
-/// What a code found: (x of all points, v of all points) at each checkpoint, three numbers each.
+/// The result of a code: (x of all points, v of all points) at each checkpoint, three numbers each.
 struct CodeRun {
   std::string code;  // "Odeint Fehlberg 7(8), long double, ..."
   std::vector<std::vector<long double>> states;
   std::uint64_t evaluations = 0;  // of the right-hand side
   double cpu_s = 0.0;             // of this thread
-  std::string failure;            // why there are no states; empty when there are
+  std::string failure;            // the reason why there are no states; empty when there are
 };
 
 // All of them restart at the events, exactly there, and end a step at each checkpoint.   throws  as check(motion)

@@ -1,5 +1,5 @@
 #pragma once
-// What all codes of the ODE oracle share: the walk from checkpoint to checkpoint and from event to event.
+// The common part of all codes of the ODE oracle: the walk from checkpoint to checkpoint and from event to event.
 
 #include <ctime>
 #include <utility>

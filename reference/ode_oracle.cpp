@@ -29,7 +29,7 @@ NetworkMotion disturbed(NetworkMotion motion, double edge) {
   return motion;
 }
 
-// The disturbance that is left of the shift once it is rounded to the doubles around x is what growth is told from.
+// Growth is measured from the actual disturbance: the shift after rounding to the doubles around x.
 std::vector<double> gains(const NetworkMotion& motion, const CodeRun& run, double edge, double step_times_rate) {
   const NetworkMotion twin = disturbed(motion, edge);
   const CodeRun other = run_odeint_fehlberg(twin, step_times_rate);

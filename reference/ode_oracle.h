@@ -1,6 +1,6 @@
 #pragma once
-// Certified trajectories: the motion of a spring network as two codes find it, independent ones where there are, and
-// how far they agree.
+// Certified trajectories: the motion of a spring network as two codes find it, independent ones if available, and how
+// far they agree.
 
 #include <cstdint>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace dartboard::reference {
 
-/// One code beside the reference.
+/// One code compared with the reference.
 struct CodeAgreement {
   std::string code;
   double distance = 0.0;  // from the reference: max over checkpoints of E_x (error_norms.h) [mean edge lengths]
   std::uint64_t evaluations = 0;
   double cpu_s = 0.0;
-  std::string failure;  // why it found nothing; empty when it did
+  std::string failure;  // the reason why it has no result; empty when it has one
 };
 
 struct CertifyOptions {
@@ -32,15 +32,15 @@ struct CertifyOptions {
 /// The reference of a scene.
 struct CertifiedMotion {
   std::vector<PointState> states;     // at the checkpoints, by the points of their interval's network
-  std::vector<std::size_t> interval;  // of each checkpoint: which network is its
+  std::vector<std::size_t> interval;  // by checkpoint: the number of its network
   double edge = 1.0;                  // mean rest length at the start [m]
-  // The two finest runs of Odeint agree, and so does a code of SUNDIALS (where there is none: the extrapolation).
+  // The two finest runs of Odeint agree, and so does a code of SUNDIALS (without SUNDIALS: the extrapolation).
   bool accepted = false;
-  bool independent = false;      // one of the others that agree is of another library than the reference
+  bool independent = false;      // one of the other codes that agree is from a library other than the reference's
   double self_difference = 0.0;  // of the two finest runs of Odeint [mean edge lengths]
   double agreement = 0.0;        // the smallest distance of any other code; infinite when all failed
-  // Errors below this are not measured: 100 times what is known of the reference's own error, the larger of the
-  // agreement and what the self-difference leaves to the finest run; at least 10 times the rounding of `states`.
+  // Errors below this are not measured: 100 times the known error of the reference, which is the larger of the
+  // agreement and the share of the self-difference for the finest run; at least 10 times the rounding of `states`.
   double floor = 0.0;
   std::vector<double> gain;          // at each checkpoint: growth of a disturbance of 1e-12 edges; empty without twin
   std::vector<CodeAgreement> codes;  // Odeint's runs from the coarsest to the reference, then the others
@@ -50,19 +50,19 @@ struct CertifiedMotion {
 
 /// Certify the motion: Odeint's finest run is the reference, and another code must find the same.
 ///
-/// The others are ARKODE, CVODE and, if asked for or where there is no SUNDIALS, Odeint's Bulirsch-Stoer extrapolation:
-/// another kind of method than Runge-Kutta, but of the same library.
+/// The others are ARKODE, CVODE and, if asked for or without SUNDIALS, Odeint's Bulirsch-Stoer extrapolation: a method
+/// of another kind than Runge-Kutta, but from the same library.
 /// throws  as check(motion)
 CertifiedMotion certify(const NetworkMotion& motion, const CertifyOptions& options = {});
 
 /// A state of a run in doubles.
 PointState to_points(const std::vector<long double>& y);
 
-/// How far two runs that have states are apart: the largest distance over the checkpoints [mean edge lengths]; NaN
+/// The distance of two runs that have states: the largest over the checkpoints [mean edge lengths]; NaN
 /// stays.
 double distance(const NetworkMotion& motion, const CodeRun& a, const CodeRun& b, double edge);
 
-/// E_x (error_norms.h) of two states of a network, in units of `edge`. NaN where a number is not finite.
+/// E_x (error_norms.h) of two states of a network, in units of `edge`. NaN if a number is not finite.
 double position_distance(const SpringNetwork& network, const std::vector<long double>& a,
                          const std::vector<long double>& b, double edge);
 

@@ -45,7 +45,7 @@ void require(int flag, const char* call) {
   if (flag < 0) throw SolverError(fmt::format("{} answers {}", call, flag));
 }
 
-// What both solvers need: a context, the state as one of SUNDIALS' vectors, tolerances, and the rates.
+// The common part of both solvers: a context, the state as one of SUNDIALS' vectors, tolerances, and the rates.
 class Common {
  public:
   Common(const SpringNetwork& network, const std::vector<double>& y, double absolute) : rates_(network) {
@@ -71,7 +71,7 @@ class Common {
     return 0;
   }
 
-  // Errors come back as codes and end in an exception; none is printed.
+  // Errors are returned as codes and end in an exception; they are not printed.
   static void silent(int, const char*, const char*, char*, void*) {}
 
   SUNContext context() { return context_.get(); }

@@ -46,7 +46,7 @@ Rebuilt rebuild(const Mesh& mesh, const Material& material) {
     check_cell(mesh, c);
     const auto cell = mesh.cell(c);
 
-    // eq. (1): an equal share of the mass of the cell to each of its points; handedness is no matter of mass
+    // eq. (1): an equal share of the mass of the cell to each of its points; handedness does not affect mass
     const double measure = exact_measure(mesh, c);
     const double share = material.density * measure / static_cast<double>(cell.size());
     for (std::uint32_t p : cell) out.mass[p] += share;

@@ -1,5 +1,5 @@
 #pragma once
-// Masses and springs from a soup of cells: what an incremental body must still agree with after any change.
+// Masses and springs from an unordered list of cells, with which an incremental body must agree after any change.
 
 #include <cstdint>
 #include <vector>
@@ -24,10 +24,10 @@ struct Rebuilt {
   std::vector<std::uint32_t> cells;  // how many cells meet at the edge of springs[e]
 };
 
-/// Everything eq. (1) and the rule of parallel springs say about a body, from its points and cells alone.
+/// The mechanics of a body by eq. (1) and the rule of parallel springs, from its points and cells alone.
 ///
 /// Volumes and areas are exact and rounded once. Edges are found by sorting the point pairs of the cells' edges; no
-/// other topology is known, so points and edges that only touch count as one.
+/// other topology is used, so points and edges that only touch count as one.
 ///
 /// throws  InputError if a cell names a point that does not exist, or one point twice
 /// cost    O(C log C) for C cells

@@ -53,7 +53,7 @@ void add_springs(const SpringNetwork& network, std::span<const Eigen::Vector3d> 
   }
 }
 
-// K of an element at rest, which all laws have in common: linear elasticity; times a weight.
+// K of an element at rest times a weight; for all laws it is that of linear elasticity.
 template <class Weight>
 void add_elements(const SpringNetwork& network, Weight&& weight, const std::vector<Eigen::Vector3d>& p,
                   std::vector<Eigen::Vector3d>& result) {

@@ -30,7 +30,7 @@ struct SpringNetwork {
   std::size_t point_count() const { return mass.size(); }
 };
 
-/// Those of a body at rest in the problem's mesh, by `rebuild`; points are the mesh's.
+/// The network of a body at rest in the problem's mesh, by `rebuild`; points are the mesh's.
 ///
 /// throws  InputError as rebuild does, and as `check` does
 SpringNetwork spring_network(const Problem& problem);
@@ -69,7 +69,7 @@ class NetworkRates {
       dx[i] = v[i];
       dv[i] = Real(0);
     }
-    // forces first, gathered where the accelerations will be
+    // forces first, summed in the places of the accelerations
     for (const Line& s : springs_) {
       const Real e[3] = {x[s.b] - x[s.a], x[s.b + 1] - x[s.a + 1], x[s.b + 2] - x[s.a + 2]};
       const Real length = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
@@ -105,7 +105,7 @@ class NetworkRates {
 
  private:
   struct Line {
-    std::size_t a, b;  // where the coordinates of the ends begin
+    std::size_t a, b;  // the places of the first coordinates of the ends
     Real stiffness, damping, rest_length;
   };
   const SpringNetwork* network_;

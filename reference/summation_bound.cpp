@@ -21,8 +21,8 @@
 //
 // The sum of a point with p springs, one drag term and in some codes the weight takes at most p + 2 additions in any
 // order: gamma_{p+2} times the sum of the absolute values. Vectors: |e_k| <= g |f_k| in every coordinate gives
-// |e| <= g |f|, so all is said with Euclidean lengths. The drag viscosity m v has n + 1 from the mass, 2 products.
-// What is left out are products of two gammas and the rounding of this very computation, both below 1e-10 of the
+// |e| <= g |f|, so Euclidean lengths suffice. The drag viscosity m v has n + 1 from the mass, 2 products. Left out are
+// products of two gammas and the rounding of this computation itself, both below 1e-10 of the
 // bound; `slack` covers them.
 
 #include "reference/summation_bound.h"
@@ -65,7 +65,7 @@ struct Body {
         springs(p.mesh.points.size()),
         fixed(p.mesh.points.size()),
         mass_rounding(p.mesh.points.size()) {
-    // its springs are products and sums of other numbers, whose rounding is not in the bound
+    // such springs are products and sums of other numbers, whose rounding is not in the bound
     if (p.material.young > 0.0) throw InputError("a bound for a material with a Young's modulus; expected a stiffness");
     for (std::size_t c = 0; c < p.mesh.cell_count(); ++c)
       for (const std::uint32_t node : p.mesh.cell(c)) {
@@ -83,7 +83,7 @@ struct Body {
     }
   }
 
-  // The state that an implementation makes of `state`: fixed points do not move.
+  // The state that an implementation starts from: in it fixed points do not move.
   PointState held(PointState state) const {
     if (state.x.size() != fixed.size() || state.v.size() != fixed.size())
       throw InputError(fmt::format("a state of {} positions and {} velocities for {} points", state.x.size(),
@@ -94,16 +94,16 @@ struct Body {
   }
 };
 
-// What the springs do to a point.
+// The forces of the springs on a point.
 struct Pull {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   double magnitude = 0.0;                       // sum of |f_ij|
   double error = 0.0;                           // sum of E_ij
-  double by_position = 0.0, by_velocity = 0.0;  // how much `force` can change per change of all x, of all v
+  double by_position = 0.0, by_velocity = 0.0;  // the largest change of `force` per change of all x, of all v
 };
 
-// All pulls in a state of which x is known up to ex and v up to ev; false when that is not enough to say how they
-// depend on it. The derivative of a spring's force by d is k (u u' + (1 - L / l) (1 - u u')) plus that of the damping:
+// All pulls in a state of which x is known up to ex and v up to ev; false when that does not bound how they depend on
+// the state. The derivative of a spring's force by d is k (u u' + (1 - L / l) (1 - u u')) plus that of the damping:
 // the norm of the first is k max(1, |1 - L / l|), the norm of the second c |dv| / l. By dv it is c u u'.
 bool pull_points(const Body& body, const Vectors& x, const Vectors& v, double ex, double ev, std::vector<Pull>& pulls) {
   pulls.assign(x.size(), {});
@@ -117,7 +117,7 @@ bool pull_points(const Body& body, const Vectors& x, const Vectors& v, double ex
     const double shortest = l - 4.0 * ex;
     const bool known = 4.0 * ex <= 1e-4 * l && l > 0.0;  // also false for NaN
     if (!known && ex > 0.0) return false;
-    if (l == 0.0) continue;  // exactly zero for everyone
+    if (l == 0.0) continue;  // exactly zero in every implementation
 
     const Eigen::Vector3d u = d / l;
     const Eigen::Vector3d f = (s.stiffness * (l - L) + s.damping * dv.dot(u)) * u;

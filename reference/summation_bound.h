@@ -1,5 +1,5 @@
 #pragma once
-// How far two correct implementations of the mechanics may drift apart because they round differently.
+// Bounds of how far two correct implementations of the mechanics may drift apart because they round differently.
 
 #include <vector>
 
@@ -13,15 +13,15 @@ struct StateBound {
   double velocity;  // m/s
 };
 
-/// For every point, how far two implementations' f_i - viscosity m_i v_i may differ in `state`, as the Euclidean
-/// length of the difference [N]. It holds for every order of sums and for every usual way of writing the formula, with
+/// For every point, a bound of the difference of two implementations' f_i - viscosity m_i v_i in `state`, as the
+/// Euclidean length [N]. It holds for every order of sums and for every usual way of writing the formula, with
 /// IEEE doubles, correctly rounded division and square root, with or without fused multiply-add, and no underflow.
-/// The derivation is in the source. Compare directly: the factor two for two implementations is inside.
+/// The derivation is in the source. Compare directly: the factor two for two implementations is included.
 ///
 /// throws  InputError if the mesh is malformed or `state` has another number of points
 std::vector<double> force_bound(const Problem& problem, const PointState& state);
 
-/// How far two implementations may be apart after `steps` steps of classical Runge-Kutta from the same `start`.
+/// A bound of the distance of two implementations after `steps` steps of classical Runge-Kutta from the same `start`.
 ///
 /// It is a bound, not an estimate: rounding and its growth are followed stage by stage along the run, with Lipschitz
 /// constants of the accelerations that hold in a tube around it. Growth is that of the absolute values, about

@@ -1,25 +1,25 @@
-# Flags every target of ours is built with. They live on a target, never in CMAKE_CXX_FLAGS, so that nobody who adds
-# the project as a subdirectory inherits them.
+# Flags for all our targets. They are properties of a target, never in CMAKE_CXX_FLAGS, so that projects that add this
+# one as a subdirectory do not inherit them.
 add_library(dartboard_options INTERFACE)
 target_compile_features(dartboard_options INTERFACE cxx_std_20)
 target_include_directories(dartboard_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(dartboard_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual)
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  # for Clang -Wconversion is of signs too, and of arithmetic between Eigen's signed and the library's unsigned sizes
+  # with Clang -Wconversion warns of signs too, as in arithmetic with Eigen's signed and the library's unsigned sizes
   target_compile_options(dartboard_options INTERFACE -Wno-sign-conversion)
 endif()
-if(PROJECT_IS_TOP_LEVEL)  # another compiler may warn of what this one does not
+if(PROJECT_IS_TOP_LEVEL)  # another compiler may have further warnings
   target_compile_options(dartboard_options INTERFACE -Werror)
 endif()
-# The walks promise equal bits. Fusing a*b+c changes bits, and is the one such transform on by default ...
+# The walks promise equal bits. Fusing a*b+c changes bits, and is the only such transformation on by default ...
 set(equal_bits -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
   list(APPEND equal_bits -fno-tree-slp-vectorize)
 endif()
-# Eigen calls fused instructions by itself where the target has them, which no flag of the compiler stops, and sums as
-# many numbers at once as fit the target's registers. So it is shown a target that has SSE alone.
+# Eigen calls fused instructions by itself if the target has them, which no flag of the compiler prevents, and sums as
+# many numbers at once as fit the target's registers. So AVX and FMA are hidden from it, and it uses SSE alone.
 include(CheckCXXSourceCompiles)
 check_cxx_source_compiles("#if !defined(__AVX__) && !defined(__FMA__)\n#error none\n#endif\nint main() {}"
   DARTBOARD_WIDE_VECTORS)
@@ -34,12 +34,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(dartboard_options INTERFACE -Wno-restrict)
 endif()
 if(DARTBOARD_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # what a precompiled header brings is no longer known to be the library's, so false alarms in std::string and Eigen show
+  # a precompiled header is no longer known to be a library's, so false alarms in std::string and Eigen are shown
   target_compile_options(dartboard_options INTERFACE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
-# Under sanitizers compiling is what takes the time: twice as long with the checks of undefined behaviour as with those
-# of addresses alone. So the former are for what computes (dartboard_folder), the latter for everything.
+# Under sanitizers compiling takes most of the time: twice as long with the checks of undefined behaviour as with those
+# of addresses alone. So the former are for code that computes (dartboard_folder), the latter for everything.
 if(DARTBOARD_SANITIZE)
   target_compile_options(dartboard_options INTERFACE -fsanitize=address -fno-omit-frame-pointer)
   target_link_options(dartboard_options INTERFACE -fsanitize=address,undefined)
@@ -54,9 +54,9 @@ if(DARTBOARD_COVERAGE)
   target_link_options(dartboard_options INTERFACE --coverage)
 endif()
 
-# dartboard_precompile(NAME [LIGHT] HEADERS...): a precompiled header that the folders added after it, in this room, share:
-# what most of their sources include and what costs most to read. LIGHT ones, and folders, are compiled with -O1: nothing
-# in them takes time when it runs, and optimising is most of what they would take now.
+# dartboard_precompile(NAME [LIGHT] HEADERS...): a precompiled header for the folders added after it in this room:
+# the headers that most of their sources include and that cost most to read. LIGHT headers and folders are compiled with
+# -O1: none of their code takes long to run, and optimising would be most of the time to compile them.
 set(dartboard_light $<$<CONFIG:Release>:-O1>)
 if(DARTBOARD_SANITIZE)
   set(dartboard_light -O0)
@@ -76,7 +76,7 @@ function(dartboard_precompile name)
   endif()
 endfunction()
 
-# dartboard_libraries(VARIABLE NAMES...): the targets of folders; other names stay what they are.
+# dartboard_libraries(VARIABLE NAMES...): the targets of folders; other names stay unchanged.
 function(dartboard_libraries variable)
   set(libraries)
   foreach(name IN LISTS ARGN)
@@ -91,7 +91,7 @@ function(dartboard_libraries variable)
   set(${variable} ${libraries} PARENT_SCOPE)
 endfunction()
 
-# dartboard_sees(PATH FOLDERS...): what the files of a folder may include, for the test that reads them.
+# dartboard_sees(PATH FOLDERS...): the folders that the files of a folder may include, for the test that reads them.
 function(dartboard_sees path)
   list(JOIN ARGN " " folders)
   set_property(GLOBAL APPEND_STRING PROPERTY dartboard_folders "${path}: ${folders}\n")
@@ -99,13 +99,13 @@ endfunction()
 
 # dartboard_folder(PATH [SEES FOLDERS...] [LINK LIBRARIES...] [LIGHT] [TOGETHER [APART SOURCES...]] [NOT_PRECOMPILED])
 #
-# TOGETHER: where DARTBOARD_TOGETHER is on, its sources are compiled eight at a time, which saves most of what reading
-# headers takes; those APART are not, as they have names of their own that others have, too. Not for kernels: what is
-# inlined, and so what an instruction count says, would hang on their neighbours.
+# TOGETHER: if DARTBOARD_TOGETHER is on, its sources are compiled eight at a time, which saves most of the time to read
+# headers; those APART are not, because they define names that others define, too. Not for kernels: inlining, and so
+# the instruction counts, would depend on their neighbours.
 #
-# A library of the sources in a folder, not of those below it. SEES says which folders its files may include beside
-# core/plain, which all may; tests/program/includes_test.cpp holds them to it, and each has to stand above it, so that
-# there is no circle.
+# A library of the sources in a folder, not of those below it. SEES lists the folders that its files may include, besides
+# core/plain, which all may; tests/program/includes_test.cpp checks that, and that each folder listed is added before it,
+# so that there is no circle.
 function(dartboard_folder path)
   cmake_parse_arguments(ARG "NOT_PRECOMPILED;LIGHT;TOGETHER" "" "SEES;LINK;APART" ${ARGN})
   dartboard_sees(${path} ${ARG_SEES})
@@ -123,7 +123,7 @@ function(dartboard_folder path)
     return()
   endif()
   add_library(${target} STATIC ${sources})
-  # our flags are for our sources alone, not for those of who links to them
+  # our flags are for our sources alone, not for those of projects that link to them
   target_compile_options(${target} PRIVATE $<TARGET_PROPERTY:dartboard_options,INTERFACE_COMPILE_OPTIONS>)
   if(ARG_LIGHT)
     target_compile_options(${target} PRIVATE ${dartboard_light})

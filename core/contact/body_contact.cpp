@@ -18,17 +18,17 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// What a place may be outside of a face within the body, over the tetrahedron's altitude there.
+/// The distance that a place may be outside of a face within the body, over the tetrahedron's altitude there.
 constexpr double seam = 0x1p-40;
 /// Depths below this share of the coordinates are rounding.
 constexpr double rounding = 0x1p-46;
 
-/// Where a vertex is, on its way in a step if it is on one.
+/// The place of a vertex, within a step if there is one.
 struct PlaceNow {
   const StagePlaces& at;
   Vector3d operator()(std::uint32_t i) const { return at.w.empty() ? at.x[i] : Vector3d(at.x[i] + at.t * at.w[i]); }
 };
-/// After it has moved on.
+/// The place of a vertex after it has moved on.
 struct PlaceAfter {
   const StagePlaces& at;
   std::span<const Vector3d> step;
@@ -40,7 +40,7 @@ double volume_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { retu
 
 enum class Side { inside, outside, inverted };
 
-/// Where y is by its weights over the corners.
+/// The side of y by its weights over the corners.
 template <class Place>
 Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, std::array<double, 4>& weights) {
   const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
@@ -58,7 +58,7 @@ Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, st
   return Side::inside;
 }
 
-/// The way out of the tetrahedron for the sample at y. False where y is on the boundary but for rounding.
+/// The way out of the tetrahedron for the sample at y. False if y is on the boundary, to rounding.
 template <class Place>
 bool find_way_out(const SkinSolids& solids, const SkinSample& sample, const Vector3d& y, const Place& place,
                   BodyTouch& touch) {
@@ -110,7 +110,7 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
   }
 }
 
-/// One sample among some tetrahedra, in the order of their cells and parts.
+/// Tests one sample with some tetrahedra, in the order of their cells and parts.
 template <class Place, class Tetrahedra, class F>
 void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const Place& place, const F& found) const {
   const SkinSample& sample = samples_[s];
@@ -187,7 +187,7 @@ ContactSite BodyContact::tangential_site(const BodyTouch& touch) const {
   return site;
 }
 
-// ---- what is told
+// ---- reports
 
 BodyContactState BodyContact::state_at(std::span<const Vector3d> x) const {
   BodyContactState state;
@@ -227,7 +227,7 @@ std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
       while (still != now.end() && still->sample < t.sample) ++still;
       if (still != now.end() && still->sample == t.sample) continue;
       if (std::ranges::find(lost_, t.sample, &BodyTouch::sample) != lost_.end()) continue;
-      // it has left: outwards is where its way out leads to, from the triangle that it was nearest to
+      // it has left: its way out leads outwards, from the triangle that it was nearest to
       const SkinTriangle& triangle = solids_.triangles()[t.triangle];
       const Vector3d y = mean_of(samples_[t.sample], place), a = place(triangle.nodes[0]);
       const Vector3d outwards = (place(triangle.nodes[1]) - a).cross(place(triangle.nodes[2]) - a);
@@ -262,7 +262,7 @@ double BodyContact::largest_stiffness(std::uint32_t sample, double share_of_dept
   return largest;
 }
 
-// Of a contact k w w' n n' with the weights w of a site, the row of a node has |w| times the sum of all |w|, which is
+// In a contact k w w' n n' with the weights w of a site, the row of a node has |w| times the sum of all |w|, which is
 // 2. Weights of the samples at a node are 1/n, and those of triangles there at most 1.
 double BodyContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {
   std::vector<double> own(inverse_mass.size(), 0.0);
@@ -315,7 +315,7 @@ void BodyContact::add_force_sizes(const StagePlaces& at, std::span<double> size)
     for (std::size_t k = 0; k < site.count; ++k) size[site.nodes[k]] += std::abs(site.weights[k]) * force;
   };
   for (const BodyTouch& t : touching(at)) {
-    // the depth is a difference of coordinates, and the line turns with what it is wrong by
+    // the depth is a difference of coordinates, and its rounding turns the line
     const ContactSite site = normal_site(t);
     double coordinates = 0.0;
     for (std::size_t k = 0; k < site.count; ++k) coordinates = std::max(coordinates, place(site.nodes[k]).norm());
@@ -406,7 +406,7 @@ double BodyContact::power(std::span<const std::uint32_t> pieces, std::span<const
 void BodyContact::for_each_tangent(const StagePlaces& at, Compression, const VisitTangent& visit) const {
   find_touching(PlaceNow{at});
   const auto tangent_of = [this](const BodyTouch& t) -> Matrix3d {
-    // along the line; that it turns is left out
+    // along the line; its rotation is neglected
     return 2.0 * laws_[t.law].stiffness(t.area, t.depth) * (t.normal * t.normal.transpose());
   };
   auto touch = touching_.begin();
@@ -434,7 +434,7 @@ void BodyContact::for_each_tangent(const StagePlaces& at, Compression, const Vis
 }
 
 void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
-  // twice for the side of its own, and as much again for what the other side's samples do to its nodes
+  // twice for its own side, and the same again for the effect of the other side's samples on its nodes
   for (std::uint32_t k = 0; k < samples_.size(); ++k)
     visit_tangent(samples_[k], 4.0 * largest_stiffness(k, 1.0) * Matrix3d::Identity(), visit);
   std::array<Matrix3d, 10> blocks;

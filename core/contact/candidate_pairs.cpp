@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A tetrahedron that reaches over more cells of the grid than this is asked for by every sample.
+/// A tetrahedron that covers more cells of the grid than this is tested with every sample.
 constexpr double most_cells = 512.0;
-/// What rounding may take of a margin: of the size of what is looked at.
+/// The allowance for rounding in a margin, relative to the size of the coordinates.
 constexpr double slack = 0x1p-30;
 
 std::size_t hash_of(double x, double y, double z) {
@@ -44,7 +44,7 @@ void ContactGroups::set(std::uint32_t a, std::uint32_t b, std::uint32_t law) {
   table_[a * count_ + b] = table_[b * count_ + a] = law;
 }
 
-// ---- which pairs, wherever they are
+// ---- which pairs, whatever their places
 
 void MayTouch::look_at(const SkinSample& sample) {
   sample_ = &sample;
@@ -104,7 +104,7 @@ std::size_t CandidatePairs::bucket_of(const Vector3d& y) const {
   return hash_of(std::floor(cell[0]), std::floor(cell[1]), std::floor(cell[2])) & (bucket_first_.size() - 2);
 }
 
-// Twice over all cells that the boxes reach over: to count, and to fill.
+// Two passes over all cells that the boxes cover: to count, and to fill.
 void CandidatePairs::put_into_grid() {
   const std::size_t buckets = std::bit_ceil(2 * std::max<std::size_t>(boxes_.size(), 1));
   bucket_first_.assign(buckets + 1, 0);
@@ -112,7 +112,7 @@ void CandidatePairs::put_into_grid() {
   const auto for_each_bucket = [&](const Box& box, auto&& visit) {
     const Vector3d low = (box.low / cell_size_).array().floor(), high = (box.high / cell_size_).array().floor();
     const Vector3d cells = high - low + Vector3d(1, 1, 1);
-    // of what is no number, too
+    // also false for NaN
     if (!(cells[0] * cells[1] * cells[2] <= most_cells && low.cwiseAbs().maxCoeff() < 1e15)) return false;
     for (double x = low[0]; x <= high[0]; ++x)
       for (double y = low[1]; y <= high[1]; ++y)
@@ -123,7 +123,7 @@ void CandidatePairs::put_into_grid() {
     if (!for_each_bucket(boxes_[t], [this](std::size_t bucket) { ++bucket_first_[bucket]; })) everywhere_.push_back(t);
   for (std::size_t k = 0; k < buckets; ++k) bucket_first_[k + 1] += bucket_first_[k];
   bucket_entry_.resize(bucket_first_[buckets]);
-  // filled from the back of each, so that what was its end becomes its beginning
+  // each bucket is filled from the back, so that the mark of its end becomes that of its beginning
   for (std::uint32_t t = 0; t < boxes_.size(); ++t)
     for_each_bucket(boxes_[t], [this, t](std::size_t bucket) { bucket_entry_[--bucket_first_[bucket]] = t; });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Which samples are near which tetrahedra: a list with a margin, that holds until something has moved by half of it.
+// Which samples are near which tetrahedra: a list with a margin, valid until a vertex has moved by half of it.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,9 +17,9 @@ class ContactGroups {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// throws  InputError where the pair has one
+  /// throws  InputError if the pair already has a law
   void set(std::uint32_t a, std::uint32_t b, std::uint32_t law);
-  /// The number of their law; none where they do not touch.
+  /// The number of their law; `none` if they do not touch.
   std::uint32_t law(std::uint32_t a, std::uint32_t b) const {
     return a < count_ && b < count_ ? table_[a * count_ + b] : none;
   }
@@ -31,12 +31,12 @@ class ContactGroups {
   std::vector<std::uint32_t> table_;
 };
 
-/// Whether a sample may be in contact with a tetrahedron wherever both are: groups that may touch, and no vertex shared
+/// Whether a sample may touch a tetrahedron, whatever their places: groups that may touch, and no vertex shared
 /// with a cell at one of the sample's own nodes.
 class MayTouch {
  public:
   MayTouch(const SkinSolids& solids, const ContactGroups& groups) : solids_(solids), groups_(groups) {}
-  /// What is asked about next.
+  /// Sets the sample of the next calls.
   void look_at(const SkinSample& sample);
   bool operator()(const SkinTetrahedron& tetrahedron);
   std::size_t bytes() const { return near_.size() * sizeof(std::uint64_t); }
@@ -54,7 +54,7 @@ class MayTouch {
 };
 
 /// All pairs whose sample is less than a margin beyond the bounding box of the tetrahedron, and may touch it: by
-/// sample, of each the tetrahedra in the order of their cells and parts. Found with a grid of the tetrahedra, hashed.
+/// sample, for each the tetrahedra in the order of their cells and parts. Found with a hashed grid of the tetrahedra.
 class CandidatePairs {
  public:
   /// The candidates of a sample: from `first` on in `tetrahedra()`.
@@ -77,7 +77,7 @@ class CandidatePairs {
   std::span<const Row> rows() const { return rows_; }
   std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }
   std::size_t pair_count() const { return tetrahedra_.size(); }
-  /// How often a list has been made.
+  /// The number of times a list has been made.
   std::uint64_t times_made() const { return made_; }
   std::size_t bytes() const;
 
@@ -106,7 +106,7 @@ class CandidatePairs {
 
   std::vector<Row> rows_;
   std::vector<std::uint32_t> tetrahedra_;
-  // when the list was made: nodes of tetrahedra and where they were; where they may not have moved from [m^2]
+  // nodes of tetrahedra, their places when the list was made; the squared distance they may move [m^2]
   std::vector<std::uint32_t> watched_;
   std::vector<Eigen::Vector3d> where_;
   double limit_ = 0.0;

@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 using InverseMass = std::span<const double>;
 using Fixed = const HeldVertices&;
 
-// Sweeps over contacts that share vertices in one step, the next step going on from there; and the change of a force,
-// relative to what it has at most, that ends them.
+// The most sweeps over contacts that share vertices in one step, from whose result the next step continues; and the
+// change of a force, relative to the largest allowed, below which they end.
 constexpr int most_sweeps = 4;
 constexpr double settled = 1e-12;
 
@@ -21,15 +21,15 @@ double mobility_of(std::uint32_t i, InverseMass inverse_mass, Fixed fixed) {
   return fixed.is_still(i) ? 0.0 : inverse_mass[i];
 }
 
-/// What a force accelerates a vertex by [1/kg], along its own direction.
+/// The acceleration of a vertex per force [1/kg], along the direction of the force.
 double mobility_along(std::uint32_t i, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
   const double all = mobility_of(i, inverse_mass, fixed);
   const HeldAxes held = fixed.axes(i);
   return held == 0 ? all : all * free_part(held, unit).squaredNorm();
 }
 
-/// What a force at the sample accelerates its place by [1/kg]: each node has 1/n of it, and 1/n of the place. Without a
-/// direction, where no axis is held.
+/// The acceleration of a sample's place per force there [1/kg]: each node has 1/n of the force, and 1/n of the place.
+/// This is for any direction, if no axis is held.
 double mobility_of(const SkinSample& sample, InverseMass inverse_mass, Fixed fixed) {
   double sum = 0.0;
   for (const std::uint32_t i : sample.corners()) sum += mobility_of(i, inverse_mass, fixed);
@@ -41,7 +41,7 @@ double mobility_along(const SkinSample& sample, const Vector3d& unit, InverseMas
   return sum / static_cast<double>(sample.count * sample.count);
 }
 
-/// A force or an impulse at the sample, over the masses of its nodes.
+/// Apply a force or an impulse at the sample, over the masses of its nodes.
 void push(const SkinSample& sample, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
           std::span<Vector3d> v) {
   const Vector3d share = impulse / static_cast<double>(sample.count);
@@ -70,26 +70,26 @@ void push(const ContactSite& site, const Vector3d& impulse, InverseMass inverse_
                                   (site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed)) * impulse);
 }
 
-/// What stands behind a contact and is stopped by it [kg].
+/// The mass behind a contact, which the contact has to stop [kg].
 double mass_behind(const ContactLaw& law, double area, double mobility) {
   return law.mass_behind > 0.0 ? law.mass_behind * area : 1.0 / mobility;
 }
 
-/// What friction has at most [N] in a step of h, where places approach each other at this speed from the depth at its
+/// The largest friction [N] in a step of h, in which places approach each other at this speed from the depth at its
 /// beginning to that half way.
 double most_friction(const ContactLaw& law, double damping_ratio, double area, double mass, double depth,
                      double depth_half_way, double approach, double h) {
   const double pushed =
       law.force(area, depth_half_way) + law.damping(damping_ratio, area, mass, depth_half_way) * approach;
-  // A step that is long for the contact comes in deeper than it will be: its force cannot have more than the force at
-  // the beginning and what turns the normal speed.
+  // A step that is long for the contact overestimates the depth: the normal force is at most the force at the beginning
+  // plus the force that reverses the normal speed.
   const double turned = law.force(area, depth) + (1.0 + law.restitution) * mass * std::max(0.0, approach) / h;
   return law.friction * std::clamp(pushed, 0.0, turned);
 }
 
 Vector3d across(const Vector3d& v, const Vector3d& normal) { return v - v.dot(normal) * normal; }
 
-/// Drawn in to a size that is allowed.
+/// The force, shortened to the size allowed.
 Vector3d at_most(const Vector3d& force, double size) {
   const double now = force.norm();
   return now > size ? Vector3d(size / now * force) : force;
@@ -147,7 +147,7 @@ void ContactImpulses::take_back() {
   if (bodies_ != nullptr) bodies_->frozen_friction_to_set().clear();
   losses_ = losses_at_begin_;
   if (!has_friction()) return;
-  // where `begin` has put them
+  // the obstacles are where `begin` has put them
   std::swap(before_, now_);
   std::swap(bodies_before_, bodies_now_);
 }
@@ -157,7 +157,7 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   const EnergyChange work = obstacles_->work_of_placing(time, x);
   losses_.supplied += work.value;
   obstacles_->place_at(time);
-  return work.sizes > 0.0;  // what moves elsewhere changes no force
+  return work.sizes > 0.0;  // obstacles that move elsewhere change no force
 }
 
 bool ContactImpulses::damp(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
@@ -185,7 +185,7 @@ bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_ma
                    c = law.damping(damping_ratio_[o], s.area, mass, in.depth),
                    lost = one_minus_exp_of_minus(c * mobility * h), impulse = -speed * lost / mobility;
       if (impulse == 0.0) continue;
-      // what moves whatever acts on it: the obstacle, and nodes that are driven
+      // the parts that move independently of forces: the obstacle, and driven nodes
       double driven = 0.0;
       for (const std::uint32_t i : s.corners())
         if (mobility_of(i, inverse_mass, fixed) == 0.0) driven += v[i].dot(in.normal) / static_cast<double>(s.count);
@@ -296,14 +296,14 @@ bool ContactImpulses::set_friction(double time, double h, InverseMass inverse_ma
     now_[k].force = at_most(now_[k].force, most_[k]);
     push(obstacles_->samples()[now_[k].sample], now_[k].force, inverse_mass, fixed, acceleration_);
   }
-  const std::size_t first = now_.size();  // of those between bodies
+  const std::size_t first = now_.size();  // place of the first contact between bodies
   for (std::size_t k = 0; k < bodies_now_.size(); ++k) {
     bodies_now_[k].force = at_most(bodies_now_[k].force, most_[first + k]);
     push(bodies_now_[k].site, bodies_now_[k].force, inverse_mass, fixed, acceleration_);
   }
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool done = true;
-    // What would stop it by the end of the step; or, against the way that it goes half way there, what is allowed.
+    // The force that stops it by the end of the step; or the largest allowed, against its velocity half way there.
     const auto relax = [&](const Vector3d& speed, const Vector3d& others, double mobility, double most, Vector3d& old) {
       Vector3d force = -(speed + others) / mobility;
       if (force.norm() > most) {

@@ -1,5 +1,5 @@
 #pragma once
-// What contact takes from a body around each step: speed lost in a bounce, and friction.
+// The losses by contact around each step: speed lost in a bounce, and friction.
 
 #include <Eigen/Core>
 #include <concepts>
@@ -16,11 +16,11 @@
 
 namespace dartboard {
 
-/// Sums over a run [J]: every change of energy that is not of a conservative step is in one of these. What a body
-/// has in all, its contact energy included, changes by supplied - damped - rubbed.
+/// Sums over a run [J]: every change of energy that is not of a conservative step is in one of these. The total energy
+/// of a body, its contact energy included, changes by supplied - damped - rubbed.
 struct ContactLosses {
   double damped = 0.0;    // by restitution below 1
-  double rubbed = 0.0;    // by friction; a step in which what rubs turns back may return some of its own
+  double rubbed = 0.0;    // by friction; a step in which the sliding turns back may return some of its own
   double supplied = 0.0;  // the work of obstacles that move, and of driven vertices against the impulses
 
   template <class Archive>
@@ -47,56 +47,56 @@ class HeldVertices {
   std::span<const HeldAxes> axes_;
 };
 
-/// What is done around each step of any integrator. Let contact be the term that the step sees:
+/// The work around each step of any integrator, whose step has the contact terms among its forces:
 ///
 ///     restart if begin(t, h, ...)      half of the damping; obstacles to t + h/2; friction is set
-///     step                             conservative, obstacles and friction forces standing still
+///     step                             conservative, with constant obstacles and friction forces
 ///     restart if end(t + h, ...)       friction is taken away; obstacles to t + h; half of the damping
 ///
 /// **Damping**, per sample and obstacle in this order: the normal speed relative to the obstacle decays exactly, at
 /// frozen places, as exp(- c(d) h / 2 / m) with m the mass that an impulse at the sample moves, 1 / (sum of 1 / m_i
 /// over its n nodes / n^2): never past zero, however stiff.
 ///
-/// **Friction** is a force that stands still during the step. It is chosen so that the tangential speed relative to the
-/// obstacle, as it would be at the end of the step by the accelerations at its beginning, is zero: - m (v_t / h + a_t);
-/// or as much of that as mu times the normal force allows, which is that of the contact and its damping at the depth
-/// that the sample will have half way, but no more than holds it and turns its normal speed round. What sticks has no
-/// tangential acceleration left at all: it stays to the last bit whatever the integrator, where impulses at the ends of
-/// a step would let it creep by g h / 2. Where samples share vertices, the forces are relaxed one after the other in a
-/// few sweeps, from those of the step before: what sticks for some steps is found in the end, and a vertex alone at
-/// once.
+/// **Friction** is a constant force during the step. It is chosen so that the tangential speed relative to the
+/// obstacle, predicted for the end of the step by the accelerations at its beginning, is zero: - m (v_t / h + a_t); or
+/// as much of that as mu times the normal force allows. The normal force is that of the contact and its damping at the
+/// depth that the sample will have half way, but at most the force that holds the sample and reverses its normal speed.
+/// A sample that sticks has no tangential acceleration left: it stays to the last bit with any integrator, where
+/// impulses at the ends of a step would let it creep by g h / 2. If samples share vertices, the forces are relaxed one
+/// after the other in a few sweeps, from those of the step before: the forces of samples that stick for some steps
+/// converge, and that of a single vertex is found at once.
 ///
 /// **Between bodies** both act on the nodes of both sides, after those with obstacles: damping along the line from the
-/// sample to the nearest way out, friction at the sample's own place in what it is inside of, where the two are half
-/// way through the step. Linear momentum stays to rounding. Angular momentum does so through damping; through friction
-/// by methods that take their forces half way, as Verlet does, and where what touches sticks; by others the two places
-/// slide apart before and after, along the force, and h^3 is left.
+/// sample to the nearest way out, friction at the sample's own place in the other body, with both places half way
+/// through the step. Linear momentum is conserved to rounding. So is angular momentum with damping; with friction it is
+/// for methods that take their forces half way, as Verlet does, and for contacts that stick; for others the two places
+/// slide apart before and after, along the force, and an error of h^3 is left.
 ///
-/// cost    O(samples); with friction, and only where something touches, one evaluation of the accelerations and the
-///         sweeps over what touches. No allocation once there have been as many contacts before.
+/// cost    O(samples); with friction, and only if something touches, one evaluation of the accelerations and the
+///         sweeps over the contacts. No allocation once there have been as many contacts before.
 class ContactImpulses {
  public:
-  /// Fill the last with the accelerations [m/s^2] of all that acts at these places and velocities, contact included,
-  /// gravity too; zero where fixed.
+  /// Fills `a` with the accelerations [m/s^2] by all that acts at these places and velocities, contact and gravity
+  /// included; zero where fixed.
   using Accelerations = std::function<void(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v,
                                            std::span<Eigen::Vector3d> a)>;
 
-  /// pre  the terms live as long as these
+  /// pre  the terms live as long as this
   explicit ContactImpulses(ObstacleContact& contact) : ContactImpulses(&contact, nullptr) {}
-  /// Of both terms, or of one: null where there is none.
+  /// For both terms, or for one: the other is null.
   ContactImpulses(ObstacleContact* obstacles, BodyContact* bodies);
 
-  /// Before a step from `time` [s] of length h [s]. True if what the integrator may remember does no longer hold:
+  /// To be called before a step from `time` [s] of length h [s]. True if the integrator has to be restarted:
   /// velocities, obstacles or friction forces have changed. `end` or `take_back` comes next.
   /// units   inverse_mass [1/kg] by vertex
   bool begin(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
              std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v, const Accelerations& accelerations);
-  /// After it, at `time` + h.
+  /// To be called after the step, at `time` + h.
   bool end(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
 
-  /// In place of `end`, where the step was not taken: the sums and what friction begins from are as before `begin`.
-  /// Velocities are for the caller to put back; obstacles are not moved.
+  /// To be called in place of `end` if the step was not taken: restores the sums and the start values of friction from
+  /// before `begin`. The caller restores the velocities; obstacles are not moved.
   void take_back();
 
   const ContactLosses& losses() const { return losses_; }
@@ -130,12 +130,12 @@ class ContactImpulses {
   ContactLosses losses_, losses_at_begin_;
   std::vector<double> damping_ratio_;            // by obstacle
   std::vector<double> damping_ratio_of_bodies_;  // by law
-  std::vector<double> most_;  // [N] that friction has at most, by frozen force: of obstacles, then of bodies
+  std::vector<double> most_;  // [N] the largest friction allowed, by frozen force: of obstacles, then of bodies
   std::vector<Eigen::Vector3d> acceleration_, normal_;
-  // Friction of the step before, where sweeps begin: a guess, which no change of the samples makes worse than none.
+  // Friction of the step before, where sweeps begin: a guess, no worse than zero even after the samples have changed.
   std::vector<ContactFriction> before_, now_;
   std::vector<BodyFriction> bodies_before_, bodies_now_;
-  std::vector<std::pair<std::uint32_t, double>> depth_;  // [m] of samples in bodies, as the step begins
+  std::vector<std::pair<std::uint32_t, double>> depth_;  // [m] of samples in bodies, at the beginning of the step
 };
 
 }  // namespace dartboard

@@ -16,8 +16,8 @@ double power(double u, int exponent) {
   return product;
 }
 
-/// - ln e for 0 < e < 1: of the mantissa m by 2 atanh((1 - m) / (1 + m)), whose argument is at most 1/3, so that what
-/// is left out after 18 terms is below 3^-36.
+/// - ln e for 0 < e < 1: for the mantissa m by 2 atanh((1 - m) / (1 + m)), whose argument is at most 1/3, so that the
+/// rest after 18 terms is below 3^-36.
 double minus_log(double e) {
   int exponent = 0;
   const double mantissa = std::frexp(e, &exponent);

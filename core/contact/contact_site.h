@@ -1,5 +1,5 @@
 #pragma once
-// Where a contact between bodies acts: nodes of both sides with signed weights.
+// The site of a contact between bodies: nodes of both sides with signed weights.
 
 #include <Eigen/Core>
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// A place of one side less a place of the other, each a mean of its nodes: weights of 1 together on one side, of -1 on
-/// the other. A force F on it is w F on each node, so that forces add up to zero, and torques too where the two places
+/// A place of one side less a place of the other, each a mean of its nodes: weights add up to 1 on one side, to -1 on
+/// the other. A force F on it is w F on each node, so that forces add up to zero, and torques too if the two places
 /// coincide or F is along the line between them.
 struct ContactSite {
   std::array<std::uint32_t, 8> nodes{};

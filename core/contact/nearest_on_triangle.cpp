@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far along from p to q the point nearest to the origin is, from 0 to 1.
+/// The position of the point nearest to the origin on the line from p to q, from 0 to 1.
 double nearest_along(const Vector3d& p, const Vector3d& q) {
   const Vector3d side = q - p;
   const double square = side.squaredNorm();
@@ -28,7 +28,7 @@ NearestOnTriangle nearest_on_triangle(const Vector3d& a, const Vector3d& b, cons
       return {{of_a / sum, of_b / sum, of_c / sum}, (a.dot(area) / square) * area};
     }
   }
-  // else on one of its edges
+  // otherwise on one of its edges
   const std::array<const Vector3d*, 3> corner{&a, &b, &c};
   NearestOnTriangle best;
   double least = 0.0;

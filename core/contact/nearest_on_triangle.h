@@ -12,9 +12,9 @@ struct NearestOnTriangle {
   Eigen::Vector3d way{0, 0, 0};  // [m] from the place to the point
 };
 
-/// Of corners relative to the place, so that its coordinates cancel once. The way is straight along the normal where
+/// The corners are relative to the place, so that its coordinates cancel once. The way is exactly along the normal if
 /// the point is within the triangle, so that its direction keeps its digits however short it is. A triangle without
-/// area is its edges.
+/// area counts as its edges.
 NearestOnTriangle nearest_on_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 }  // namespace dartboard

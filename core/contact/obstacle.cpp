@@ -60,7 +60,7 @@ double Obstacle::half_thickness() const {
 
 void Obstacle::require_valid() const {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) {
-    // a direction that was divided by its length is right to a few roundings
+    // a direction that was divided by its length has length 1 to a few roundings
     if (!(std::abs(plane->normal.norm() - 1.0) < 1e-14))
       throw InputError(fmt::format("the normal of an obstacle is {} long, expected 1", plane->normal.norm()));
   } else if (const auto* ball = std::get_if<Ball>(&shape)) {

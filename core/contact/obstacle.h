@@ -1,5 +1,5 @@
 #pragma once
-// What bodies run into: shapes that nothing moves but their own velocity.
+// Obstacles: shapes that bodies run into, moved only by their own velocity.
 
 #include <Eigen/Core>
 #include <limits>
@@ -23,37 +23,37 @@ struct Block {
 
 using ObstacleShape = std::variant<HalfSpace, Ball, Block>;
 
-/// A shape where it is at first, and how it moves: at one velocity from a time on until another, and never turning.
+/// A shape at its first place, and its motion: at one velocity from one time until another, without rotation.
 struct Obstacle {
   ObstacleShape shape;
   Eigen::Vector3d velocity{0, 0, 0};                                   // [m/s], while it moves
   double from = 0.0, until = std::numeric_limits<double>::infinity();  // [s]
 
-  /// How far it has come [m] by this time [s].
+  /// Its displacement [m] until this time [s].
   Eigen::Vector3d moved_by(double time) const;
   /// Its velocity [m/s] at this time; at its ends that of the motion.
   Eigen::Vector3d velocity_at(double time) const;
-  /// How deep anything can be inside [m]: half of its least thickness; infinity for a half-space. What moves further in
-  /// one step may come out on the other side.
+  /// The largest depth possible inside [m]: half of its least thickness; infinity for a half-space. A vertex that moves
+  /// further in one step may come out on the other side.
   double half_thickness() const;
   /// throws  InputError for a normal that is not of length 1, a radius that is not above 0, a block without inside, or
   ///         a motion that ends before it begins
   void require_valid() const;
 };
 
-/// How deep a place is inside, and the way out.
+/// The depth of a place inside an obstacle, and the way out.
 struct Penetration {
-  double depth = 0.0;                                   // [m], > 0 inside; outside no more than its sign counts
+  double depth = 0.0;                                   // [m], > 0 inside; outside only its sign counts
   Eigen::Vector3d normal{0, 0, 0};                      // outwards, of length 1: minus the gradient of the depth
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  // [1/m]: minus the Hessian of the depth
 };
 
-/// Of a place x, with the obstacle where it is at first; for one that has moved, x less `moved_by`.
+/// The penetration of a place x, with the obstacle at its first place; for one that has moved, x less `moved_by`.
 ///
-/// Depth is the distance to the nearest point of the surface, which for a block is on the face that is nearest: the
-/// normal jumps, and the energy has a kink, where two faces are equally near. The lowest axis of equals has it, and the
-/// lower side of one. In the centre of a ball there is no way out: the normal is zero there. Outside, depth is not
-/// above 0; of a block, it is minus the distance to the farthest of the planes that x is beyond.
+/// Depth is the distance to the nearest point of the surface, which for a block is on the nearest face: the normal
+/// jumps, and the energy has a kink, where two faces are equally near. Among equals the lowest axis is taken, and its
+/// lower side. At the centre of a ball there is no way out: the normal is zero there. Outside, depth is not above
+/// 0; for a block, it is minus the distance to the farthest of the planes that x is beyond.
 Penetration penetration(const ObstacleShape& shape, const Eigen::Vector3d& x);
 
 }  // namespace dartboard

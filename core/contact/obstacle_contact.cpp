@@ -23,7 +23,7 @@ Vector3d place_on_the_way(const SkinSample& sample, const StagePlaces& at) {
   return place + at.t * mean_of(sample, at.w);
 }
 
-/// A share of it to each node.
+/// Add an equal share of the force to each node.
 void share_force(const SkinSample& sample, const Vector3d& f, std::span<Vector3d> force) {
   if (sample.count == 1) {
     force[sample.nodes[0]] += f;
@@ -33,7 +33,7 @@ void share_force(const SkinSample& sample, const Vector3d& f, std::span<Vector3d
   for (const std::uint32_t i : sample.corners()) force[i] += share;
 }
 
-/// The origin that places in a shape are taken from: what rounding acts on beside the place itself.
+/// The origin that places in a shape are taken from: its coordinates are rounded too.
 const Vector3d& origin_of(const ObstacleShape& shape) {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) return plane->point;
   if (const auto* ball = std::get_if<Ball>(&shape)) return ball->centre;
@@ -71,7 +71,7 @@ EnergyChange ObstacleContact::work_of_placing(double time, std::span<const Vecto
   CompensatedSum sum;
   double sizes = 0.0;
   for (std::size_t o = 0; o < obstacles_.size(); ++o) {
-    // an obstacle that goes one way is a body that goes the other
+    // an obstacle that moves one way has the effect of a body that moves the other way
     const Vector3d way = moved_[o] - obstacles_[o].moved_by(time);
     if (way.isZero(0.0)) continue;
     for (const SkinSample& s : samples_) {

@@ -14,11 +14,11 @@
 
 namespace dartboard {
 
-/// A sample inside an obstacle, and a frozen force that friction has on it.
+/// A sample inside an obstacle, and the constant friction force on it.
 struct ContactFriction {
   std::uint32_t sample = 0, obstacle = 0;
   Eigen::Vector3d force{0, 0, 0};  // [N] on the body
-  Eigen::Vector3d from{0, 0, 0};   // [m] where the sample was
+  Eigen::Vector3d from{0, 0, 0};   // [m] the place of the sample before
 
   template <class Archive>
   void state(Archive& archive) {
@@ -26,7 +26,7 @@ struct ContactFriction {
   }
 };
 
-/// What a run tells of its contacts.
+/// What a run reports of its contacts.
 struct ContactState {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -34,21 +34,21 @@ struct ContactState {
   double area = 0.0;                             // [m^2] that these stand for
   double energy = 0.0;                           // [J]
   double deepest = 0.0;                          // [m]; 0 without a contact
-  std::uint32_t sample = none, obstacle = none;  // of the deepest, the first of equals
+  std::uint32_t sample = none, obstacle = none;  // the deepest, the first of equal ones
   double deepest_share = 0.0;                    // the largest depth over the `depth` of its law
   std::vector<Eigen::Vector3d> force_on;         // [N] on each obstacle
 };
 
 /// A zero-thickness penalty: each sample that is inside an obstacle has the energy of the obstacle's law at its depth.
-/// A sample feels every obstacle that it is inside, not the deepest alone, so that the energy is a sum of smooth ones
-/// and has p - 1 continuous derivatives wherever the depths are smooth (half-spaces; balls but for their centre).
+/// All obstacles act on a sample inside them, not the deepest alone, so that the energy is a sum of smooth ones and
+/// has p - 1 continuous derivatives wherever the depths are smooth (half-spaces; balls except their centre).
 ///
-/// Pieces are the samples, whether they touch or not, so that patterns stay while contacts come and go. The force at a
-/// sample is shared by its nodes equally, as its place is their mean. Obstacles stand still between two calls of
-/// `place_at`. There is no virial: what acts from outside is no tension within (as for gravity and pulls), and tearing
-/// goes by what the body does against it.
+/// Pieces are the samples, whether they touch or not, so that patterns stay while contacts appear and vanish. The force
+/// at a sample is shared equally by its nodes, because its place is their mean. Obstacles are at rest between two calls
+/// of `place_at`. There is no virial: an external force is no inner tension (as for gravity and pulls), and tearing is
+/// decided by the stress with which the body resists it.
 ///
-/// The constant tangent is what a contact of the depth of its law has, in the obstacle of the stiffest law at each
+/// The constant tangent is that of a contact at the depth of its law, with the obstacle of the stiffest law at each
 /// sample, as if all were touching. Projected tangents leave out the curvature of balls, whose sign is negative.
 /// pre     the samples live as long as the term and are read anew in each call
 /// cost    per sample that is outside of all obstacles: its mean and, for each obstacle, a dot product (half-space),
@@ -63,45 +63,45 @@ class ObstacleContact final : public ForceTerm {
   const std::vector<SkinSample>& samples() const { return samples_; }
   std::span<const Obstacle> obstacles() const { return obstacles_; }
   std::span<const ContactLaw> laws() const { return laws_; }
-  /// Whether any law has friction, or loses speed: what ContactImpulses are there for.
+  /// Whether any law has friction, or loses speed: then ContactImpulses are needed.
   bool has_friction() const { return friction_; }
   bool has_damping() const { return damping_; }
 
-  /// Put the obstacles where they are at this time [s]; true if that moved any.
+  /// Put the obstacles at their places at this time [s]; true if that moved any.
   bool place_at(double time);
-  /// What the energy changes by if they are put there: the work of whoever moves them, from differences that do not
-  /// cancel. Its sizes are 0 if they pass no sample on the way.
+  /// The change of energy if they are put there, which is the work of moving them, from differences that do not cancel.
+  /// Its sizes are 0 if they pass no sample on the way.
   EnergyChange work_of_placing(double time, std::span<const Eigen::Vector3d> x) const;
   /// The place of a sample [m].
   static Eigen::Vector3d place_of(const SkinSample& sample, std::span<const Eigen::Vector3d> x);
-  /// How deep the place y is in an obstacle, where that is now.
+  /// The penetration of the place y into an obstacle at its present place.
   Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
-  /// The same; false, and nothing is set, where y is not inside: a few comparisons.
+  /// The same; false, and `found` is not set, if y is not inside: a few comparisons.
   bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
 
   ContactState state_at(std::span<const Eigen::Vector3d> x) const;
-  /// By vertex: the largest depth [m] of a sample of its own, 0 outside.
+  /// By vertex: the largest depth [m] of a sample at the vertex, 0 outside.
   void vertex_depths(std::span<const Eigen::Vector3d> x, std::span<double> depth) const;
 
-  /// An upper bound of the square of what contact alone adds to frequencies [1/s^2], were every sample at this share of
+  /// An upper bound of the square of the frequencies [1/s^2] of contact alone, if every sample were at this share of
   /// the depth of its law in the stiffest of the obstacles: with K the sum of k w w' n n', rows of M^-1 K add up to
-  /// 1/m_i sum of k_s / n_s over the samples at i. Together with a body whose highest is omega, no frequency is above
-  /// the root of omega^2 plus it.
+  /// 1/m_i sum of k_s / n_s over the samples at i. Together with a body whose highest frequency is omega, no frequency
+  /// is above the root of the sum of omega^2 and this bound.
   /// units   inverse_mass [1/kg], 0 where fixed
   double frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const;
 
-  /// Forces that friction has during a step, beside what derives from depth: constant, with the energy - F . (y - from)
-  /// in all of the below, so that every integrator takes them as any other force. ContactImpulses sets them.
+  /// The friction forces during a step, in addition to those of depth: constant, with the energy - F . (y - from) in
+  /// all functions below, so that every integrator treats them as any other force. ContactImpulses sets them.
   std::span<const ContactFriction> frozen_friction() const { return frozen_; }
-  /// pre  what is set is in the order of samples
+  /// pre  the forces set are in the order of samples
   std::vector<ContactFriction>& frozen_friction_to_set() { return frozen_; }
 
   std::string_view pieces_name() const override { return "contact samples"; }
   std::size_t size() const override { return samples_.size(); }
   Nodes nodes(std::size_t piece) const override { return samples_[piece].corners(); }
   void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
-  /// Of half-spaces and balls the quotient of energy and depth along the mean normal, of blocks the mean force along
-  /// the way: in each the work is the energy's change, and forces have no part along the surface of a half-space.
+  /// For half-spaces and balls the quotient of energy and depth along the mean normal, for blocks the mean force along
+  /// the way: in each the work is the energy's change, and forces have no component along the surface of a half-space.
   void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override;
   double energy(std::span<const Eigen::Vector3d> x, std::size_t first = 0, std::size_t stride = 1) const override;
@@ -112,7 +112,7 @@ class ObstacleContact final : public ForceTerm {
   void for_each_constant_tangent(const VisitTangent& visit) const override;
   Virial virial(std::span<const Eigen::Vector3d>, std::size_t) const override { return {}; }
 
-  /// Where the obstacles are.
+  /// Writes or reads the places of the obstacles.
   template <class Archive>
   void state(Archive& archive) {
     archive(moved_);
@@ -120,11 +120,11 @@ class ObstacleContact final : public ForceTerm {
   std::size_t bytes() const;
 
  private:
-  /// f(law, penetration, obstacle) for each obstacle that the sample, being at y, is inside.
+  /// Calls f(law, penetration, obstacle) for each obstacle that contains the place y of a sample.
   template <class F>
   void for_each_contact(const Eigen::Vector3d& y, F&& f) const;
   std::span<const ContactFriction> friction_at(std::size_t piece) const;
-  /// Over the laws, each at this share of its depth [N/m].
+  /// The largest over the laws, each at this share of its depth [N/m].
   double largest_stiffness(double area, double share_of_depth) const;
 
   std::vector<ContactLaw> laws_;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the boundary of a body feels contact: places with weights.
+// Samples of the boundary of a body for contact: places with weights.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -26,7 +26,7 @@ struct SkinSample {
   }
 };
 
-/// The mean of what its nodes have: `of(node)`.
+/// The mean of `of(node)` over its nodes.
 template <class Of>
 Eigen::Vector3d mean_of(const SkinSample& sample, const Of& of) {
   const auto& n = sample.nodes;
@@ -35,7 +35,7 @@ Eigen::Vector3d mean_of(const SkinSample& sample, const Of& of) {
   return 0.25 * ((of(n[0]) + of(n[1])) + (of(n[2]) + of(n[3])));
 }
 
-/// A stiffness of its place [N/m] as one of its nodes, each of which has 1/n of the place and of the force.
+/// Visits a stiffness of its place [N/m] as one of its nodes, each of which has 1/n of the place and of the force.
 inline void visit_tangent(const SkinSample& sample, const Eigen::Matrix3d& stiffness,
                           const ForceTerm::VisitTangent& visit) {
   std::array<Eigen::Matrix3d, 10> blocks;

@@ -1,5 +1,5 @@
 #pragma once
-// What a place can be inside of, and the way out: the tetrahedra along the boundary of a body, and its triangles.
+// The tetrahedra along the boundary of a body, which a place can be inside of, and its triangles, the ways out.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace dartboard {
 struct SkinTetrahedron {
   std::array<std::uint32_t, 4> nodes{};
   std::uint32_t cell = 0;
-  std::uint32_t group = 0;  // the body of a scene that the cell is of
-  std::uint16_t part = 0;   // which of its cell
+  std::uint32_t group = 0;  // the body of a scene that the cell belongs to
+  std::uint16_t part = 0;   // its number among the parts of its cell
   std::uint16_t outer = 0;  // bit k: its face without node k is on the boundary
 
   friend bool operator==(const SkinTetrahedron&, const SkinTetrahedron&) = default;
@@ -48,13 +48,13 @@ class RowsAround {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   void clear();
-  /// How many nodes and owners have a number.
+  /// Set how many nodes and owners have a number.
   ///
-  /// pre  what is beyond has been erased
+  /// pre  rows of higher numbers have been erased
   void resize(std::size_t nodes, std::size_t owners);
   std::size_t owner_count() const { return of_owner_.size(); }
   void push_back(std::uint32_t owner, const std::array<std::uint32_t, n>& nodes);
-  /// The last row takes the place; the caller's columns do likewise.
+  /// Erase a row; the last row takes its place, and the caller's columns must do the same.
   ///
   /// pre  `nodes` of the place and of the last
   void erase(std::uint32_t place, const std::array<std::uint32_t, n>& nodes, std::uint32_t owner,
@@ -94,12 +94,12 @@ extern template class RowsAround<4>;
 
 }  // namespace detail
 
-/// Of a solid: the tetrahedra of all cells that have a corner on the boundary, hexahedra and other cells cut into
-/// tetrahedra of their own corners, and the triangles of the boundary.
+/// For a solid: the tetrahedra of all cells that have a corner on the boundary, with hexahedra and other cells split
+/// into tetrahedra of their own corners, and the triangles of the boundary.
 ///
-/// Plain arrays that know no map: core/views/skin_solids_view.h fills them and follows changes. Both stand in no
-/// particular order; a tetrahedron is named by its cell and part, a triangle by its face and part, so that what is
-/// found among them does not depend on that order.
+/// These are plain arrays without a map: core/views/skin_solids_view.h fills them and follows changes. Both are in no
+/// particular order; a tetrahedron is named by its cell and part, a triangle by its face and part, so that search
+/// results do not depend on that order.
 class SkinSolids {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -107,7 +107,7 @@ class SkinSolids {
   const std::vector<SkinTetrahedron>& tetrahedra() const { return tetrahedra_; }
   const std::vector<SkinTriangle>& triangles() const { return triangles_; }
 
-  /// f(place in `tetrahedra()`) of those with this node, of this cell.
+  /// Calls f(place in `tetrahedra()`) for those with this node; the next function for those of this cell.
   template <class F>
   void for_each_tetrahedron_at(std::uint32_t node, F&& f) const {
     cells_.for_each_at(node, f);
@@ -116,26 +116,26 @@ class SkinSolids {
   void for_each_tetrahedron_of(std::uint32_t cell, F&& f) const {
     cells_.for_each_of(cell, f);
   }
-  /// f(place in `triangles()`) of those with this node; of a vertex within the body none.
+  /// Calls f(place in `triangles()`) for those with this node; a vertex within the body has no triangles.
   template <class F>
   void for_each_triangle_at(std::uint32_t node, F&& f) const {
     faces_.for_each_at(node, f);
   }
   bool is_on_boundary(std::uint32_t node) const { return faces_.has_node(node); }
-  /// The group of the cells around a node; 0 where none is kept.
+  /// The group of the cells around a node; 0 if no tetrahedron is kept there.
   std::uint32_t group_at(std::uint32_t node) const {
     const std::uint32_t first = node < cells_.node_count() ? cells_.first_at(node) : none;
     return first == none ? 0 : tetrahedra_[first].group;
   }
-  /// How many nodes have a number.
+  /// The number of nodes.
   std::size_t node_count() const { return cells_.node_count(); }
-  /// Counts up with every change: what has been made of the arrays holds while it stays.
+  /// Increases with every change: data derived from the arrays are valid while it stays the same.
   std::uint64_t changes() const { return changes_; }
 
   void clear();
-  /// Numbers of what there is now; what is beyond is erased.
+  /// Set the present numbers of nodes, faces and cells; rows of higher numbers are erased.
   ///
-  /// pre  no row that is left names a node beyond
+  /// pre  no remaining row names a node of a higher number
   void resize(std::size_t nodes, std::size_t faces, std::size_t cells);
   void add(const SkinTetrahedron& tetrahedron);
   void add(const SkinTriangle& triangle);

@@ -9,13 +9,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A part of a way with one normal: depths at its ends, the change of depth, and which share of the way it is.
+/// A part of a way with one normal: depths at its ends, the change of depth, and its share of the way.
 struct Part {
   double d0, d1, deeper, share;
   Vector3d normal;
 };
 
-/// f(Part) for each part of the way on which something can be inside.
+/// Calls f(Part) for each part of the way that may be inside.
 template <class F>
 void for_each_part(const HalfSpace& plane, const Vector3d& y, const Vector3d& way, F&& f) {
   const double d0 = (plane.point - y).dot(plane.normal), deeper = -way.dot(plane.normal);

@@ -1,5 +1,5 @@
 #pragma once
-// Straight ways through an obstacle: what energy changes by along them, and the force whose work that is.
+// Straight ways through an obstacle: the change of energy along them, and the force whose work that is.
 
 #include <Eigen/Core>
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Whether the place is deeper inside than 0, but for a rounding: a few comparisons, and no root.
+/// Whether the depth of the place is above 0, to rounding: a few comparisons, and no root.
 inline bool is_inside(const ObstacleShape& shape, const Eigen::Vector3d& y) {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) return (plane->point - y).dot(plane->normal) > 0.0;
   if (const auto* ball = std::get_if<Ball>(&shape))
@@ -20,13 +20,13 @@ inline bool is_inside(const ObstacleShape& shape, const Eigen::Vector3d& y) {
          block->low[2] < y[2] && y[2] < block->high[2];
 }
 
-/// What the energy at a place changes by as it moves from y by `way`, from differences that do not cancel.
+/// The change of the energy at a place that moves from y by `way`, from differences that do not cancel.
 EnergyChange change_on_way(const ContactLaw& law, double area, const ObstacleShape& shape, const Eigen::Vector3d& y,
                            const Eigen::Vector3d& way);
 
-/// A force [N] with minus that as its work. It is the same in both directions, and the force at y for no way at all:
-/// the quotient of energy and depth, times the mean normal (half-space, ball); the mean of the force along the way,
-/// from one nearest face to the next (block).
+/// A force [N] whose work is minus that change. It is the same in both directions, and for a way of length 0 the force
+/// at y: the quotient of energy and depth, times the mean normal (half-space, ball); the mean of the force along the
+/// way, from one nearest face to the next (block).
 Eigen::Vector3d mean_force_on_way(const ContactLaw& law, double area, const ObstacleShape& shape,
                                   const Eigen::Vector3d& y, const Eigen::Vector3d& way);
 

@@ -119,7 +119,7 @@ std::array<double, 3> bending_coefficients(double rigidity, const Vector3d& x0, 
                                            const Vector3d& x3) {
   const double length = (x1 - x0).norm();
   const Vector3d along = (x1 - x0) / length;
-  // where the foot of each height is, and how high it is
+  // the place of the foot of each height along the edge, and the heights
   const double foot2 = along.dot(x2 - x0), foot3 = along.dot(x3 - x0);
   const double h2 = (x2 - x0 - foot2 * along).norm(), h3 = (x3 - x0 - foot3 * along).norm();
   // |e|^2 / (A2 + A3) = 2 |e| / (h2 + h3)

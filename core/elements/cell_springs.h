@@ -14,7 +14,7 @@
 
 namespace dartboard {
 
-/// What a cell embeds of its diagonals. Each cell has springs of its own, also across a face that it shares, so that no
+/// The embedding of a cell's diagonals. Each cell has springs of its own, also across a face that it shares, so that no
 /// dissociation changes any of them.
 struct CellSprings {
   CellKind kind = CellKind::tetrahedron;
@@ -30,11 +30,11 @@ struct CellSprings {
   }
 };
 
-/// Of a cell whose corners are at `x` at rest, in the order of its kind.
+/// The springs of a cell whose corners are at `x` at rest, in the order of its kind.
 CellSprings cell_springs_of(CellKind kind, Diagonals which, bool elastic, double modulus,
                             std::span<const Eigen::Vector3d> x);
 
-/// Where the cells of a body are; the term looks there anew in each call.
+/// The columns of the cells of a body; the term reads them anew in each call.
 struct CellSpringColumns {
   const std::vector<SolidNodes>& nodes;
   const std::vector<CellSprings>& springs;
@@ -43,7 +43,7 @@ struct CellSpringColumns {
 /// The forces of springs within cells, a piece for each cell; one without diagonals has no vertices and no force.
 std::unique_ptr<ForceTerm> make_cell_springs(const CellSpringColumns& columns);
 
-/// The term's virial of one cell with its corners at x, to the bit.
+/// The term's virial of one cell with its corners at x, with the same bits.
 Virial cell_springs_virial(const CellSprings& springs, std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard

@@ -16,7 +16,7 @@ Nine nine(const Matrix3d& m) { return Eigen::Map<const Nine>(m.data()); }
 
 double product(const Matrix3d& a, const Matrix3d& b) { return a.cwiseProduct(b).sum(); }
 
-// F'F - I of F = I + G is G + G' + G'G: exact to a rounding of G, where the square of F is rounded by one of 1.
+// F'F - I of F = I + G is G + G' + G'G: exact to a rounding of G, while the square of F is rounded relative to 1.
 Matrix3d twice_strain(const Matrix3d& f) {
   const Matrix3d g = f - Matrix3d::Identity();
   return g + g.transpose() + g.transpose() * g;
@@ -31,7 +31,7 @@ Matrix3d cross_matrix(const Vector3d& w) {
 }  // namespace
 
 Hessian projected(const Hessian& hessian) {
-  // rigid turns have eigenvalues of zero to rounding: a matrix that is positive but for that is left as it is
+  // rigid turns have eigenvalues of zero to rounding: a matrix that is otherwise positive is left unchanged
   const double rounding = 1e-13 * hessian.norm();
   const Hessian lifted = hessian + rounding * Hessian::Identity();
   if (Eigen::LLT<Hessian>(lifted).info() == Eigen::Success || !hessian.allFinite()) return hessian;
@@ -41,12 +41,12 @@ Hessian projected(const Hessian& hessian) {
 
 // ---- stable neo-Hookean
 
-// Of the invariants less their values at rest, both from the strain: what a rotation has cancels in it once for all.
+// From the invariants less their values at rest, both computed from the strain, in which rotations cancel.
 double NeoHookean::energy(const Matrix3d& f) const {
   const Matrix3d c = twice_strain(f), cof = cofactors(c);
   const double i = c.trace(), det = f.row(0).dot(cofactors(f).row(0));
   const double square = c.trace() + cof.trace() + c.row(0).dot(cof.row(0));  // J^2 - 1
-  // a root of next to nothing would lose what the determinant has
+  // the root of a number near 0 would lose digits that the determinant has
   const double j = det > 0.5 ? square / (1.0 + std::sqrt(1.0 + square)) : det - 1.0;
   return 0.5 * mu_ * (i - std::log1p(i / 4.0)) - 0.75 * mu_ * j + 0.5 * lambda_ * j * j;
 }
@@ -91,13 +91,13 @@ EnergyChange Corotational::change(const Matrix3d& f, const Matrix3d& d) const {
   const Matrix3d s0 = r0.transpose() * (f - r0), s1 = r1.transpose() * (f + d - r1);  // strains
   const Matrix3d ds = s1 - s0, sum = s0 + s1;
   const double shear = mu_ * product(ds, sum), trace = 0.5 * lambda_ * ds.trace() * sum.trace();
-  // strains are rounded as the rotations are: by a unit of 1, whatever they change by
+  // strains are rounded as the rotations are: relative to 1, however small their change
   const double sizes = mu_ * sum.lpNorm<1>() + 0.5 * lambda_ * 3.0 * std::abs(sum.trace());
   return {shear + trace, std::abs(shear) + std::abs(trace) + 2.0 * sizes};
 }
 
 // 2 mu I + lambda r r' + (lambda (tr S - 3) - 2 mu) dR/dF. With T_i = R [e_i]x as columns of nine, dR/dF is
-// T (tr(S) I - S)^-1 T': turning is what is perpendicular to stretching.
+// T (tr(S) I - S)^-1 T': turning is perpendicular to stretching.
 Hessian Corotational::hessian(const Matrix3d& f, Compression compression) const {
   const Matrix3d r = polar_rotation(f);
   Matrix3d s = r.transpose() * f;
@@ -108,7 +108,7 @@ Hessian Corotational::hessian(const Matrix3d& f, Compression compression) const 
   const Eigen::SelfAdjointEigenSolver<Matrix3d> stretches(s.trace() * Matrix3d::Identity() - s);
   Vector3d values;
   for (int i = 0; i < 3; ++i) {
-    // sums of two stretches; where one vanishes, the rotation jumps, and any finite number is as good
+    // sums of two stretches; where one vanishes, the rotation jumps, and any finite number will do
     const double least = 1e-9 * (std::abs(s.trace()) + f.norm());
     const double sum = stretches.eigenvalues()[i];
     const double value = turn / (std::abs(sum) > least ? sum : std::copysign(std::max(least, 1e-300), sum));

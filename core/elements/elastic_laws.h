@@ -1,5 +1,5 @@
 #pragma once
-// Elastic laws: the energy of a deformation, its stress, and how both change. Written once for every kind of element.
+// Elastic laws: the energy of a deformation, its stress, and their derivatives. Written once for every kind of element.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -26,7 +26,7 @@ inline double stiffest_strain(double mu, double lambda) { return 2.0 * mu + 3.0 
 /// The derivative of a stress by a deformation gradient, both as columns of nine, column after column.
 using Hessian = Eigen::Matrix<double, 9, 9>;
 
-/// The nearest positive semidefinite matrix, by its eigenvectors where it is not that already.
+/// The nearest positive semidefinite matrix, by its eigenvectors unless it is positive semidefinite already.
 Hessian projected(const Hessian& hessian);
 
 // A law has, for a deformation gradient F:
@@ -36,12 +36,12 @@ Hessian projected(const Hessian& hessian);
 //   hessian(F, how)   the derivative of the stress
 //   modulus()         [Pa] a bound of the Hessian's eigenvalues at rest, whatever Poisson's ratio
 
-/// Stable neo-Hookean: smooth for every F, inverted or flat ones too, without a rotation to find.
+/// Stable neo-Hookean: smooth for every F, also inverted or flat, without a polar decomposition.
 ///
 ///     energy = mu' / 2 (I - 3 - log((I + 1) / 4)) + lambda' / 2 ((J - a)^2 - (1 - a)^2),  I = |F|^2, J = det F
 ///
 /// with mu' = 4/3 mu, lambda' = lambda + 5/6 mu and a = 1 + 3 mu' / (4 lambda'), so that it is linear elasticity near
-/// rest, and has no stress there.
+/// rest, and has no stress at rest.
 /// source  Smith, de Goes, Kim, ACM Transactions on Graphics 37(2), 2018
 class NeoHookean {
  public:
@@ -108,7 +108,7 @@ class StVenantKirchhoff {
 };
 
 /// The stress of a discrete gradient (Gonzalez 1996) between F and F + D, from the law's at F + D/2: its product with
-/// D is the change of energy, and it keeps the angular momentum, for what is added is F_m dC, C = F'F.
+/// D is the change of energy, and it keeps the angular momentum, because the term added is F_m dC, C = F'F.
 template <class Law>
 Eigen::Matrix3d discrete_stress(const Law& law, const Eigen::Matrix3d& f, const Eigen::Matrix3d& d) {
   const Eigen::Matrix3d middle = f + 0.5 * d;

@@ -60,7 +60,7 @@ SurfacePolar surface_polar(const SurfaceGradient& f) {
     along.cwiseAbs().minCoeff(&least);
     normal = along.cross(Vector3d::Unit(least));
   }
-  // of what is nearly a line, rounding turns the normal: but not towards that line
+  // rounding turns the normal of a surface that is nearly a line: but not towards that line
   normal = (normal - along.dot(normal) * along).normalized();
   SurfaceGradient r;
   r << f1 + f2.cross(normal), f2 + normal.cross(f1);
@@ -115,7 +115,7 @@ EnergyChange CorotationalSheet::change(const SurfaceGradient& f, const SurfaceGr
   const Matrix2d s0 = r0.transpose() * (f - r0), s1 = r1.transpose() * (f + d - r1);  // strains
   const Matrix2d ds = s1 - s0, sum = s0 + s1;
   const double shear = mu_ * ds.cwiseProduct(sum).sum(), trace = 0.5 * lambda_ * ds.trace() * sum.trace();
-  // strains are rounded as the rotations are: by a unit of 1, whatever they change by
+  // strains are rounded as the rotations are: relative to 1, however small their change
   const double sizes = mu_ * sum.lpNorm<1>() + 0.5 * std::abs(lambda_) * 2.0 * std::abs(sum.trace());
   return {shear + trace, std::abs(shear) + std::abs(trace) + 2.0 * sizes};
 }
@@ -140,7 +140,7 @@ SurfaceHessian CorotationalSheet::hessian(const SurfaceGradient& f, Compression 
   const auto [r, n] = surface_polar(f);
   const Matrix2d s = r.transpose() * f;
   const double turn = lambda_ * product(r, f - r) - 2.0 * mu_;
-  // where a stretch vanishes the rotation jumps, and any finite number is as good
+  // where a stretch vanishes the rotation jumps, and any finite number will do
   const double least = std::max(1e-9 * f.norm(), 1e-300);
   const bool projects = compression == Compression::projected;
   double in_plane = turn / std::max(s.trace(), least);
@@ -165,7 +165,7 @@ SurfaceHessian CorotationalSheet::hessian(const SurfaceGradient& f, Compression 
 MembraneLaw::MembraneLaw(const Material& material) : law_(StVenantKirchhoffSheet(lame_of_membrane(material))) {
   const Lame lame = lame_of_membrane(material);
   if (material.model == Model::corotational) law_ = CorotationalSheet(lame);
-  // of pure shear, and of a strain alike in all directions
+  // the eigenvalues of pure shear, and of a strain equal in all directions
   modulus_ = 2.0 * (lame.mu + std::max(lame.lambda, 0.0));
 }
 

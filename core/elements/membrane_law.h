@@ -1,5 +1,5 @@
 #pragma once
-// The laws of membranes in plane stress: of deformation gradients with three rows and two columns.
+// The laws of membranes in plane stress, for deformation gradients with three rows and two columns.
 
 #include <Eigen/Core>
 #include <variant>
@@ -11,7 +11,7 @@
 
 namespace dartboard {
 
-/// From the plane of a piece of surface at rest to space.
+/// The deformation gradient from the plane of a piece of surface at rest to space.
 using SurfaceGradient = Eigen::Matrix<double, 3, 2>;
 /// The derivative of a stress by a surface gradient, both as columns of six, column after column.
 using SurfaceHessian = Eigen::Matrix<double, 6, 6>;
@@ -28,14 +28,14 @@ struct SurfacePolar {
   SurfaceGradient rotation;
   Eigen::Vector3d normal;  // to both of its columns
 };
-/// Of any F: with the normal n of the surface, R = (F + (f2 x n, n x f1)) / tr S, which no flatness spoils. Where F has
-/// drawn the surface to a line, some normal to that; of F = 0, some R.
+/// For any F: with the normal n of the surface, R = (F + (f2 x n, n x f1)) / tr S, which is accurate for flat F too. If
+/// F maps the surface to a line, n is some normal to that; for F = 0, R is arbitrary.
 SurfacePolar surface_polar(const SurfaceGradient& f);
 
-// A law of a surface has what those of solids have (elastic_laws.h), in N/m and J/m^2, and
+// A law of a surface has the functions of those of solids (elastic_laws.h), in N/m and J/m^2, and
 //   discrete_stress(F, D)  a discrete gradient between F and F + D: its product with D is the change of energy, and it
 //                          keeps the angular momentum
-// A turn of the plane at rest changes none of it, so that any frame of the plane will do.
+// A turn of the plane at rest does not change the results, so that any frame of the plane will do.
 
 /// St. Venant-Kirchhoff: linear in Green's strain E = (F'F - I) / 2, which bending leaves zero; softens where it is
 /// compressed.
@@ -51,7 +51,7 @@ class StVenantKirchhoffSheet {
   /// F half way times the mean of both second stresses, as the energy is quadratic in E.
   /// source  Simo, Tarnow, ZAMP 43, 1992
   SurfaceGradient discrete_stress(const SurfaceGradient& f, const SurfaceGradient& d) const;
-  /// Projected, without what compression takes from the stiffness across it.
+  /// Projected: without the loss of stiffness across a compression.
   SurfaceHessian hessian(const SurfaceGradient& f, Compression compression) const;
 
  private:
@@ -76,17 +76,17 @@ class CorotationalSheet {
   SurfaceGradient stress(const SurfaceGradient& f) const;
   /// source  Gonzalez 1996, as for solids
   SurfaceGradient discrete_stress(const SurfaceGradient& f, const SurfaceGradient& d) const;
-  /// Projected, without the negative eigenvalues, which are those of turns in the plane and out of it.
+  /// Projected: without the negative eigenvalues, which are those of turns in the plane and out of it.
   SurfaceHessian hessian(const SurfaceGradient& f, Compression compression) const;
 
  private:
   double mu_, lambda_;
 };
 
-/// Any of them.
+/// Any of these laws.
 class MembraneLaw {
  public:
-  /// Of a material of springs one that never resists.
+  /// A material of springs makes a law without resistance.
   /// throws  InputError for a model that surfaces do not have
   explicit MembraneLaw(const Material& material);
   static bool has(Model model) { return model == Model::stvk || model == Model::corotational; }

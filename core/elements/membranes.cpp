@@ -83,7 +83,7 @@ Virial virial_share(const MembraneLaw& law, const Points& points, std::size_t co
   return {(0.5 / static_cast<double>(count)) * (sum + sum.transpose()), growth / static_cast<double>(count)};
 }
 
-/// By the number of a cell's material.
+/// The laws by the number of a cell's material.
 class Laws {
  public:
   explicit Laws(const CellMaterials& materials) : materials_(materials) {
@@ -234,7 +234,7 @@ class Membranes final : public ForceTerm {
       const SurfaceGradient weighted = area * stress_of(g);
       for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * g[a];
     });
-    // what the first corner gets is what the others give: no momentum is lost to rounding
+    // the force on the first corner is minus the sum of the others: rounding changes no momentum
     for (std::size_t a = 1; a < n.size(); ++a) {
       sum[0] += sum[a];
       force[n[a]] -= sum[a];
@@ -246,7 +246,7 @@ class Membranes final : public ForceTerm {
   Columns columns_;
 };
 
-/// The inverse of a Jacobian with these columns, whose second side of the surface is that of `up`.
+/// The inverse of a Jacobian with these columns; its last number is negative if their normal points against `up`.
 PlaneInverse plane_inverse(const Vector3d& first, const Vector3d& second, const Vector3d& up) {
   const Vector3d normal = first.cross(second);
   const double length = first.norm(), area = normal.dot(up) > 0.0 ? normal.norm() : -normal.norm();

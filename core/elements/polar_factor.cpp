@@ -10,8 +10,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// By the eigenvectors v_i of F'F: F v_i has the length of the stretch s_i. The shortest gets what is left, by the
-// cross product, which makes the determinant +1.
+// By the eigenvectors v_i of F'F: F v_i has the length of the stretch s_i. The shortest one is replaced by the cross
+// product of the others, which makes the determinant +1.
 Matrix3d rotation_by_eigenvectors(const Matrix3d& f) {
   // iterative: the closed form loses half the digits where eigenvalues are close
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(f.transpose() * f);

@@ -1,5 +1,5 @@
 #pragma once
-// The rotation in a deformation.
+// The rotation of a deformation: its polar factor.
 
 #include <Eigen/Core>
 
@@ -7,12 +7,12 @@ namespace dartboard {
 
 /// The rotation R nearest to F, det R = +1 also where F is inverted: F = R S with S symmetric.
 ///
-/// From F alone, so that forces are a function of positions: rotations that are carried from step to step and improved
-/// there cost an order of accuracy and the angular momentum. Where F is flat in two directions, or turned inside out
-/// with its smallest stretches alike, the nearest rotation is not one alone; it is one of those then. Zero gives the
-/// identity, and what is not finite something that is not finite.
-/// cost    the largest root of a quartic by Newton's method; where F is nearly singular in two directions an
-///         eigenvalue problem
+/// It depends on F alone, so that forces are a function of positions: rotations that are kept and improved from step to
+/// step cost an order of accuracy and the angular momentum. If F is flat in two directions, or turned inside out with
+/// equal smallest stretches, the nearest rotation is not unique; one of them is returned. Zero gives the identity, and
+/// an F that is not finite a result that is not finite.
+/// cost    the largest root of a quartic by Newton's method; if F is nearly singular in two directions, an eigenvalue
+///         problem
 /// source  Markley, Journal of the Astronautical Sciences 41, 1993 (FOAM)
 Eigen::Matrix3d polar_rotation(const Eigen::Matrix3d& f);
 

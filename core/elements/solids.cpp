@@ -290,7 +290,7 @@ class Solids final : public ForceTerm {
       const Matrix3d weighted = volume * stress_of(g, n.count);
       for (std::size_t a = 1; a < n.count; ++a) sum[a] += weighted * g[a];
     });
-    // what the first corner gets is what the others give: no momentum is lost to rounding
+    // the force on the first corner is minus the sum of the others: rounding changes no momentum
     for (std::size_t a = 1; a < n.count; ++a) {
       sum[0] += sum[a];
       force[n.at[a]] -= sum[a];

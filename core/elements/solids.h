@@ -1,5 +1,5 @@
 #pragma once
-// Hexahedra, prisms, pyramids and tetrahedra side by side as a force term, integrated at Gauss points.
+// Hexahedra, prisms, pyramids and tetrahedra in one force term, integrated at Gauss points.
 
 #include <Eigen/Core>
 #include <array>
@@ -27,8 +27,8 @@ struct SolidNodes {
   }
 };
 
-/// What a solid cell needs of its rest shape at each of its Gauss points: the inverse of the Jacobian [1/m], from
-/// coordinates of the kind of cell to places, and the volume [m^3] that the point stands for.
+/// The rest shape of a solid cell at each of its Gauss points: the inverse of the Jacobian [1/m], from coordinates of
+/// the kind of cell to places, and the volume [m^3] that the point stands for.
 struct SolidShape {
   CellKind kind = CellKind::tetrahedron;
   std::array<Eigen::Matrix3d, 8> inverse;
@@ -43,26 +43,26 @@ struct SolidShape {
   }
 };
 
-/// Of a cell whose corners are at `x`, in the order of its kind.
-/// returns  volumes that are not all positive where it is flat or turned inside out somewhere
+/// The rest shape of a cell whose corners are at `x`, in the order of its kind.
+/// returns  volumes that are not all positive if the cell is flat or turned inside out somewhere
 SolidShape solid_shape_of(CellKind kind, std::span<const Eigen::Vector3d> x);
-/// The Gauss points of a kind: 8 of a hexahedron or a pyramid, 6 of a prism, 1 of a tetrahedron.
+/// The number of Gauss points of a kind: 8 for a hexahedron or a pyramid, 6 for a prism, 1 for a tetrahedron.
 std::size_t gauss_points(CellKind kind);
 
-/// Where the cells of a body are; the term looks there anew in each call.
+/// The columns of the cells of a body; the term reads them anew in each call.
 struct SolidColumns {
   const std::vector<SolidNodes>& nodes;
   const std::vector<SolidShape>& shape;
 };
 
 /// The forces of isoparametric cells: trilinear hexahedra, prisms linear in the triangle and along the
-/// axis, pyramids as hexahedra with one side drawn together, linear tetrahedra. They fit together: neighbours have the
-/// same displacements on the face that they share. Full integration: a uniform strain is exact in cells of any shape.
+/// axis, pyramids as hexahedra with one side contracted to a point, linear tetrahedra. They are compatible: neighbours
+/// have the same displacements on their common face. Full integration: a uniform strain is exact in cells of any shape.
 ///
 /// source  Zienkiewicz, Taylor: The Finite Element Method, on isoparametric elements
 std::unique_ptr<ForceTerm> make_solids(const CellMaterials& materials, const SolidColumns& columns);
 
-/// The term's virial of one cell with its corners at x, to the bit.
+/// The term's virial of one cell with its corners at x, with the same bits.
 Virial solid_virial(const Material& material, const SolidShape& shape, std::span<const Eigen::Vector3d> x);
 
 }  // namespace dartboard

@@ -14,13 +14,13 @@
 
 namespace dartboard {
 
-/// One of them, between corners a and b of its piece.
+/// One of these springs, between corners a and b of its piece.
 struct PieceSpring {
   std::size_t a, b;
   double rest_length, stiffness;  // [m], [N/m]
 };
 
-/// A linear spring by the line d between its ends: k (l - L)^2 / 2, and no force where the length is zero.
+/// A linear spring as a function of the line d between its ends: energy k (l - L)^2 / 2, and no force at zero length.
 struct SpringLine {
   double rest_length, stiffness;
 
@@ -28,13 +28,13 @@ struct SpringLine {
     const double stretch = d.norm() - rest_length;
     return 0.5 * stiffness * stretch * stretch;
   }
-  /// On the first end.
+  /// The force on the first end.
   Eigen::Vector3d force(const Eigen::Vector3d& d) const {
     const double length = d.norm();
     if (length == 0.0) return Eigen::Vector3d::Zero();
     return (stiffness * (length - rest_length) / length) * d;
   }
-  /// From d to d + move. With l1 - l0 = move . (2 d + move) / (l0 + l1), nothing cancels.
+  /// The change of energy from d to d + move. With l1 - l0 = move . (2 d + move) / (l0 + l1), nothing cancels.
   EnergyChange change(const Eigen::Vector3d& d, const Eigen::Vector3d& move) const {
     const double before = d.norm(), both = before + (d + move).norm();
     if (both == 0.0) return {};
@@ -42,7 +42,7 @@ struct SpringLine {
     return {stiffness * longer * (stretch + 0.5 * longer),
             stiffness * std::abs(longer) * (std::abs(stretch) + 0.5 * std::abs(longer))};
   }
-  /// The energy goes with the square of the length: the quotient of their changes, along the mean line, is exact.
+  /// The energy is a function of the squared length: the quotient of their changes, along the mean line, is exact.
   Eigen::Vector3d discrete_force(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
     const double both = from.norm() + to.norm();
     if (both == 0.0) return Eigen::Vector3d::Zero();
@@ -58,7 +58,7 @@ struct SpringLine {
   }
 };
 
-/// The term of `Pieces`, which has name(), size(), nodes(piece) and for_each(piece, f(PieceSpring)).
+/// The force term of `Pieces`, which has name(), size(), nodes(piece) and for_each(piece, f(PieceSpring)).
 template <class Pieces>
 class SpringPieces final : public ForceTerm {
  public:
@@ -132,7 +132,7 @@ class SpringPieces final : public ForceTerm {
     });
   }
 
-  /// Of its springs, shared equally among its vertices.
+  /// The virial of its springs, shared equally among its vertices.
   Virial virial(std::span<const Vector3d> x, std::size_t piece) const override {
     const Nodes n = nodes(piece);
     Matrix3d sum = Matrix3d::Zero();

@@ -19,14 +19,14 @@
 
 namespace dartboard {
 
-/// What the damping of an element asks of its cell's material.
+/// The properties of a cell's material that the damping of its element needs.
 struct DampedMaterial {
-  double mu, lambda;  // [Pa]; zero of cells that resist by their springs
+  double mu, lambda;  // [Pa]; zero for cells of springs
   double time;        // [s]
   double per_mass;    // [m^3/kg], the volume of a kilogram
 };
 
-/// The same of the cells of a body.
+/// The same for the cells of a body.
 class DampedMaterials {
  public:
   explicit DampedMaterials(const CellMaterials& materials) : materials_(materials) {
@@ -48,15 +48,15 @@ class DampedMaterials {
   bool any_ = false;
 };
 
-/// Stiffness-proportional damping that no rotation meets (Kelvin and Voigt): to the second Piola-Kirchhoff stress it
-/// adds
+/// Stiffness-proportional damping that is zero for rotations (Kelvin and Voigt): to the second Piola-Kirchhoff stress
+/// it adds
 ///
 ///     S = time (2 mu E' + lambda tr(E') I),   E' = sym(F' dF/dt), the rate of Green's strain
 ///
 /// Near rest that is `time` times the elasticity acting on velocities, whatever the law: every oscillation has the
 /// damping ratio omega time / 2.
 ///
-/// `Points` says where elements are, piece by piece and Gauss point by Gauss point:
+/// `Points` gives the elements, piece by piece and Gauss point by Gauss point:
 ///   size(), nodes(piece) (a span, of fixed size where all are alike), points(piece), and place(piece, point, material,
 ///   gradients): the gradients [1/m] of the functions of the corners at rest, and the volume [m^3] that the point
 ///   stands for
@@ -84,7 +84,7 @@ class StrainDamping final : public TermDamping {
         const Matrix3d weighted = volume * (f * stress(m, strain_rate(f, gradient(v, n, g))));
         for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * g[a];
       });
-      // what the first corner gets is what the others give: no momentum is lost to rounding
+      // the force on the first corner is minus the sum of the others: rounding changes no momentum
       for (std::size_t a = 1; a < n.size(); ++a) {
         sum[0] += sum[a];
         force[n[a]] -= sum[a];
@@ -140,7 +140,7 @@ class StrainDamping final : public TermDamping {
     return sum;
   }
 
-  // Of corners a and b, V (mu (g_a . g_b) F F' + mu q_b q_a' + lambda q_a q_b') with q = F g.
+  // The block of corners a and b is V (mu (g_a . g_b) F F' + mu q_b q_a' + lambda q_a q_b') with q = F g.
   void for_each_tangent(const StagePlaces& at, const VisitTangent& visit) const override {
     std::array<Matrix3d, 36> blocks;
     std::array<Vector3d, 8> q;
@@ -212,7 +212,7 @@ class StrainDamping final : public TermDamping {
     }
   }
 
-  /// Of places F, of velocities dF/dt.
+  /// For places the gradient F, for velocities dF/dt.
   template <class SomeNodes>
   static Matrix3d gradient(const StagePlaces& at, const SomeNodes& n, const Gradients& g) {
     if (at.w.empty()) return gradient(at.x, n, g);
@@ -236,8 +236,8 @@ class StrainDamping final : public TermDamping {
     return (2.0 * m.mu * m.time) * strain_rate + (m.lambda * m.time * strain_rate.trace()) * Matrix3d::Identity();
   }
 
-  /// F N g of the six strains N of size 1 that the stiffness meets with a multiple of themselves: one of volume, two
-  /// along the axes, three shears.
+  /// F N g for six eigenstrains N of the stiffness, each of size 1: one of volume, two along the axes, three
+  /// shears.
   static std::array<Vector3d, 6> arms(const Matrix3d& f, const Vector3d& g) {
     constexpr double third = std::numbers::inv_sqrt3, half = std::numbers::sqrt2 / 2.0, sixth = third * half;
     const Vector3d x = g[0] * f.col(0), y = g[1] * f.col(1), z = g[2] * f.col(2);
@@ -251,7 +251,7 @@ class StrainDamping final : public TermDamping {
 
   // Each of the six strains N is a damper of its own: its rate is sum_a b_a . v_a with b_a = F N g_a, which no rigid
   // motion has, and its force is along b. Alone it decays by exp(-c sum_a |b_a|^2 / m_a), c = h time V times 2 mu, or
-  // 2 mu + 3 lambda of the volume. Of b_a a corner that is held along axes has what is across them.
+  // 2 mu + 3 lambda for the volume. A corner that is held along axes has the part of b_a across these axes.
   template <bool any_held, class SomeNodes>
   static void decay_at(const Matrix3d& f, const Gradients& g, const SomeNodes& n, double shape, double volume,
                        const std::array<double, 8>& mobility, const std::array<HeldAxes, 8>& held, bool backwards,

@@ -1,5 +1,5 @@
 #pragma once
-// Linear tetrahedra as a force term: one deformation gradient for each.
+// Linear tetrahedra as a force term, with one deformation gradient for each tetrahedron.
 
 #include <Eigen/Core>
 #include <array>
@@ -18,16 +18,16 @@ namespace dartboard {
 /// The numbers of the vertices of a tetrahedron, in the order of its rest shape.
 using TetrahedronNodes = std::array<std::uint32_t, 4>;
 
-/// What a tetrahedron needs of its rest shape: D^-1 [1/m], D = (X1 - X0, X2 - X0, X3 - X0). Orientation does not
+/// The rest shape of a tetrahedron: D^-1 [1/m], D = (X1 - X0, X2 - X0, X3 - X0). Its orientation does not
 /// matter.
 using RestShape = Eigen::Matrix3d;
 
 /// D^-1 of a tetrahedron at rest.
-/// returns  something that is not finite where it is flat
+/// returns  numbers that are not finite if it is flat
 RestShape rest_shape_of(const Eigen::Vector3d& x0, const Eigen::Vector3d& x1, const Eigen::Vector3d& x2,
                         const Eigen::Vector3d& x3);
 
-/// Where the tetrahedra of a body are; the term looks there anew in each call, so columns may grow and shrink between.
+/// The columns of the tetrahedra of a body; the term reads them anew in each call, so that their sizes may change.
 struct TetrahedronColumns {
   const std::vector<TetrahedronNodes>& nodes;
   const std::vector<RestShape>& shape;
@@ -41,7 +41,7 @@ struct TetrahedronColumns {
 /// source   Zienkiewicz, Taylor: constant strain tetrahedra; the laws: elastic_laws.h
 std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const TetrahedronColumns& columns);
 
-/// The term's virial of one tetrahedron with its corners at x, to the bit.
+/// The term's virial of one tetrahedron with its corners at x, with the same bits.
 Virial tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
                           const std::array<Eigen::Vector3d, 4>& x);
 

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of each tetrahedron its one point.
+/// The one Gauss point of each tetrahedron.
 class TetrahedronPoints {
  public:
   explicit TetrahedronPoints(const TetrahedronColumns& columns) : columns_(columns) {}

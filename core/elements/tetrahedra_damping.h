@@ -1,5 +1,5 @@
 #pragma once
-// What damps linear tetrahedra.
+// The damping of linear tetrahedra.
 
 #include <memory>
 
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// The damping of the same tetrahedra as `make_tetrahedra` (strain_damping.h); null where no material is damped. A
-/// source of its own: beside it the compiler inlines less of the elastic forces.
+/// The damping of the tetrahedra of `make_tetrahedra` (strain_damping.h); null if no material is damped. It has its own
+/// source file, because in the same file the compiler would inline less of the elastic forces.
 std::unique_ptr<TermDamping> make_tetrahedra_damping(const CellMaterials& materials, const TetrahedronColumns& columns);
 
 }  // namespace dartboard

@@ -16,7 +16,7 @@
 
 namespace dartboard {
 
-/// f(law) of a material of elements.
+/// Calls f(law) with the law of a material of elements.
 /// throws  InputError for a material of springs
 template <class F>
 auto with_law_of(const Material& material, F&& f) {
@@ -30,7 +30,7 @@ auto with_law_of(const Material& material, F&& f) {
   throw InputError("a material of springs has no elastic law; expected a model of elements");
 }
 
-/// The law of a cell that resists by its springs, in a body where others are elements.
+/// The law of a cell of springs, in a body where other cells are elements.
 struct NoLaw {
   double energy(const Eigen::Matrix3d&) const { return 0.0; }
   EnergyChange change(const Eigen::Matrix3d&, const Eigen::Matrix3d&) const { return {}; }
@@ -39,14 +39,14 @@ struct NoLaw {
   double modulus() const { return 0.0; }
 };
 
-/// The volume of an element now over that at rest. One of springs may be turned inside out and does not feel it.
+/// The present volume of an element over that at rest. A cell of springs may be turned inside out without any effect.
 template <class Law>
 double volume_ratio(const Law&, const Eigen::Matrix3d& f) {
   return f.determinant();
 }
 inline double volume_ratio(const NoLaw&, const Eigen::Matrix3d& f) { return std::abs(f.determinant()); }
 
-/// Any of the laws.
+/// Any of these laws.
 class AnyLaw {
  public:
   explicit AnyLaw(const Material& material) {
@@ -76,7 +76,7 @@ class AnyLaw {
   std::variant<NoLaw, NeoHookean, Corotational, StVenantKirchhoff> law_;
 };
 
-/// What an element asks of its cell's material: the law, and the volume of a kilogram [m^3/kg]. Of a homogeneous body:
+/// The law of a cell's material and the volume of a kilogram [m^3/kg], in a homogeneous body.
 template <class Law>
 class OneLaw {
  public:
@@ -89,7 +89,7 @@ class OneLaw {
   double per_mass_;
 };
 
-/// The same of a body of several materials.
+/// The same in a body of several materials.
 class LawOfCell {
  public:
   explicit LawOfCell(const CellMaterials& materials) : materials_(materials) {
@@ -107,8 +107,8 @@ class LawOfCell {
   std::vector<double> per_mass_;
 };
 
-/// f(laws) of the cells of a body, by cell.
-/// throws  InputError where all are springs
+/// Calls f(laws) with the laws of a body's cells, by cell.
+/// throws  InputError if all cells are springs
 template <class F>
 auto with_laws_of(const CellMaterials& materials, F&& f) {
   if (!materials.is_one()) return std::forward<F>(f)(LawOfCell(materials));

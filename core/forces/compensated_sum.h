@@ -1,5 +1,5 @@
 #pragma once
-// Sums whose error is that of their largest term, however many there are.
+// Sums whose error is that of their largest term, however many terms there are.
 
 #include <cmath>
 

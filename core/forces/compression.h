@@ -1,11 +1,11 @@
 #pragma once
-// What is done about directions in which a tangent is negative.
+// The treatment of directions in which a tangent is negative.
 
 #include <cstdint>
 
 namespace dartboard {
 
-/// What is done about the negative eigenvalues of compressed springs and elements.
+/// The treatment of the negative eigenvalues of compressed springs and elements.
 enum class Compression : std::uint8_t {
   exact,     // nothing: the tangent may be indefinite
   projected  // they are set to zero: the nearest positive semidefinite matrix of each spring or element

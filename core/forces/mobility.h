@@ -1,5 +1,5 @@
 #pragma once
-// What impulses change velocities by.
+// The changes of velocities by impulses.
 
 #include <Eigen/Core>
 #include <concepts>
@@ -10,8 +10,8 @@
 
 namespace dartboard {
 
-/// Inverse masses [1/kg] by vertex, zero where it is fixed, and the axes along which vertices are held; empty where
-/// none are. Valid as long as both columns.
+/// Inverse masses [1/kg] by vertex, zero where it is fixed, and the axes along which vertices are held; empty where no
+/// vertex is held. Valid as long as both columns.
 class Mobility {
  public:
   template <class Column>
@@ -25,7 +25,7 @@ class Mobility {
   Eigen::Vector3d velocity_of(std::size_t i, const Eigen::Vector3d& impulse) const {
     return inverse_mass_[i] * free_part(held_axes(i), impulse);
   }
-  /// The part of it along the impulse's own direction, of a unit of it [1/kg].
+  /// The component of that velocity along the impulse, for an impulse of 1 N s along `unit` [1/kg].
   double along(std::size_t i, const Eigen::Vector3d& unit) const {
     return held_axes(i) == 0 ? inverse_mass_[i] : inverse_mass_[i] * free_part(held_axes(i), unit).squaredNorm();
   }

@@ -6,7 +6,7 @@ namespace dartboard {
 
 double one_minus_exp_of_minus(double z) {
   if (z > 64.0) return 1.0;
-  if (std::isinf(z)) return z;  // halving minus infinity has no end
+  if (std::isinf(z)) return z;  // halving minus infinity would not end
   int halvings = 0;
   for (; std::abs(z) > 0.5; ++halvings) z /= 2;
   // z - z^2/2 + z^3/6 - ..., whose next term is below 0.5^14 / 15!

@@ -1,5 +1,5 @@
 #pragma once
-// What an exact decay takes.
+// The part of a quantity that an exact decay removes.
 
 namespace dartboard {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The springs of a body, by edge number. Damping that no spring has takes no byte.
+// The springs of a body, by edge number. Where no spring is damped, damping takes no memory.
 
 #include <array>
 #include <cstddef>
@@ -14,10 +14,10 @@ namespace dartboard {
 /// The numbers of the vertices at the two ends of a spring.
 using SpringEnds = std::array<std::uint32_t, 2>;
 
-/// What an edge embeds: one spring.
+/// The embedding of an edge: one spring.
 struct Spring {
   double rest_length;  // [m]
-  double stiffness;    // [N/m], the sum of what the incident cells contribute
+  double stiffness;    // [N/m], the sum of the contributions of the incident cells
   double damping;      // [N s/m], likewise
   template <class Archive>
   void state(Archive& archive) {
@@ -59,7 +59,7 @@ class SpringSpan {
 
   /// Empty where the springs have no damping.
   std::span<const Spring> damped() const { return damped_; }
-  /// Empty where they have.
+  /// Empty where the springs have damping.
   std::span<const UndampedSpring> undamped() const { return undamped_; }
   /// f(undamped()) or f(damped()).
   template <class F>
@@ -102,8 +102,8 @@ class SpringSpan::Iterator {
 inline SpringSpan::Iterator SpringSpan::begin() const { return {*this, 0}; }
 inline SpringSpan::Iterator SpringSpan::end() const { return {*this, size()}; }
 
-/// The springs themselves. They hold damping from the first damped one on: with all others, it then has a place in
-/// every row.
+/// The springs themselves. They hold damping from the first damped one on: every row then has a place for it, also the
+/// rows of undamped springs.
 class Springs {
  public:
   operator SpringSpan() const { return damped_.empty() ? SpringSpan(undamped_) : SpringSpan(damped_); }

@@ -1,5 +1,5 @@
 #pragma once
-// The damping of a force term: what its pieces lose by being deformed, however fast the body moves or turns.
+// The damping of a force term: the energy that its pieces lose by deformation, independent of rigid motion.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace dartboard {
 /// Forces - C v, with C a function of the positions: symmetric, positive semidefinite, and zero for every rigid motion,
 /// so that linear and angular momentum stay.
 ///
-/// Of a piece C is `time` times a stiffness, that of its material where nothing stresses it.
-/// cost    O(pieces) where nothing else is said
+/// The C of a piece is `time` times a stiffness, that of its material without stress.
+/// cost    O(pieces) unless stated otherwise
 class TermDamping {
  public:
   using Nodes = ForceTerm::Nodes;
@@ -22,27 +22,27 @@ class TermDamping {
 
   virtual ~TermDamping() = default;
 
-  /// [s] of a piece; 0 where it is not damped.
+  /// The damping time of a piece [s]; 0 where it is not damped.
   virtual double time(std::size_t piece) const = 0;
 
   /// force -= C v [N] at these places.
   virtual void add_forces(const StagePlaces& at, std::span<const Eigen::Vector3d> v,
                           std::span<Eigen::Vector3d> force) const = 0;
-  /// size[i] += a bound of what rounding acts on in the force at i [N]: with eps times it, forces are known.
+  /// size[i] += a bound of the terms of the force at i [N]: eps times it bounds the rounding error of the force.
   virtual void add_force_sizes(const StagePlaces& at, std::span<const Eigen::Vector3d> v,
                                std::span<double> size) const = 0;
   /// - w' C v [W], summed over some pieces.
   virtual double power(std::span<const std::uint32_t> pieces, std::span<const Eigen::Vector3d> x,
                        std::span<const Eigen::Vector3d> v, std::span<const Eigen::Vector3d> w) const = 0;
-  /// What v' C v / 2 [W] changes by as v moves on by `scale` times `step`, C being that of these places.
+  /// The change of v' C v / 2 [W] as v changes by `scale` times `step`, with C at these places.
   virtual EnergyChange rate_change(const StagePlaces& at, std::span<const Eigen::Vector3d> v,
                                    std::span<const Eigen::Vector3d> step, double scale) const = 0;
 
   /// The stiffness of every piece, damped or not, that `time` is multiplied by.
   virtual void for_each_tangent(const StagePlaces& at, const VisitTangent& visit) const = 0;
 
-  /// Let v decay for h at positions that stand still: part after part of each piece, in the order of their numbers or
-  /// backwards, each as if it were alone; none gains energy from that, whatever h > 0.
+  /// Let v decay for h at fixed positions: part after part of each piece, in the order of their numbers or backwards,
+  /// each as if it were alone; no part adds energy, whatever h > 0.
   ///
   virtual void decay(std::span<const Eigen::Vector3d> x, double h, const Mobility& mobility, bool backwards,
                      std::span<Eigen::Vector3d> v) const = 0;

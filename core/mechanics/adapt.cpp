@@ -11,7 +11,7 @@ template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 using Numbers = std::vector<std::uint32_t>;
 
-/// A set of numbers that is small as a rule.
+/// A set of numbers that is usually small.
 class NumberSet {
  public:
   bool contains(std::uint32_t k) const {
@@ -39,7 +39,7 @@ void sort_once(Numbers& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/// Those that are still numbers of something, ascending.
+/// The numbers below `count`, which are still in use, ascending.
 template <class List>
 Numbers below(std::size_t count, const List& numbers) {
   Numbers list;
@@ -49,7 +49,7 @@ Numbers below(std::size_t count, const List& numbers) {
   return list;
 }
 
-/// One dart for each place of a cell: what a single walk around it finds, and all that its embedding follows from.
+/// One dart for each place of a cell: a single walk around the cell finds them, and they determine its embedding.
 using Places = boost::container::small_vector<Dart, 192>;
 
 /// Visit every part of the cells in `pairs`: those of `kept` first, each part once.
@@ -89,8 +89,8 @@ void separate(const Map& map, Index& index, const std::vector<DissociatedCell>& 
   });
 }
 
-/// Take the numbers away that only dead darts hold now: those read at `removed` that no live part of a touched cell
-/// kept. The last number moves into each gap.
+/// Free the numbers that only dead darts hold now: those read at `removed` that no live part of a touched cell kept.
+/// The last number moves into each gap.
 template <int i, class Map, class Index, class Move>
 void close_gaps(const Map& map, Index& index, const std::vector<Dart>& removed, std::vector<Dart>& dart_of,
                 NumberSet& touched, std::vector<Renumbered>& moved, Move&& move_last_columns) {

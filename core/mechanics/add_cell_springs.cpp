@@ -18,7 +18,7 @@ bool has_diagonals(const CellMaterials& materials, const Mesh& mesh, std::size_t
   return materials[c].model == Model::springs && !diagonals_of(mesh.kinds[c], which).empty();
 }
 
-/// Of a cell whose corners have these numbers, the weight of the edge from vertex i to vertex j.
+/// The weight of the edge from vertex i to vertex j of a cell whose corners have these numbers.
 double weight_of_edge(CellKind kind, Diagonals which, const SolidNodes& nodes, std::uint32_t i, std::uint32_t j) {
   for (const CornerSpring& edge : edges_beside(kind, which)) {
     const std::uint32_t a = nodes.at[static_cast<std::size_t>(edge.a)], b = nodes.at[static_cast<std::size_t>(edge.b)];

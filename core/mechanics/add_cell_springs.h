@@ -7,11 +7,11 @@
 namespace dartboard {
 
 /// Give every cell of springs its diagonals (`cell_springs`), each with the stiffness of the cell's material, undamped.
-/// Where that has a Young's modulus, edges and diagonals share it by their weights (core/plain/diagonals.h). A body
-/// whose cells have no such diagonals keeps no column for them.
+/// Where the material has a Young's modulus, edges and diagonals share it by their weights (core/plain/diagonals.h). A
+/// body whose cells have no such diagonals keeps no column for them.
 ///
-/// pre     just built from this mesh, and not moved
-/// throws  InputError for a diagonal whose stiffness is not a number
+/// pre     the body was just built from this mesh, and has not moved
+/// throws  InputError for a diagonal whose stiffness is not finite
 template <class Map>
 void add_cell_springs(MassSpringBody<Map, Held::by_every_dart>& body, const Mesh& mesh, Diagonals which);
 

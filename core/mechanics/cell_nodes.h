@@ -50,9 +50,9 @@ std::vector<Dart> around_face(const Map& map, Dart d) {
 
 /// Add cell k of a body to a mesh whose points are the vertices of the body by number; right-handed at rest.
 ///
-/// Which kind of cell it is, is told by how many nodes its faces have; the walk starts on a face of three nodes for a
-/// prism and of four for a pyramid.
-/// throws  InputError for a polyhedron that is none of the kinds of cell
+/// The kind is inferred from the sizes of the faces; the walk starts on a face of three nodes for a prism and of four
+/// for a pyramid.
+/// throws  InputError for a polyhedron that is not one of the kinds of cell
 template <class Map, Held held>
 void add_cell_of(const MassSpringBody<Map, held>& body, std::uint32_t k, Mesh& mesh) {
   const Map& map = body.map;
@@ -91,8 +91,8 @@ void add_cell_of(const MassSpringBody<Map, held>& body, std::uint32_t k, Mesh& m
     else
       fail(triangles + quadrilaterals);
 
-    // A right-handed cell is listed with its first face clockwise seen from outside. `cell_inside_out` tells how the
-    // walk from the even darts goes.
+    // A right-handed cell is listed with its first face clockwise seen from outside. `cell_inside_out` gives the
+    // direction of the walk from the even darts.
     const bool start_odd = body.cell_inside_out[k] == 0;
     Dart start = no_dart;
     for (const auto& at : on_face[kind == CellKind::tetrahedron || kind == CellKind::prism ? 0 : 1])

@@ -1,5 +1,5 @@
 #pragma once
-// Columns of embeddings, and how each follows a topological change: declared once, asked by all that runs over them.
+// Columns of embeddings, and how each follows a topological change: declared once, for every loop over the columns.
 
 #include <cstddef>
 #include <string_view>
@@ -10,9 +10,9 @@ namespace dartboard {
 
 /// How an embedding adapts when its cell is dissociated (section 4.3).
 enum class Adapts {
-  duplicated,    // every part has what the cell had
+  duplicated,    // every part has the value of the cell
   recomputed,    // from the cells around each part, eq. (1)
-  proportional,  // to what is recomputed
+  proportional,  // to a recomputed value
 };
 
 /// One column of `Owner`.
@@ -37,7 +37,7 @@ void columns_state(Archive& archive, Owner& owner, const Table& table) {
   for_each_column(owner, table, [&archive](auto& column, const auto&) { archive(column); });
 }
 
-/// A part of element k, at the end: what is duplicated is there, what is recomputed has to be.
+/// Append a part of element k: duplicated columns are copied, recomputed ones are left for the caller to fill.
 template <class Owner, class Table>
 void add_part_of_element(Owner& owner, const Table& table, std::size_t k) {
   for_each_column(owner, table, [k](auto& column, const auto& row) {
@@ -57,7 +57,7 @@ void move_last_element(Owner& owner, const Table& table, std::size_t k) {
   });
 }
 
-/// Room for one more, to be filled; not in columns that have been left out beside `size` others.
+/// Append one element, to be filled; columns that are left out, whose size is not `size`, stay empty.
 template <class Owner, class Table>
 void add_element(Owner& owner, const Table& table, std::size_t size) {
   for_each_column(owner, table, [size](auto& column, const auto&) {

@@ -10,8 +10,8 @@
 
 namespace dartboard {
 
-/// A dart at each corner of the tetrahedron of d: at its own vertex, then along its edge, its face and its volume. Of
-/// the lowest dart of a cell, which no operation changes as long as the cell lives, that is an order for good.
+/// A dart at each corner of the tetrahedron of d: at its own vertex, then along its edge, its face and its volume. From
+/// the lowest dart of a cell, which no operation changes as long as the cell lives, this order is permanent.
 template <class Map>
 std::array<Dart, 4> corners_from(const Map& map, Dart d) {
   return {d, map.template alpha<0>(d), map.template alpha<1, 0>(d), map.template alpha<2, 1, 0>(d)};
@@ -31,7 +31,7 @@ void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint3
   nodes.at = {};
   std::ranges::copy(cell.nodes, nodes.at.begin());
 }
-/// Of a triangle: round it from its lowest dart.
+/// The corners of a triangle: round it from its lowest dart.
 template <class Map>
 void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t c, TriangleNodes& nodes) {
   Dart at = body.cell_dart[c];
@@ -41,7 +41,7 @@ void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint3
   }
 }
 
-/// How many elements of this kind a body has: one per cell, or none. Springs within cells go by the corners of solids,
+/// The number of elements of this kind in a body: one per cell, or 0. Springs within cells use the corners of solids,
 /// and so do surfaces of triangles and quadrilaterals.
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const TetrahedronNodes&) {

@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// Which darts of an orbit know the embedding of their cell: "the same information to all the darts of the orbit or to
-/// a single dart" (section 2.2; the paper chose the second).
+/// The darts of an orbit that store the embedding of their cell: "the same information to all the darts of the orbit or
+/// to a single dart" (section 2.2; the paper chose the second).
 enum class Held { by_one_dart, by_every_dart };
 
 inline constexpr std::uint32_t no_embedding = std::numeric_limits<std::uint32_t>::max();
@@ -24,7 +24,7 @@ class CellEmbedding {
   /// Make `number` the embedding of `cell`.
   void attach(const Map& map, Cell<i> cell, std::uint32_t number) {
     at_.resize(map.template slot_count<i>(), no_embedding);
-    // held by one dart, the others forget what the cell had before
+    // where one dart holds the number, the others lose the cell's earlier one
     const std::uint32_t others = held == Held::by_every_dart ? number : no_embedding;
     for_each_dart_of(map, cell, [&](Dart d) { at_[Map::template slot<i>(d)] = others; });
     at_[Map::template slot<i>(cell.dart)] = number;

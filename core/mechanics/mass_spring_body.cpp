@@ -82,7 +82,7 @@ void require_sane(const Problem& problem) {
     if (!v.allFinite()) throw InputError("an initial velocity is not finite");
 }
 
-/// Elements have no use for what springs have, which has defaults.
+/// The material of elements, without the properties of springs, which have defaults.
 Material without_springs(Material material) {
   if (material.model != Model::springs) material.stiffness = material.damping = 0.0;
   return material;
@@ -233,7 +233,7 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
 
 namespace {
 
-/// Add what each cell contributes, each cell once, in the order of the cells' darts.
+/// Add the contributions of the cells, each cell once, in the order of the cells' darts.
 template <class Contribution>
 double sum_over_cells(Contribution&& contribution, std::span<const Dart> darts) {
   boost::container::small_vector<std::pair<Dart, double>, 192> around;
@@ -308,7 +308,7 @@ Spring MassSpringBody<Map, held>::spring_of(std::span<const Dart> darts, double 
 
 namespace {
 
-// A state by point is one vertex per point: not so after a cut or a removal.
+// A state by point needs one vertex per point, which may not hold after a cut or a removal.
 void require_vertex_per_point(const VertexColumns& vertices) {
   std::vector<bool> met(vertices.size(), false);
   for (const std::uint32_t p : vertices.point) {

@@ -40,21 +40,21 @@ struct MassSpringBody {
   // 1 where the face of that dart, walked along alpha_0 alpha_1 from it, runs clockwise seen from outside the cell at
   // rest
   std::vector<std::uint8_t> cell_inside_out;
-  // What elements need of the rest shape of each cell, whose corners are those of `find_nodes`: where all are
-  // tetrahedra, or of cells of any kind; of a surface where all are triangles, or of any; empty with springs.
+  // The rest shapes of elements by cell, with the corners of `find_nodes`; one of four columns: for a solid of
+  // tetrahedra or of any cells, for a surface of triangles or of any faces; all are empty with springs.
   std::vector<RestShape> cell_shape;
   std::vector<SolidShape> cell_solid;
   std::vector<PlaneInverse> cell_triangle;
   std::vector<MembraneShape> cell_membrane;
-  // Of each cell the springs on its diagonals; empty where no cell has any.
+  // By cell: the springs on its diagonals; empty where no cell has any.
   std::vector<CellSprings> cell_springs;
-  // Of each cell the number of its material in `materials`; both empty in a body of one.
+  // By cell: the number of its material in `materials`; both are empty in a body of one material.
   std::vector<MaterialNumber> cell_material;
   // Stiffness that a cell contributes to its edges over that of its material, by slot<1>; empty, and 1 for all, until
-  // the body is refined, where no springs have a Young's modulus.
+  // the body is refined, if no springs have a Young's modulus.
   std::vector<double> edge_share;
 
-  /// The columns of cells, but for their darts. Cells come and go whole: none is dissociated.
+  /// The columns of cells, except their darts. Cells are added and removed whole: no cell is dissociated.
   static constexpr auto embedded_in_cells() {
     using B = MassSpringBody;
     return std::tuple{EmbeddedColumn{"cell mass", &B::cell_mass, Adapts::recomputed},
@@ -75,33 +75,33 @@ struct MassSpringBody {
   /// The materials of its cells, by their numbers.
   CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 
-  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed by the cells' darts,
-  /// so that neither the order of the walk nor the numbers of the cells leave a trace in the bits.
+  /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed in the order of the
+  /// cells' darts, so that the bits depend neither on the order of the walk nor on the numbers of the cells.
   double mass_of(Vertex v) const;
   /// The same for a vertex of which at least one dart in each of its cells is given.
   double mass_of(std::span<const Dart> darts) const;
-  /// Volume at rest of a vertex [m^3] (area): that share of each incident cell.
+  /// Volume at rest of a vertex [m^3] (area): the same share of each incident cell.
   double volume_of(Vertex v) const;
-  /// The mass of vertex embedding k, and what is proportional to it.
+  /// Set the mass of vertex embedding k, and what is proportional to it.
   void set_mass(std::uint32_t k, double mass) {
     vertices.mass[k] = mass;
     vertices.inverse_mass[k] = 1.0 / mass;
     vertices.viscosity[k] = material.viscosity * mass;
   }
-  /// Stiffness and damping of an edge: what its incident cells contribute, as springs in parallel.
+  /// The spring of an edge: the stiffness and damping of its incident cells, as springs in parallel.
   Spring spring_of(Edge e, double rest_length) const;
   /// The same for an edge of which at least one dart in each of its cells is given.
   Spring spring_of(std::span<const Dart> darts, double rest_length) const;
 
   /// Positions and velocities by mesh point.
-  /// throws  InputError when a cut or a removal has left a point with another number of vertices than one (set_state
+  /// throws  InputError when a cut or a removal has left a point with no vertex or with several (set_state throws it
   ///         too)
   PointState state() const;
   /// Fixed vertices take the position and stay at rest.
   void set_state(const PointState& state);
-  /// Of positions and velocities, in the order of the embeddings' numbers.
+  /// A hash of positions and velocities, in the order of the embeddings' numbers.
   std::uint64_t state_hash() const;
-  /// What a checkpoint holds of it: all but the materials and the surroundings, which do not change.
+  /// Writes or reads what a checkpoint holds: all but the materials and the surroundings, which do not change.
   template <class Archive>
   void state(Archive& archive) {
     archive(map, vertex, edge, face, cell, vertices, springs, edge_dart, face_dart, cell_dart, edge_share);
@@ -110,8 +110,8 @@ struct MassSpringBody {
   std::size_t embedding_bytes() const { return vertex.bytes() + edge.bytes() + face.bytes() + cell.bytes(); }
 };
 
-/// Build the body of a problem. With a model of elements its springs have no stiffness: what they have is their rest
-/// lengths, which refinement goes on with. Embeddings are numbered in the order in which a coverage meets their cells.
+/// Build the body of a problem. Bodies of elements keep springs of stiffness 0, because refinement needs their rest
+/// lengths. Embeddings are numbered in the order in which a coverage meets their cells.
 ///
 /// throws  InputError if the mesh does not fit the map (build_map), a point belongs to no cell, a fixed point does not
 ///         exist, a number is not finite or a density is not positive, or one mesh point is several vertices of the map

@@ -16,7 +16,7 @@ using Body = MassSpringBody<Map, Held::by_every_dart>;
 
 constexpr std::size_t other_end(std::size_t p) { return tet_darts.node[tet_darts.alpha[0][p]]; }
 
-/// Numbers of the embeddings of a tetrahedron that went away, by its nodes, edges (01 02 03 12 13 23) and faces.
+/// Numbers of the embeddings of a removed tetrahedron, by its nodes, edges (01 02 03 12 13 23) and faces.
 struct OldNumbers {
   std::array<std::uint32_t, 4> vertices, faces;
   std::array<std::uint32_t, 6> edges;
@@ -24,7 +24,7 @@ struct OldNumbers {
   std::uint32_t cell;
 };
 
-/// One subdivision, step by step; every step reads what the ones before wrote.
+/// One subdivision, step by step; every step reads the results of those before.
 template <class Map>
 class Refinement {
  public:
@@ -76,7 +76,7 @@ class Refinement {
     VertexColumns& v = body_.vertices;
     vertex_ = static_cast<std::uint32_t>(v.size());
     Eigen::Vector3d position(0, 0, 0), velocity(0, 0, 0), rest(0, 0, 0);
-    HeldAxes held = all_axes;  // along those that all its corners are
+    HeldAxes held = all_axes;  // the axes along which all its corners are held
     for (std::size_t n = 0; n < 4; ++n)
       if (is_of_cell(0, n)) {
         const std::uint32_t k = old_[0].vertices[n];
@@ -114,8 +114,8 @@ class Refinement {
             tet_darts.node[alpha[0][alpha[1][alpha[2][first]]]]};
   }
 
-  /// Of a point, the coordinate mu of a new corner is the number of the cell's vertices m times lambda of the node r it
-  /// replaces, and that of another node of the cell is lambda less lambda_r: of the gradients too, whatever the shape.
+  /// The coordinate mu of a point for the new corner is m, the number of the cell's vertices, times lambda_r of the
+  /// node r it replaces; for another node of the cell it is lambda - lambda_r. The gradients follow the same rule.
   RestShape shape_of_child(const Subdivision::Child& child, const Corners& of_child, const RestShape& parent,
                            const Corners& of_parent) const {
     std::array<Eigen::Vector3d, 4> gradient;
@@ -161,7 +161,7 @@ class Refinement {
       body_.node_share[number] = body_.cell_mass[number] / 4.0;
       const auto lowest = std::min_element(child.darts.begin(), child.darts.end());
       body_.cell_dart[number] = *lowest;
-      // even steps away from the parent's dart, a child's lowest dart runs as that one did
+      // an even number of steps away from the parent's dart, a child's lowest dart has the same orientation
       const bool odd = (lowest - child.darts.begin()) % 2 != 0;
       const bool inside_out = was_inside_out_ != (odd != turned_);
       body_.cell_inside_out[number] = inside_out;
@@ -220,7 +220,7 @@ class Refinement {
       }
   }
 
-  /// What each child contributes to the stiffness of its edges, over that of the material.
+  /// The contribution of each child to the stiffness of its edges, over the stiffness of the material.
   void share_stiffness() {
     body_.edge_share.resize(map_.template slot_count<1>(), 1.0);
     for (const auto& child : s_.children)
@@ -284,7 +284,7 @@ class Refinement {
       }
   }
 
-  // Cells around the subdivided one lost the darts of the parents and got those of the children.
+  // The cells around the subdivided one have lost the darts of the parents and have got those of the children.
   void find_darts_and_masses() {
     std::vector<Dart> places;
     Mark seen(map_);

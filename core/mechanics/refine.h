@@ -6,27 +6,27 @@
 
 namespace dartboard {
 
-/// Adapt the embeddings of a body to a subdivision of its map. Cells of other kinds may stand beside the tetrahedra
-/// that are subdivided.
+/// Adapt the embeddings of a body to a subdivision of its map. The body may have cells of other kinds next to the
+/// tetrahedra that are subdivided.
 ///
-/// Position and velocity of the new vertex are the means of the cell's vertices, as its place at rest is where that is
-/// held, and it is fixed if they all are. Each tetrahedron shares its mass equally among its children, so total mass,
-/// centre of mass and linear momentum stay; spin and kinetic energy lose what lumping at more points takes from the
-/// moment of inertia. Rest lengths follow from those around, on the rest shape.
+/// Position and velocity of the new vertex are the means over the cell's vertices, as is its rest position where that
+/// is kept, and it is fixed if they all are. Each tetrahedron shares its mass equally among its children, so total
+/// mass, centre of mass and linear momentum stay; spin and kinetic energy fall, as lumping at more points lowers the
+/// moment of inertia. Rest lengths follow from the surrounding ones, on the rest shape.
 ///
-/// Stiffness and damping: what a tetrahedron contributes to an edge is shared equally among its children there, and the
+/// Stiffness and damping: the contribution of a tetrahedron to an edge is shared equally by its children there, and the
 /// halves of a subdivided edge are springs in series, twice as stiff each: forces on the old vertices, and elastic
 /// energy, are unchanged to rounding for every affine deformation, and the new vertex is in equilibrium. The springs
 /// from the new vertex to vertices across get `bracing` times the material's stiffness from each old tetrahedron.
 /// No positive value keeps all affine forces: the new springs resist strain too. With bracing 0 the forces
-/// are kept exactly, but nothing holds the new vertex except the two halves along a subdivided edge: one put into a
-/// face or a tetrahedron moves freely. Elements need no bracing: the rest shape of a child follows from its parent's,
+/// are kept exactly, but only the two halves of a subdivided edge hold the new vertex: one put into a face or
+/// a tetrahedron moves freely. Elements need no bracing: the rest shape of a child follows from its parent's,
 /// and an affine deformation keeps all forces and the energy.
 ///
 /// pre     every dart holds the embedding numbers, `subdivision` was just made on the body's map, bracing >= 0
 /// throws  InputError if bracing is negative or not finite
 /// cost    O(darts around the vertices of the touched tetrahedra); the first time O(edges of cells), for a column of
-///         shares of stiffness that unrefined bodies do without
+///         shares of stiffness that unrefined bodies do not have
 /// source  the paper's future work
 template <class Map>
 ChangedEmbeddings adapt(MassSpringBody<Map, Held::by_every_dart>& body, const Subdivision& subdivision, double bracing);

@@ -47,7 +47,7 @@ class Copy {
     return Dart{static_cast<std::uint32_t>(std::lower_bound(darts_.begin(), darts_.end(), d) - darts_.begin())};
   }
 
-  // New darts are numbered in the order of the old ones, so that what is summed in their order keeps its bits.
+  // New darts are numbered in the order of the old ones, so that sums in their order keep their bits.
   void copy_map() {
     const Map& map = from_.map;
     if constexpr (Map::tetrahedral) {

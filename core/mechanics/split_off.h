@@ -6,22 +6,22 @@
 
 namespace dartboard {
 
-/// A component that became a body of its own, and what the body it came from must be told.
+/// A component that became a body of its own, and the change of the body that it left.
 template <class Map>
 struct SplitOff {
   MassSpringBody<Map, Held::by_every_dart> part;
   TopologyChange change;      // of the body it left
-  ChangedEmbeddings changed;  // likewise; adapted already
+  ChangedEmbeddings changed;  // of the same body, which has been adapted
 };
 
 /// Take the component of `d` out of a body and make it a body of its own, with the columns it had.
 ///
-/// Embeddings of the part stand in the same order as before, so it moves, bit for bit, as it would have within the
-/// body. Masses, momenta and energies of the two sum to those of the whole, because no spring joins components.
+/// Embeddings of the part keep their order, so it moves, bit for bit, as it would have within the body. Masses, momenta
+/// and energies of the two sum to those of the whole, because no spring joins components.
 ///
 /// pre     every dart holds the embedding numbers
 /// throws  TopologyError if d is dead; nothing has changed then
-/// cost    O(darts of the component), whatever the size of the rest: take the smaller part out
+/// cost    O(darts of the component), whatever the size of the rest: take out the smaller part
 /// source  the paper's conclusion
 template <class Map>
 SplitOff<Map> split_off(MassSpringBody<Map, Held::by_every_dart>& body, Dart d);

@@ -1,5 +1,5 @@
 #pragma once
-// What the vertices of a body embed: all that moves, without the map whose cells they are.
+// The embeddings of the vertices of a body: all that moves, without the map whose cells the vertices are.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace dartboard {
 
-/// In place of a mesh point, for a vertex that a refinement made.
+/// Stands in place of a mesh point for a vertex that a refinement made.
 inline constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
-/// What vertices embed. Columns share one numbering, that of the vertex embeddings.
+/// The columns of the vertex embeddings. All share one numbering.
 struct VertexColumns {
   std::vector<double> mass;               // [kg]  eq. (1)
   std::vector<double> inverse_mass;       // [1/kg]; a product is cheaper than a quotient in the loop
@@ -27,25 +27,25 @@ struct VertexColumns {
   std::vector<Eigen::Vector3d> velocity;  // [m/s]
   std::vector<Eigen::Vector3d> force;     // [N] sum of the springs; zero between steps
   std::vector<std::uint8_t> fixed;        // 1: held still
-  std::vector<HeldAxes> held_axes;        // of those that move along the others; left out where there are none
+  std::vector<HeldAxes> held_axes;        // axes along which a vertex is held; left out where no vertex is held
   std::vector<std::uint32_t>
       point;  // the mesh point it came from; shared by the parts of a dissociated vertex, or no_point
   std::vector<Eigen::Vector3d> rest;  // [m] where it was at rest; left out until keep_rest
   std::vector<Eigen::Vector3d>
-      pull;                // [m/s^2] forces from outside over its mass, so that parts share them; or left out
+      pull;                // [m/s^2] external forces over its mass, so that parts share them; may be left out
   std::vector<Dart> dart;  // the lowest dart of the vertex
 
   std::size_t size() const { return mass.size(); }
 
-  /// Hold from now on where each vertex was at rest, which pictures of displacement need and no motion does.
-  /// pre  the body is at rest where its mesh has it
+  /// Keep the rest position of each vertex from now on: pictures of displacement need it, motions do not.
+  /// pre  the body is at rest, at the positions of its mesh
   void keep_rest() { rest = position; }
 
-  /// Hold the vertices of these points along their axes from now on, and nothing else; velocities lose what is along
-  /// them.
+  /// From now on hold the vertices of these points, and no others, along their axes; velocities lose their components
+  /// along these axes.
   void hold(std::span<const HeldPoint> points);
 
-  /// Every column but the darts, which are the cells themselves.
+  /// Every column except the darts, which are the cells themselves.
   static constexpr auto embedded() {
     using V = VertexColumns;
     return std::tuple{EmbeddedColumn{"mass", &V::mass, Adapts::recomputed},

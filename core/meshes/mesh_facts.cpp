@@ -54,7 +54,7 @@ std::vector<double> angles_of(const Mesh& mesh, std::size_t c) {
     }
     return angles;
   }
-  std::map<Pair, Eigen::Vector3d> first;  // the normal of the face that had the edge first
+  std::map<Pair, Eigen::Vector3d> first;  // by edge: the normal of the first face met there
   for (const Points& face : faces) {
     const Eigen::Vector3d normal = normal_of(mesh, face);
     for (std::size_t k = 0; k < face.size(); ++k) {
@@ -93,7 +93,7 @@ void keep_less(std::optional<OfCell>& least, double value, std::size_t cell) {
   if (!least || !(value >= least->value)) least = {value, static_cast<std::uint32_t>(cell)};
 }
 
-/// Faces of volumes, or edges of polygons, that one cell has.
+/// Faces of volumes, or edges of polygons, that belong to one cell only.
 std::vector<Points> boundary_facets(const Mesh& mesh) {
   std::map<Points, std::pair<Points, int>> met;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c)
@@ -136,7 +136,7 @@ void add_boundary(const Mesh& mesh, MeshFacts& facts) {
   }
   facts.boundary_parts = parts.count();
   if (!solid || !is_surface) return;
-  // parts that share a point are one here and two in the formula
+  // a point that two parts share is counted once here and twice in the formula
   std::map<std::uint32_t, std::set<std::uint32_t>> parts_at;
   for (std::uint32_t f = 0; f < facets.size(); ++f)
     for (const std::uint32_t p : facets[f]) parts_at[p].insert(parts.set_of(f));

@@ -1,5 +1,5 @@
 #pragma once
-// What one wants to know of a mesh before it becomes a body: its size, its edges, its worst cells, its boundary.
+// The facts of a mesh before it becomes a body: its size, its edges, its worst cells, its boundary.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -22,15 +22,15 @@ struct MeshFacts {
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};                     // [m] corners of the bounding box
   double least_edge = 0.0, median_edge = 0.0, largest_edge = 0.0;  // [m]
   double measure = 0.0;                                            // [m^3], of a surface [m^2]: that of all cells
-  /// [degrees] between two faces of a volume, along an edge; of a polygon at a corner.
+  /// [degrees] between two faces of a volume, along an edge; in a polygon at a corner.
   std::optional<OfCell> smallest_angle, largest_angle;
-  /// Of tetrahedra 3 r / R, of triangles 2 r / R, r and R the radii of the spheres or circles in and around them: 1 for
-  /// a regular one, 0 for a flat one. None of other kinds.
+  /// 3 r / R for tetrahedra, 2 r / R for triangles, r and R the radii of the spheres or circles in and around them: 1
+  /// for a regular one, 0 for a flat one. No value for other kinds.
   std::optional<OfCell> least_radius_ratio;
   std::vector<std::uint32_t> flat;  // cells with an angle below one degree, ascending
   std::size_t boundary_parts = 0;   // closed surfaces; of a surface, boundary curves
-  /// Handles of the boundary of a solid, over all its parts; none where it is not a surface all over, or where there is
-  /// no boundary.
+  /// Handles of the boundary of a solid, over all its parts; no value if the boundary is not a surface everywhere, or
+  /// is empty.
   std::optional<std::size_t> genus;
 };
 

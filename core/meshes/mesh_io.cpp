@@ -38,7 +38,7 @@ std::optional<MeshFormat> format_of(const fs::path& path) {
   return std::nullopt;
 }
 
-/// The format of VTK that a text is in, whatever the extension of its file says; nothing where that cannot be told.
+/// The format of VTK that a text is in, whatever the extension of its file; no value if it cannot be recognised.
 std::optional<MeshFormat> vtk_format_of(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
@@ -53,10 +53,10 @@ std::optional<MeshFormat> vtk_format_of(std::string_view text) {
                                      {"\"PUnstructuredGrid\"", MeshFormat::pvtu},
                                      {"'PUnstructuredGrid'", MeshFormat::pvtu}})
     if (tag.find(type) != tag.npos) return format;
-  return MeshFormat::vtu;  // whose reader says what else it is
+  return MeshFormat::vtu;  // its reader reports any other type
 }
 
-/// Of the formats of VTK the one that the text is in: files are given the extension of another.
+/// The format of VTK that the text is in: some files have the extension of another.
 MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& builder) {
   const bool is_vtk = format == MeshFormat::vtk_legacy || format == MeshFormat::vtu || format == MeshFormat::vtp ||
                       format == MeshFormat::pvtu;

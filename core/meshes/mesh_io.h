@@ -17,16 +17,16 @@ struct MeshFormatInfo {
   MeshFormat format;
   std::string_view name;
   std::span<const std::string_view> extensions;  // in small letters, with their points
-  std::string_view read, written;                // the variants; `written` is empty for none
+  std::string_view read, written;                // the variants; `written` is empty if none is written
 };
 
 /// All formats that are read.
 std::span<const MeshFormatInfo> mesh_formats();
 
-/// Read and check the mesh in a file whose format is told by its extension (mesh_formats). For TetGen either file, or
-/// the stem of both, will do.
+/// Read and check the mesh in a file whose extension gives its format (mesh_formats). For TetGen either file, or the
+/// stem of both, will do.
 ///
-/// The cells are the volumes of the file, or its polygons where it has no volumes; all that has a lower dimension is
+/// The cells are the volumes of the file, or its polygons if it has no volumes; elements of a lower dimension are
 /// skipped, points of no cell are dropped, and inverted volumes are reordered, each with a notice. Cells are numbered
 /// from 0 in the order of the file.
 ///
@@ -35,7 +35,7 @@ std::span<const MeshFormatInfo> mesh_formats();
 LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
-/// the .ele file; the pieces of a .pvtu are files, looked for from the folder of `name`.
+/// the .ele file; the pieces of a .pvtu are files, searched from the folder of `name`.
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name,
                       const MeshReading& reading = {});
 

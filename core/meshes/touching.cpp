@@ -40,7 +40,7 @@ struct CellEdges {
   }
 };
 
-/// What joins cells: the faces of volumes, the edges of polygons, as the cycle of their points.
+/// A facet that joins cells: a face of volumes or an edge of polygons, as the cycle of its points.
 struct Facet {
   std::array<std::uint32_t, 4> key;  // its points, ascending
   std::array<std::uint32_t, 4> cycle;
@@ -80,7 +80,7 @@ std::uint32_t corner_of(const Mesh& mesh, std::uint32_t cell, std::uint32_t poin
   return k;
 }
 
-/// The values, ascending, that stand beside more than one set.
+/// The values, ascending, that belong to more than one set.
 template <class Value>
 std::vector<Value> of_several_sets(const std::vector<Value>& values, DisjointSets& sets) {
   std::vector<std::pair<Value, std::uint32_t>> pairs;

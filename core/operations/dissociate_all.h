@@ -8,8 +8,8 @@
 
 namespace dartboard {
 
-/// Dissociate the face of each dart, in the order given; of a surface, its edge. Those on the boundary already, and
-/// those met before, are passed over.
+/// Dissociate the face of each dart, in the order given; in a surface, its edge. Those on the boundary already, and
+/// those met before, are skipped.
 ///
 /// throws  TopologyError if one of the darts is dead; the map is unchanged then
 /// cost    that of dissociating them one by one

@@ -49,7 +49,7 @@ using Fans = boost::container::small_vector<Fan, 4>;
 
 /// Walk until the walkers of every fan have met or one has come to a boundary.
 ///
-/// All take turns, so that none waits for the memory of another: a tenth less time per face in a body of 10^6 cells.
+/// All take turns, so that none has to wait for memory alone: a tenth less time per face in a body of 10^6 cells.
 template <class Map>
 void walk(const Map& map, Fans& fans) {
   for (bool all_done = false; !all_done;) {
@@ -123,7 +123,7 @@ TopologyChange dissociate_face_by_orbits(Map& map, Dart d) {
   const Dart opposite = map.template alpha<3>(d);
   const Pairs pairs = unsew_pairs<3>(map, d).pairs;
   if (!same_cell<2>(map, d, opposite)) change.faces.push_back({d, opposite});
-  const auto first_of = [&](std::size_t k, Dart twin) {  // not met before by its twin on the same cell
+  const auto first_of = [&](std::size_t k, Dart twin) {  // true if its twin on the same cell was not met before
     return std::none_of(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(k),
                         [&](const Pair& p) { return p.has(twin); });
   };

@@ -8,10 +8,10 @@ namespace dartboard {
 
 /// Separate the two volumes that share the face of `d` by 3-unsewing it.
 ///
-/// Returns the face, and the edges and vertices of it that came apart; the side of `d` is the one that keeps. Nothing
-/// happens when the face is on the boundary already. The darts touched are checked before it returns. Where a face
-/// meets one cell at several corners, which sewing faces of one volume can bring about, a cell may be reported more
-/// than once.
+/// Returns the face, and the edges and vertices of it that came apart; the side of `d` keeps the embeddings. Nothing
+/// happens when the face is on the boundary already. The darts touched are checked before it returns. If a face meets
+/// one cell at several corners, which is possible after sewing faces of one volume, a cell may be reported more than
+/// once.
 ///
 /// throws  TopologyError if d is dead
 /// cost    O(darts around the edges of the face), and around a vertex when two of its edges came apart
@@ -19,7 +19,7 @@ namespace dartboard {
 template <class Map>
 TopologyChange dissociate_face(Map& map, Dart d);
 
-/// The same by the letter of appendix A: every vertex and edge is tested by walking its whole orbit. The oracle of
+/// The same exactly as in appendix A: every vertex and edge is tested by walking its whole orbit. This is the oracle of
 /// `dissociate_face`.
 template <class Map>
 TopologyChange dissociate_face_by_orbits(Map& map, Dart d);

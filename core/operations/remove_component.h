@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// Delete all darts of the component of `d`. What goes away is told by dead darts, one for each cell (remove_volume.h).
+/// Delete all darts of the component of `d`. Removed cells are reported by dead darts, one for each (remove_volume.h).
 ///
 /// throws  TopologyError if d is dead; the map is unchanged then
 /// cost    O(darts of the component)

@@ -11,7 +11,7 @@ TopologyChange remove_face(Map2& map, Dart d) {
   TopologyChange change;
   for (const Edge edge : incident_cells<1>(map, Face{d})) {
     const Dart outside = map.alpha<2>(edge.dart);
-    // from the neighbour's side, so that it is the neighbour that keeps; an edge sewn to the same face has no neighbour
+    // from the neighbour's side, so that the neighbour keeps its embeddings; an edge within one face has no neighbour
     change.append(dissociate_edge(map, outside));
   }
   for (const auto v : incident_cells<0>(map, Face{d})) change.removed_vertices.push_back(v.dart);

@@ -8,13 +8,13 @@ namespace dartboard {
 
 /// Dissociate every edge of the face of `d`, then delete its darts.
 ///
-/// The neighbours keep the cells they shared with it. What goes away is told by dead darts, one for each vertex and
-/// edge of the isolated face and one for itself: labels kept by slot can still be read there until a slot is reused.
-/// The edges it shared are 2-free then: they have joined the boundary.
+/// The neighbours keep the cells they shared with it. Removed cells are reported by dead darts, one for each vertex and
+/// edge of the isolated face and one for the face: labels kept by slot can still be read there until a slot is reused.
+/// The edges that it shared are then 2-free: they have joined the boundary.
 ///
 /// throws  TopologyError if d is dead; the map is unchanged then
 /// cost    that of dissociating its edges
-/// source  section 3.2, of a surface
+/// source  section 3.2, for a surface
 TopologyChange remove_face(Map2& map, Dart d);
 
 }  // namespace dartboard

@@ -28,7 +28,7 @@ TopologyChange remove_volume(Map& map, Dart d) {
   TopologyChange change;
   for (const Face face : incident_cells<2>(map, Volume{d})) {
     const Dart outside = map.template alpha<3>(face.dart);
-    // from the neighbour's side, so that it is the neighbour that keeps; a face sewn to the same volume has no
+    // from the neighbour's side, so that the neighbour keeps its embeddings; a face sewn to the same volume has no
     // neighbour
     change.append(dissociate_face(map, outside));
   }

@@ -8,9 +8,9 @@ namespace dartboard {
 
 /// Dissociate every face of the volume of `d`, then delete its darts.
 ///
-/// The neighbours keep the cells they shared with it. What goes away is told by dead darts, one for each vertex, edge
-/// and face of the isolated volume and one for itself: labels kept by slot can still be read there until a slot is
-/// reused. The faces it shared are 3-free then: they have joined the boundary.
+/// The neighbours keep the cells they shared with it. Removed cells are reported by dead darts, one for each vertex,
+/// edge and face of the isolated volume and one for the volume: labels kept by slot can still be read there until a
+/// slot is reused. The faces that it shared are then 3-free: they have joined the boundary.
 ///
 /// throws  TopologyError if d is dead; the map is unchanged then
 /// cost    that of dissociating its faces

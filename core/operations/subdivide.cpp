@@ -54,7 +54,7 @@ std::uint8_t nodes_of_cell(std::size_t p) {
   return 15;
 }
 
-/// A face of a child and what it is to be sewn to.
+/// A face of a child and the face that it is to be sewn to.
 struct Seam {
   Dart a, b;
 };
@@ -104,8 +104,8 @@ class Plan {
                          [=](const auto& c) { return c.parent == parent && c.replaced == n; });
   }
 
-  /// Where a dart of a parent is found in a child: on the side opposite the replaced node, or at the new vertex. Darts
-  /// of other tetrahedra stay what they are.
+  /// The dart of a child that corresponds to a dart of its parent: on the side opposite the replaced node, or at the
+  /// new vertex. Darts of other tetrahedra are returned unchanged.
   Dart in_child(Dart d, bool opposite) const {
     for (std::uint32_t k = 0; k < s_.parents.size(); ++k) {
       const auto& darts = s_.parents[k].darts;

@@ -1,5 +1,5 @@
 #pragma once
-// What an operation did to the cells, so that embeddings and views can follow.
+// The changes of cells by an operation, so that embeddings and views can follow.
 
 #include <vector>
 
@@ -13,18 +13,18 @@ struct DissociatedCell {
   Dart kept, split;
 };
 
-/// The cells that an operation split or removed, by dimension. The operation itself knows no physics.
+/// The cells that an operation split or removed, by dimension. The operation itself contains no physics.
 ///
-/// After a series of operations the parts of a pair may have come apart further, or be gone; their darts still tell
-/// which cells were touched.
+/// After a series of operations the parts of a pair may have come apart further, or be removed; their darts still
+/// identify the cells that were touched.
 struct TopologyChange {
   std::vector<DissociatedCell> vertices, edges, faces;
 
-  // A dart, dead now, of every cell that went away with a removed volume or face.
+  // A dart, dead now, of every cell that was removed with a volume or face.
   std::vector<Dart> removed_vertices, removed_edges, removed_faces, removed_volumes;
 
   bool empty() const { return vertices.empty() && edges.empty() && faces.empty() && removed_faces.empty(); }
-  /// The changes of an operation that came after this one.
+  /// Append the changes of an operation that came after this one.
   void append(const TopologyChange& later);
 };
 

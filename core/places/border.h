@@ -1,6 +1,6 @@
 #pragma once
-// Borders of boxes, planes, spheres, polygons, paths and blades have a thickness, because places are computed: what
-// should lie on a border lies next to it.
+// Borders of boxes, planes, spheres, polygons, paths and blades have a thickness, because places are computed: a place
+// that should be on a border is next to it.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// How far from a border a place still counts as on it [m]: a billionth of the diagonal of the points' box.
+/// The distance from a border up to which a place counts as on it [m]: a billionth of the diagonal of the points' box.
 ///
 /// cost    O(points)
 inline double border_thickness(std::span<const Eigen::Vector3d> points) {

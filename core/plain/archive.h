@@ -1,5 +1,5 @@
 #pragma once
-// The state of objects on its way into a file, or out of one: one function of each class serves both, so they agree.
+// The state of objects written into a file, or read from one: one function of each class does both, so they agree.
 
 #include <Eigen/Core>
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dartboard {
 
-/// Numbers, and fixed-size arrays and matrices of them: they are stored as they lie in memory.
+/// Numbers, and fixed-size arrays and matrices of numbers: they are stored as in memory.
 template <class T>
 inline constexpr bool is_flat = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>;
 template <class T, std::size_t n>
@@ -26,15 +26,15 @@ inline constexpr bool is_flat<Eigen::Matrix<T, rows, columns, options, rows, col
 
 /// Writes values one after the other, or reads them back in the same order.
 ///
-/// A class says once what it consists of, in `template <class Archive> void state(Archive& archive)` or, where it is
-/// virtual, `void state(Archive& archive)`: archive(mass_, velocity_, ...). A length that was read is held against what
-/// is left before memory is asked for.
-/// throws  IoError naming the file, where what is read cannot have been written
+/// A class lists its state once, in `template <class Archive> void state(Archive& archive)` or, if it is virtual,
+/// `void state(Archive& archive)`: archive(mass_, velocity_, ...). A length that was read is compared with the bytes
+/// left before memory is allocated.
+/// throws  IoError naming the file, if the bytes read cannot have been written
 class Archive {
  public:
-  /// One to write to.
+  /// An archive to write to.
   Archive() = default;
-  /// One to read from; the bytes have to outlive it. `file` is what errors name.
+  /// An archive to read from; the bytes have to outlive it. Errors name `file`.
   Archive(std::string_view bytes, std::string file) : reads_(true), left_(bytes), file_(std::move(file)) {}
 
   bool reads() const { return reads_; }
@@ -42,15 +42,15 @@ class Archive {
   void operator()(T&... values) {
     (value(values), ...);
   }
-  /// What follows: a word that has to be there again when it is read.
+  /// Begins a part: writes its name, which must be found again when it is read.
   void part(std::string_view name);
-  /// So many bytes at a place.
+  /// Writes or reads `size` bytes at `data`.
   void bytes(void* data, std::size_t size);
 
   const std::string& written() const { return written_; }
   /// Bytes not yet read.
   std::size_t left() const { return left_.size(); }
-  /// throws  IoError where something is left
+  /// throws  IoError if bytes are left
   void require_end() const;
   /// "FILE: is damaged, in 'PART': WHAT"
   [[noreturn]] void fail(std::string_view what) const;
@@ -71,7 +71,7 @@ class Archive {
   template <class T>
   void value(std::vector<T>& column) {
     static_assert(!std::is_same_v<T, bool>, "a column of bits has no address");
-    // what is not flat takes at least a byte each
+    // elements that are not flat take at least a byte each
     const std::size_t count = size(column.size(), is_flat<T> ? sizeof(T) : 1);
     if constexpr (is_flat<T>) {
       if (reads_) column.resize(count);
@@ -91,7 +91,7 @@ class Archive {
     else
       one.state(*this);
   }
-  /// Of a column: how many elements, each of so many bytes at least.
+  /// The number of elements of a column, each of at least so many bytes.
   std::size_t size(std::size_t count, std::size_t element);
 
   bool reads_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory data take: what plans predict and objects report.
+// The memory that data take, which plans predict and objects report.
 
 #include <cstddef>
 #include <vector>

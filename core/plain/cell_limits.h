@@ -1,5 +1,5 @@
 #pragma once
-// How many cells a map can hold: what it keeps is numbered in 32 bits.
+// The number of cells that a map can hold: its elements are numbered in 32 bits.
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// Tetrahedra of a map of nothing else: a face is kept as 8 times its number, four to a tetrahedron, plus a turn.
+/// Tetrahedra of a map of tetrahedra alone: a face is stored as 8 times its number, four per tetrahedron, plus a turn.
 inline constexpr std::uint64_t most_tetrahedra = (std::uint64_t{1} << 32) / (4 * 8);
 /// Darts of any other map: the alphas are numbered too, dimension + 1 for each dart.
 constexpr std::uint64_t most_darts(int dimension) {
@@ -22,10 +22,10 @@ constexpr std::uint64_t darts_of(CellKind kind) {
   return counts[static_cast<std::size_t>(kind)];
 }
 
-/// How many cells of each kind there are, in the order of CellKind; not in 32 bits.
+/// The numbers of cells of each kind, in the order of CellKind; they may exceed 32 bits.
 using CountsByKind = std::array<double, 6>;
 
-/// What is too much of a mesh of so many cells, and the limit: "134554608 tetrahedra, where a map numbers at most
+/// The excess of a mesh with so many cells, and the limit: "134554608 tetrahedra, where a map numbers at most
 /// 134217728". Empty if they fit.
 std::string beyond_a_map(const CountsByKind& cells);
 

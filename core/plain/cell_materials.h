@@ -1,5 +1,5 @@
 #pragma once
-// Which of a body's materials each of its cells is made of.
+// The materials of a body's cells.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace dartboard {
 using MaterialNumber = std::uint8_t;
 inline constexpr std::size_t most_materials = 256;
 
-/// A view of the materials of cells: of one for all, or of each its own. It looks there anew in each call, so columns
-/// may grow and shrink between.
+/// A view of the materials of cells: one for all, or one for each cell. It reads the columns anew in each call, so that
+/// their sizes may change.
 class CellMaterials {
  public:
   /// pre  what they refer to outlives them

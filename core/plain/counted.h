@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of things in sentences.
+// Counts in sentences: a number and its noun.
 
 #include <fmt/format.h>
 

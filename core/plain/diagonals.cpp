@@ -9,7 +9,7 @@ namespace dartboard {
 namespace {
 
 struct Weights {
-  double edge, upright_edge, face, volume;  // the uprights of a prism, the edges to the tip of a pyramid
+  double edge, upright_edge, face, volume;  // upright: those between the triangles of a prism, to the tip of a pyramid
 };
 
 Weights weights_of(CellKind kind, Diagonals diagonals) {

@@ -1,5 +1,5 @@
 #pragma once
-// Springs within a cell beside those of its edges: between corners that no edge joins.
+// Springs within a cell in addition to those of its edges: between corners that no edge joins.
 
 #include <array>
 #include <cstdint>
@@ -24,18 +24,18 @@ struct CornerSpring {
 };
 
 /// The diagonals of a kind of cell: 12 of the faces and 4 of the volume of a hexahedron, 6 of the faces of a prism, 2
-/// of the base of a pyramid, 2 of a quadrilateral. None of others.
+/// of the base of a pyramid, 2 of a quadrilateral. Other kinds have no diagonals.
 std::span<const CornerSpring> diagonals_of(CellKind kind, Diagonals diagonals);
 /// No kind has more.
 inline constexpr std::size_t most_diagonals = 16;
 
-/// The same of its edges beside those diagonals. It is 1 where the cell has none.
+/// The edges and their weights for a cell that has these diagonals. The weight is 1 if the cell has no such diagonals.
 ///
 /// The weights make springs an elastic solid of this modulus and of Poisson's ratio 1/4 (a surface: 1/3): exactly, in
-/// cubes, in prisms as high as the sides of their equal-sided triangles are long, in squares; of pyramids in the mean
-/// of the six that fill a cube. They add up to 6 (3), so it is so of cells of any shape in the mean over all
-/// directions, as it is of tetrahedra (core/plain/young.h).
-/// source  sum of weight n n n n over the directions n, held against the tensor of elasticity; cubes of side a then have
+/// cubes, in prisms as high as the sides of their equal-sided triangles are long, in squares; for pyramids in the mean
+/// of the six that fill a cube. The weights add up to 6 (3), so it holds for cells of any shape in the mean over all
+/// directions, as it does for tetrahedra (core/plain/young.h).
+/// source  sum of weight n n n n over the directions n, compared with the elasticity tensor; cubes of side a then have
 ///         .1 E a along edges and .2 E a across faces, or .2 E a and .3 E a through the volume, or the mean of both
 std::span<const CornerSpring> edges_beside(CellKind kind, Diagonals diagonals);
 

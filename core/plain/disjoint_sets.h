@@ -26,7 +26,7 @@ class DisjointSets {
     count_ -= a != b;
     above_[std::max(a, b)] = std::min(a, b);
   }
-  /// How many sets there are.
+  /// The number of sets.
   std::size_t count() const { return count_; }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// A value the caller supplied is outside what was asked for; the message names it and what was expected.
+/// A value supplied by the caller is not allowed; the message names it and what was expected.
 struct InputError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
@@ -16,7 +16,7 @@ struct IoError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A topological operation was asked for something its conditions forbid; the map is unchanged.
+/// A topological operation was called against its conditions; the map is unchanged.
 struct TopologyError : std::logic_error {
   using std::logic_error::logic_error;
 };

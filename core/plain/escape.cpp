@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t not_utf8 = 0xffffffff;
 
-/// What the bytes at a place encode, and how many they are.
+/// The character encoded by the bytes at a place, and their number.
 struct Letter {
   std::uint32_t code;
   std::size_t bytes;
@@ -27,14 +27,14 @@ Letter letter_at(std::string_view text, std::size_t at) {
     if (byte(at + k) >> 6 != 0x2) return {not_utf8, 1};
     code = code << 6 | (byte(at + k) & 0x3f);
   }
-  // longer than need be, half of a pair of UTF-16, or beyond Unicode
+  // wrong are codes that are longer than necessary, halves of UTF-16 pairs, and codes beyond Unicode
   constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool good = code >= least[bytes] && (code < 0xd800 || code > 0xdfff) && code <= 0x10ffff;
   return good ? Letter{code, bytes} : Letter{not_utf8, 1};
 }
 
-/// To be spelt out: a control character, one that turns the direction of writing around, a line break of Unicode, one
-/// that XML refuses.
+/// Must it be spelt out? It is a control character, reverses the direction of writing, is a line break of Unicode, or
+/// is refused by XML.
 bool acts(std::uint32_t c) {
   return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x61c || c == 0x200e || c == 0x200f ||
          (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069) || c == 0xfeff || c == 0xfffe || c == 0xffff;
@@ -59,10 +59,10 @@ std::string visible(std::string_view text, bool keep_line_breaks) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_ascii_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-/// Or a part of one beyond ASCII.
+/// A digit, an ASCII letter, or a byte of a character beyond ASCII.
 bool is_word(char c) { return is_digit(c) || is_ascii_letter(c) || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Would Markdown act on a character between these two? 0 stands for what is not known.
+/// Would Markdown act on a character between these two? 0 stands for an unknown character.
 bool markdown_acts(char before, char c, char after) {
   switch (c) {
     case '\\':
@@ -87,7 +87,7 @@ std::string terminal_lines(std::string_view text) { return visible(text, true); 
 std::string gnuplot_string(std::string_view text) {
   std::string out = "'";
   for (const char c : terminal_text(text)) {
-    if (c == '>' && out.ends_with("]]")) out += ' ';  // gnuplot writes it into its SVG as it is, where XML forbids it
+    if (c == '>' && out.ends_with("]]")) out += ' ';  // gnuplot copies it into its SVG, where XML forbids it
     out += c == '\'' ? std::string("\xe2\x80\x99") : std::string(1, c);
   }
   return out + "'";
@@ -138,7 +138,7 @@ std::string markdown_text(std::string_view text) {
 }
 
 std::string markdown_line(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));  // four blanks begin a block of code
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));  // four blanks would begin a block of code
   std::string out = markdown_text(text);
   std::size_t mark = 0;
   while (mark < out.size() && is_digit(out[mark])) ++mark;

@@ -1,6 +1,6 @@
 #pragma once
-// Strings from outside (names in scenes, file names, arguments) as text that nothing acts on: one function for each
-// language that the program writes.
+// Strings from outside (names in scenes, file names, arguments) as text without any special effect: one function for
+// each language that the program writes.
 
 #include <cstddef>
 #include <string>
@@ -8,25 +8,25 @@
 
 namespace dartboard {
 
-/// One line for a terminal. Line breaks and other control characters, characters that turn the direction of writing
-/// around, and bytes that are no UTF-8 are spelt out: "\n", "\x1b", "\u{202e}". The functions below begin with it.
+/// One line for a terminal. Line breaks and other control characters, characters that reverse the direction of writing,
+/// and bytes that are not UTF-8 are spelt out: "\n", "\x1b", "\u{202e}". The functions below begin with it.
 std::string terminal_text(std::string_view text);
 
-/// The same of a text of several lines, whose line breaks stay.
+/// The same for a text of several lines, whose line breaks stay.
 std::string terminal_lines(std::string_view text);
 
-/// A string constant of gnuplot, quotes included. They are single ones: in double quotes gnuplot runs what stands
-/// between backquotes. Apostrophes become typographic ones: at the beginning of a string, and where there are two,
-/// gnuplot takes a doubled quote for the end.
+/// A string constant of gnuplot, with its single quotes: in double quotes gnuplot runs any text between backquotes.
+/// Apostrophes become typographic ones: at the beginning of a string, and where there are two, gnuplot takes a doubled
+/// quote for the end.
 std::string gnuplot_string(std::string_view text);
 
-/// One word of a command that somebody may copy into a shell. We start none.
+/// One word of a command that a user may copy into a shell. The program starts no shell.
 std::string shell_word(std::string_view text);
 
-/// Text between tags, or the value of an attribute; of HTML too.
+/// Text between tags, or the value of an attribute; also for HTML.
 std::string xml_text(std::string_view text);
 
-/// A field of text in a CSV file (RFC 4180), in quotes where it needs them. An apostrophe goes before what a
+/// A field of text in a CSV file (RFC 4180), in quotes where it needs them. An apostrophe is put before text that a
 /// spreadsheet would compute.
 std::string csv_field(std::string_view text);
 
@@ -39,8 +39,8 @@ std::string markdown_line(std::string_view text);
 /// Code within a line of Markdown, its backquotes included.
 std::string markdown_code(std::string_view text);
 
-/// A plain file name made of a name: letters, digits, '.', '-' and '_' stay, what else there is becomes '-'. Of two
-/// names both may become the same.
+/// A plain file name made of a name: letters, digits, '.', '-' and '_' stay, all others become '-'. Two names may
+/// become the same.
 std::string file_name_of(std::string_view name);
 
 /// At most so many letters, "..." in place of the rest.

@@ -30,7 +30,7 @@ FolderClaim::FolderClaim(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (const std::string why = error.message(); !fs::is_directory(folder, error))
     fail(folder, fs::exists(folder, error) ? "is a file" : "cannot be created: " + why);
-  // first the lock, then the look: whoever had it before has written something, or gone
+  // lock before checking for files: a previous owner may have written some
   std::string trouble = lock(folder);
   if (!trouble.empty()) fail(folder, trouble);
   if (const bool empty = fs::is_empty(folder, error); error)
@@ -53,9 +53,9 @@ FolderClaim FolderClaim::of_ended_run(const fs::path& folder) {
   return claim;
 }
 
-// What is wrong; nothing where it is ours now.
+// The reason why the lock failed; empty if it is ours now.
 std::string FolderClaim::lock(const fs::path& folder) {
-  // children must not inherit it: they would hold the lock
+  // child processes must not inherit it: they would hold the lock
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) return "cannot be read: " + reason();
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// What the bodies are made of and what acts on them; shared by core and reference, SI units.
+// The materials of bodies and what acts on them; shared by core and reference, SI units.
 
 #include <Eigen/Core>
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// What a body resists deformation with.
+/// The model by which a body resists deformation.
 enum class Model : std::uint8_t { springs, neo_hookean, corotational, stvk };
 /// "springs", "neo-hookean", "corotational", "stvk"
 inline constexpr std::array<std::string_view, 4> model_names{"springs", "neo-hookean", "corotational", "stvk"};
@@ -21,8 +21,8 @@ constexpr std::string_view name(Model model) { return model_names[static_cast<st
 /// length) contributes young V / l^2 to its edge of rest length l instead; `stiffness` is then the mean of that over
 /// the edges of all cells (core/plain/young.h), and damping is in proportion.
 ///
-/// With another model than springs the cells are elements of an elastic solid of this Young's modulus and Poisson's
-/// ratio (core/elements/elastic_laws.h): there are no springs, and beside viscosity `damping_time` is what damps
+/// With a model other than springs the cells are elements of an elastic solid of this Young's modulus and Poisson's
+/// ratio (core/elements/elastic_laws.h): there are no springs, and damping is by viscosity and by `damping_time`
 /// (core/elements/strain_damping.h).
 struct Material {
   double density = 1000.0;  // kg/m^3 (kg/m^2 for a surface)
@@ -32,14 +32,14 @@ struct Material {
   double young = 0.0;       // Pa (N/m for a surface, N for a chain); 0: edges have `stiffness`
   double poisson = 0.25;    // of elements
   Model model = Model::springs;
-  double damping_time = 0.0;  // s, of elements: their stress is that of this times the rate of strain more
+  double damping_time = 0.0;  // s, of elements: their stress is that of the strain plus this times its rate
 };
 
-/// The damping time [s] that gives elements this damping ratio at this frequency [Hz]. What oscillates with omega [1/s]
-/// has omega times half of it: a ratio in proportion to the frequency.
+/// The damping time [s] that gives elements this damping ratio at this frequency [Hz]. An oscillation of omega [1/s]
+/// has a damping ratio of omega times half of it: in proportion to the frequency.
 inline double damping_time_of(double ratio, double frequency) { return ratio / (std::numbers::pi * frequency); }
 
-/// What acts on the whole body.
+/// The effects on the whole body.
 struct Surroundings {
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  // m/s^2
 };

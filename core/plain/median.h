@@ -6,7 +6,7 @@
 
 namespace dartboard {
 
-/// The middle of the sorted values, the mean of the two there for an even count; NaN for none.
+/// The middle of the sorted values, the mean of the two middle ones for an even count; NaN for an empty list.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::ranges::sort(values);

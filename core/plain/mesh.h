@@ -1,5 +1,5 @@
 #pragma once
-// The plain mesh: points, and cells as lists of point numbers. It is all that core and reference share of a body.
+// The plain mesh: points, and cells as lists of point numbers. It is all of a body that core and reference share.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Kinds of cell, with the node order of Gmsh (VTK's too, but for the prism, which VTK documents mirrored).
+/// Kinds of cell, with the node order of Gmsh (also VTK's, except for the prism, which VTK documents mirrored).
 enum class CellKind : std::uint8_t { triangle, quadrilateral, tetrahedron, pyramid, prism, hexahedron };
 
 int node_count(CellKind kind);
@@ -39,8 +39,8 @@ struct Mesh {
   int dimension() const;
 };
 
-/// Add the points and cells of another mesh after those that are there.
-/// throws  InputError where they are more than there are numbers for
+/// Add the points and cells of another mesh after the present ones.
+/// throws  InputError if there are not enough numbers for them
 void append(Mesh& mesh, const Mesh& other);
 
 /// Signed measure of a cell: the volume [m^3] of a 3D cell, positive when right-handed; the area [m^2] of a polygon.

@@ -1,5 +1,5 @@
 #pragma once
-// Maxima that do not lose what is not a number: std::max(a, NaN) is a, so an error that is none would pass as small.
+// Maxima that keep NaN: std::max(a, NaN) is a, so that an error of NaN would pass as small.
 
 #include <cmath>
 #include <concepts>
@@ -14,7 +14,7 @@ Real max_or_nan(Real a, Real b) {
   return a < b ? b : a;
 }
 
-/// The largest of some numbers that are not negative, NaN if one is; 0 of none.
+/// The largest of some numbers that are not negative, NaN if one is NaN; 0 of an empty list.
 inline double max_or_nan(std::span<const double> values) {
   double largest = 0.0;
   for (const double value : values) largest = max_or_nan(largest, value);

@@ -1,5 +1,5 @@
 #pragma once
-// One mass/spring problem: everything that a contender is given, and what all of them must agree on.
+// One mass/spring problem: all the input of a contender, and the mechanics that all of them must agree on.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -25,25 +25,25 @@ struct HeldPoint {
 ///
 ///     m_i = sum over the cells c around i of density * measure(c) / node_count(c)                      eq. (1)
 ///     k_ij = stiffness * (number of cells around edge ij),  c_ij = damping * (the same number),  L_ij = rest length
-///         where the material has a Young's modulus, for the number the sum over those cells c of
-///         young * measure(c) / L_ij^2 / stiffness: k_ij, whatever the stiffness, which is the mean (material.h)
+///         if the material has a Young's modulus, the number is replaced by the sum over those cells c of
+///         young * measure(c) / L_ij^2 / stiffness: k_ij then does not depend on the stiffness, the mean (material.h)
 ///     u_ij = (x_j - x_i) / |x_j - x_i|, and no force where the length is zero
 ///     f_i = sum over the edges ij of ( k_ij (|x_j - x_i| - L_ij) + c_ij (v_j - v_i).u_ij ) u_ij
 ///     a_i = (f_i - viscosity * m_i * v_i) / m_i + gravity,  and a_i = 0, v_i = 0 for the points in `fixed`
 ///         and along the axes of those in `held_axes`, which move freely along the others
 ///
 /// The edges are the edges of the cells' faces (`faces_of`). In a body of several materials every cell contributes by
-/// its own, but for the viscosity, which is that of `material` for all.
+/// its own, except for the viscosity, which is that of `material` for all.
 struct Problem {
   Mesh mesh;
   Material material;
   std::vector<Material> materials{};            // of a body of several; empty: all cells are of `material`
-  std::vector<MaterialNumber> cell_material{};  // the number of each cell's in `materials`
+  std::vector<MaterialNumber> cell_material{};  // by cell: the number of its material in `materials`
   Surroundings surroundings;
   std::vector<std::uint32_t> fixed;               // point numbers, ascending
   std::vector<Eigen::Vector3d> initial_velocity;  // [m/s] per point; empty for rest
   double h = 1e-3;                                // time step [s]
-  std::vector<HeldPoint> held_axes{};             // by ascending point, none of them fixed
+  std::vector<HeldPoint> held_axes{};             // by ascending point; not for fixed points
 
   CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 };

@@ -12,9 +12,9 @@ class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
   std::uint64_t next();
-  /// One of 0 .. n - 1; for n far below 2^64, each as likely to the accuracy of a test.   pre  n > 0
+  /// One of 0 .. n - 1; for n far below 2^64, equally likely to the accuracy of a test.   pre  n > 0
   std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(next() % n); }
-  /// A multiple of 2^-52 in [-1, 1), each as likely.
+  /// A multiple of 2^-52 in [-1, 1), all equally likely.
   double next_signed();
   /// A point of the open unit ball, uniform by volume: points of the cube are drawn until one is inside.
   Eigen::Vector3d next_in_ball();

@@ -1,5 +1,5 @@
 #pragma once
-// Every time integrator there is, by name.
+// The table of all time integrators, by name.
 
 #include <memory>
 #include <span>
@@ -13,11 +13,11 @@ namespace dartboard {
 struct IntegratorEntry {
   std::string_view name;  // that of its scheme
   std::unique_ptr<Integrator> (*make)();
-  /// With another linear solver than its own; null for explicit methods, and where the method is its solver.
+  /// Makes it with another linear solver than its own; null for explicit methods, and where the method is its solver.
   std::unique_ptr<Integrator> (*make_with)(LinearSolver solver) = nullptr;
 };
 
-/// From the simplest to the most elaborate.
+/// All integrators, from the simplest to the most elaborate.
 std::span<const IntegratorEntry> integrators();
 
 /// throws  InputError for a name that is not in the table; the message lists those that are
@@ -31,10 +31,10 @@ struct SolverEntry {
 /// The linear solvers that a user can choose from.
 std::span<const SolverEntry> linear_solvers();
 
-/// With a linear solver by name, or with its own where that is empty.
+/// The integrator with the linear solver named, or with its own where `solver` is empty.
 ///
-/// throws  InputError for names that are not there, and for an integrator that has no choice; the message lists those
-///         that have
+/// throws  InputError for names that are not in the tables, and for an integrator without a choice of solvers; the
+///         message lists those with a choice
 std::unique_ptr<Integrator> make_integrator(std::string_view name, std::string_view solver);
 
 }  // namespace dartboard

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// The node of each of a cell's darts, by the dart's number in the cell, and where its facets begin. A facet is what two
-// cells can share: a face of a volume, an edge of a polygon.
+// The node of each of a cell's darts, by the dart's number in the cell, and where its facets begin. Two cells can share
+// a facet: a face of a volume, an edge of a polygon.
 struct Template {
   std::vector<std::uint8_t> node;         // local node per dart
   std::vector<std::uint8_t> facet_first;  // first dart of each facet, then the number of darts
@@ -45,7 +45,7 @@ const Template& template_of(CellKind kind) {
   return all[static_cast<std::size_t>(kind)];
 }
 
-/// Which facets have been met, found again by their nodes: a chain per smallest node, no sorting and no hashing.
+/// The facets met so far, found again by their nodes: a chain per smallest node, no sorting and no hashing.
 class FacetMatcher {
  public:
   // The cycle of a facet's nodes from the smallest one, towards its smaller neighbour: equal for equal facets.
@@ -54,7 +54,7 @@ class FacetMatcher {
     Key key;
     std::uint32_t cell, dart;
     std::uint32_t next;
-    std::uint32_t second_cell;  // none until it is shared
+    std::uint32_t second_cell;  // `none` until it is shared
   };
 
   FacetMatcher(std::size_t points, std::size_t facets) : head_(points, none) { met_.reserve(facets); }
@@ -66,7 +66,7 @@ class FacetMatcher {
     return {nodes[k], std::min(ahead, behind), std::max(ahead, behind), n == 4 ? nodes[(k + 2) % n] : none};
   }
 
-  /// The facet with this key met before, or null; then it is remembered.
+  /// The facet with this key that was met before; or null, and then it is stored.
   Met* meet(const Key& key, std::uint32_t cell, std::uint32_t dart) {
     for (std::uint32_t m = head_[key[0]]; m != none; m = met_[m].next)
       if (met_[m].key == key) return &met_[m];
@@ -107,7 +107,7 @@ Dart add_cell(Map& map, CellKind kind) {
     return map.add_tetrahedron();
   } else {
     const Template& t = template_of(kind);
-    require_room(map.dart_count(), t.node.size(), most_darts(Map::dimension), "darts");  // for all or for none
+    require_room(map.dart_count(), t.node.size(), most_darts(Map::dimension), "darts");  // for all at once
     std::vector<Dart> darts(t.node.size());
     for (Dart& d : darts) d = map.add_dart();
     std::size_t begin = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// From a mesh to a map: darts cell by cell, then the faces that cells share are sewn. Nothing is matched by geometry.
+// From a mesh to a map: darts cell by cell, then shared faces are sewn. They are matched by numbers, not by geometry.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace dartboard {
 ///
 /// Face by face as `faces_of(kind)` lists them, edge by edge around the face; darts 2k and 2k + 1 of a face are the two
 /// ends of its k-th edge.
-/// throws  TopologyError if the map cannot hold the kind (a tetrahedral map, a hexahedron; a 2-g-map, a volume)
+/// throws  TopologyError if the map cannot hold the kind (a hexahedron in a tetrahedral map, a volume in a 2-g-map)
 template <class Map>
 Dart add_cell(Map& map, CellKind kind);
 
@@ -22,7 +22,7 @@ Dart add_cell(Map& map, CellKind kind);
 template <class Map>
 void remove_cell(Map& map, Dart d);
 
-/// A map, and which point and cell of the mesh its darts came from.
+/// A map, and the points and cells of the mesh that its darts came from.
 template <class Map>
 struct BuiltMap {
   Map map;

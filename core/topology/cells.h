@@ -21,8 +21,8 @@ bool for_each_dart_of(const Map& map, Cell<i> cell, F&& f) {
 }
 
 /// Call f(dart) once for every place `slot<i>` of the cell, with the lowest dart there: a corner of a tetrahedron at a
-/// vertex, every dart in general storage. `seen`, a mark of the caller's, keeps the places visited; nothing is visited
-/// when it has the cell's already.
+/// vertex, every dart in general storage. `seen`, a mark of the caller, holds the places visited; nothing is visited
+/// if it has those of the cell already.
 ///
 /// cost    O(darts of the cell); a sixth of a full walk around a vertex of tetrahedra
 template <int i, class Map, class F>

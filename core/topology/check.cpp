@@ -21,7 +21,7 @@ std::string check_dart(const Map& map, Dart d) {
   constexpr int n = Map::dimension;
   if (!map.is_live(d)) return fmt::format("{} is dead", to_string(d));
   if constexpr (Map::tetrahedral)
-    if (face_is_valid(map.storage(), d.index / 6)) return {};  // below is the finding of words
+    if (face_is_valid(map.storage(), d.index / 6)) return {};  // the rest finds the words for a violation
   for (int i = 0; i <= n; ++i) {
     const Dart e = map.alpha(i, d);
     if (!map.is_live(e)) return fmt::format("alpha{}({}) = {}, which is dead", i, to_string(d), to_string(e));
@@ -33,7 +33,7 @@ std::string check_dart(const Map& map, Dart d) {
   for (int i = 0; i <= n; ++i)
     for (int j = i + 2; j <= n; ++j) {
       const Dart e = map.alpha(j, map.alpha(i, d));
-      const Dart middle = map.is_live(e) ? map.alpha(i, e) : no_dart;  // not looked at yet: may be no live dart
+      const Dart middle = map.is_live(e) ? map.alpha(i, e) : no_dart;  // not checked yet: may be no live dart
       const Dart back = map.is_live(middle) ? map.alpha(j, middle) : no_dart;
       if (back != d)
         return fmt::format("alpha{0} alpha{1} takes {2} to {3} and {3} to {4}: it is not an involution", i, j,
@@ -44,7 +44,7 @@ std::string check_dart(const Map& map, Dart d) {
 
 template <class Map>
 std::string check(const Map& map) {
-  // a face of a tetrahedron stands or falls as one, and tells best by its own darts
+  // the darts of a tetrahedron's face are valid or invalid together, and its own darts describe a violation best
   if constexpr (Map::tetrahedral) {
     const TetTable& table = map.storage();
     const auto faces = static_cast<std::uint32_t>(map.capacity() / 6);

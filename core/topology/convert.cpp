@@ -108,7 +108,7 @@ template <class A, class B>
 bool are_isomorphic(const A& a, const B& b) {
   static_assert(A::dimension == B::dimension);
   if (a.dart_count() != b.dart_count()) return false;
-  // Components can be matched greedily: isomorphism is an equivalence, so any free component that fits is as good.
+  // Components can be matched greedily: isomorphism is an equivalence, so any free component that fits will do.
   std::vector<Dart> image(a.capacity(), no_dart);
   std::vector<bool> taken(b.capacity(), false);
   bool all = true;

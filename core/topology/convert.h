@@ -10,13 +10,13 @@
 namespace dartboard {
 
 /// The same map in general storage, dart for dart under the same numbers (dead ones too, whose slots are used again in
-/// another order). What a tetrahedral map becomes when an operation needs other cells.
+/// another order). For a tetrahedral map when an operation needs other cells.
 ///
 /// cost    O(darts)
 Map3 to_general(const TetMap& map);
 
 /// An n-dimensional combinatorial map: half the darts, oriented. beta_1 is a permutation, beta_2 .. beta_n involutions,
-/// and a free dart has none [Lie91].
+/// and a free dart has `none` as its image [Lie91].
 struct CombinatorialMap {
   static constexpr std::uint32_t none = 0xFFFFFFFF;
   int dimension = 0;
@@ -25,11 +25,11 @@ struct CombinatorialMap {
 
 /// One dart for each dart of one orientation: beta_1 = alpha_1 after alpha_0, and beta_i = alpha_i after alpha_0.
 ///
-/// throws  InputError if the map is not orientable, or a dart is 0- or 1-free, which a combinatorial map cannot say
+/// throws  InputError if the map is not orientable, or a dart is 0- or 1-free, which a combinatorial map cannot express
 template <class Map>
 CombinatorialMap to_combinatorial_map(const Map& map);
 
-/// Two darts for each: 2d, and 2d + 1 its alpha_0.
+/// Two darts for each dart d: 2d, and 2d + 1 as its alpha_0.
 template <int n>
 GeneralizedMap<n> to_generalized_map(const CombinatorialMap& map);
 

@@ -8,7 +8,7 @@
 namespace dartboard {
 
 /// Call f(dart) for darts of the n-cell, at least one on each of its facets (faces of a volume, edges of a surface's
-/// face); a facet may be told more than once.
+/// face); a facet may be reported more than once.
 ///
 /// cost    O(darts of the cell); four calls for a tetrahedron
 template <class Map, class F>

@@ -18,9 +18,9 @@ namespace dartboard {
 
 /// An N-dimensional generalized map, N = 2 for a surface and 3 for a solid.
 ///
-/// How alphas are stored is the storage's affair: `AlphaTable<N>` for any cells, `TetTable` for tetrahedra. A dart is
+/// The storage decides how alphas are stored: `AlphaTable<N>` for any cells, `TetTable` for tetrahedra. A dart is
 /// i-free when alpha_i(d) = d, so walks need no null checks. `link` and `unlink` touch two darts and may break the
-/// map's conditions; `sew` and `unsew` (sew.h) treat whole orbits and keep them; `check` (check.h) tells.
+/// map's conditions; `sew` and `unsew` (sew.h) treat whole orbits and keep them; `check` (check.h) reports a violation.
 ///
 /// Handles are checked where a call changes the map; alpha() of a dead dart is undefined.
 /// Not safe to share between threads, reading included: marks live in the map.
@@ -169,7 +169,7 @@ class GeneralizedMap {
 
   /// Equal for equal maps: same darts, same alphas, same free slots.
   std::uint64_t hash() const { return storage_.hash(); }
-  /// What a checkpoint holds of it: darts, alphas and free slots. Marks are no part of a map.
+  /// Writes or reads what a checkpoint holds: darts, alphas and free slots. Marks are not part of a map.
   /// pre  when it is read: no mark is in use, and no journal attached
   template <class Archive>
   void state(Archive& archive) {

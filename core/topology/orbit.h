@@ -104,7 +104,7 @@ void walk_places(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) 
   }
 }
 
-/// Whether <set>(a) and <set>(b) are one orbit, walking from both by turns: little more than twice the smaller one.
+/// Whether <set>(a) and <set>(b) are one orbit, walking from both in turn: visits at most about twice the smaller one.
 template <class Map>
 bool meet(const Map& map, Involutions set, Dart a, Dart b) {
   a = representative<Map>(set, a);

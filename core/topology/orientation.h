@@ -1,5 +1,5 @@
 #pragma once
-// The two orientations of a cell of top dimension, told by the darts within it.
+// The two orientations of a cell of top dimension, given by the darts within it.
 
 #include <cstdint>
 
@@ -18,9 +18,9 @@ constexpr bool each_involution_changes_parity() {
 
 }  // namespace detail
 
-/// Whether `a` and `b`, darts of one cell of top dimension, belong to the same orientation of it: as many involutions
-/// lead from one to the other as make an even number. Walked by alpha_0 alpha_1 from either, the faces of a volume then
-/// run the same way round, seen from outside.
+/// Whether `a` and `b`, darts of one cell of top dimension, belong to the same orientation of it: an even number of
+/// involutions leads from one to the other. Walked by alpha_0 alpha_1 from either, the faces of a volume then run the
+/// same way round, seen from outside.
 ///
 /// pre     the cell is closed and orientable, as the boundary of a ball is; then every path gives the same parity
 /// cost    O(darts of the cell); O(1) in a tetrahedron

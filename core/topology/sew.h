@@ -72,7 +72,7 @@ std::string pair_lines(const Map& map, Dart a, Dart b, std::vector<std::pair<Dar
 
 }  // namespace detail
 
-/// Why the cells of `a` and `b` cannot be i-sewn, or nothing when they can.
+/// The reason why the cells of `a` and `b` cannot be i-sewn, or no value when they can.
 ///
 /// `pairs`, if given, receives the darts to link.
 template <int i, class Map>
@@ -105,7 +105,7 @@ void sew(Map& map, Dart a, Dart b) {
   std::vector<std::pair<Dart, Dart>> pairs;
   if (const auto why = why_not_sewable<i>(map, a, b, &pairs)) throw_not_sewable(i, a, b, *why);
   for (const auto& [x, y] : pairs)
-    if (map.template is_free<i>(x)) map.template link<i>(x, y);  // a folded cell, or a whole face, is done sooner
+    if (map.template is_free<i>(x)) map.template link<i>(x, y);  // a folded cell, or a whole face, has been linked
 }
 
 /// Undo an i-sew: all darts of the line of `d` become i-free. Nothing happens when `d` is i-free.

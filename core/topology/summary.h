@@ -10,19 +10,19 @@
 
 namespace dartboard {
 
-/// Connected components: a label per dart slot (in the order of their lowest darts), and how many there are.
+/// Connected components: a label per dart slot (in the order of their lowest darts), and the number of components.
 struct Components {
-  std::vector<std::uint32_t> of_dart;  // by dart slot; of no meaning for dead slots
+  std::vector<std::uint32_t> of_dart;  // by dart slot; undefined for dead slots
   std::size_t count = 0;
 };
 template <class Map>
 Components components(const Map& map);
 
-/// A sign per dart slot, +1 or -1, that every alpha_i(d) != d changes; nothing if the map has no such orientation.
+/// A sign per dart slot, +1 or -1, that every alpha_i(d) != d changes; no value if the map has no such orientation.
 template <class Map>
 std::optional<std::vector<signed char>> orientation(const Map& map);
 
-/// What `mesh info` prints; `cells[i]` counts the i-cells.
+/// The summary that `mesh info` prints; `cells[i]` counts the i-cells.
 struct MapSummary {
   int dimension = 0;
   std::size_t darts = 0;

@@ -14,18 +14,18 @@
 
 namespace dartboard {
 
-/// A face (an edge, of a surface) on the boundary: the number of its embedding and a dart that tells which way round.
+/// A face (in a surface an edge) on the boundary: the number of its embedding and a dart that gives its orientation.
 struct BoundaryFacet {
   std::uint32_t number;
   Dart dart;
   friend bool operator==(const BoundaryFacet&, const BoundaryFacet&) = default;
 };
 
-/// The facets on the boundary, in no particular order, and where each of them stands.
+/// The facets on the boundary, in no particular order, and the place of each in the list.
 ///
-/// Of a solid: walked by alpha_0 alpha_1 from its dart, a face runs counter-clockwise seen from outside the body at
-/// rest. Of a surface: an edge leads from its dart to alpha_0 the way that the face it bounds was given in the mesh.
-/// The dart is the lowest of its facet, or the alpha_0 of that where the lowest is turned the other way.
+/// In a solid: walked by alpha_0 alpha_1 from its dart, a face runs counter-clockwise seen from outside the body at
+/// rest. In a surface: an edge leads from its dart to alpha_0 in the direction in which the mesh gave its face. The
+/// dart is the lowest of its facet, or the alpha_0 of that if the lowest has the other orientation.
 class BoundarySurface {
  public:
   static constexpr std::uint32_t no_place = std::numeric_limits<std::uint32_t>::max();
@@ -51,7 +51,7 @@ class BoundarySurface {
   }
 
   std::span<const BoundaryFacet> facets() const { return facets_; }
-  /// Where in `facets()` the facet of this number is; no_place if it is not on the boundary.
+  /// The place in `facets()` of the facet of this number; no_place if it is not on the boundary.
   std::uint32_t place(std::uint32_t number) const { return place_[number]; }
 
   /// The vertex numbers of a facet, from its dart, in the order of its orientation.
@@ -71,8 +71,8 @@ class BoundarySurface {
     return vertices;
   }
 
-  /// Of a face: the area vector [m^2] at the current positions, outwards, half the sum of the cross products along its
-  /// corners; where they are not in a plane, that of any surface they span.
+  /// The area vector [m^2] of a face at the current positions, outwards: half the sum of the cross products along its
+  /// corners; if they are not in a plane, that of any surface they span.
   template <class Body>
   static Eigen::Vector3d area_vector(const Body& body, const BoundaryFacet& facet) requires(Body::dimension == 3) {
     const auto& x = body.vertices.position;
@@ -87,7 +87,7 @@ class BoundarySurface {
   static Eigen::Vector3d unit_normal(const Body& body, const BoundaryFacet& facet) requires(Body::dimension == 3) {
     return area_vector(body, facet).stableNormalized();
   }
-  /// Of an edge of a surface: from its first to its second corner [m] at the current positions.
+  /// The vector of an edge of a surface, from its first to its second corner [m] at the current positions.
   template <class Body>
   static Eigen::Vector3d edge_vector(const Body& body, const BoundaryFacet& facet) requires(Body::dimension == 2) {
     const auto corner = corners(body, facet);

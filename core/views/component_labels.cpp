@@ -7,7 +7,7 @@
 namespace dartboard {
 namespace {
 
-/// f(cell) for the cells across the facets of `cell`, as often as they are told.
+/// Calls f(cell) for the cells across the facets of `cell`, as often as the facets are reported.
 template <class Map, class F>
 void for_each_neighbour(const ComponentLabels::Body<Map>& body, std::uint32_t cell, F&& f) {
   constexpr int n = Map::dimension;
@@ -17,8 +17,8 @@ void for_each_neighbour(const ComponentLabels::Body<Map>& body, std::uint32_t ce
   });
 }
 
-/// Whether the facets of two darts still have a vertex in common at one of the corners that follow a and b, so that
-/// their cells hang together.
+/// Whether the facets of two darts still share a vertex at one of the corners that follow a and b, so that their cells
+/// are connected.
 template <class Map>
 bool still_joined(const ComponentLabels::Body<Map>& body, Dart a, Dart b) {
   const Map& map = body.map;
@@ -73,9 +73,9 @@ void ComponentLabels::drop_empty(ComponentChange& report) {
   emptied_.clear();
 }
 
-// ---- cells that came, went away or took another number
+// ---- cells that were added or removed, or took another number
 
-/// Give the name of `cell` to all cells without one that hang together with it.
+/// Give the name of `cell` to all connected cells without a name.
 template <class Map>
 void ComponentLabels::spread(const Body<Map>& body, std::uint32_t cell) {
   stack_.assign(1, cell);
@@ -113,7 +113,7 @@ void ComponentLabels::name_added(const Body<Map>& body, const ChangedEmbeddings&
     if (!added(cell)) spread(body, cell);
   }
   for (const std::uint32_t cell : changed.cells) {
-    if (!added(cell)) continue;  // else it hangs together with none that there was
+    if (!added(cell)) continue;  // otherwise it is not connected to any old cell
     set_name(cell, new_component());
     spread(body, cell);
   }
@@ -138,7 +138,7 @@ void ComponentLabels::append(List& list, List other) {
   list.last = other.last;
 }
 
-/// Take the first cell that waits and go on to its neighbours; returns how many other groups were met.
+/// Take the first waiting cell and go on to its neighbours; returns the number of other groups met.
 template <class Map>
 std::size_t ComponentLabels::look_around(const Body<Map>& body, std::uint32_t group) {
   Group& here = groups_[group];
@@ -234,7 +234,7 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
       largest = p;
       most = groups_[p].size;
     }
-  if (largest != remainder) {  // its cells get another name, so all are needed
+  if (largest != remainder) {  // the cells of the remainder get another name, so all of them are needed
     while (groups_[remainder].waiting.first != none) look_around(body, remainder);
     parts_.push_back(remainder);
   }
@@ -248,7 +248,7 @@ void ComponentLabels::part(std::uint32_t largest, ComponentChange& report) {
     if (p == largest) continue;
     const std::uint32_t name = new_component();
     for (std::uint32_t cell = groups_[p].done.first; cell != none; cell = visit_[cell].next) set_name(cell, name);
-    report.separated.push_back(name);  // a name as yet
+    report.separated.push_back(name);  // a name for now, not yet a label
   }
 }
 

@@ -9,12 +9,12 @@
 
 namespace dartboard {
 
-/// What became of the components in one call.
+/// The changes of the components in one call.
 struct ComponentChange {
   // The labels of parts that came off, as they are after `moved`. The largest part of a component keeps its label.
   std::vector<std::uint32_t> separated;
-  // Components that went away with their cells: label `to` was given to the last component, label `from`, in this
-  // order, after the separated parts had got the next free ones.
+  // Components that were removed with their cells: label `to` was given to the last component, label `from`, in this
+  // order, after the separated parts had received the next free labels.
   std::vector<Renumbered> moved;
 
   bool empty() const { return separated.empty() && moved.empty(); }
@@ -29,16 +29,16 @@ struct ComponentChange {
 /// Connectivity is lost only where a vertex came apart. Let P be a component after the change that is less than the
 /// component it was in. Nothing but unsewing takes cells out of a component (a removed cell is isolated first), so some
 /// unsewing of a facet was the last to part P from other cells: one side of that facet was in P, the other was not.
-/// Both sides had the vertices of the facet in common before, and none after, so each of these vertices came apart, and
-/// the operation told so, by darts of the two sides. One of these lies in P, and it is alive, because it is in P still.
-/// Hence the live darts of `TopologyChange::vertices` lie in all the parts of every component that came apart, and if
-/// there are none, nothing has. A pair whose facets still share a vertex elsewhere is passed over, because its sides
-/// hang together; the pair of the proof is none of these. Most cuts are over with that.
+/// Both sides shared the vertices of the facet before, and share no vertex after, so each of these vertices came apart,
+/// and the operation reported it by darts of the two sides. One of these lies in P, and it is live, because it still is
+/// in P. Hence the live darts of `TopologyChange::vertices` lie in all the parts of every component that came apart,
+/// and without such darts no component did. A pair whose facets still share a vertex elsewhere is skipped, because its
+/// sides are connected; the pair of the proof is not among these. For most cuts this ends the work.
 ///
-/// From the cells of these darts searches set out, taking turns cell by cell. Two that meet become one. One that has
-/// nowhere to go has found a whole component. When one is left, it is what remains of the old component.
+/// Searches start from the cells of these darts, taking turns cell by cell. Two that meet become one. One that has
+/// no cell left has found a whole component. When one is left, it is the remainder of the old component.
 ///
-/// Labels are dense. A component that came off gets the next label; when one goes away, the last takes its label.
+/// Labels are dense. A component that came off gets the next label; when one is removed, the last takes its label.
 class ComponentLabels {
  public:
   template <class Map>
@@ -52,23 +52,23 @@ class ComponentLabels {
 
   /// Follow an operation or a series of them, and what `adapt` reported of it; gives the components of `rebuild`.
   ///
-  /// A cell with a number that did not exist before is of the component of its neighbours.
+  /// A cell with a number that did not exist before belongs to the component of its neighbours.
   ///
-  /// cost    nothing unless a vertex came apart; then O(cells that the searches meet before they meet each other), or,
-  ///         where a part came off, O(cells of all parts but the largest), up to the number of places searched from
+  /// cost    nothing unless a vertex came apart; then O(cells that the searches visit before they meet each other), or,
+  ///         if a part came off, O(cells of all parts but the largest), up to the number of starting places
   template <class Map>
   ComponentChange apply(const Body<Map>& body, const TopologyChange& change, const ChangedEmbeddings& changed);
 
   std::size_t count() const { return size_.size(); }
   std::uint32_t label(std::uint32_t cell) const { return label_of_[name_[cell]]; }
-  /// How many cells the component has.
+  /// The number of cells of the component.
   std::size_t size(std::uint32_t label) const { return size_[label]; }
   std::size_t cell_count() const { return name_.size(); }
 
   /// Equal when the same cells are together; labels do not count.
   friend bool operator==(const ComponentLabels& a, const ComponentLabels& b);
 
-  /// Labels and names, as which of them comes next depends on the cuts so far; what searches keep is scratch.
+  /// Writes or reads labels and names, because the next of them depend on the cuts so far; searches keep scratch only.
   template <class Archive>
   void state(Archive& archive) {
     archive(name_, label_of_, name_of_, size_, unused_);
@@ -84,15 +84,15 @@ class ComponentLabels {
  private:
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-  // A cell on a search: `group` searched it, `next` comes after it on the list it is on.
+  // A cell of a search: `group` searched it, `next` comes after it in its list.
   struct Visit {
     std::uint32_t epoch = 0, group = none, next = none;
   };
-  // Cells in a list that takes O(1) to append another to.
+  // A list of cells; appending another list takes O(1).
   struct List {
     std::uint32_t first = none, last = none;
   };
-  // Searches that have met: the cells they have looked around at, and those they still have to.
+  // Searches that have met: the cells whose neighbours they have visited, and those still waiting.
   struct Group {
     std::uint32_t joined;  // the group it has become part of, or itself
     List done, waiting;
@@ -122,7 +122,7 @@ class ComponentLabels {
   void append(List& list, std::uint32_t cell);
   void append(List& list, List other);
 
-  // A component has a name besides its label, so that no cell need be told when its component takes another label.
+  // A component has a name besides its label, so that its cells need no change when it takes another label.
   std::vector<std::uint32_t> name_;      // by cell
   std::vector<std::uint32_t> label_of_;  // by name
   std::vector<std::uint32_t> name_of_;   // by label

@@ -11,8 +11,8 @@
 namespace dartboard {
 
 /// One row of corners per cell, in one stream: TetrahedronNodes, sixteen bytes, TriangleNodes, twelve, or SolidNodes.
-/// Of a body that has no such elements, and no springs within its cells, nothing; or, if it is asked for, the cells of
-/// a body of springs too, whose stress is per volume as it is now.
+/// It is empty for a body that has neither such elements nor springs within its cells; on request it has the cells of a
+/// body of springs too, whose stress is per present volume.
 template <class Nodes>
 class ElementNodesView {
  public:

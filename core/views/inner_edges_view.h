@@ -1,5 +1,5 @@
 #pragma once
-// What bends across the inner edges of a surface, by edge number: four vertices, and what their places at rest give.
+// The bending of the inner edges of a surface, by edge number: four vertices, and coefficients from rest positions.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// One row per edge; that of an edge of the border is empty. Row is BendingEdge or SecondNeighbours.
+/// One row per edge; that of an edge of the boundary is empty. Row is BendingEdge or SecondNeighbours.
 template <class Row>
 class InnerEdgesView {
  public:
@@ -17,10 +17,10 @@ class InnerEdgesView {
   friend bool operator==(const InnerEdgesView& a, const InnerEdgesView& b) { return a.rows == b.rows; }
 
   InnerEdgesView() = default;
-  /// `rigidity` [N m] of rows that bend; others do not ask for it.
+  /// `rigidity` [N m] is that of BendingEdge rows; SecondNeighbours rows do not use it.
   explicit InnerEdgesView(double rigidity) : rigidity_(rigidity) {}
 
-  /// pre     the body holds places at rest (VertexColumns::keep_rest)
+  /// pre     the body keeps rest positions (VertexColumns::keep_rest)
   /// cost    O(edges)
   template <class Body>
   void rebuild(const Body& body) {

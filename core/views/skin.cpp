@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is sampled, of a solid its faces on the boundary, of a surface its cells: by number.
+/// The faces that are sampled, by number: the boundary faces of a solid, the cells of a surface.
 template <class Body>
 const std::vector<Dart>& face_darts(const Body& body) {
   if constexpr (Body::dimension == 3)
@@ -41,7 +41,7 @@ struct WeightedFace {
   std::array<double, 4> corner{};  // [m^2]
 };
 
-/// From its lowest dart, so that the areas have the same bits whoever asks.
+/// Computed from its lowest dart, so that the areas have the same bits for every caller.
 template <class Body>
 WeightedFace weighted(const Body& body, std::uint32_t k) {
   WeightedFace face;
@@ -105,7 +105,7 @@ void Skin::apply(const Body& body, const ChangedEmbeddings& changed) {
     const auto corners = samples_[place].corners();
     touched_.insert(touched_.end(), corners.begin(), corners.end());
   }
-  // what is around a vertex with another number, or of other parts, names that
+  // the samples around a vertex with another number, or with other parts, refer to its new number
   for (const std::uint32_t k : changed.vertices)
     for_each_dart_of(body.map, Vertex{body.vertices.dart[k]}, [&](Dart d) {
       if (is_sampled(body, d)) find_face(body, face_number(body, d));
@@ -122,7 +122,7 @@ void Skin::find_face(const Body& body, std::uint32_t k) {
   set(2 * k + 1, sample);
 }
 
-// The shares are summed in the order of the faces' darts: numbers depend on what came before.
+// The shares are summed in the order of the faces' darts: numbers depend on earlier changes.
 template <class Body>
 void Skin::find_vertex(const Body& body, std::uint32_t k) {
   around_.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Where the boundary of a body feels contact: places with weights that follow every change of the topology.
+// Contact samples of the boundary of a body: places with weights that follow every change of the topology.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace dartboard {
 ///
 /// A triangle of area A gives A/12 to each of its corners and 3A/4 to its middle, which integrates quadratic functions
 /// exactly. A quadrilateral gives 2A/3 to its middle and to each corner a sixth of the triangle that the corner spans
-/// with both its neighbours, A/12 of a parallelogram: quadratic functions are exact on parallelograms, linear ones on
-/// any that is flat and convex. Where it is not convex, corners get A/12 each. One that is not flat counts as its
-/// picture in the plane that its diagonals span.
+/// with both its neighbours, A/12 for a parallelogram: quadratic functions are exact on parallelograms, linear ones on
+/// any flat and convex quadrilateral. If it is not convex, corners get A/12 each. One that is not flat counts as its
+/// projection onto the plane that its diagonals span.
 ///
-/// A vertex has its share of a face however little of that is inside an obstacle. So the vertices on which the sides of
-/// a box stand carry for these too: a cube of width L, of cells of side h, rests as if its bottom were larger by about
-/// h / 2 L of itself (tetrahedra; 2 h / 3 L of hexahedra), and a cut right through what is pressed against an obstacle
-/// adds what its two sides stand on. Away from there a cut adds samples that touch nothing.
+/// A vertex has its share of a face however little of the face is inside an obstacle. So the vertices at the foot of
+/// the sides of a box carry for these too: a cube of width L, of cells of side h, rests as if its bottom were larger by
+/// about h / 2 L of itself (tetrahedra; 2 h / 3 L for hexahedra), and a cut right through a body pressed against an
+/// obstacle adds the foot of its two sides. Away from there a cut adds samples that touch nothing.
 ///
 /// Samples are in no particular order: at first vertices by number, then faces by number, afterwards as changes left
-/// them; two skins are equal if they have the same samples, to the last bit. Those without area are not there, and none
-/// of a body that does not hold its places at rest (VertexColumns::keep_rest).
+/// them; two skins are equal if they have the same samples, to the last bit. Places without area are no samples, and
+/// a body that does not keep its rest positions has no samples at all (VertexColumns::keep_rest).
 class Skin {
  public:
   static constexpr std::uint32_t no_place = std::numeric_limits<std::uint32_t>::max();
@@ -39,14 +39,14 @@ class Skin {
 
   /// Follow what `adapt` reports; gives the samples of `rebuild`.
   ///
-  /// cost    O(changed faces and what is around their vertices and changed vertices), whatever the size of the body
+  /// cost    O(changed faces and the faces around their vertices and changed vertices), whatever the size of the body
   template <class Body>
   void apply(const Body& body, const ChangedEmbeddings& changed);
 
   const std::vector<SkinSample>& samples() const { return samples_; }
-  /// Where in `samples()` the vertex is; no_place if it is not on the boundary.
+  /// The place in `samples()` of the vertex; no_place if it is not on the boundary.
   std::uint32_t place_of_vertex(std::uint32_t number) const { return of_vertex_[number]; }
-  /// Where the middle of the face is, of a solid; of a surface, of the cell.
+  /// The place of the middle of the face, in a solid; of the cell, in a surface.
   std::uint32_t place_of_face(std::uint32_t number) const { return of_face_[number]; }
 
   friend bool operator==(const Skin& a, const Skin& b);

@@ -19,7 +19,7 @@ Face face_from(const Body& body, Dart d) {
     face.nodes[face.count++] = body.vertex(body.map, at);
     at = body.map.template alpha<0, 1>(at);
   } while (at != d && face.count < face.nodes.size());
-  // from the lowest point; which way round is decided later
+  // from the lowest point; the orientation is decided later
   const auto& point = body.vertices.point;
   const auto first = face.nodes.begin(), last = first + face.count;
   const auto lowest =
@@ -66,8 +66,8 @@ void SkinSolidsView::apply(const Body& body, const ChangedEmbeddings& changed, c
         if (body.map.template is_free<3>(d)) faces_.push_back(body.face(body.map, d));
       });
     };
-    // what is around a vertex with another number names that, and what is around one that came to the boundary is along
-    // it now
+    // cells around a vertex with another number refer to its new number, and cells around a vertex that came to the
+    // boundary are now along it
     for (const std::uint32_t k : changed.vertices) add_around(k);
     for (const std::uint32_t k : changed.faces)
       if (const Dart first = body.face_dart[k]; body.map.template is_free<3>(first)) {
@@ -79,7 +79,7 @@ void SkinSolidsView::apply(const Body& body, const ChangedEmbeddings& changed, c
       }
     sort_out(cells_);
     sort_out(faces_);
-    // rows go by the numbers that they were made with, before these have another meaning
+    // rows are erased by the numbers that they were made with, before these numbers get another meaning
     for (const std::uint32_t k : cells_)
       if (k < solids_.cell_count()) solids_.erase_cell(k);
     for (const std::uint32_t k : faces_)

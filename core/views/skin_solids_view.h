@@ -1,5 +1,5 @@
 #pragma once
-// What a place can be inside of, as it follows every change of the topology.
+// The tetrahedra and triangles along the boundary for contact, as they follow every change of the topology.
 
 #include <array>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace dartboard {
 
-/// The tetrahedra along the boundary of a solid and the triangles of its boundary, beside Skin; of a surface nothing,
-/// and nothing of a body that does not hold its places at rest (VertexColumns::keep_rest).
+/// The tetrahedra along the boundary of a solid and the triangles of its boundary, in addition to Skin; empty for a
+/// surface, and for a body that does not keep its rest positions (VertexColumns::keep_rest).
 ///
-/// A cell with more corners than four is the pyramids over its faces from the corner whose mesh point has the lowest
-/// number, and a face the triangles from its own lowest corner: neighbours cut the face between them alike, whatever
-/// has been cut and numbered anew since. Which way round is right is seen from the places at rest.
+/// A cell with more than four corners is split into the pyramids over its faces from the corner whose mesh point has
+/// the lowest number, and a face into the triangles from its own lowest corner: neighbours split the face between them
+/// in the same way, also after cuts and renumbering. The orientation is found from rest positions.
 class SkinSolidsView {
  public:
-  /// The body of a scene that a cell is of, by the cell's number; empty: all are of one.
+  /// The body of a scene that a cell belongs to, by the cell's number; empty: all belong to one.
   using GroupOfCell = std::function<std::uint32_t(std::uint32_t)>;
 
   /// cost    O(cells)

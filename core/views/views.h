@@ -1,5 +1,5 @@
 #pragma once
-// All views of a body at once; a scene that needs fewer holds fewer.
+// All views of a body at once; a scene holds only those that it needs.
 
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
@@ -19,7 +19,7 @@ struct Views {
 
   friend bool operator==(const Views&, const Views&) = default;
 
-  /// f(name, view) for each.
+  /// Calls f(name, view) for each view.
   template <class Self, class F>
   static void for_each(Self& self, F&& f) {
     f("cell arrays", self.cells);

@@ -24,7 +24,7 @@ struct EdgeEntry : CellEntry {
   friend bool operator==(const EdgeEntry&, const EdgeEntry&) = default;
 };
 
-/// Contiguous arrays to "navigate inside the 3-g-map and access data"; the time loop sees these and no dart.
+/// Contiguous arrays to "navigate inside the 3-g-map and access data"; the time loop uses these and no dart.
 ///
 class CellArrays {
  public:

@@ -46,7 +46,7 @@ class RungeKutta4 {
       v.position[i] = x0_[i] + (h / 2) * v0_[i];
       v.velocity[i] = v0_[i] + (h / 2) * a;
     });
-    for (const double reach : {h / 2, h}) {  // of the stage that follows
+    for (const double reach : {h / 2, h}) {  // to the stage that follows
       add_spring_forces(walk, body);
       walk.for_each_vertex(body, [&](std::uint32_t i) {
         const Eigen::Vector3d a = take_acceleration(v, gravity, i);

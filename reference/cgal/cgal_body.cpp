@@ -24,12 +24,12 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Vector = Kernel::Vector_3;
 using Point = Kernel::Point_3;
 
-// All that a vertex carries beside its point, which is the position at the stage of the step.
+// The data of a vertex in addition to its point, which is the position at the stage of the step.
 struct VertexInfo {
   Point x0 = CGAL::ORIGIN;                                // at the start of the step
   Vector v0 = CGAL::NULL_VECTOR, v = CGAL::NULL_VECTOR;   // at the start of the step, at the stage
   Vector force = CGAL::NULL_VECTOR;                       // of the springs
-  Vector dx = CGAL::NULL_VECTOR, dv = CGAL::NULL_VECTOR;  // what the step adds up
+  Vector dx = CGAL::NULL_VECTOR, dv = CGAL::NULL_VECTOR;  // the sums of the step
   double mass = 0.0, viscosity = 0.0;                     // kg, kg/s
   bool fixed = false;
   bool operator==(const VertexInfo&) const = default;
@@ -52,7 +52,7 @@ struct Items {
 using Map = CGAL::Linear_cell_complex_for_generalized_map<3, 3, CGAL::Linear_cell_complex_traits<3, Kernel>, Items>;
 using Dart = Map::Dart_handle;
 
-// A dart, and the mesh's names for the cells it lies in.
+// A dart, and the names of its cells by numbers of the mesh.
 struct NamedDart {
   Dart dart;
   std::uint32_t from, to;             // its vertex, and the other end of its edge
@@ -74,7 +74,7 @@ void link_equal(Map& map, std::vector<NamedDart>& darts, Name name) {
   }
 }
 
-// Two darts per edge of every face of every cell, linked by what the mesh says and never by coordinates.
+// Two darts per edge of every face of every cell, linked by the numbers of the mesh and never by coordinates.
 std::vector<NamedDart> build_darts(Map& map, const Mesh& mesh) {
   std::vector<NamedDart> darts;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c)
@@ -178,7 +178,7 @@ struct CgalBody::Complex {
       : walk(how), h(problem.h), gravity(to_vector(problem.surroundings.gravity)) {
     if (problem.material.young > 0.0)
       throw InputError("a body on CGAL's map knows one stiffness for all cells; expected no Young's modulus");
-    const AdjacencyGraph graph(problem);  // refuses what is malformed
+    const AdjacencyGraph graph(problem);  // refuses malformed problems
     const std::vector<NamedDart> darts = build_darts(map, problem.mesh);
     add_vertices(problem, darts, masses_of_points(problem));
     add_edges(problem, darts);
@@ -261,7 +261,7 @@ struct CgalBody::Complex {
 
   Vector acceleration(const VertexInfo& i) const { return (i.force - i.viscosity * i.v) / i.mass + gravity; }
 
-  // Add a stage to the step with its weight, go `next` seconds from the start along it, and forget the forces.
+  // Add a stage to the step with its weight, go `next` seconds from the start along it, and reset the forces.
   void advance(double weight, double next) {
     pull_springs();
     for_each_vertex([&](Point& x, VertexInfo& i) {

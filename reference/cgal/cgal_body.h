@@ -11,13 +11,13 @@
 
 namespace dartboard::reference {
 
-/// How CGAL passes over vertices and edges.
+/// The way in which CGAL visits vertices and edges.
 enum class CgalWalk {
-  coverage,    // one_dart_per_cell<i>(): all darts are looked at, marks tell which cells have been met
+  coverage,    // one_dart_per_cell<i>(): all darts are visited, marks record which cells have been met
   attributes,  // attributes<i>(): the container of the embeddings, and attribute->dart() for the neighbours
 };
 
-/// What CGAL counts in the map.
+/// The counts of CGAL in the map.
 struct CgalCounts {
   std::size_t darts, vertices, edges, faces, volumes, components;
   bool operator==(const CgalCounts&) const = default;
@@ -59,7 +59,7 @@ class CgalBody {
   std::unique_ptr<Complex> complex_;
 };
 
-/// "5.5.1", say.
+/// The version of CGAL, such as "5.5.1".
 std::string cgal_version();
 
 }  // namespace dartboard::reference

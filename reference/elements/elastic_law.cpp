@@ -25,7 +25,7 @@ Matrix3<Real> cofactors_of(const Matrix3<Real>& f) {
   return cof;
 }
 
-// d of the cofactors, as F changes by D
+// the change of the cofactors as F changes by D
 Matrix3<long double> cofactors_along(const Matrix3<long double>& f, const Matrix3<long double>& d) {
   Matrix3<long double> change;
   for (int c = 0; c < 3; ++c)
@@ -93,7 +93,7 @@ long double modulus(const ElasticLaw& law) {
 template <class Real>
 Matrix3<Real> nearest_rotation(const Matrix3<Real>& f) {
   const Real size = f.norm();
-  // averages of F and its inverse transpose come to the rotation, doubling their digits (Higham 1986)
+  // averages of F and its inverse transpose converge to the rotation, doubling their digits (Higham 1986)
   if (f.determinant() > Real(1e-3L) * size * size * size) {
     Matrix3<Real> r = f;
     for (int k = 0; k < 60; ++k) {
@@ -156,8 +156,8 @@ Matrix3<Real> discrete_stress(const ElasticLaw& law, const Matrix3<Real>& f, con
   const Matrix3<Real> middle = f + d / 2, at_middle = stress(law, middle);
   const Matrix3<Real> dc = middle.transpose() * d + d.transpose() * middle;
   if (dc.squaredNorm() == 0) return at_middle;
-  // What the stress half way misses of the change of energy. By quadrature in short moves, where a difference of two
-  // energies has no digits left: Gauss's seven points, exact to the 13th power of the move.
+  // The part of the change of energy that the stress half way does not give. By quadrature for short moves, where the
+  // difference of two energies has no digits left: Gauss's seven points, exact to the 13th power of the move.
   static const Real places[4] = {Real(0), Real(0.405845151377397166906606412076961463L),
                                  Real(0.741531185599394439863864773280788407L),
                                  Real(0.949107912342758524526189684047851262L)};
@@ -191,7 +191,7 @@ StressSlope stress_slope(const ElasticLaw& law, const Matrix3<long double>& f) {
 long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed) {
   const long double size = modulus(law) * (1 + summed) * (1 + summed * summed);
   if (law.model != Model::corotational) return size;
-  // the rotation turns by what F is wrong by over the least sum of two stretches
+  // the error of the rotation is that of F over the least sum of two stretches
   const Eigen::JacobiSVD<Matrix3<long double>> svd(f);
   const auto& s = svd.singularValues();
   const long double gap = f.determinant() < 0 ? s[1] - s[2] : s[1] + s[2];

@@ -1,5 +1,5 @@
 #pragma once
-// Three elastic laws from their definitions, in any precision: energy, stress, and how the stress changes.
+// Three elastic laws from their definitions, in any precision: energy, stress, and the derivative of the stress.
 
 #include <Eigen/Core>
 
@@ -18,12 +18,12 @@ struct ElasticLaw {
 /// throws  InputError for a material of springs
 ElasticLaw elastic_law(const Material& material);
 
-/// [Pa] 2 mu + 3 lambda, of a neo-Hookean solid with the constants that Smith, de Goes and Kim give it: no law's stress
-/// at rest changes by more.
+/// [Pa] 2 mu + 3 lambda, for a neo-Hookean solid with the constants by Smith, de Goes and Kim: a bound of the change of
+/// any law's stress at rest.
 long double modulus(const ElasticLaw& law);
 
-// Of a deformation gradient F, for Real = double and long double. Rotations are found by singular values where F is
-// flat or inside out, and by averaging F with its inverse transpose elsewhere (core solves a quartic).
+// Functions of a deformation gradient F, for Real = double and long double. Rotations are found by singular values
+// where F is flat or inside out, and by averaging F with its inverse transpose elsewhere (core solves a quartic).
 
 /// [J/m^3]
 template <class Real>
@@ -31,8 +31,8 @@ Real energy_density(const ElasticLaw& law, const Matrix3<Real>& f);
 /// The first Piola-Kirchhoff stress [Pa], the derivative of the energy density.
 template <class Real>
 Matrix3<Real> stress(const ElasticLaw& law, const Matrix3<Real>& f);
-/// Gonzalez's discrete gradient from F to F + D: the stress half way, and as much of F_m dC, C = F'F, as makes its
-/// product with D the change of energy, which is found by quadrature along the way.
+/// Gonzalez's discrete gradient from F to F + D: the stress half way, plus a multiple of F_m dC, C = F'F, such that its
+/// product with D is the change of energy, which is found by quadrature along the way.
 /// source  Gonzalez, J. Nonlinear Science 6, 1996
 template <class Real>
 Matrix3<Real> discrete_stress(const ElasticLaw& law, const Matrix3<Real>& f, const Matrix3<Real>& d);
@@ -40,16 +40,16 @@ Matrix3<Real> discrete_stress(const ElasticLaw& law, const Matrix3<Real>& f, con
 using StressSlope = Eigen::Matrix<long double, 9, 9>;
 StressSlope stress_slope(const ElasticLaw& law, const Matrix3<long double>& f);
 
-/// The rotation that is nearest to F; where F turns inside out, of determinant 1 all the same.
+/// The rotation that is nearest to F, with determinant 1 also where F turns inside out.
 template <class Real>
 Matrix3<Real> nearest_rotation(const Matrix3<Real>& f);
 
-/// [Pa] At most so much of the relative rounding of F's entries, as large as `summed`, is found in the stress; infinite
-/// where the nearest rotation is not one alone.
+/// [Pa] A bound of the error of the stress over the relative rounding of F's entries, which are as large as `summed`;
+/// infinite if the nearest rotation is not unique.
 long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed);
 
-/// [Pa] What a discrete gradient in double precision may miss beside that, by as much of a rounding: the two strains of
-/// a corotational move are known as well as their rotations are, and their difference is divided by the move.
+/// [Pa] The further error of a discrete gradient in double precision, over the same rounding: the two strains of a
+/// corotational move are as accurate as their rotations, and their difference is divided by the move.
 long double discrete_stress_size(const ElasticLaw& law, const Matrix3<long double>& f, const Matrix3<long double>& d);
 
 }  // namespace dartboard::reference

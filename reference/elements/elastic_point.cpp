@@ -19,7 +19,7 @@ std::vector<Vector> corners_at_rest(const Mesh& rest, std::size_t cell) {
   return corners;
 }
 
-// Slopes by the element's own coordinates, and the share of the determinant that the point stands for.
+// The point for slopes by the element's own coordinates, with its share of the determinant.
 ElasticPoint mapped(const ElasticLaw& law, Real damping_time, const std::vector<std::uint32_t>& at,
                     const std::vector<Vector>& corners, const std::vector<Vector>& slopes, Real share) {
   Matrix3<Real> jacobian = Matrix3<Real>::Zero();
@@ -57,7 +57,7 @@ std::vector<ElasticPoint> elastic_points(const Mesh& rest, std::size_t cell, con
     throw InputError(
         fmt::format("cell {} is a {}; expected a tetrahedron or a hexahedron", cell, name(rest.kinds[cell])));
   std::vector<ElasticPoint> points;
-  for (int q = 0; q < 8; ++q) {  // as the corners go: a sweep over points has to have their order
+  for (int q = 0; q < 8; ++q) {  // in the order of the corners, which a sweep over points has to have
     const int ring = q % 4;
     const Vector at_point =
         Vector(ring == 1 || ring == 2 ? 1 : -1, ring >= 2 ? 1 : -1, q >= 4 ? 1 : -1) / std::sqrt(Real(3));

@@ -1,5 +1,5 @@
 #pragma once
-// Elements as the points at which their energy is taken, and their forces in any precision.
+// Elements as the points at which their energy is evaluated, and their forces in any precision.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -19,10 +19,10 @@ struct ElasticPoint {
   std::vector<std::uint32_t> corner;                       // points of the network
   std::vector<Eigen::Matrix<long double, 3, 1>> gradient;  // [1/m] by corner
   long double damping_time = 0;                            // [s]
-  bool is_elastic = true;                                  // false: what it has is damping alone
+  bool is_elastic = true;                                  // false: it has damping alone
 };
 
-/// Those of one cell at rest: one of a linear tetrahedron, eight of a trilinear hexahedron.
+/// The points of one cell at rest: one for a linear tetrahedron, eight for a trilinear hexahedron.
 ///
 /// throws  InputError for another kind of cell, and for a material of springs
 std::vector<ElasticPoint> elastic_points(const Mesh& rest, std::size_t cell, const Material& material);
@@ -39,7 +39,7 @@ Matrix3<Real> deformation(const ElasticPoint& point, const Real* x) {
   return f;
 }
 
-/// force += what a point with this stress [Pa] pulls its corners with [N].
+/// force += the pull [N] of a point with this stress [Pa] on its corners.
 template <class Real>
 void add_pull(const ElasticPoint& point, const Matrix3<Real>& stress, Real* force) {
   for (std::size_t a = 0; a < point.corner.size(); ++a) {
@@ -54,7 +54,7 @@ Matrix3<Real> elastic_stress(const ElasticPoint& point, const Matrix3<Real>& f) 
   return point.is_elastic ? stress(point.law, f) : Matrix3<Real>(Matrix3<Real>::Zero());
 }
 
-/// What damping adds to that where F changes at this rate [1/s]: linear elasticity of the rate of Green's strain
+/// The stress [Pa] that damping adds when F changes at this rate [1/s]: linear elasticity of the rate of Green's strain
 /// (F'F - 1) / 2, times the damping time.
 template <class Real>
 Matrix3<Real> damping_stress(const ElasticPoint& point, const Matrix3<Real>& f, const Matrix3<Real>& rate) {
@@ -64,8 +64,8 @@ Matrix3<Real> damping_stress(const ElasticPoint& point, const Matrix3<Real>& f, 
   return Real(point.damping_time) * (f * second);
 }
 
-/// The six strains of size 1, each orthogonal to the others, that linear elasticity meets with a multiple of
-/// themselves: one of volume, two along the axes, three shears.
+/// Six orthogonal eigenstrains of linear elasticity, each of size 1: one of volume, two along the axes, three
+/// shears.
 template <class Real>
 Matrix3<Real> unit_strain(int k) {
   using std::sqrt;
@@ -79,9 +79,9 @@ Matrix3<Real> unit_strain(int k) {
   return strain / sqrt(strain.squaredNorm());
 }
 
-/// f(corner, size) for each corner: what damping pulls there [N] at most, where corners that are farther apart by
-/// `reach` [m] than here move at up to `speed` [m/s] against each other; with a relative rounding times it, the pull is
-/// known.
+/// Calls f(corner, size) for each corner: the largest pull of damping there [N], if corners that are farther apart by
+/// `reach` [m] than here move at up to `speed` [m/s] against each other; a relative rounding times it bounds the error
+/// of the pull.
 template <class F>
 void for_each_damping_size(const ElasticPoint& point, const long double* x, long double reach, long double speed,
                            F&& f) {
@@ -101,8 +101,8 @@ void for_each_damping_size(const ElasticPoint& point, const long double* x, long
     f(point.corner[a], point.volume * most * stretch * stretch * point.gradient[a].norm());
 }
 
-/// f(corner, size) for each corner: a relative rounding of the lines between corners, each longer by `reach` [m] than
-/// it is here, moves the force there by so much of it [N]; infinite where a rotation is not one alone.
+/// Calls f(corner, size) for each corner: `size` [N] times a relative rounding of the lines between corners, each
+/// longer by `reach` [m] than here, bounds the error of the force there; infinite if a rotation is not unique.
 template <class F>
 void for_each_size(const ElasticPoint& point, const long double* x, long double reach, F&& f) {
   long double summed = 0;
@@ -122,7 +122,7 @@ void for_each_size(const ElasticPoint& point, const long double* x, long double 
 /// The 3x3 block [N/m] of corners a and b of the slope of a point's stress.
 Matrix3<long double> stiffness_block(const ElasticPoint& point, const StressSlope& slope, std::size_t a, std::size_t b);
 
-/// The 3x3 block [N s/m] of what the pull of a point's damping on corner a falls by with the velocity of corner b.
+/// The 3x3 block [N s/m] by which the pull of a point's damping on corner a decreases with the velocity of corner b.
 Matrix3<long double> damping_block(const ElasticPoint& point, const Matrix3<long double>& f, std::size_t a,
                                    std::size_t b);
 

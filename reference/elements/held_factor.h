@@ -1,5 +1,5 @@
 #pragma once
-// A solid that is held, its stiffness factored once for all that is asked of it.
+// A solid that is held, with its stiffness factored once for all answers.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -13,13 +13,13 @@ namespace dartboard::reference {
 
 class HeldFactor {
  public:
-  /// cost    that of the factor, for which the answers below are small
-  /// throws  SolverError where the solid is free to move
+  /// cost    that of the factor; the answers below cost little in comparison
+  /// throws  SolverError if the solid is free to move
   explicit HeldFactor(const HeldSolid& solid);
 
   /// The displacements [m] at rest under these forces [N].
   Eigen::VectorXd displacements(const Eigen::VectorXd& force) const;
-  /// The lowest angular frequencies [1/s], ascending: subspace iteration until they stand still to 1e-10.
+  /// The lowest angular frequencies [1/s], ascending: subspace iteration until they are constant to 1e-10.
   std::vector<double> frequencies(std::size_t count) const;
   /// u'Mv [kg m^2]
   double mass_product(const Eigen::VectorXd& u, const Eigen::VectorXd& v) const { return u.dot(mass_ * v); }
@@ -29,7 +29,7 @@ class HeldFactor {
  private:
   using Sparse = Eigen::SparseMatrix<double>;
   Sparse stiffness_, mass_;  // of all unknowns
-  Sparse free_;              // the unknowns that are free, as a matrix whose columns they are
+  Sparse free_;              // the selection of the free unknowns, one in each column
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
 };
 

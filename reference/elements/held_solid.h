@@ -1,5 +1,5 @@
 #pragma once
-// Linear statics and modes of anything that has a stiffness and a mass, some of its nodes held.
+// Linear statics and modes of a solid with a stiffness and a mass, some of its nodes held.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -15,11 +15,11 @@ struct HeldSolid {
   std::vector<std::uint32_t> held;              // nodes that do not move
 
   /// The displacements [m] at rest under these forces [N].
-  /// throws  SolverError where the solid is free to move
+  /// throws  SolverError if the solid is free to move
   Eigen::VectorXd displacements(const Eigen::VectorXd& force) const;
 
-  /// The lowest angular frequencies [1/s], ascending: subspace iteration until they stand still to 1e-10.
-  /// throws  SolverError where the solid is free to move
+  /// The lowest angular frequencies [1/s], ascending: subspace iteration until they are constant to 1e-10.
+  /// throws  SolverError if the solid is free to move
   std::vector<double> frequencies(std::size_t count) const;
 };
 

@@ -40,7 +40,7 @@ Polynomial sum(const Polynomial& a, double factor, const Polynomial& b) {
   return result;
 }
 
-/// Over a tetrahedron of volume 1: 6 a! b! c! d! / (a + b + c + d + 3)!.
+/// The integral over a tetrahedron of volume 1: 6 a! b! c! d! / (a + b + c + d + 3)!.
 double integral(const Polynomial& p) {
   double result = 0.0;
   for (const auto& [e, x] : p)
@@ -49,7 +49,7 @@ double integral(const Polynomial& p) {
   return result;
 }
 
-/// What is the same for every tetrahedron: integrals of products of the ten functions, and of products of their
+/// The tables for every tetrahedron: integrals of products of the ten functions, and of products of their
 /// derivatives by barycentric coordinates, over a volume of 1.
 struct Tables {
   Eigen::Matrix<double, 10, 10> mass;

@@ -1,5 +1,5 @@
 #pragma once
-// A linearly elastic solid of quadratic tetrahedra: what linear elements and springs are measured against.
+// A linearly elastic solid of quadratic tetrahedra, with which linear elements and springs are compared.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -22,7 +22,7 @@ struct ElasticSolid {
 /// The tetrahedra of a mesh with a node in the middle of each edge. Displacements are quadratic in each, so that
 /// bending is exact where the sides are straight; every integral is exact.
 ///
-/// Unknowns are three displacements [m] of each node in turn: the points of the mesh first, then the edges.
+/// Unknowns are the three displacements [m] of each node in turn: the points of the mesh first, then the edges.
 class QuadraticSolid {
  public:
   /// throws  InputError for a cell that is no tetrahedron, or has no volume
@@ -32,8 +32,8 @@ class QuadraticSolid {
   const Eigen::SparseMatrix<double>& stiffness() const { return stiffness_; }  // [N/m]
   const Eigen::SparseMatrix<double>& mass() const { return mass_; }            // [kg], consistent
 
-  /// Forces [N] of a traction, an affine function of the place [Pa], on the faces of the boundary whose corners all lie
-  /// where `on` says.
+  /// Forces [N] of a traction, an affine function of the place [Pa], on the faces of the boundary for all of whose
+  /// corners `on` is true.
   template <class On, class Traction>
   Eigen::VectorXd load(On&& on, Traction&& traction) const {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(stiffness_.rows());
@@ -45,10 +45,10 @@ class QuadraticSolid {
     return force;
   }
 
-  /// With some nodes held.
+  /// The solid with some nodes held.
   HeldSolid held_at(std::vector<std::uint32_t> nodes) const { return {stiffness_, mass_, std::move(nodes)}; }
 
-  /// The nodes that lie where `on` says.
+  /// The nodes for which `on` is true.
   template <class On>
   std::vector<std::uint32_t> nodes_where(On&& on) const {
     std::vector<std::uint32_t> found;

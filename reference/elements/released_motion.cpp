@@ -18,7 +18,7 @@ ReleasedMotion::ReleasedMotion(const HeldFactor& solid, const VectorXd& force, s
   for (; count < v.cols(); ++count) {
     VectorXd next = solid.displacements(solid.mass_times(v.col(count - 1)));
     const double before = std::sqrt(solid.mass_product(next, next));
-    // twice is enough, for what rounding leaves of the first time
+    // two passes are enough: the second removes what rounding leaves of the first
     for (int pass = 0; pass < 2; ++pass)
       next -= v.leftCols(count) * (v.leftCols(count).transpose() * solid.mass_times(next));
     const double left = std::sqrt(solid.mass_product(next, next));

@@ -128,7 +128,7 @@ void ExplicitScheme<Real>::splitting(std::vector<Real>& y, Real h) const {
     } else if (parts.damping == Damping::series) {
       decay_by_series(y, kick, v, t);
     } else {
-      // half of the kick before the decay and half behind it where it goes there and back
+      // half of the kick before the decay and half after it if the decay goes there and back
       const bool both = parts.damping == Damping::in_turn_there_and_back;
       for (std::size_t c = 0; c < n; ++c) v[c] += (both ? t / 2 : t) * kick[c];
       decay_in_turn(y, v, t, both);
@@ -139,7 +139,7 @@ void ExplicitScheme<Real>::splitting(std::vector<Real>& y, Real h) const {
 }
 
 // The exact flow of viscosity, then of each damper as if it were alone: the relative speed of its ends decays at the
-// rate c (1/m + 1/m'). Dampers come in eight interleaved lots, which is part of the method: another order is another
+// rate c (1/m + 1/m'). Dampers come in eight interleaved lots, which is part of the method: another order gives another
 // result. Then each point of an element, strain by strain: N decays at the rate of its modulus times V sum |F N g|^2 /
 // m. There and back: all that for half the time, then in the opposite order.
 template <class Real>
@@ -172,7 +172,7 @@ void ExplicitScheme<Real>::decay_in_turn(const std::vector<Real>& y, std::vector
     const Matrix3<Real> along = deformation(point, y.data()) * unit_strain<Real>(k);
     const Real modulus = Real(point.damping_time) * Real(2 * point.law.mu + (k == 0 ? 3 * point.law.lambda : 0));
     Real rate(0), mobile(0);
-    std::vector<std::pair<Vector3<Real>, Real>> arms;  // and the mobility of what each moves
+    std::vector<std::pair<Vector3<Real>, Real>> arms;  // and the mobility of the corner that each moves
     for (std::size_t a = 0; a < point.corner.size(); ++a) {
       const std::uint32_t i = point.corner[a];
       arms.emplace_back(along * point.gradient[a].template cast<Real>(),

@@ -12,7 +12,7 @@ namespace {
 
 using Numbers = std::vector<long double>;
 
-// x of all points, v of all points; what a fixed point is given as velocity is none
+// x of all points, v of all points; the velocity of fixed points is zero
 Numbers numbers_of(const SpringNetwork& network, const ExtendedState& s) {
   Numbers y = s.x;
   y.insert(y.end(), s.v.begin(), s.v.end());

@@ -21,13 +21,13 @@ StateBound distance(const ExtendedState& a, const ExtendedState& b);
 
 /// `steps` steps of size h of the classical Runge-Kutta method in long double over the network's forces. With a seed
 /// that is not zero, every number of the state is changed by up to half a unit in the last place of a double, at
-/// random, after each step: what rounding the result of a step does.
+/// random, after each step: the effect of rounding the result of a step.
 ExtendedState extended_run(const SpringNetwork& network, const PointState& start, double h, int steps,
                            std::uint64_t rounding_seed = 0);
 
 /// A run in extended precision, and the spread: the largest distance from it of some runs that are rounded after each
 /// step. A program that takes the same steps in doubles rounds some ten times in each, not once, and ends within a few
-/// spreads; how ill-conditioned or chaotic the motion may be is in the spread, as the disturbances grow as its own do.
+/// spreads. The spread includes the growth of errors in ill-conditioned or chaotic motions: disturbances grow alike.
 ///
 /// cost    1 + rounded_runs runs
 struct WitnessedMotion {

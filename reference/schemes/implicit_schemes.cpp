@@ -17,7 +17,7 @@ using Vectors = std::vector<Vector>;
 
 constexpr std::string_view names[]{"backward-euler", "implicit-midpoint", "energy-momentum", "sdirk2",
                                    "bdf2",           "baraff-witkin"};
-constexpr Extended newton_tolerance = 1e-10L;  // what these methods promise to solve to, relative to what acts
+constexpr Extended newton_tolerance = 1e-10L;  // of these methods' solutions, relative to what acts
 
 // a + t b, by point
 Vectors sum(const Vectors& a, Extended t, const Vectors& b) {
@@ -30,7 +30,7 @@ struct Ends {
   Vectors x0, v0, x1, v1, x_earlier, v_earlier;
 };
 
-// |x1 - (xh + t w)| over what rounding in double leaves of it; `speed` bounds the velocities that w was computed from.
+// |x1 - (xh + t w)| over its rounding in double; `speed` bounds the velocities that w was computed from.
 Extended drift_excess(const Ends& s, const Vectors& xh, Extended t, const Vectors& w, Extended speed) {
   const Extended size = largest_of(s.x0) + largest_of(s.x1) + largest_of(s.x_earlier);
   const Extended allowed =
@@ -85,7 +85,7 @@ Extended excess_of(std::string_view name, const SpringNetwork& network, Extended
     return max_or_nan(drift_excess(s, xh, tau, s.v1, speed), stage.excess(s.v1));
   }
   // SDIRK2. The second stage ends the step, so w2 = v1; the first follows from the positions, x1 = x0 + (h - tau) w1 +
-  // tau w2, as well as those are known. In short steps, where that is not well, it follows from its equation: the
+  // tau w2, to their accuracy. In short steps, where that is too low, it follows from its equation: the
   // iteration w = v0 + tau a(x0 + tau w, w) contracts.
   const Extended tau = (1 - 1 / std::sqrt(Extended(2))) * h;
   Vectors w1 = sum(sum(s.x1, -1, s.x0), -tau, s.v1);
@@ -97,7 +97,7 @@ Extended excess_of(std::string_view name, const SpringNetwork& network, Extended
   for (Vectors now = w1; lost > solved_to;) {
     const Vectors next = sum(s.v0, tau, first_stage.forces(now).acceleration);
     const Extended move = largest_of(sum(next, -1, now));
-    if (!(move <= last_move / 16)) break;  // no contraction to speak of
+    if (!(move <= last_move / 16)) break;  // hardly any contraction
     now = next;
     last_move = move;
     if (move > epsilon * speed) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Implicit methods whose result can be put into the equations that it has to solve: nothing is solved again.
+// Implicit methods whose result can be put into the equations that it has to satisfy: nothing is solved again.
 
 #include <string_view>
 
@@ -10,7 +10,7 @@ namespace dartboard::reference {
 /// backward-euler, implicit-midpoint, energy-momentum, sdirk2, bdf2, baraff-witkin.
 bool is_implicit_scheme(std::string_view name);
 
-/// By how much the state after a step misses the equations of the method.
+/// The residual of the state after a step in the equations of the method.
 ///
 /// pre  is_implicit_scheme(name)
 StepJudgement judge_implicit_step(std::string_view name, const SpringNetwork& network, const TakenStep& step);

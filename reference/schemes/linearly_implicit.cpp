@@ -31,7 +31,7 @@ Extended linearly_implicit_excess(const SpringNetwork& network, const Vectors& x
   Vectors right(n);
   for (std::size_t i = 0; i < n; ++i) right[i] = network.mass[i] * (v0[i] + h * three(rate, n + i));
   const DenseColumn b = column_of(network, right), solution = column_of(network, v1);
-  // what double precision makes of the sums: of A v1, and of the forces in b
+  // the sizes that rounding in double acts on: in A v1, and in the forces in b
   DenseColumn sizes = b.cwiseAbs();
   for (const Spring& s : network.springs) {
     const Extended force =

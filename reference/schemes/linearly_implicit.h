@@ -7,9 +7,9 @@
 
 namespace dartboard::reference {
 
-/// A v1 = M (v0 + h a), A = M + h C + h^2 K, forces and matrix at the positions where held points will be: by how much
-/// v1 misses it, over what a solver to 1e-12 and rounding in double leave. With exact tangents, or with projected ones
-/// where the exact matrix is not positive definite.
+/// The residual of v1 in A v1 = M (v0 + h a), A = M + h C + h^2 K, with forces and matrix at the next positions of held
+/// points, over what a solver to 1e-12 and rounding in double leave. With exact tangents, or with projected ones if the
+/// exact matrix is not positive definite.
 /// source  Baraff, Witkin 1998
 Extended linearly_implicit_excess(const SpringNetwork& network, const std::vector<Vector3<Extended>>& x0,
                                   const std::vector<Vector3<Extended>>& v0, const std::vector<Vector3<Extended>>& v1,

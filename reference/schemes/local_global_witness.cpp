@@ -16,8 +16,8 @@ using Vector = Vector3<Extended>;
 using Vectors = std::vector<Vector>;
 
 // Liu, Bargteil, O'Brien, Kavan 2013: backward Euler's equation by twenty corrections with the constant matrix
-// m + h c + h^2 k of the spring graph (of elements, the trace of what they resist at rest with), or fewer where it is
-// solved.
+// m + h c + h^2 k of the spring graph (for elements, the trace of their stiffness at rest), or fewer if it is
+// solved earlier.
 class LocalGlobalWitness {
  public:
   static constexpr int corrections = 20;
@@ -59,7 +59,7 @@ class LocalGlobalWitness {
           residual.row(static_cast<Eigen::Index>(i)) =
               network_.mass[i] * (w[i] - stage.vh[i] - h_ * at.acceleration[i]).transpose();
       const DenseMatrix correction = factor_.solve(residual);
-      // Armijo's condition; of springs the whole correction meets it, as the matrix is at least as stiff as they are
+      // Armijo's condition; with springs the whole correction meets it, because the matrix is at least as stiff
       const Extended slope = -residual.cwiseProduct(correction).sum();
       for (Extended share = 1; share > 1e-12L; share /= 2) {
         Vectors trial = w;
@@ -80,8 +80,8 @@ class LocalGlobalWitness {
     }
   }
 
-  // [m, m/s] What a correction too many or too few changes: the sizes of the inverse's entries times what residuals
-  // may be. (Of springs the inverse has no negative entry, as no off-diagonal entry of the matrix is positive.)
+  // [m, m/s] The effect of a correction too many or too few: the sizes of the inverse's entries times the residuals
+  // allowed. (With springs the inverse has no negative entry, as no off-diagonal entry of the matrix is positive.)
   std::array<Extended, 2> tolerated(const std::vector<Extended>& y) const {
     const StageEquation stage = equation(y);
     const std::vector<Extended> allowed = stage.allowed(stage.vh, stage.forces(stage.vh));
@@ -110,7 +110,7 @@ class LocalGlobalWitness {
 
 StepJudgement judge_local_global(const SpringNetwork& network, const TakenStep& step) {
   const LocalGlobalWitness method(network, step.h);
-  // where a rounding of the energies decides which share of a correction is taken, either is right
+  // if a rounding of the energies decides which share of a correction is taken, either is correct
   std::vector<std::vector<Extended>> others;
   if (!network.elements.empty()) method.step(others.emplace_back(vector_of<Extended>(step.before)), 8);
   return compare_step(

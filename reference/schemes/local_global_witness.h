@@ -5,7 +5,7 @@
 
 namespace dartboard::reference {
 
-/// The distance from twenty corrections of backward Euler's equation, or fewer where it is solved (`compare_step`).
+/// The distance from twenty corrections of backward Euler's equation, or fewer if that solves it (`compare_step`).
 StepJudgement judge_local_global(const SpringNetwork& network, const TakenStep& step);
 
 }  // namespace dartboard::reference

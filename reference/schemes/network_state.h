@@ -24,7 +24,7 @@ std::vector<Real> vector_of(const PointState& state) {
   return y;
 }
 
-/// The three numbers of point i; of its velocity, counted from where the velocities begin.
+/// The three numbers of point i; for its velocity, i counts on after the positions.
 template <class Real>
 Eigen::Map<Vector3<Real>> three(std::vector<Real>& y, std::size_t i) {
   return Eigen::Map<Vector3<Real>>(y.data() + 3 * i);

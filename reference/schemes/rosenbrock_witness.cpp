@@ -27,7 +27,7 @@ class Rosenbrock {
 
   bool positive_definite() const { return positive_definite_; }
 
-  // `off`: by how much of its right-hand side a solution may miss it, in directions drawn at random
+  // `off`: the residual of a solution over its right-hand side, in directions drawn at random
   void step(std::vector<Extended>& y, Extended off, SplitMix64& random) const {
     const std::size_t n = y.size();
     const NetworkRates<Extended> rates(network_);

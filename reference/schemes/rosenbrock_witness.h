@@ -6,7 +6,7 @@
 namespace dartboard::reference {
 
 /// The distance from the method's step (`compare_step`), whose linear systems are solved to 1e-12. With exact tangents;
-/// where their matrix is not positive definite, projected ones will do as well.
+/// if their matrix is not positive definite, projected ones are accepted as well.
 StepJudgement judge_rosenbrock(const SpringNetwork& network, const TakenStep& step);
 
 }  // namespace dartboard::reference

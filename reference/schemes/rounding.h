@@ -1,5 +1,5 @@
 #pragma once
-// How exact what the witnesses judge can be.
+// The accuracy that the witnesses can expect of what they judge.
 
 #include <limits>
 
@@ -8,6 +8,6 @@
 namespace dartboard::reference {
 
 inline constexpr Extended epsilon = std::numeric_limits<double>::epsilon();
-inline constexpr Extended solver_tolerance = 1e-12L;  // relative, that core's linear solvers promise
+inline constexpr Extended solver_tolerance = 1e-12L;  // relative, as promised by core's linear solvers
 
 }  // namespace dartboard::reference

@@ -51,7 +51,7 @@ StageForces StageEquation::forces(const std::vector<Vector>& w) const {
   for (const Spring& s : network.springs) {
     const Vector d0 = xh[s.b] - xh[s.a], dw = w[s.b] - w[s.a];
     const Vector d1 = d0 + (discrete_gradient ? 2 : 1) * tau * dw;
-    // the line along which it pulls, and its length: of the end, or mean ones of both ends of the step
+    // the line along which it pulls, and its length: at the end of the step, or means over both ends of the step
     const Vector line = discrete_gradient ? Vector(d0 + d1) : d1;
     const Extended reach = discrete_gradient ? d0.norm() + d1.norm() : d1.norm();
     const Extended length = discrete_gradient ? reach / 2 : reach;
@@ -97,11 +97,11 @@ std::vector<Extended> StageEquation::allowed(const std::vector<Vector>& w, const
                    network.mass[i];
   for (const ElasticPoint& point : network.elements) {
     if (reach_loss == 0) break;
-    Extended strain = 0;  // of what the places are wrong by; the stiffness is in the size
+    Extended strain = 0;  // by the errors of the places; the stiffness is in the size
     for (const auto& gradient : point.gradient) strain += reach_loss * gradient.norm();
     for_each_size(point, numbers_of(xh).data(), 2 * t * top_speed,
                   [&](std::uint32_t i, Extended size) { result[i] += t * strain * size / network.mass[i]; });
-    // what is wrong twice over is in both stretches of a pull
+    // the factor 2: the error enters both stretches of a pull
     for_each_damping_size(
         point, numbers_of(xh).data(), 2 * t * top_speed + reach_loss, 2 * top_speed,
         [&](std::uint32_t i, Extended size) { result[i] += 2 * t * strain * size / network.mass[i]; });
@@ -137,7 +137,7 @@ std::vector<Vector> StageEquation::start() const {
 }
 
 // phi(w) = |w - vh|_M^2 / 2 + U(xh + tau w) + tau/2 (sum of c (d.w)^2 + viscosity |w|_M^2), d the directions at `from`,
-// and of elements their damping with F from there.
+// and for elements their damping with F from there.
 StageEquation::Change StageEquation::potential_change(const std::vector<Vector>& from,
                                                       const std::vector<Vector>& to) const {
   Change change;

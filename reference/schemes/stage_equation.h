@@ -1,5 +1,5 @@
 #pragma once
-// The equation that implicit methods solve in a stage, and by how much given velocities miss it.
+// The equation that implicit methods solve in a stage, and the residual of given velocities in it.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace dartboard::reference {
 
-/// Forces of a network at positions and velocities, and of what size their terms are; in extended precision.
+/// Forces of a network at positions and velocities, and the sizes of their terms; in extended precision.
 struct StageForces {
   std::vector<Vector3<Extended>> acceleration;  // [m/s^2], zero where fixed
   std::vector<Extended> sizes;                  // [m/s^2] sums of the terms' sizes
@@ -21,20 +21,20 @@ struct StageEquation {
   Extended tau;                           // [s]
   bool discrete_gradient = false;
   std::vector<Vector3<Extended>> guess{};  // [m/s] that a solver starts from; empty: vh
-  Extended tolerance = 0;  // that a solver may stop at, of the largest of |vh| and tau |f| / m at its start
-  Extended top_speed = 0;  // [m/s] of the step, for what rounding makes of tau w
-  Extended xh_rounding = 0, speed_rounding = 0;  // [m], [m/s] that xh, and vh and w, are known to
+  Extended tolerance = 0;  // at which a solver may stop, of the largest of |vh| and tau |f| / m at its start
+  Extended top_speed = 0;  // [m/s] of the step, for the rounding of tau w
+  Extended xh_rounding = 0, speed_rounding = 0;  // [m], [m/s] the accuracy of xh, and of vh and w
 
   StageForces forces(const std::vector<Vector3<Extended>>& w) const;
-  /// [m/s] What the tolerance and rounding in double allow |r_i| to be, over the mass; `at` are the forces at w.
+  /// [m/s] The largest |r_i| / m_i that the tolerance and rounding in double allow; `at` are the forces at w.
   std::vector<Extended> allowed(const std::vector<Vector3<Extended>>& w, const StageForces& at) const;
-  /// The largest |r_i| over what is allowed there. A fixed point has to keep vh.
+  /// The largest |r_i| over the one allowed there. A fixed point has to keep vh.
   Extended excess(const std::vector<Vector3<Extended>>& w) const;
-  /// [m/s] What a solver begins with: the guess, or free points that stand still where that has the lower incremental
+  /// [m/s] The start of a solver: the guess, or free points at rest if that has the lower incremental
   /// potential.
   std::vector<Vector3<Extended>> start() const;
 
-  /// [J] The incremental potential at one w less that at another, and the sizes of what it is summed from.
+  /// [J] The incremental potential at one w less that at another, and the sizes of its terms.
   struct Change {
     Extended value = 0, sizes = 0;
   };

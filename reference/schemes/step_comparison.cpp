@@ -11,7 +11,7 @@
 namespace dartboard::reference {
 namespace {
 
-// By axis, of positions and then of velocities.
+// Numbers by axis, for positions and then for velocities.
 using Sizes = std::array<Extended, 6>;
 
 template <class F>
@@ -28,7 +28,7 @@ Sizes distance(const std::vector<Extended>& a, const std::vector<Extended>& b) {
   return largest(a.size(), [&](std::size_t c) { return a[c] - b[c]; });
 }
 
-// The state displaced by a rounding of its positions, of its velocities, and of what the forces add to these.
+// The state displaced by a rounding of its positions, of its velocities, and of the contributions of forces to these.
 std::vector<Extended> disturbed(const SpringNetwork& network, const std::vector<Extended>& y, Extended h,
                                 SplitMix64& random) {
   const std::size_t n = network.point_count();
@@ -92,7 +92,7 @@ StepJudgement compare_step(const SpringNetwork& network, const TakenStep& step,
   for (std::size_t k = 0; k < 6; ++k) {
     const Extended bound =
         30 * spread[k] + epsilon * size[k] + solver[k / 3] + 4 * Extended(std::numeric_limits<double>::denorm_min());
-    if (!std::isfinite(bound)) return {};  // the method itself has gone beyond all numbers: nothing is seen
+    if (!std::isfinite(bound)) return {};  // the method itself overflows: no judgement is possible
     const auto ratio = [&](Extended d) { return static_cast<double>(d / bound); };
     judgement.excess = max_or_nan(judgement.excess, ratio(off[k]));
     judgement.idle = max_or_nan(judgement.idle, ratio(idle[k]));

@@ -1,5 +1,5 @@
 #pragma once
-// A step beside the same step in more digits, and beside what small disturbances make of that.
+// A step compared with the same step in more digits, and with the effect of small disturbances on that.
 
 #include <functional>
 #include <vector>
@@ -12,9 +12,9 @@ namespace dartboard::reference {
 /// Judges a step by a method that can be taken again.
 ///
 /// witness(y) takes it from y = (x, v) in extended precision. The bound, by axis for positions and for velocities, is
-/// 30 times the farthest that the result moves where the state is displaced by one rounding in double and where
-/// somebody else takes the step, each in `others`; and a rounding of the result itself. So a step that amplifies
-/// rounding is judged by what it is, and no threshold is chosen. `solver` [m, m/s] is allowed besides.
+/// 30 times the largest change of the result when the state is displaced by one rounding in double and when another
+/// code takes the step, each in `others`; and a rounding of the result itself. So a step that amplifies rounding is
+/// judged by its own amplification, and no threshold is chosen. `solver` [m, m/s] is allowed in addition.
 StepJudgement compare_step(const SpringNetwork& network, const TakenStep& step,
                            const std::function<void(std::vector<Extended>&)>& witness,
                            const std::vector<std::vector<Extended>>& others = {},

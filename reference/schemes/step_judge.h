@@ -1,5 +1,5 @@
 #pragma once
-// Is a step that an integrator took what its scheme gives? By other code, other forces and more digits.
+// A judge of whether a step of an integrator is that of its scheme: by other code, other forces and more digits.
 
 #include <memory>
 #include <string>
@@ -13,13 +13,13 @@ namespace dartboard::reference {
 /// Judges single steps of one method on one network, from the state that each of them started from: so neither chaos
 /// nor instability gets between the step and its judgement, and a run of any length can be sampled.
 ///
-/// Explicit methods are taken again, in `long double` and, for what rounding does to them, in double and from disturbed
-/// states (`compare_step`). Of implicit ones the result is put into their equations; those that stop before these are
-/// solved, or whose stages do not show in the result, are taken again by dense factors.
+/// Explicit methods are taken again, in `long double` and, for the effect of rounding, in double and from disturbed
+/// states (`compare_step`). The result of an implicit method is put into its equations; methods that stop before these
+/// are solved, or whose stages cannot be found from the result, are taken again by dense factors.
 /// cost  some six steps in extended precision; dense methods the cube of the number of points
 class StepJudge {
  public:
-  /// throws  InputError for a name that is no scheme's, and as check(network)
+  /// throws  InputError for a name that no scheme has, and as check(network)
   StepJudge(std::string_view scheme, const SpringNetwork& network);
   StepJudge(const StepJudge&) = delete;
   StepJudge& operator=(const StepJudge&) = delete;
@@ -29,7 +29,7 @@ class StepJudge {
  private:
   std::string scheme_;
   SpringNetwork network_;
-  std::unique_ptr<const ExplicitScheme<double>> in_double_;  // null of an implicit method
+  std::unique_ptr<const ExplicitScheme<double>> in_double_;  // null for an implicit method
   std::unique_ptr<const ExplicitScheme<long double>> witness_;
 };
 

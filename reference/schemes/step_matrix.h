@@ -15,11 +15,11 @@ using DenseColumn = Eigen::Matrix<Extended, Eigen::Dynamic, 1>;
 /// that part out.
 enum class Tangent : std::uint8_t { exact, projected };
 
-/// How the pull between two ends grows as they part: along the spring, and across it by what it is stretched. Of a
-/// spring without length, which has no direction, k in all.
+/// The growth of the pull between two ends as they move apart: along the spring, and across it in proportion to its
+/// stretch. For a spring without length, which has no direction, k in all directions.
 Eigen::Matrix<Extended, 3, 3> stiffness_of(const Spring& spring, const Vector3<Extended>& line, Tangent tangent);
 
-/// How the stress of a point of an element changes with F, with the places at x.
+/// The derivative of the stress of a point of an element by F, with the places at x.
 StressSlope slope_of(const ElasticPoint& point, const Extended* x, Tangent tangent);
 
 /// Rows and columns of held points are those of the identity.

@@ -1,5 +1,5 @@
 #pragma once
-// A step as a run took it in double precision, and what a judgement of it says.
+// A step as a run took it in double precision, and the result of a judgement of it.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -13,12 +13,12 @@ namespace dartboard::reference {
 struct TakenStep {
   double h;  // [s]
   PointState before, after;
-  PointState earlier{};  // one step of the same h further back; empty where the method starts anew
+  PointState earlier{};  // one step of the same h further back; empty if the method starts anew
 };
 
-/// How far a step is from what its scheme gives, as a multiple of what rounding can explain.
+/// The distance of a step from that of its scheme, as a multiple of what rounding can explain.
 struct StepJudgement {
-  double excess = 0.0;  // of the step: right up to 1
+  double excess = 0.0;  // of the step: correct up to 1
   double idle = 0.0;    // of a step that leaves the state as it was
   double nudged = 0.0;  // of the right step displaced by a millionth
 

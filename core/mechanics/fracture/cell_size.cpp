@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// An order of places that knows nothing of the numbers of corners.
+/// An order of places that does not depend on the numbers of corners.
 bool is_before(const Vector3d& a, const Vector3d& b) {
   if (a.x() != b.x()) return a.x() < b.x();
   if (a.y() != b.y()) return a.y() < b.y();
@@ -39,11 +39,11 @@ double tetrahedron_volume(std::span<const Vector3d> corners) {
   return std::abs((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0])) / 6.0;
 }
 
-/// Of a skew quadrilateral the length of its vector area, half of the product of its diagonals.
+/// The area of a quadrilateral, which may be skew: the length of its vector area, half of the product of its diagonals.
 double quadrilateral_area(std::span<const Vector3d> x) { return 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm(); }
 
 /// A third of the sum over the faces of their middle times their vector area, from the lowest corner. Each face is
-/// walked from its own lowest corner. What the faces add is summed by size, each sign by itself.
+/// walked from its own lowest corner. The terms of the faces are summed by size, each sign by itself.
 double solid_volume(CellKind kind, std::span<const Vector3d> x) {
   const Vector3d origin = *std::min_element(x.begin(), x.end(), is_before);
   std::array<double, 6> parts{};  // of the faces, by size

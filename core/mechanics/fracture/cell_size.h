@@ -9,10 +9,10 @@
 namespace dartboard {
 
 /// Volume of a solid cell [m^3], or area of a polygon [m^2], with these corners in the order of a mesh: the measure of
-/// `signed_measure`, without its sign. A cell of springs turned inside out has the lengths it had, and fills as much.
+/// `signed_measure`, without its sign. A cell of springs turned inside out has the same lengths, and the same size.
 ///
-/// Neither the corner that is listed first nor the side from which a cell is listed leaves a trace in the bits: each
-/// storage lists the corners of a cell in its own order, and bodies have one stress on all of them.
+/// The bits depend neither on which corner is listed first nor on the side from which a cell is listed: each storage
+/// lists the corners of a cell in its own order, and the stress of a body is the same on all of them.
 double cell_size(CellKind kind, std::span<const Eigen::Vector3d> corners);
 
 /// The kind of cell that has this number of corners.

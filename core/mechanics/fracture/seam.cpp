@@ -17,7 +17,7 @@ template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 using Numbers = boost::container::small_vector<std::uint32_t, 48>;
 
-// f(lowest dart) for what two cells share: interior faces of a solid, interior edges of a surface.
+// Calls f(lowest dart) for every facet that two cells share: interior faces of a solid, interior edges of a surface.
 template <class Map, class F>
 void for_each_interior_facet(const Map& map, F&& f) {
   constexpr int n = Map::dimension;
@@ -26,7 +26,7 @@ void for_each_interior_facet(const Map& map, F&& f) {
   });
 }
 
-/// The numbers of the vertices of a cell, ascending: the order of the walk leaves no trace.
+/// The numbers of the vertices of a cell, ascending, so that the order of the walk has no effect.
 template <int i, class Map>
 Numbers vertices_of(const Body<Map>& body, Cell<i> cell) {
   Numbers numbers;
@@ -73,7 +73,7 @@ bool crosses(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Ve
   if (is_in_front(a, corner, normal, thickness) == is_in_front(b, corner, normal, thickness)) return false;
   const double above_a = (a - corner).dot(normal), above_b = (b - corner).dot(normal);
   const double at =
-      std::clamp(above_a / (above_a - above_b), 0.0, 1.0);  // outside where an end is within the thickness
+      std::clamp(above_a / (above_a - above_b), 0.0, 1.0);  // outside [0, 1] where an end is within the thickness
   const Eigen::Vector3d there = a + at * (b - a) - corner;
   const double s = there.cross(w).dot(normal) / normal.squaredNorm(),
                t = u.cross(there).dot(normal) / normal.squaredNorm();
@@ -107,7 +107,7 @@ std::vector<Dart> facets_of_points(const Body<Map>& body, std::span<const std::a
   for_each_interior_facet(body.map, [&](Dart d) {
     Numbers points = vertices_of(body, Cell<n - 1>{d});
     for (std::uint32_t& p : points) p = body.vertices.point[p];
-    points.erase(std::remove(points.begin(), points.end(), no_point), points.end());  // nobody can mean these
+    points.erase(std::remove(points.begin(), points.end(), no_point), points.end());  // these have no mesh point
     std::sort(points.begin(), points.end());
     bool wanted_here = false;
     for_each_choice<N>(points, [&](const std::array<std::uint32_t, N>& choice) {

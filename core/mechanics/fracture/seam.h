@@ -10,10 +10,10 @@
 
 namespace dartboard {
 
-/// A set of faces of a map of volumes, told by any of their darts. It knows the cells of the map it was made for; new
-/// cells in the places of removed ones would be taken for them.
+/// A set of faces of a map of volumes, given by any of their darts. It refers to the cells of the map it was made for;
+/// new cells in the places of removed ones would be mistaken for them.
 ///
-/// cost    O(1) to ask; a bit per face and volume
+/// cost    O(1) per query; a bit per face and volume
 class FaceSet {
  public:
   template <class Map>
@@ -31,8 +31,8 @@ class FaceSet {
 
 /// The interior faces between cells on different sides of a plane: one dart of each, its lowest, ascending.
 ///
-/// A cell is on the side where the mean of its vertices' positions is now; on the plane, which is as thick as
-/// border_thickness() of these positions, counts as in front of it (where the normal points). Every path from cell to
+/// A cell is on the side where the mean of its vertices' positions is now. A mean on the plane, which is as thick as
+/// border_thickness() of these positions, is in front of it (where the normal points). Every path from cell to
 /// cell between the sides crosses such a face, so dissociating all of them separates the body completely. The normal
 /// need not be a unit vector.
 ///
@@ -42,9 +42,9 @@ template <class Map>
 std::vector<Dart> faces_on_plane(const MassSpringBody<Map, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);
 
-/// Does the segment from a to b cross what a blade sweeps that goes along a path and reaches from it as far as `depth`:
-/// a parallelogram on each leg? An end on a leg's plane counts as in front of it. Borders are `thickness` thick
-/// (border.h).
+/// Does the segment from a to b cross the area that a blade sweeps? The blade moves along a path and extends from it by
+/// `depth`: the area is a parallelogram on each leg. An end on a leg's plane counts as in front of it. Borders are
+/// `thickness` thick (border.h).
 ///
 /// pre     no leg is of length 0 or along the depth
 bool crosses_sweep(std::span<const Eigen::Vector3d> path, const Eigen::Vector3d& depth, const Eigen::Vector3d& a,
@@ -65,7 +65,7 @@ template <class Map>
 Eigen::Vector3d facet_centre(const MassSpringBody<Map, Held::by_every_dart>& body, Dart d);
 
 /// The interior faces that have three given mesh points among their vertices: one dart of each face, its lowest,
-/// ascending. Three points tell a quadrilateral too. Where several faces have the same three points, all of them.
+/// ascending. Three points identify a quadrilateral too. If several faces have the same three points, all are returned.
 ///
 /// throws  InputError, naming the points, if no interior face has them
 /// cost    O(darts log(triples))

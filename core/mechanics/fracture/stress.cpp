@@ -97,7 +97,7 @@ void finish(Eigen::Matrix3d& sum, double now, double at_rest) {
     for (int i = j; i < 3; ++i) sum(j, i) = sum(i, j) = sum(i, j) / volume;
 }
 
-/// What a cell gives each of its vertices of its size.
+/// The share of its size that a cell gives to each of its vertices.
 template <class Corners>
 double share_of_size(CellKind kind, const Corners& corners, std::span<const Eigen::Vector3d> position) {
   boost::container::static_vector<Eigen::Vector3d, 8> x;

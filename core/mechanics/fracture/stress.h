@@ -1,5 +1,5 @@
 #pragma once
-// The inner stress at a vertex, from the springs around it: what decides where and along which face a body tears.
+// The inner stress at a vertex, from the springs around it: it decides where and along which face a body tears.
 
 #include <Eigen/Core>
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace dartboard {
 
-/// What a spring adds to the virial of each of its two ends [J]: 1/2 T l (u u^T), tension positive; zero for zero
-/// length. Exchanging the ends leaves the bits.
+/// The contribution of a spring to the virial of each of its two ends [J]: 1/2 T l (u u^T), tension positive; zero for
+/// zero length. Exchanging the ends leaves the bits.
 ///
-/// T is the elastic tension k (l - L) alone: stress is then a function of the positions. With the damping in it, a
-/// threshold would be passed by the shock that a tear itself sends through its neighbours, and the sooner the smaller
+/// T is the elastic tension k (l - L) alone: stress is then a function of the positions. With damping in T, the shock
+/// that a tear itself sends through its neighbours would exceed a threshold, and the sooner the smaller
 /// the time step.
 inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d& dx) {
   const double length = std::sqrt(dx.squaredNorm());
@@ -30,23 +30,23 @@ inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d
   return virial;
 }
 
-/// Of what it was at rest, the volume at a vertex counts as this at least: cells that are squeezed flat, or elements
-/// turned inside out, have no stress of Cauchy's.
+/// The volume at a vertex counts as at least this fraction of its volume at rest: cells that are squeezed flat, or
+/// elements turned inside out, have no Cauchy stress.
 inline constexpr double least_volume = 0.01;
 
-/// The stress at vertex k [Pa] (of a surface [N/m]), Cauchy's: symmetric, tension positive, per volume (area) as it is
-/// now
+/// The Cauchy stress at vertex k [Pa] (of a surface [N/m]): symmetric, tension positive, per present volume
+/// (area)
 ///
 ///     sigma = (1 / V) * sum over the springs around it of 1/2 T l (u u^T)
 ///
 /// or with elements, over those around it, a fourth of their volume times J times Cauchy's stress; of a surface a third
-/// or a fourth of their area. Springs within the cells around it add what they have over the number of the cell's
+/// or a fourth of their area. Springs within the cells around it add their virial over the number of the cell's
 /// vertices.
 ///
-/// V is the volume (area) of the vertex now, its share of each cell as eq. (1) has it at rest. The sum of V sigma over
-/// all vertices is the virial of the body, and a uniform stress is the same at every vertex of a regular lattice.
-/// Springs are found by walking the edges around the vertex, and summed by edge number, cells by theirs, so that the
-/// order of the walk leaves no trace in the bits.
+/// V is the present volume (area) of the vertex, its share of each cell, as eq. (1) has it at rest. The sum of V sigma
+/// over all vertices is the virial of the body, and a uniform stress is the same at every vertex of a regular lattice.
+/// Springs are found by walking the edges around the vertex, and summed by edge number, cells by cell number, so that
+/// the bits do not depend on the order of the walk.
 template <class Map>
 Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k);
 
@@ -55,12 +55,12 @@ struct VertexVolumes {
   std::span<const double> mass;              // [kg]
   double density = 0.0;                      // where all cells have this one, volumes at rest are masses over it
   std::span<const double> rest_of_vertex{};  // where densities differ
-  std::span<const double> now{};  // of a body of springs; the forces of elements say what theirs have grown by
+  std::span<const double> now{};  // of a body of springs; elements give the growth of their volumes by `virial`
 
   double at_rest(std::size_t k) const { return rest_of_vertex.empty() ? mass[k] / density : rest_of_vertex[k]; }
 };
 
-/// What holds volumes of vertices that are no columns of a body, for the next time too.
+/// Storage for volumes of vertices that are not columns of a body, kept between calls.
 struct VolumeRoom {
   std::vector<double> at_rest, now;
 };
@@ -71,7 +71,7 @@ struct CornerRows {
   std::span<const SolidNodes> solids{};  // of cells of any kind, polygons too
 };
 
-/// Of the vertices of a body, which holds no more than `room` does; corners that are not given are walked to.
+/// The volumes of a body's vertices, valid as long as the body and `room`; corners that are not given are walked to.
 /// cost    O(cells)
 template <class Map>
 VertexVolumes vertex_volumes(const MassSpringBody<Map, Held::by_every_dart>& body, const CornerRows& corners,
@@ -81,8 +81,8 @@ VertexVolumes vertex_volumes(const MassSpringBody<Map, Held::by_every_dart>& bod
 /// pre     `now` has as many numbers as there are vertices
 void find_volumes_now(const Mesh& cells, std::span<const Eigen::Vector3d> position, std::span<double> now);
 
-/// The same for all vertices at once, into `stress` by vertex number, to the bit: one pass over the springs and one
-/// over the vertices, for use in every time step.
+/// The bits of `vertex_stress` for all vertices at once, into `stress` by vertex number: one pass over the springs and
+/// one over the vertices, for use in every time step.
 ///
 /// pre     ends, springs by edge number, volumes, position by vertex number, as the body has them; the terms of its system
 /// cost    O(springs + vertices); no allocation once `stress` has had its size
@@ -102,12 +102,12 @@ struct PrincipalStress {
   Eigen::Vector3d direction;  // a unit vector; of the two, the one whose component of largest magnitude is positive
 };
 
-/// Where the largest eigenvalue is repeated, the direction is one of those it has, the same for the same bits.
+/// Where the largest eigenvalue is repeated, the direction is one of its eigenvectors, the same for the same bits.
 ///
 /// throws  SolverError if the stress is not finite
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress);
 
-/// What pictures show of a stress [Pa].
+/// The measures of a stress [Pa] that pictures show.
 struct StressMeasures {
   double largest_principal;  // the largest eigenvalue, tension positive: as principal_stress, to the bit
   double largest_magnitude;  // of an eigenvalue
@@ -116,7 +116,7 @@ struct StressMeasures {
 /// All are infinite where the stress is not finite.
 StressMeasures measures_of(const Eigen::Matrix3d& stress);
 
-/// The largest principal stress [Pa] of a body's vertices: 0 when there is none, infinite where one is not finite.
+/// The largest principal stress [Pa] of a body's vertices: 0 without vertices, infinite where one is not finite.
 double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses);
 
 #define DARTBOARD_STRESS(prefix, Map)                                                                              \

@@ -17,7 +17,7 @@ namespace {
 template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 
-// A number rounded to 24 bits (Veltkamp's splitting): what is equal but for rounding compares equal.
+// A number rounded to 24 bits (Veltkamp's splitting): numbers that differ by rounding only compare equal.
 double rounded(double value) {
   const double spread = value * 536870913.0;  // 2^29 + 1
   return std::isfinite(spread) ? spread - (spread - value) : value;
@@ -43,7 +43,7 @@ double alignment(const Body<Map>& body, Dart d, const Eigen::Vector3d& direction
   return std::abs(twice_area.dot(direction)) / norm;
 }
 
-/// The accepted faces around the vertex of `start` that hang together with its face by edges at that vertex.
+/// The accepted faces around the vertex of `start` that are connected with its face by edges at that vertex.
 template <class Map>
 std::vector<Dart> seam_around(const Map& map, Dart start, const FaceFilter& filter) {
   std::vector<Dart> faces;
@@ -74,7 +74,7 @@ Dart better_side(const Body<Map>& body, Dart d, const Eigen::Vector3d& direction
     const std::vector<Dart> faces = fan(body.map, start);
     std::vector<double> each;
     for (const Dart face : faces) each.push_back(std::max(0.0, alignment(body, face, direction)));
-    std::sort(each.begin(), each.end());  // the order of the walk leaves no trace
+    std::sort(each.begin(), each.end());  // so that the order of the walk has no effect
     double sum = 0.0;
     for (const double a : each) sum += a;
     return Side{rounded(sum / static_cast<double>(faces.size())), faces.size(), start};
@@ -84,7 +84,7 @@ Dart better_side(const Body<Map>& body, Dart d, const Eigen::Vector3d& direction
   return a.faces < b.faces || (a.faces == b.faces && a.dart < b.dart) ? a.dart : b.dart;
 }
 
-/// How many places a vertex has: less once it came apart.
+/// The number of places of a vertex, which is smaller once it came apart.
 template <class Map>
 std::size_t place_count(const Map& map, Dart d) {
   Mark seen(map);
@@ -93,7 +93,7 @@ std::size_t place_count(const Map& map, Dart d) {
   return count;
 }
 
-/// A vertex above the threshold. A dart and not a number: numbers change when the body follows a tear.
+/// A vertex above the threshold, given by a dart because numbers change when the body follows a tear.
 struct Stressed {
   double value;
   std::uint32_t number;
@@ -101,8 +101,8 @@ struct Stressed {
   std::size_t places;
 };
 
-/// An upper bound of the eigenvalues: Gershgorin's, and what an eigenvalue may be off by rounding. Not a number if an
-/// entry is not finite.
+/// An upper bound of the eigenvalues: Gershgorin's, plus the rounding error of an eigenvalue. NaN if an entry is not
+/// finite.
 double eigenvalue_bound(const Eigen::Matrix3d& stress) {
   double bound = stress(0, 0), norm = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ double eigenvalue_bound(const Eigen::Matrix3d& stress) {
     bound = std::max(bound, stress(i, i) + off_diagonal);
     norm = std::max(norm, std::abs(stress(i, i)) + off_diagonal);
   }
-  // the maxima pass over what is not a number, a sum keeps it
+  // the maxima ignore NaN, a sum keeps it
   return bound + 0x1p-40 * norm + 0.0 * stress.sum();
 }
 

@@ -14,19 +14,19 @@
 
 namespace dartboard {
 
-/// Which interior faces may be torn, asked with any one of their darts; an empty function for all of them.
+/// Says whether an interior face, given by any of its darts, may be torn; an empty function allows all of them.
 using FaceFilter = std::function<bool(Dart)>;
 
-/// Makes the body, its views and whatever else follow a change of the map: `adapt` at least.
+/// Makes the body, its views and all else that depends on the map follow a change of it: `adapt` at least.
 using FollowChange = std::function<void(const TopologyChange&)>;
 
 /// The interior face around vertex k "whose normal best approximates the inner stress direction": the largest
 /// |n . direction| / |direction| of those that the filter accepts and that reach `least_alignment`, n the unit normal
 /// at the positions now. Returns the lowest of its darts at the vertex; no_dart if there is no such face.
 ///
-/// Degenerate faces, whose area is below 2^-40 of the sum of the squares of their sides, are passed over: their normal
-/// is rounding. Equal faces, to 24 bits of that number, are told apart by the number of the dart returned: so a
-/// regular mesh tears alike however it lies in space, and numbers matter for ties only.
+/// Degenerate faces, whose area is below 2^-40 of the sum of the squares of their sides, are skipped: their normal is
+/// rounding. Ties, faces equal to 24 bits of that number, are decided by the number of the dart returned: so a regular
+/// mesh tears alike however it lies in space, and numbers matter for ties only.
 /// throws  InputError if the direction is zero or not finite
 /// cost    O(darts around the vertex)
 /// source  section 5.1
@@ -34,11 +34,11 @@ template <class Map>
 Dart starting_face(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k,
                    const Eigen::Vector3d& direction, const FaceFilter& filter = {}, double least_alignment = 0.0);
 
-/// When a body tears.
+/// The rule by which a body tears.
 struct TearRule {
   double threshold;  // [Pa] of the principal stress of a vertex
-  // Of the starting face, |n . direction|: a face along the tension carries none of it. With 0, a body torn across goes
-  // on to tear lengthwise for as long as the stress has not left the two sides. 1/2 is 60 degrees.
+  // The least |n . direction| of the starting face: a face along the tension carries none of it. With 0, a body torn
+  // across continues to tear lengthwise as long as the two sides are still under stress. 1/2 is 60 degrees.
   double least_alignment = 0.5;
   std::size_t most_per_step = std::numeric_limits<std::size_t>::max();  // vertices torn in one call
 };
@@ -52,20 +52,20 @@ struct TornVertices {
 
 /// Tear the body at every vertex whose principal stress is above the threshold, fixed ones too.
 ///
-/// In descending stress, equal ones (to 24 bits, as in `starting_face`) by their numbers. Each vertex is looked at
-/// again when its turn comes, on the map as earlier tears left it; one that they took apart waits, all its parts, for
-/// the next call. Without a filter the fan of the starting face is torn (`tear_fan`), from the side of the face from
-/// which it keeps nearer to the plane across the stress, so that numbers do not choose it. With one, a seam, it is the
-/// accepted faces around the vertex that hang together with the starting face by edges at the vertex: where the seam is
-/// a surface, the piece of it there. A vertex that has no face to tear, such as that of a single cell, is passed over.
+/// Vertices are taken in descending order of stress, ties (to 24 bits, as in `starting_face`) by number. Each is
+/// examined again when its turn comes, on the map as earlier tears left it; if they took it apart, all its parts wait
+/// for the next call. Without a filter the fan of the starting face is torn (`tear_fan`), from the side that keeps it
+/// nearer to the plane across the stress, so that numbers do not choose it. With a filter, a seam, torn are the
+/// accepted faces around the vertex that are connected with the starting face by edges at the vertex: where the seam
+/// is a surface, the piece of it there. A vertex without a face to tear, such as that of a single cell, is skipped.
 ///
 /// `follow` is called after each tear. `stress` is scratch, by vertex number, and holds the stresses before the first
 /// tear afterwards.
 ///
-/// pre     `ends` by edge number, and corners by cell number or none, as the body has them; not used any more once
+/// pre     `ends` by edge number, and corners by cell number or empty, as the body has them; neither is used once
 ///         `follow` is called
 /// throws  InputError if the threshold is not positive, or the alignment is above 1 or not a number;
-///         StressError if a stress is not finite, the body unchanged then
+///         StressError if a stress is not finite; then the body is unchanged
 /// cost    O(springs + cells), and around the vertices torn; corners that are not given are walked to
 /// source  section 5.1
 template <class Map>

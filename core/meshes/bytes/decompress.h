@@ -10,13 +10,13 @@ namespace dartboard {
 
 enum class Compressor { zlib, lz4, lzma };
 
-/// The compressor of VTK's name for it, as in vtkZLibDataCompressor.
+/// The compressor with this name in VTK, such as vtkZLibDataCompressor.
 std::optional<Compressor> compressor_of_vtk(std::string_view name);
 
-/// The most bytes that so many compressed ones can become: a file that promises more need not be given the memory.
+/// The most bytes that so many compressed bytes can expand to: a file that promises more is refused the memory.
 std::uint64_t largest_expansion(Compressor compressor, std::uint64_t compressed);
 
-/// Append the content of a block, which has exactly `size` bytes; false, and nothing appended, when it has not.
+/// Append the content of a block, which must have exactly `size` bytes; otherwise false, and nothing is appended.
 ///
 /// pre  size <= largest_expansion(compressor, block.size())
 bool decompress(Compressor compressor, std::string_view block, std::size_t size, std::string& out);

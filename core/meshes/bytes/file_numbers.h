@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// Takes numbers from where a scanner stands.
+/// Takes numbers from the present place of a scanner.
 ///
 /// throws  IoError, which names the line of a word, or the byte at which a number begins
 class FileNumbers {
@@ -18,7 +18,7 @@ class FileNumbers {
 
   void set_binary(bool big_endian);
   bool is_binary() const { return is_binary_; }
-  /// After a line of words, where bytes begin in a binary file.
+  /// To be called after a line of words, where bytes begin in a binary file.
   void begin();
 
   /// A finite number.
@@ -27,12 +27,12 @@ class FileNumbers {
   std::int64_t integer(Scalar type, Wanted wanted);
   /// An integer that is not negative.
   std::uint64_t count(Scalar type, Wanted wanted);
-  /// Pass over so many numbers, whatever they are.
+  /// Skip so many numbers, whatever their values.
   void skip(Scalar type, std::uint64_t many, Wanted wanted);
 
   /// The line of the number taken last; 0 among bytes.
   std::size_t line() const { return is_binary_ ? 0 : scan_.line(); }
-  /// How much to reserve for things of at least so many bytes, or characters: never more than the file can hold.
+  /// The number of elements to reserve, each of at least so many bytes, or characters: at most what the file can hold.
   std::size_t plausible(std::uint64_t declared, std::size_t bytes, std::size_t characters) const;
   [[noreturn]] void fail(std::string_view found, std::string_view expected) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whole numbers that a file gives its cells, collected beside the cells.
+// Whole numbers that a file gives its cells, collected together with the cells.
 
 #include <cstdint>
 #include <map>
@@ -13,15 +13,15 @@
 
 namespace dartboard {
 
-/// Columns of numbers, each with a name; a cell that is given none in a column has 0.
+/// Columns of numbers, each with a name; a cell without a number in a column has 0.
 class CellTagsBuilder {
  public:
-  /// The place of the column of this name, which is made when it is not there. Where zero means "none" a column of
-  /// nothing else is dropped.
+  /// The place of the column of this name, which is made when it does not exist. If zero means "none", a column of
+  /// zeros is dropped.
   std::size_t column(std::string_view name, bool zero_is_none);
   void set(std::size_t column, std::size_t cell, std::int64_t value);
   std::int64_t value(std::size_t column, std::size_t cell) const;
-  /// What a value is called for cells of a dimension.
+  /// Set the name of a value for cells of a dimension.
   void name_value(std::size_t column, int dimension, std::int64_t value, std::string name);
 
   /// The columns for the cells of a mesh, given by their places among all cells. A column with a number that does not

@@ -21,7 +21,7 @@ Corners corners_of(const Mesh& mesh, std::size_t c) {
   return x;
 }
 
-/// Whether determinants, or what corners turn by, are of one sign: those within rounding of zero are of either.
+/// Whether determinants, or turns of corners, have one sign: those within rounding of zero count as either.
 struct Signs {
   int positive = 0, negative = 0;
 
@@ -73,7 +73,7 @@ Signs signs_of_volume(CellKind kind, const Corners& corners) {
   const double near_end = 0.5 + 0.5 / std::sqrt(3.0), far_end = 1.0 - near_end;  // shares at a Gauss point
   Signs signs;
   Corners x = corners;
-  if (kind == CellKind::pyramid) x[5] = x[6] = x[7] = x[4];  // one side drawn together
+  if (kind == CellKind::pyramid) x[5] = x[6] = x[7] = x[4];  // one side contracted to a point
   if (kind == CellKind::prism) {
     for (const double z : {far_end, near_end})
       for (std::size_t near = 0; near < 3; ++near) signs.count(prism_jacobian(x, near, z), rounding);
@@ -85,8 +85,8 @@ Signs signs_of_volume(CellKind kind, const Corners& corners) {
   return signs;
 }
 
-// Seen along its normal, a quadrilateral crosses itself exactly where two corners turn one way and two the other. One
-// of equal lobes has no normal, and the first corner that turns stands for it.
+// Seen along its normal, a quadrilateral crosses itself exactly if two corners turn one way and two the other. One with
+// equal lobes has no normal, and the direction of the first corner that turns is used instead.
 Signs signs_of_corners(const Corners& x) {
   const double size = size_of_cell(x, 4), rounding = 1e-14 * size * size;
   const auto turn = [&x](std::size_t k) { return (x[(k + 1) % 4] - x[k]).cross(x[(k + 3) % 4] - x[k]); };
@@ -97,7 +97,7 @@ Signs signs_of_corners(const Corners& x) {
   return signs;
 }
 
-/// The volume at each of the six corners of a prism, of its three edges there.
+/// The volume at each of the six corners of a prism, spanned by its three edges there.
 std::array<double, 6> prism_corner_volumes(const Corners& x) {
   std::array<double, 6> volumes{};
   for (std::size_t k = 0; k < 6; ++k) {
@@ -107,10 +107,10 @@ std::array<double, 6> prism_corner_volumes(const Corners& x) {
   return volumes;
 }
 
-// Where a corner of one triangle and one of the other are swapped, all Gauss points may stay of one hand: the axial
-// edge that has neither corner then lies in both triangles, and has no volume at its ends, but for what faces are
-// twisted by. With the two swapped back every corner has volume. Of a prism in order the swapped one is this flat; one
-// with volume of one hand at every corner never counts as crossed.
+// If a corner of one triangle and one of the other are swapped, all Gauss points may keep one hand: the axial edge that
+// has neither corner then lies in both triangles, and has no volume at its ends, except from the twist of faces. With
+// the two swapped back every corner has volume. A valid prism becomes this flat by the swap; one with volume of one
+// hand at every corner never counts as crossed.
 bool has_swapped_ends(const Corners& x, double rounding) {
   const auto volumes = prism_corner_volumes(x);
   const double hand = std::accumulate(volumes.begin(), volumes.end(), 0.0) > 0 ? 1.0 : -1.0;
@@ -146,7 +146,7 @@ bool is_whole(CellKind kind, const Corners& x) {
 
 using Swaps = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Corners that voxels and pixels have the other way round: on both sides, or where a writer has turned back one.
+/// Corners that voxels and pixels have the other way round: on both sides, or on one if a writer has corrected one.
 std::vector<Swaps> voxel_swaps(CellKind kind) {
   switch (kind) {
     case CellKind::quadrilateral:
@@ -167,8 +167,8 @@ double prism_volume(const Corners& x) {
   return std::abs(sum);
 }
 
-/// Whether another order of the corners of a prism, with two of its ends swapped, has more volume: one turned by 120
-/// degrees against itself is whole, too, and not what was meant.
+/// Whether another order of the corners of a prism, with two of its ends swapped, has more volume: a prism turned by
+/// 120 degrees against itself is valid, too, but was not intended.
 bool is_turned_against_itself(const Corners& x) {
   for (std::size_t one = 0; one < 3; ++one)
     for (const std::size_t other : {3 + (one + 1) % 3, 3 + (one + 2) % 3}) {
@@ -179,7 +179,7 @@ bool is_turned_against_itself(const Corners& x) {
   return false;
 }
 
-/// The swaps that make a crossed cell whole; none where it is crossed in another way.
+/// The swaps that make a crossed cell valid; empty if it is crossed in another way.
 Swaps swaps_of(const Mesh& mesh, std::size_t c) {
   for (const Swaps& swaps : voxel_swaps(mesh.kinds[c])) {
     Corners x = corners_of(mesh, c);

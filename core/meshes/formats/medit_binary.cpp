@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::int64_t dimension_code = 3, vertices_code = 4, edges_code = 5, end_code = 54, precision_code = 155;
 
-/// Cells that no mesh of ours can hold: polygons, polyhedra, those of order 3 and 4, and those with nodes on some of
+/// Cells that a mesh here cannot hold: polygons, polyhedra, those of order 3 and 4, and those with nodes on some of
 /// their edges.
 bool is_other_cells(std::int64_t code) {
   return code == 46 || code == 47 || (code >= 88 && code <= 91) || (code >= 96 && code <= 103) ||
          (code >= 200 && code <= 208);
 }
 
-/// Nothing in them changes the mesh: corners, normals, solutions, associations with a geometry, orders of nodes.
+/// Sections that do not change the mesh: corners, normals, solutions, associations with a geometry, orders of nodes.
 constexpr std::int64_t least_ignored = 11, largest_ignored = 240;
 
 /// The numbers of a file by the types of its version.
@@ -100,7 +100,7 @@ void read_cells(Reader& r, const MeditSection& section) {
   }
 }
 
-/// Real numbers of another size than the version has them.
+/// Read the section that changes the size of real numbers from that of the version.
 void read_precision(Reader& r) {
   const std::uint64_t bits = r.numbers.count("the size of real numbers");
   if (bits != 32 && bits != 64) r.numbers.fail(fmt::format("real numbers of {} bits", bits), "32 or 64");

@@ -26,7 +26,7 @@ constexpr MeditSection sections[] = {
     {"HexahedraQ2", 33, CellKind::hexahedron, 27, "27-node hexahedron"},
 };
 
-/// Sections of bytes that hold no cells.
+/// Binary sections that hold no cells.
 struct NamedCode {
   std::int64_t code;
   std::string_view keyword;

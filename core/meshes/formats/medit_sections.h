@@ -11,7 +11,7 @@ namespace dartboard {
 
 struct MeditSection {
   std::string_view keyword;
-  std::int64_t code;  // among bytes
+  std::int64_t code;  // in the binary variant
   CellKind kind;
   int nodes;                      // corners first
   std::string_view element = {};  // of higher order
@@ -23,7 +23,7 @@ struct MeditSection {
 const MeditSection* medit_section(std::string_view keyword);
 const MeditSection* medit_section(std::int64_t code);
 
-/// What a section of bytes that holds no cells is called, or "of code 120" where its name is not known here.
+/// The name of a binary section that holds no cells, or "of code 120" if its name is not known here.
 std::string skipped_medit_section(std::int64_t code);
 
 }  // namespace dartboard

@@ -25,7 +25,7 @@ struct Skipped {
   std::uint64_t width = 0;
 };
 
-/// nullptr where a keyword is none of the table.
+/// nullptr if a keyword is not in the table.
 const Skipped* skipped_section(std::string_view keyword) {
   using enum Lines;
   static constexpr Skipped table[] = {

@@ -9,14 +9,14 @@
 
 namespace dartboard {
 
-/// What the length of a section may depend on.
+/// The sizes that the length of a section may depend on.
 struct MeditSizes {
   std::uint64_t dimension, vertices;
 };
 
-/// Pass over the section whose keyword was read; false, and nothing is taken, when it is none of these.
+/// Skip the section whose keyword was read; false, and nothing is taken, when it is not one of these.
 ///
-/// throws  IoError when the section ends before what it announces
+/// throws  IoError when the section is shorter than it announces
 bool skip_medit_section(TextScanner& scan, std::string_view keyword, const MeditSizes& sizes);
 
 }  // namespace dartboard

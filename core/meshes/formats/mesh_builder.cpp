@@ -144,7 +144,7 @@ std::uint32_t MeshBuilder::find_point(std::uint64_t number, std::span<const std:
   return at != by_number.end() && point_numbers_[*at] == number ? *at : none;
 }
 
-/// How many cells there are of each name of an element of higher order.
+/// The number of cells for each name of an element of higher order.
 std::map<std::string_view, std::size_t> MeshBuilder::count_elements(auto&& is_counted) const {
   std::map<std::string_view, std::size_t> counts;
   for (std::size_t c = 0; c < kinds_.size(); ++c)

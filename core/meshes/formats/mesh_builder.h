@@ -26,17 +26,17 @@ class MeshBuilder {
   const std::string& point_file() const { return point_file_; }
   const std::string& cell_file() const { return cell_file_; }
 
-  /// What is added from here on comes from another file, which errors of it name.
+  /// From here on additions come from another file, which their errors name.
   void read_from(const std::string& file) { point_file_ = cell_file_ = file; }
 
-  /// The distance at which points will be welded after reading; 0 for none.
+  /// The distance at which points will be welded after reading; 0: they are not welded.
   void set_weld(double distance) { weld_ = distance; }
   double weld() const { return weld_; }
 
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
-  /// Add a cell by its corners; `element` is what it is called when it has more nodes than those. A line of 0 is none.
+  /// Add a cell by its corners; `element` is its name when it has more nodes. A line of 0 means no line.
   void add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line, std::string_view element = {});
   std::size_t cell_count() const { return kinds_.size(); }
   std::span<const Eigen::Vector3d> points() const { return points_; }
@@ -45,27 +45,27 @@ class MeshBuilder {
   ///
   /// pre  points are numbered from 0, and every cell has only such
   double shortest_edge() const;
-  /// Make points one: point p becomes point same[p], which stays what it is and is not after p. Cells that come from
-  /// several files have no lines any more.
+  /// Make points one: point p becomes point same[p], which itself stays and is not after p. Cells that come from
+  /// several files lose their lines.
   ///
   /// pre  as for shortest_edge
   void join_points(std::span<const std::uint32_t> same);
   /// Take a cell that was added out of the mesh again.
   void leave_out(std::size_t cell);
   std::size_t left_out_count() const { return left_out_count_; }
-  /// Leave out each cell that has the kind and the points of an earlier one and, of the column `tags`, another number
-  /// than all of these: it is the same cell in a further group.
+  /// Leave out each cell that has the kind and the points of earlier cells and, in the column `tags`, a number other
+  /// than all of theirs: it is the same cell in a further group.
   ///
-  /// returns  how many were left out
+  /// returns  the number of cells left out
   std::size_t leave_out_further_groups(std::size_t tags);
   /// Count elements of dimension 0 or 1, which no body is made of.
   void skip(int dimension, std::uint64_t count = 1) { skipped_.at(static_cast<std::size_t>(dimension)) += count; }
   void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }
   /// Report so many points of two coordinates, if any.
   void notice_plane(std::uint64_t points);
-  /// Pass over a section that holds no cells; each name is reported once.
+  /// Skip a section that holds no cells; each name is reported once.
   void skip_section(std::string_view name);
-  /// What is said of cells, by their places in the order in which they were added.
+  /// The tags of cells, by their places in the order in which they were added.
   CellTagsBuilder& tags() { return tags_; }
 
   /// The mesh of the cells with the highest dimension, with its notices; `last_line` is where "no cells" is reported.
@@ -90,11 +90,11 @@ class MeshBuilder {
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> point_lines_;
   std::vector<CellKind> kinds_;
-  std::vector<std::uint8_t> elements_;          // of each cell what it is called, or 0
+  std::vector<std::uint8_t> elements_;          // by cell: the number of its name, or 0
   std::vector<std::string> element_names_{""};  // of higher order
   std::vector<std::uint64_t> cell_points_;      // back to back
   std::vector<std::uint32_t> all_cell_lines_, cell_lines_;
-  std::vector<bool> left_out_;  // as far as one is
+  std::vector<bool> left_out_;  // by cell, up to the last one left out
   std::size_t left_out_count_ = 0;
   std::array<std::uint64_t, 2> skipped_{};  // points, edges
   std::vector<std::string> skipped_sections_;

@@ -15,7 +15,7 @@
 namespace dartboard {
 namespace {
 
-/// A mesh under examination, and how to talk about its cells.
+/// A mesh under examination, and the words for its cells in messages.
 struct Examined {
   LoadedMesh& loaded;
   Mesh& mesh;
@@ -177,7 +177,7 @@ void mirror(Mesh& mesh, std::size_t c) {
 
 /// The measure of a cell, refused when it is zero.
 ///
-/// A measure of at most 1e-14 L^d, L the longest edge, cannot be told from rounding. It is a sum of up to 24
+/// A measure of at most 1e-14 L^d, L the longest edge, cannot be distinguished from rounding. It is a sum of up to 24
 /// determinants over 6 with rows no longer than L, and for a hexahedron one of L / 2. The moduli of the terms of a
 /// determinant add up to at most 1.2 L^3 (the largest permanent of such rows), each off by some 13 u from centroids,
 /// differences and products, u = 1.1e-16; the outer sum adds 24 u of its parts. Together that is less than
@@ -211,7 +211,7 @@ void check_measures(Examined& e) {
                                          inverted == 1 ? "" : "s", e.cell(first), place));
 }
 
-/// Volumes that cross themselves are as much right-handed as left-handed: they stay as they are.
+/// Volumes that cross themselves are as much right-handed as left-handed: they stay unchanged.
 void check_crossed(const Examined& e, bool keep_crossed) {
   CrossedCells crossed = find_crossed_cells(e.mesh);
   if (!crossed.any()) return;
@@ -228,7 +228,7 @@ void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<con
   check_points(e);
   check_nodes(e);
   check_repeated_cells(e);
-  check_crossed(e, keep_crossed);  // before faces: those of crossed cells are not what they should be
+  check_crossed(e, keep_crossed);  // before faces: crossed cells have wrong faces
   loaded.mesh.dimension() == 3 ? check_faces(e) : check_edges(e);
   check_measures(e);
   if (std::string notice = open_seams(loaded); !notice.empty()) loaded.notices.push_back(std::move(notice));

@@ -1,5 +1,5 @@
 #pragma once
-// What every mesh from outside has to hold before a body is built of it.
+// The conditions for every mesh from outside before a body is built of it.
 
 #include <cstdint>
 #include <span>
@@ -16,7 +16,7 @@ namespace dartboard {
 /// two polygons; a cell that crosses itself, unless `keep_crossed`; a cell without volume (or area). Noted: how many
 /// cells were reordered, and how many points coincide with another, or almost, as they do in a torn body.
 ///
-/// `cell_lines` holds the line of each cell in `file`, or nothing.
+/// `cell_lines` holds the line of each cell in `file`, or is empty.
 ///
 /// throws  IoError; cells are named by their index, points by their number in the file, both from 0
 void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<const std::uint32_t> cell_lines = {},

@@ -1,5 +1,5 @@
 #pragma once
-// One reader per format of volumes; Gmsh and VTK have folders of their own. Each hands what it finds to a builder and
+// One reader per format of volumes; Gmsh and VTK have folders of their own. Each passes its contents to a builder and
 // returns the exact name of the format.
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Text or bytes, told by how it begins.
+/// Text or bytes, decided by the beginning of the file.
 std::string read_medit(std::string_view text, MeshBuilder& builder);
 std::string read_medit_binary(std::string_view text, MeshBuilder& builder);
 /// The builder's point file is `node`'s and its cell file is `ele`'s; both may be one scanner over one text.

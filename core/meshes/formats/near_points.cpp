@@ -12,8 +12,8 @@
 namespace dartboard {
 namespace {
 
-/// Boxes of a grid that is wider than the distance looked for, so that most points are in few of them. Their numbers
-/// are whole, and doubles, as some are beyond all integers.
+/// Boxes of a grid that is wider than the distance searched, so that most points are in few of them. Their numbers are
+/// whole, and doubles, because some are beyond all integers.
 using Box = std::array<double, 3>;
 struct BoxHash {
   std::size_t operator()(const Box& box) const {
@@ -40,7 +40,7 @@ void for_near_points(std::span<const Eigen::Vector3d> points, double near, doubl
   std::unordered_map<Box, std::vector<std::uint32_t>, BoxHash> boxes;
   for (std::uint32_t k = 0; k < points.size(); ++k) {
     const Eigen::Vector3d& at = points[k];
-    // a point is in its own box alone, and looks into the one or two along each axis that its neighbours can be in
+    // a point is in its own box alone, and searches the one or two along each axis that its neighbours can be in
     const auto box_of = [width](const Eigen::Vector3d& x) {
       return Box{std::floor(x.x() / width), std::floor(x.y() / width), std::floor(x.z() / width)};
     };

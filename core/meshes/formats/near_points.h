@@ -18,8 +18,8 @@ namespace dartboard {
 void for_near_points(std::span<const Eigen::Vector3d> points, double near, double spacing,
                      const std::function<void(std::uint32_t, std::uint32_t, double)>& found);
 
-/// How near points without a common edge have to be that a seam is taken to be meant: a millionth of the size of the
-/// points, a thousandth of the shortest edge, whichever is less.
+/// The distance below which points without a common edge are taken for a seam: a millionth of the size of the points or
+/// a thousandth of the shortest edge, whichever is less.
 double seam_distance(std::span<const Eigen::Vector3d> points, double shortest_edge);
 
 /// An edge of a cell, between two points.

@@ -77,7 +77,7 @@ void weld_points(LoadedMesh& loaded, double distance, const std::string& file,
   if (!(distance > 0.0) || !std::isfinite(distance))
     throw InputError(fmt::format("{}: the distance of points to weld is {}; expected more than 0", file, distance));
   const Welder welder{loaded, distance, file, cell_lines};
-  // a distance that was written in decimals is met by points of which each coordinate was rounded
+  // a distance written in decimals must include points whose coordinates were rounded
   double farthest_from_origin = 0.0;
   for (const Eigen::Vector3d& x : loaded.mesh.points)
     farthest_from_origin = std::max(farthest_from_origin, x.cwiseAbs().maxCoeff());
@@ -111,7 +111,7 @@ std::string open_seams(const LoadedMesh& loaded) {
                                               count == 1 ? "1 point is" : counted(count, "point") + " are", farthest)
                                 : fmt::format("{} with another one",
                                               count == 1 ? "1 point coincides" : counted(count, "point") + " coincide");
-  // one digit of twice the largest distance is more than that distance
+  // twice the largest distance, rounded to one digit, is more than that distance
   const double enough = farthest > 0.0 ? 2.0 * farthest : near;
   const std::string remedy =
       enough > 0.0

@@ -1,5 +1,5 @@
 #pragma once
-// Seams closed: points at almost the same place made one.
+// Closing of seams: points at almost the same place become one.
 
 #include <cstdint>
 #include <span>
@@ -9,18 +9,18 @@
 
 namespace dartboard {
 
-/// Make points that are at most `distance` apart one, and those that hang together by such pairs; the point of the
-/// lowest number stays where it is, and the others become that point. A notice says how many.
+/// Make points that are at most `distance` apart one, and those connected by such pairs; the point of the lowest number
+/// keeps its place, and the others become that point. A notice gives their number.
 ///
-/// `cell_lines` holds the line of each cell in `file`, or nothing.
+/// `cell_lines` holds the line of each cell in `file`, or is empty.
 ///
 /// pre     finite coordinates
 /// throws  InputError for a distance that is not positive, or that joins two corners of one cell
 void weld_points(LoadedMesh& loaded, double distance, const std::string& file,
                  std::span<const std::uint32_t> cell_lines);
 
-/// What points that would be welded have in common, as a notice: how many there are, how far from another, and the
-/// distance that would join them; empty where there are none.
+/// A notice about points that could be welded: their number, their distances, and the distance that would join them;
+/// empty without such points.
 std::string open_seams(const LoadedMesh& loaded);
 
 }  // namespace dartboard

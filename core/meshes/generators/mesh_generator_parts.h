@@ -1,6 +1,6 @@
 #pragma once
-// What the generators of solids (mesh_generators.cpp) and of surfaces (mesh_generators_2d.cpp) both use. Private to
-// them.
+// The parts shared by the generators of solids (mesh_generators.cpp) and of surfaces (mesh_generators_2d.cpp). Private
+// to them.
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ inline void require_spacing(const char* who, double spacing) {
     throw InputError(fmt::format("{}: spacing = {}, expected a finite number > 0", who, spacing));
 }
 
-/// So many cells must fit into a map; the node numbers of a mesh that does are counted in 32 bits too.
+/// Require that so many cells fit into a map; the node numbers of such a mesh fit into 32 bits too.
 inline void require_room(const char* who, CellKind kind, double count) {
   CountsByKind cells{};
   cells[static_cast<std::size_t>(kind)] = count;
@@ -39,7 +39,7 @@ void add(Mesh& mesh, CellKind kind, Nodes... nodes) {
 }
 
 /// Point i of n on the unit circle, counter-clockwise from (1, 0), 0 <= i; the angles between neighbours differ by a
-/// factor of at most two. They lie evenly on the square |x| + |y| = 1 and are pushed out to the circle.
+/// factor of at most two. They lie evenly on the square |x| + |y| = 1 and are projected onto the circle.
 inline Eigen::Vector2d on_circle(std::int64_t i, std::int64_t n) {
   const std::int64_t quarter = 4 * i / n % 4, y = 4 * i % n, x = n - y;
   const std::array<std::array<std::int64_t, 2>, 4> turned{{{x, y}, {-y, x}, {-x, -y}, {y, -x}}};

@@ -52,7 +52,7 @@ Box add_box(Mesh& mesh, const char* who, std::array<int, 3> n, double spacing, c
 }
 
 /// The cube cut around the diagonal from corner 0 to corner 7: a tetrahedron for each order in which three steps along
-/// the three axes lead from one to the other. Of a cube whose corners come `mirrored` all six turn the other way.
+/// the three axes lead from one to the other. If the corners of a cube are `mirrored`, all six turn the other way.
 void add_kuhn_cube(Mesh& mesh, const Corners& corner, bool mirrored = false) {
   for (const std::uint32_t a : {1u, 2u, 4u})
     for (const std::uint32_t b : {1u, 2u, 4u}) {
@@ -89,7 +89,7 @@ void jitter_points(Mesh& mesh, const std::vector<bool>& movable, double reach, s
         if (!(signed_measure(mesh, c) >= least[c])) return false;
       return true;
     };
-    // ends: a move too short to change a coordinate leaves the volumes of before, which fit
+    // the loop ends: a move too short to change a coordinate keeps the old volumes, which fit
     for (mesh.points[p] = from + move; mesh.points[p] != from && !fits(); mesh.points[p] = from + move) move /= 2.0;
   }
 }

@@ -1,12 +1,12 @@
 #pragma once
-// The meshes that scenes, tests, validation and benchmarks share. Lengths in metres.
+// The meshes shared by scenes, tests, validation and benchmarks. Lengths in metres.
 //
 // Coordinates come from +, -, *, / and sqrt alone, all rounded correctly by IEEE 754, and random numbers from
 // whole-number arithmetic: a mesh has the same bits on every platform (as long as nothing fuses a*b+c,
 // core/cmake/DartboardOptions.cmake). Volumes are right-handed; surfaces that can be oriented are, and closed ones
 // outwards.
 //
-// Every generator throws InputError for a number below the least that its line names.
+// Every generator throws InputError for a number below the least that its comment names.
 
 #include <cstdint>
 #include <functional>
@@ -24,9 +24,9 @@ namespace dartboard {
 ///
 /// Points inside the box are moved at random by at most jitter * spacing; those of its surface stay. One after another,
 /// a move is halved until every tetrahedron around the point has at least a tenth of its first volume, so nothing
-/// inverts for any jitter >= 0. Hardly a move needs it up to 0.3 (none of 6,859 in a probe; 489 at 0.5): two opposite
+/// inverts for any jitter >= 0. Up to 0.3 hardly any move is halved (0 of 6,859 in a probe; 489 at 0.5): two opposite
 /// edges of each tetrahedron, the two that are face diagonals, are 1/sqrt(3) spacings apart, and no altitude is
-/// shorter, so four moves below half of that, 0.288..., cannot flatten one.
+/// shorter, so four moves below half of that, 0.288..., cannot flatten it.
 Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter = 0, std::uint64_t seed = 0);
 
 /// The same, every second cube along x, along y and along z as a mirror image of its neighbours, which share the
@@ -79,8 +79,8 @@ Mesh solid_torus(int n);
 /// Fig. 3b: a drum around point 0, a ring of 2 * sides tetrahedra joined by faces, without the cones above and below;
 /// sides >= 3. With three sides it is an octahedron that has lost two opposite octants.
 ///
-/// The other pinch, two solids that meet in a point only, is none for a map: it has two vertices there. Here the
-/// tetrahedra around point 0 hang together by faces, so it is one vertex, whose link is a ring (Euler characteristic 0)
+/// The other pinch, two solids that meet in a point only, is no pinch for a map: it has two vertices there. Here the
+/// tetrahedra around point 0 are connected by faces, so it is one vertex, whose link is a ring (Euler characteristic 0)
 /// and neither a sphere (2) nor a disc (1).
 Mesh pinched_body(int sides = 3);
 
@@ -90,9 +90,9 @@ Mesh several_components(int k);
 /// 8 layers^3 tetrahedra in a ball around the origin, layers >= 1, 0 < radius < infinity.
 ///
 /// The octahedron |x| + |y| + |z| <= layers is cut along the planes of its layers, octant by octant, into tetrahedra
-/// and octahedra, these into four tetrahedra around their shortest diagonal; then each layer is pushed out to a sphere.
-/// No cell has two faces on the surface, which would flatten it. Volumes lie between 0.32 and 1.9 times the mean, and
-/// the shape 12 (3 V)^(2/3) / (sum of squared edges), 1 for a regular tetrahedron, above 0.69 (12 layers).
+/// and octahedra, these into four tetrahedra around their shortest diagonal; then each layer is projected onto a
+/// sphere. No cell has two faces on the surface, which would flatten it. Volumes lie between 0.32 and 1.9 times the
+/// mean, and the shape 12 (3 V)^(2/3) / (sum of squared edges), 1 for a regular tetrahedron, above 0.69 (12 layers).
 Mesh tetrahedron_ball(int layers, double radius);
 
 // ---- all of them

@@ -84,7 +84,7 @@ Mesh moebius_strip(int n) {
   require_at_least("moebius_strip", "n", n, 3);
   require_room("moebius_strip", CellKind::quadrilateral, n);
   Mesh mesh;
-  // points 2i and 2i + 1 are the ends of rung i, which has made i / n of half a turn
+  // points 2i and 2i + 1 are the ends of rung i, which is turned by i / n of half a turn
   for (int i = 0; i < n; ++i)
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector2d around = on_circle(i, n), rung = on_circle(i, 2 * std::int64_t{n});

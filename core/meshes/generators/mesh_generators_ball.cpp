@@ -54,7 +54,7 @@ struct BallCells {
     add(mesh, CellKind::tetrahedron, lattice.number(a), lattice.number(b), lattice.number(c), lattice.number(d));
   }
 
-  /// By three pairs of opposite points: four tetrahedra around the shortest diagonal, of equal ones the first.
+  /// Adds an octahedron by three pairs of opposite points: four tetrahedra around its (first) shortest diagonal.
   void add_octahedron(const std::array<std::array<Vector3i, 2>, 3>& pairs) {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();

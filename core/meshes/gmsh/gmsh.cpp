@@ -21,7 +21,7 @@ void end_section(TextScanner& scan, std::string_view section) {
 void skip_section(GmshReader& r, const std::string& section) {
   const std::string end = end_of(section);
   const std::string wanted = fmt::format("the end of the section {}", section);
-  // among bytes no words can be told apart, and versions that have them write $End
+  // words cannot be recognised among bytes, and versions with bytes write $End
   if (r.numbers.is_binary()) r.scan.skip_to(fmt::format("$End{}", section.substr(1)));
   while (upper(r.scan.token(wanted.c_str())) != end) continue;
 }
@@ -48,7 +48,7 @@ void read_format(GmshReader& r) {
   r.numbers.set_binary(big_endian);
 }
 
-/// Text also in binary files: a dimension, a number and a name in quotes on every line.
+/// Names are text also in binary files: a dimension, a number and a name in quotes on every line.
 void read_physical_names(GmshReader& r) {
   const std::uint64_t count = r.scan.count("the number of physical names");
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -7,7 +7,7 @@
 
 namespace dartboard {
 
-/// Hands what a Gmsh file of any version holds to a builder and returns the exact name of the format.
+/// Passes the contents of a Gmsh file of any version to a builder and returns the exact name of the format.
 std::string read_gmsh(std::string_view text, MeshBuilder& builder);
 
 }  // namespace dartboard

@@ -51,7 +51,7 @@ void read_coordinates_and_parameters(GmshReader& r, std::uint64_t tag, std::uint
 
 }  // namespace
 
-/// What is wanted of each entity is the first of its physical groups.
+/// Only the first physical group of each entity is used.
 void read_gmsh_entities(GmshReader& r) {
   constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
   r.numbers.begin();

@@ -14,12 +14,12 @@ struct GmshElement {
   int dimension;
   int nodes;
   std::string_view name;
-  std::optional<CellKind> kind;  // none for points and edges; its corners come first among the nodes
+  std::optional<CellKind> kind;  // no value for points and edges; its corners come first among the nodes
 
   bool is_first_order() const { return !kind || nodes == node_count(*kind); }
 };
 
-/// The element of this type number, or nullptr for the rarer ones that no mesh of ours can hold.
+/// The element of this type number, or nullptr for the rarer ones that a mesh here cannot hold.
 const GmshElement* gmsh_element(std::uint64_t type);
 
 }  // namespace dartboard

@@ -38,7 +38,7 @@ void read_text(GmshReader& r, std::uint64_t count) {
   }
 }
 
-/// Type and number of tags stand once for as many elements as follow.
+/// Type and number of tags are given once for all elements that follow.
 void read_binary(GmshReader& r, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count;) {
     const GmshElement& element = read_gmsh_element_type(r.numbers);

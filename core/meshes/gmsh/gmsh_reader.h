@@ -1,5 +1,5 @@
 #pragma once
-// What the sections of a Gmsh file share: its version, its numbers as text or as bytes, and the groups of its elements.
+// The data shared by the sections of a Gmsh file: version, numbers as text or bytes, and the groups of its elements.
 
 #include <cstdint>
 #include <map>

@@ -21,7 +21,7 @@ class Names {
     const std::size_t column = builder_.tags().column(column_, true);
     builder_.tags().name_value(column, 2, current_, name);
   }
-  /// Say of the cell that is added next what is in use.
+  /// Tag the cell that is added next with the present name.
   void tag_next() {
     if (current_ != 0) builder_.tags().set(builder_.tags().column(column_, true), builder_.cell_count(), current_);
   }
@@ -54,7 +54,7 @@ std::uint64_t read_corner(Reader& r) {
   return static_cast<std::uint64_t>(value < 0 ? points + 1 + value : value);
 }
 
-/// A line that ends in \ goes on in the next.
+/// A line that ends in \ continues in the next.
 bool more_of_it(TextScanner& scan) {
   while (scan.more_on_line() && scan.peek() == "\\") scan.token("the next line"), scan.rest_of_line();
   return scan.more_on_line();

@@ -13,7 +13,7 @@
 namespace dartboard {
 namespace {
 
-/// What stands before OFF tells of further numbers after the coordinates: normals, colours of red, green, blue and
+/// The letters before OFF announce further numbers after the coordinates: normals, colours of red, green, blue and
 /// opacity, textures.
 struct Kind {
   std::string_view word;
@@ -21,13 +21,13 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{"OFF", 0}, {"COFF", 4}, {"NOFF", 3}, {"CNOFF", 7}, {"STOFF", 2}};
 
-/// What the word says of a point: how many numbers follow its coordinates, and how many these are, where it is said.
+/// The format of a point by the word: how many numbers follow its coordinates, and how many coordinates, if given.
 struct PointLine {
   std::uint64_t further = 0, axes = 3;
   bool axes_follow = false;  // as the first number of the file
 };
 
-/// The word may be in small letters, have the first number close behind it, or be missing before a number. The n of
+/// The word may be in small letters, be followed directly by the first number, or be missing before a number. The n of
 /// nOFF, points of some dimension, is small: a capital N says that points have normals, and so does noff.
 PointLine read_point_line(TextScanner& scan) {
   const std::string_view as_given = scan.peek();
@@ -50,7 +50,7 @@ struct Counts {
   std::uint64_t points, polygons;
 };
 
-/// Two or three numbers; some writers leave out that of the edges, which is not used.
+/// Two or three counts; some writers leave out that of the edges, which is not used.
 Counts read_counts(TextScanner& scan, FileNumbers& numbers) {
   Counts counts{};
   counts.points = numbers.count(Scalar::int32, "the number of points");
@@ -62,12 +62,12 @@ Counts read_counts(TextScanner& scan, FileNumbers& numbers) {
   return counts;
 }
 
-/// As text the numbers that follow end with the line.
+/// In the text variant the further numbers end with the line.
 void skip_line(TextScanner& scan, Wanted wanted) {
   while (scan.more_on_line()) scan.token(wanted);
 }
 
-/// Bytes: numbers of 32 bits with the first byte first, and after each polygon how many numbers its colour has.
+/// In the binary variant: big-endian numbers of 32 bits, and after each polygon how many numbers its colour has.
 void skip_properties(TextScanner& scan, FileNumbers& numbers, std::optional<std::uint64_t> many, const char* what) {
   if (!numbers.is_binary()) return skip_line(scan, what);
   numbers.skip(Scalar::float32, many ? *many : numbers.count(Scalar::int32, what), what);

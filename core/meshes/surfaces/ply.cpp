@@ -119,7 +119,7 @@ void read_vertex(FileNumbers& numbers, const Element& element, MeshBuilder& buil
   builder.add_point(number, x, numbers.line());
 }
 
-/// A face, or another element, of which nothing is kept. Lists of corners go by two names.
+/// A face, or another element, of which nothing is kept. Lists of corners have one of two names.
 void read_element(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
   std::vector<std::uint64_t> corners;
   std::size_t line = 0;

@@ -44,7 +44,7 @@ class Facets {
 void read_facet(TextScanner& scan, Facets& facets, MeshBuilder& builder) {
   const std::size_t line = scan.line();
   scan.keyword("normal", LetterCase::any);
-  // some writers have nan here, for facets without area; what the corners say goes
+  // some writers have nan here, for facets without area; the corners are used instead
   for (int k = 0; k < 3; ++k) scan.token("a component of a normal");
   scan.keyword("outer", LetterCase::any);
   scan.keyword("loop", LetterCase::any);
@@ -105,7 +105,7 @@ std::string read_binary(std::string_view text, MeshBuilder& builder) {
   return "STL binary";
 }
 
-/// Of the size that its number of facets asks for. The word solid tells nothing: binary files may begin with it too.
+/// Has the file the size that its number of facets implies? Binary files may begin with the word solid, too.
 bool is_binary(std::string_view text) {
   if (text.size() < header_bytes) return false;
   return text.size() ==

@@ -1,5 +1,5 @@
 #pragma once
-// One reader per format of surfaces. Each hands what it finds to a builder and returns the exact name of the format.
+// One reader per format of surfaces. Each passes its contents to a builder and returns the exact name of the format.
 
 #include <cstdint>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Corners that are equal number for number become one point: the format has no others.
+/// Corners with equal coordinates become one point: the format has no point numbers.
 std::string read_stl(std::string_view text, MeshBuilder& builder);
 std::string read_obj(std::string_view text, MeshBuilder& builder);
 std::string read_ply(std::string_view text, MeshBuilder& builder);

@@ -11,12 +11,12 @@ namespace dartboard {
 /// Bytes as base64 text, padded.
 std::string encode_base64(std::string_view bytes);
 
-/// The bytes of a base64 text, white space aside; nothing when it is malformed. Padding may also stand inside: some
+/// The bytes of a base64 text, ignoring white space; no value when it is malformed. Padding may also stand inside: some
 /// writers encode the length of a block and the block itself one after the other.
 std::optional<std::string> decode_base64(std::string_view text);
 
-/// Takes bytes from a base64 text, from its beginning on, without reading further than it must: where the text ends
-/// may be told by its own first bytes. White space and padding are as for decode_base64.
+/// Takes bytes from a base64 text, from its beginning on, without reading further than necessary: its first bytes may
+/// define where it ends. White space and padding are as for decode_base64.
 class Base64Reader {
  public:
   explicit Base64Reader(std::string_view text) : text_(text) {}
@@ -25,7 +25,7 @@ class Base64Reader {
   bool take(std::size_t count, std::string& out);
   /// Nothing is left but white space.
   bool at_end();
-  /// No more bytes than these can be left.
+  /// An upper bound of the bytes left.
   std::size_t most_left() const { return (text_.size() - at_) / 4 * 3 + 3; }
 
  private:

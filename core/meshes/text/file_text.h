@@ -6,12 +6,12 @@
 
 namespace dartboard {
 
-/// All of a regular file. `wanted` is what is expected there, for errors.
+/// The contents of a regular file. Errors name `wanted` as expected there.
 ///
-/// throws  IoError when it is not there, is a folder or a device, cannot be read, or is empty
+/// throws  IoError when it does not exist, is a folder or a device, cannot be read, or is empty
 std::string file_text(const std::filesystem::path& path, std::string_view wanted);
 
-// a path that cannot be examined is not there, and no folder
+// a path that cannot be examined does not exist, and is no folder
 bool is_there(const std::filesystem::path& path);
 bool is_folder(const std::filesystem::path& path);
 

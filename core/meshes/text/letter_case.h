@@ -1,5 +1,5 @@
 #pragma once
-// Capitals and small letters of ASCII, whatever the locale.
+// Capitals and small letters of ASCII, independent of the locale.
 
 #include <string>
 #include <string_view>
@@ -8,7 +8,7 @@ namespace dartboard {
 
 std::string upper(std::string_view text);
 std::string lower(std::string_view text);
-/// Equal but for capitals.
+/// Are the two equal except for capitals?
 bool same_letters(std::string_view a, std::string_view b);
 
 }  // namespace dartboard

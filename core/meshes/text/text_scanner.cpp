@@ -108,7 +108,7 @@ std::string_view TextScanner::peek() {
 
 std::string_view TextScanner::token(Wanted wanted) {
   const std::string_view found = peek();
-  // at the end the last token keeps the line: what is missing should follow it
+  // at the end the line stays that of the last token, which the missing one should follow
   if (found.empty()) fail("the text ends here", wanted.text());
   token_line_ = line_;
   at_ += found.size();

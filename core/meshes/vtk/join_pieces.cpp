@@ -47,7 +47,7 @@ void join_place(const Pieces& p, std::span<const std::uint32_t> there, Numbers& 
   }
 }
 
-/// Of each point the one that it is to be.
+/// For each point, the point that it becomes.
 Numbers join_equal(const Pieces& p) {
   Numbers same(p.points.size()), order(p.points.size());
   std::iota(same.begin(), same.end(), 0u);

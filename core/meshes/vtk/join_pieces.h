@@ -1,5 +1,5 @@
 #pragma once
-// Points that several files of one mesh hold, made one.
+// Joining of points that several files of one mesh have in common.
 
 #include <cstddef>
 #include <span>
@@ -16,13 +16,13 @@ struct PieceFile {
   std::size_t first_point;
 };
 
-/// Join the points of different pieces that are equal number for number, so that -0 is 0; those of one piece stay
-/// apart, as a torn body has them.
+/// Join the points of different pieces that have equal coordinates, with -0 equal to 0; points of one piece stay
+/// separate, as in a torn body.
 ///
-/// returns  how many points are no more
-/// throws   IoError where it cannot be told which are meant: a piece has several points at the place of another's; or
+/// returns  the number of points removed
+/// throws   IoError if the pairs are ambiguous: a piece has several points at the place of another's; or
 ///          points of two pieces are not equal but nearer than a thousandth of the shortest edge and a millionth of the
-///          size of the mesh, which leaves it open whether the pieces belong together there
+///          size of the mesh, so that it is uncertain whether the pieces belong together there
 /// cost     O(n log n) in the points
 std::size_t join_pieces(std::span<const PieceFile> pieces, const std::string& file, MeshBuilder& builder);
 

@@ -15,7 +15,7 @@ namespace dartboard {
 namespace fs = std::filesystem;
 namespace {
 
-/// The file of a piece, which no other piece has: a short file that names a large one often would ask for more memory
+/// The file of a piece, which no other piece may have: a short file that names a large one often would need more memory
 /// than there is.
 fs::path file_of_piece(const VtkXml& file, const XmlElement& tag, std::set<fs::path>& known) {
   const auto source = tag.attribute("Source");

@@ -19,7 +19,7 @@ struct CellType {
   CellKind kind;
   std::size_t points;                                             // or any_order
   std::string_view element = {};                                  // of higher order
-  std::array<std::size_t, 8> corners = {0, 1, 2, 3, 4, 5, 6, 7};  // which of VTK's points each corner is
+  std::array<std::size_t, 8> corners = {0, 1, 2, 3, 4, 5, 6, 7};  // by corner: its place among VTK's points
 };
 
 // VTK documents the first triangle of its wedge as turned outward, but that of its curved wedges as turned inward
@@ -60,7 +60,7 @@ constexpr CellType cell_types[] = {
     {81, CellKind::pyramid, any_order, "Bezier pyramid"},
 };
 
-/// The dimension of a cell that no body is made of: vertices, edges, curves.
+/// The dimension of a cell that bodies do not have: vertices, edges, curves.
 std::optional<int> dimension_of_skipped(std::int64_t type) {
   if (type == 1 || type == 2) return 0;
   if (type == 3 || type == 4 || type == 21 || type == 35 || type == 68 || type == 75) return 1;

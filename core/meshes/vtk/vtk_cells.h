@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// Where a cell was found, and the points that it may use: 0 .. point_count-1, called first_point .. in the builder.
+/// The line of a cell, and the points that it may use: 0 .. point_count-1, numbered from first_point in the builder.
 struct VtkPlace {
   std::size_t line;
   std::uint64_t cell;
@@ -28,7 +28,7 @@ inline constexpr std::int64_t vtk_poly_vertex = 2, vtk_poly_line = 4, vtk_triang
 /// throws  IoError for an unknown type, a wrong number of points, or a point out of range
 void add_vtk_cell(MeshBuilder& builder, std::int64_t type, std::span<const std::int64_t> points, const VtkPlace& place);
 
-/// Where the cells of a file are among those of a builder, for the numbers that come after them.
+/// The places of a file's cells among those of a builder, for the numbers that come after them.
 class VtkCellPlaces {
  public:
   /// Call before each cell and after the last.

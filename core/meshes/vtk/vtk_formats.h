@@ -1,5 +1,5 @@
 #pragma once
-// One reader per format of VTK. Each hands what it finds to a builder and returns the exact name of the format.
+// One reader per format of VTK. Each passes its contents to a builder and returns the exact name of the format.
 
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ std::string read_vtp(std::string_view text, MeshBuilder& builder);
 /// Reads the files of the pieces too, whose names count from the folder of the builder's file.
 std::string read_pvtu(std::string_view text, MeshBuilder& builder);
 
-/// Add what a .vtu file holds to what is there.
+/// Add the contents of a .vtu file to those of the builder.
 void add_vtu(std::string_view text, MeshBuilder& builder);
 
 }  // namespace dartboard

@@ -46,12 +46,12 @@ void read_types(TextScanner& scan, FileNumbers& numbers, const VtkLegacyCells& c
 
 struct Header {
   std::string version;
-  bool is_grid;  // or polygons
+  bool is_grid;  // false: polygons
 
   bool has_offsets() const { return version[0] == '5'; }
 };
 
-/// The four lines at the head of the file; returns what they say.
+/// Read the four lines at the head of the file.
 Header read_header(TextScanner& scan, FileNumbers& numbers) {
   const std::string_view first = scan.rest_of_line();
   constexpr std::string_view magic = "# vtk DataFile Version ";
@@ -72,7 +72,7 @@ Header read_header(TextScanner& scan, FileNumbers& numbers) {
   return {.version = version, .is_grid = dataset == "UNSTRUCTURED_GRID"};
 }
 
-/// What may stand among the lists of either data set; false when it is none of it.
+/// Read a keyword that may stand among the lists of either data set; false for any other keyword.
 bool read_common(TextScanner& scan, FileNumbers& numbers, std::string_view keyword, MeshBuilder& builder) {
   if (keyword == "POINTS")
     read_points(scan, numbers, builder);
@@ -110,7 +110,7 @@ struct PolyList {
   VtkLegacyCells cells = {};
 };
 
-/// The lists stand in any order, and none need be there: they end where data begin, or with the text.
+/// The lists may be in any order, and each may be missing: they end where data begin, or with the text.
 void read_polygons(TextScanner& scan, FileNumbers& numbers, bool has_offsets, VtkCellPlaces& places,
                    MeshBuilder& builder) {
   PolyList lists[] = {{"VERTICES", vtk_poly_vertex},

@@ -26,7 +26,7 @@ void read_lists(FileNumbers& numbers, std::uint64_t count, std::uint64_t size, V
     numbers.fail(fmt::format("the cells have {} numbers", used), fmt::format("{}, as declared after CELLS", size));
 }
 
-/// Version 5: where each cell starts and, at last, ends; then the points of all cells.
+/// Version 5: the start of each cell and the end of the last; then the points of all cells.
 void read_offsets(TextScanner& scan, FileNumbers& numbers, std::uint64_t count, std::uint64_t size,
                   VtkLegacyCells& cells) {
   scan.keyword("OFFSETS", LetterCase::any);

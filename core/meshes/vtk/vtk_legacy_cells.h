@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// The points of each cell, whose types are told by another list or by the name of this one.
+/// The points of each cell, whose types are given by another list or by the name of this one.
 struct VtkLegacyCells {
   std::vector<std::int64_t> start{0}, all_points;
   std::vector<std::uint32_t> lines;  // of each cell
@@ -22,9 +22,9 @@ struct VtkLegacyCells {
         .subspan(static_cast<std::size_t>(start[c]), static_cast<std::size_t>(start[c + 1] - start[c]));
   }
 
-  /// Read what follows a keyword: two numbers, and a list as versions 2 to 4 have it, or offsets and points.
+  /// Read what follows a keyword: two numbers, and a list as in versions 2 to 4, or offsets and points.
   ///
-  /// throws  IoError for a list that is not as long as announced, and for the second one
+  /// throws  IoError for a list that is not as long as announced, and for a second list
   void read(TextScanner& scan, FileNumbers& numbers, std::string_view keyword, bool has_offsets);
 };
 

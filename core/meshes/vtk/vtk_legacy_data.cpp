@@ -20,7 +20,7 @@ constexpr std::string_view keywords[] = {
 
 bool is_keyword(std::string_view word) { return std::ranges::find(keywords, upper(word)) != std::end(keywords); }
 
-/// Data of POINT_DATA or CELL_DATA, one tuple for each of `count` things.
+/// Data of POINT_DATA or CELL_DATA, one tuple for each of `count` points or cells.
 struct Data {
   TextScanner& scan;
   FileNumbers& numbers;
@@ -45,12 +45,12 @@ void read_values(Data& d, std::string_view name, Scalar type, std::uint64_t comp
 }
 
 std::uint64_t checked_components(const TextScanner& scan, std::uint64_t components) {
-  constexpr std::uint64_t most = 1u << 20;  // far beyond any: 9 make a tensor
+  constexpr std::uint64_t most = 1u << 20;  // far beyond any number that occurs: a tensor has 9
   if (components > most) scan.fail(fmt::format("{} components", components), fmt::format("at most {}", most));
   return components;
 }
 
-/// How many components a line still names; one where it names none.
+/// The number of components that the rest of a line gives; one if it gives no number.
 std::uint64_t read_components(TextScanner& scan) {
   return scan.more_on_line() ? checked_components(scan, scan.count("the number of components")) : 1;
 }
@@ -78,13 +78,13 @@ void read_field(Data& d) {
   }
 }
 
-/// Colours are bytes in a binary file and numbers from 0 to 1 in a text, with no type that says so.
+/// Colours are bytes in a binary file and numbers from 0 to 1 in a text; no type is given.
 void skip_colours(Data& d, std::uint64_t components, std::uint64_t tuples) {
   d.numbers.begin();
   for (std::uint64_t k = 0; k < components; ++k) d.numbers.skip(Scalar::uint8, tuples, "a colour");
 }
 
-/// One attribute, whose keyword was read; false when it is none that is known.
+/// Read one attribute, whose keyword was read; false when the keyword is not known.
 bool read_attribute(Data& d, std::string_view keyword) {
   if (keyword == "FIELD") {
     read_field(d);

@@ -1,5 +1,5 @@
 #pragma once
-// What comes after the grid in a legacy VTK file: data of points and of cells.
+// The part after the grid in a legacy VTK file: data of points and of cells.
 
 #include <string_view>
 
@@ -9,13 +9,13 @@
 
 namespace dartboard {
 
-/// Pass over the arrays of a FIELD, whose keyword was read.
+/// Skip the arrays of a FIELD, whose keyword was read.
 void skip_vtk_field(TextScanner& scan, FileNumbers& numbers);
-/// Pass over METADATA, whose keyword was read: lines up to an empty one.
+/// Skip METADATA, whose keyword was read: lines up to an empty one.
 void skip_vtk_metadata(TextScanner& scan);
 
-/// Keep the data of cells that are one whole number each, and pass over all others, to the end of the text. What the
-/// reader does not know ends it, with a notice.
+/// Keep the data of cells that are one whole number each, and skip all others, to the end of the text. An unknown
+/// keyword ends the reading, with a notice.
 void read_vtk_legacy_data(TextScanner& scan, FileNumbers& numbers, const VtkCellPlaces& places, MeshBuilder& builder);
 
 }  // namespace dartboard

@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// The type of a name, in capitals or small letters; nothing for types that are no numbers of whole bytes: bits,
+/// The type of a name, in capitals or small letters; no value for types other than numbers of whole bytes: bits,
 /// strings, variants.
 std::optional<Scalar> vtk_legacy_type(std::string_view name);
 

@@ -23,7 +23,7 @@ VtuEncoding read_encoding(const XmlElement& tag, const std::string& file, std::s
           .compressor = std::string(tag.attribute("compressor").value_or(""))};
 }
 
-/// The data begin after an underscore. Raw ones are no XML, so the end is looked for from behind.
+/// The data begin after an underscore. Raw data are not XML, so the end is searched backwards.
 VtuAppended read_appended(const VtkXml& file, const XmlElement& tag) {
   const auto encoding = tag.attribute("encoding").value_or("base64");
   if (encoding != "raw" && encoding != "base64")

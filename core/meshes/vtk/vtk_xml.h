@@ -1,5 +1,5 @@
 #pragma once
-// What XML VTK files of grids and of polygons share: a root, pieces, points, lists of cells, and data of cells.
+// The common parts of XML VTK files of grids and of polygons: a root, pieces, points, lists of cells, data of cells.
 
 #include <cstdint>
 #include <map>
@@ -38,7 +38,7 @@ struct VtkPiece {
   std::map<std::pair<std::string_view, std::string>, VtuArray> arrays = {};  // by list and name: ("Cells", "types")
   std::vector<VtuArray> tags = {};                                           // of cells, one whole number each
 
-  /// throws  IoError when it is not there
+  /// throws  IoError when it does not exist
   const VtuArray& array(std::string_view list, const std::string& key, const VtkXml& file) const;
 };
 
@@ -46,10 +46,10 @@ struct VtkPiece {
 /// in any format.
 VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number, std::span<const std::string_view> lists);
 
-/// Add the points of a piece, numbered on from those that are there; returns the number of the first.
+/// Add the points of a piece, numbered after the present ones; returns the number of the first.
 std::uint64_t add_vtk_points(const VtkXml& file, const VtkPiece& piece, MeshBuilder& builder);
 
-/// The cells of a list: points of all of them, and where each ends.
+/// The cells of a list: the points of all cells, and the end of each.
 struct VtkXmlCells {
   std::size_t line = 0;
   std::vector<std::int64_t> connectivity, offsets;

@@ -23,7 +23,7 @@ void add_cells(const VtkXml& file, std::size_t number, const VtkPiece& piece, st
                MeshBuilder& builder) {
   VtkCellPlaces places;
   for (const List& list : lists) {
-    // a piece without lines may say nothing of them
+    // a piece without lines may lack their attribute
     if (!file.elements[number].attribute(list.count)) continue;
     const std::uint64_t count = file.count_attribute(file.elements[number], list.count);
     if (count == 0) continue;

@@ -12,17 +12,17 @@
 
 namespace dartboard {
 
-/// What comes after the underscore of <AppendedData>.
+/// The data after the underscore of <AppendedData>.
 struct VtuAppended {
   std::string_view data;
-  bool is_raw = false;  // or base64
+  bool is_raw = false;  // false: base64
 };
 
-/// What a file says about all binary arrays in it.
+/// The properties that a file declares for all its binary arrays.
 struct VtuEncoding {
   bool big_endian = false;
   std::size_t header_bytes = 4;
-  std::string compressor = {};  // empty for none
+  std::string compressor = {};  // empty without compression
   std::optional<VtuAppended> appended = {};
 };
 
@@ -31,7 +31,7 @@ struct VtuArray {
   std::string name;  // as in errors: "Points" for the one that has no name of its own
 };
 
-/// The type of VTK's name for it, as in Float64.
+/// The type with this name in VTK, such as Float64.
 std::optional<Scalar> scalar_of_vtu(std::string_view name);
 
 /// All values of an array: ASCII, base64 or raw, inline or appended, compressed or not.

@@ -12,7 +12,7 @@
 namespace dartboard {
 namespace {
 
-/// Bytes from a place on, raw or base64. How many belong to the array is told by the first of them.
+/// Bytes from a place on, raw or base64. The first of them give the number that belongs to the array.
 class Stored {
  public:
   Stored(const VtuArray& array, const VtuEncoding& encoding, const std::string& file)
@@ -36,7 +36,7 @@ class Stored {
       base64_ = Base64Reader(data);
   }
 
-  /// So many bytes, asked for before memory is.
+  /// Take `count` bytes; the number is checked before memory is allocated.
   std::string take(std::uint64_t count) {
     const std::size_t most = is_raw_ ? raw_.size() : base64_.most_left();
     if (count > most)
@@ -77,7 +77,7 @@ class Stored {
   std::string_view raw_ = {};
 };
 
-/// The number of blocks, their size, that of a last one that is smaller, and the compressed size of each; then blocks.
+/// The number of blocks, their size, that of a smaller last one, and the compressed size of each; then the blocks.
 std::string read_blocks(Stored& stored, const VtuEncoding& encoding) {
   const auto compressor = compressor_of_vtk(encoding.compressor);
   if (!compressor)
@@ -87,7 +87,7 @@ std::string read_blocks(Stored& stored, const VtuEncoding& encoding) {
   if (count == 0) return {};
   const std::uint64_t size = stored.length(), last = stored.length();
   if (last > size) stored.fail(fmt::format("a last block of {} bytes", last), fmt::format("at most {}", size));
-  std::vector<std::uint64_t> compressed;  // grows with what is there, not with what is promised
+  std::vector<std::uint64_t> compressed;  // grows with the bytes present, not with the number declared
   for (std::uint64_t k = 0; k < count; ++k) compressed.push_back(stored.length());
   std::string bytes;
   for (std::uint64_t k = 0; k < count; ++k) {

@@ -11,7 +11,7 @@ namespace dartboard {
 [[noreturn]] void fail_in_array(const VtuArray& array, const std::string& file, std::string_view found,
                                 std::string_view expected);
 
-/// The data of an array whose format is "binary" or "appended", without what stands before them.
+/// The data of an array whose format is "binary" or "appended", without their header.
 std::string vtu_bytes(const VtuArray& array, const VtuEncoding& encoding, const std::string& file);
 
 }  // namespace dartboard

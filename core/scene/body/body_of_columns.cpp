@@ -170,7 +170,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     if (term != nullptr) terms_.push_back(term);
   if (contact_) terms_.push_back(contact_.get());
   if (body_contact_) terms_.push_back(body_contact_.get());
-  // columns that grew by doubling give back what they do not use
+  // columns that grew by doubling give back unused memory
   for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
   fit(vertices_.dart, springs_, ends_, nodes_, shape_, solid_nodes_, solid_shape_, springs_within_);

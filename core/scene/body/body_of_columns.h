@@ -17,11 +17,11 @@ namespace dartboard {
 
 struct VertexVolumes;
 
-/// What a scene without events needs of a body. It is built on a map, so its numbers are those of a body on a map and
-/// it moves with the same bits; the map and all that was held by darts is then let go.
+/// The body of a scene without events. It is built on a map, so its numbers are those of a body on a map and it moves
+/// with the same bits; the map and all that was held by darts are then freed.
 class BodyOfColumns final : public SimulatedBody {
  public:
-  /// Of a mesh without cells, a chain: each link from a point to the next is a spring of the material's stiffness and
+  /// A mesh without cells makes a chain: each link from a point to the next is a spring of the material's stiffness and
   /// damping, and gives half its mass, density times length, to each of its ends.
   ///
   /// throws  InputError as build_body does; for a link whose length or mass is not a number above 0, and for a velocity
@@ -63,7 +63,7 @@ class BodyOfColumns final : public SimulatedBody {
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
-  VertexColumns vertices_;  // without darts and forces; viscosity, fixed and places at rest only where needed
+  VertexColumns vertices_;  // without darts and forces; viscosity, fixed and rest positions only where needed
   Springs springs_;
   std::vector<SpringEnds> ends_;
   std::vector<TetrahedronNodes> nodes_;  // of a body of elements, which has springs only where some cells are
@@ -78,15 +78,15 @@ class BodyOfColumns final : public SimulatedBody {
   std::vector<BendingEdge> bends_;  // of a surface, one of the two where it resists bending
   std::vector<SecondNeighbours> neighbours_;
   std::unique_ptr<ForceTerm> cell_springs_, bending_;
-  std::vector<SkinSample> samples_;  // where it feels contact, if there is any
+  std::vector<SkinSample> samples_;  // of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
-  SkinSolids skin_solids_;  // what its parts can be inside of, if any touch
+  SkinSolids skin_solids_;  // what its parts can be inside of, where some touch
   std::unique_ptr<BodyContact> body_contact_;
-  std::vector<const ForceTerm*> terms_;  // those there are
+  std::vector<const ForceTerm*> terms_;  // those that are present
   Eigen::Vector3d gravity_{0, 0, 0};
   Material material_;
   std::vector<Material> materials_;            // of a body of several
-  std::vector<MaterialNumber> cell_material_;  // of each cell its number
+  std::vector<MaterialNumber> cell_material_;  // by cell: its number
   std::vector<double> volume_;                 // [m^3] of each vertex, where densities differ
 
   // for frames and diagnostics: the cells and the boundary by vertex numbers

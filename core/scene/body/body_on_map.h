@@ -45,7 +45,7 @@ class BodyOnMap final : public SimulatedBody {
     ends_.rebuild(body_);
     components_.rebuild(body_);
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
-    // forces are for walks; integrators over arrays keep their own
+    // only walks use the column of forces; integrators over arrays keep their own
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
     if (needs.rest) body_.vertices.keep_rest();
@@ -238,7 +238,7 @@ class BodyOnMap final : public SimulatedBody {
   MemoryReport memory() const override {
     const VertexColumns& v = body_.vertices;
     const Map& map = body_.map;
-    // every live slot has its alphas and a generation, every dead one a place on a list
+    // every live slot has its alphas and a generation, every dead slot has an entry in a list
     const std::size_t slots = Map::tetrahedral ? map.capacity() / 24 : map.capacity();
     const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
     const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
@@ -277,7 +277,7 @@ class BodyOnMap final : public SimulatedBody {
   }
 
  private:
-  /// Columns that grew by doubling give back what they do not use.
+  /// Columns that grew by doubling give back unused memory.
   void fit_columns() {
     const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
     const auto fit_column = [](auto& column, const auto&) { column.shrink_to_fit(); };
@@ -306,7 +306,7 @@ class BodyOnMap final : public SimulatedBody {
   }
   void rebuild_bending() {
     if (!bending_) return;
-    // a body that shows no displacement has places at rest for this alone
+    // a body that shows no displacement has rest positions for this purpose only
     if (body_.vertices.rest.empty()) body_.vertices.keep_rest();
     bends_across_edges_ ? bends_.rebuild(body_) : neighbours_.rebuild(body_);
   }
@@ -323,8 +323,8 @@ class BodyOnMap final : public SimulatedBody {
     return [this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); };
   }
 
-  /// All marks of the map are idle between operations; each is taken once to see how long it is. The last one taken is
-  /// a new one, without a stamp.
+  /// All marks of the map are idle between operations; each is taken once to read its length. The last one taken is a
+  /// new one, without a stamp.
   std::size_t mark_bytes() const {
     std::size_t bytes = 0;
     std::vector<MarkPool::Stamps*> taken;
@@ -347,14 +347,14 @@ class BodyOnMap final : public SimulatedBody {
   SecondNeighboursView neighbours_;
   bool bends_across_edges_ = false;  // the first of them
   std::unique_ptr<ForceTerm> bending_;
-  Skin skin_;  // where it feels contact, if there is any
+  Skin skin_;  // the samples of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
-  SkinSolidsView skin_solids_;           // what its parts can be inside of, if any touch
+  SkinSolidsView skin_solids_;           // what its parts can be inside of, where some touch
   std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
   std::unique_ptr<BodyContact> body_contact_;
-  std::vector<const ForceTerm*> terms_;  // those there are
+  std::vector<const ForceTerm*> terms_;  // those that are present
   ComponentLabels components_;
-  std::vector<std::uint32_t> mesh_cell_;  // of each cell: its number in the mesh
+  std::vector<std::uint32_t> mesh_cell_;  // by cell: its number in the mesh
   double removed_mass_ = 0.0;             // [kg]
   FaceOrigins face_origins_;              // of a refined solid
 };

@@ -62,7 +62,7 @@ class Forecaster {
     return longest;
   }
 
-  /// Before anything falls; of obstacles that move, while they do and while they do not.
+  /// The speed before anything falls; for obstacles that move, while they move and while they are at rest.
   double own_speed(const SceneObstacle& one) const {
     double most = 0.0;
     for (const Vector3d& v : velocities_)
@@ -96,10 +96,10 @@ class Forecaster {
   double density_ = 0.0;
   bool surface_ = false;
   Vector3d up_{0, 0, 0};
-  std::vector<Vector3d> velocities_;  // that some vertex has at some time of its own
+  std::vector<Vector3d> velocities_;  // initial and driven velocities of vertices
 };
 
-/// Of bodies with each other.
+/// The forecast of contacts between bodies.
 class TouchForecaster {
  public:
   TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a run reports about itself at a moment: one row of diagnostics.csv.
+// The diagnostics of a run at one moment: one row of diagnostics.csv.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// How many cells of each dimension there are; `cells` are the volumes of a solid, the faces of a surface.
+/// The numbers of cells of each dimension; `cells` are the volumes of a solid, the faces of a surface.
 struct CellCounts {
   std::size_t vertices = 0, edges = 0, faces = 0, cells = 0, components = 0;
   friend bool operator==(const CellCounts&, const CellCounts&) = default;
@@ -19,12 +19,12 @@ struct CellCounts {
   }
 };
 
-/// What a row tells of contact with obstacles.
+/// The part of a row about contact with obstacles.
 struct ContactDiagnostics {
   double energy = 0;    // [J] of the contacts, no part of the elastic energy
   double damped = 0;    // [J] lost by restitution so far
   double rubbed = 0;    // [J] by friction
-  double supplied = 0;  // [J] the work of obstacles that move, and of what is driven against damping and friction
+  double supplied = 0;  // [J] the work of moving obstacles, and of driven vertices against damping and friction
   std::size_t contacts = 0;
   double deepest = 0;  // [m]
   template <class Archive>
@@ -43,7 +43,7 @@ struct Diagnostics {
   double boundary = 0;              // [m^2] area of the boundary surface; of a surface [m] length of its border
   double largest_stress = 0;        // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
   std::size_t operations = 0;       // so far: faces dissociated, cells removed, vertices put in by refinement
-  std::optional<double> applied{};  // [J] potential of the forces applied, - sum of f . x; where a scene has some
+  std::optional<double> applied{};  // [J] potential of the forces applied, - sum of f . x; if a scene has some
   std::optional<ContactDiagnostics> contact{};  // where a scene has obstacles
 
   double energy() const {
@@ -58,18 +58,18 @@ struct Diagnostics {
 
 bool is_finite(const Diagnostics& diagnostics);
 
-/// What the largest stress of a body of cells of a dimension is: the "largest principal stress" of a vertex; of a chain
-/// (0) the "largest tension" of a link.
+/// The name of the largest stress of a body with cells of this dimension: "largest principal stress" (of a vertex); of
+/// a chain (0) "largest tension" (of a link).
 std::string_view stress_name(int dimension);
 
-/// What the boundary and the largest stress of a body of cells of a dimension are in: "m^2" and "Pa" of a solid, "m"
-/// and "N/m" of a surface, "m" and "N" of a chain (0).
+/// The units of the boundary and of the largest stress of a body with cells of this dimension: "m^2" and "Pa" of a
+/// solid, "m" and "N/m" of a surface, "m" and "N" of a chain (0).
 std::string_view boundary_unit(int dimension);
 std::string_view stress_unit(int dimension);
 
 /// The names of the columns, with units, and one row, with forces applied and contact or without; real numbers with 17
-/// digits, so that they can be read back exactly, and an empty field for what is not finite. Both end with a line
-/// break.
+/// digits, so that they can be read back exactly, and an empty field for a number that is not finite. Both end with a
+/// line break.
 std::string diagnostics_header(int dimension = 3, bool with_applied = false, bool with_contact = false);
 std::string diagnostics_row(const Diagnostics& diagnostics);
 

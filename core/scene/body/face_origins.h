@@ -1,5 +1,5 @@
 #pragma once
-// In which faces of the mesh those faces of a refined body lie that have a vertex which refinement made.
+// For each face of a refined body with a vertex that refinement made: the face of the mesh in which it lies.
 
 #include <algorithm>
 #include <array>
@@ -42,8 +42,8 @@ class FaceOrigins {
     }
   }
 
-  /// The face of the mesh that a face lies in; null of one that lies within a cell of the mesh or has points of the
-  /// mesh alone.
+  /// The face of the mesh that a face lies in; null for a face that lies within a cell of the mesh or has only points
+  /// of the mesh.
   const Points* of(Dart d) const { return row(d) == 0 ? nullptr : &points_[row(d) - 1]; }
 
   std::size_t bytes() const { return bytes_of(row_, points_); }
@@ -58,7 +58,7 @@ class FaceOrigins {
     if (d.index >= row_.size()) row_.resize(d.index + 1, 0);
     row_[d.index] = row;
   }
-  /// 0 of a face with a vertex that refinement made, which no row says lies in a face of the mesh.
+  /// 0 for a face with a vertex that refinement made, if no row says that it lies in a face of the mesh.
   template <class Body>
   std::uint32_t add_row(const Body& body, const Subdivision::Parent& parent, std::size_t face) {
     Points points{};

@@ -1,5 +1,5 @@
 #pragma once
-// One picture of a moving body: what a file of a frame holds.
+// One picture of a moving body: the contents of a frame's file.
 
 #include <Eigen/Core>
 #include <array>
@@ -32,14 +32,14 @@ struct Frame {
   std::vector<std::array<std::uint32_t, 2>> links;
   std::vector<RefinedFacet> refined_facets;  // not written to files; those within a cell of the mesh are not among them
 
-  FrameFields fields;              // which of these there are; others are empty
+  FrameFields fields;              // which of the following are filled; the others are empty
   std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven, 3 held along some axes
   // [Pa] (of a surface [N/m]) by point of a body with cells; infinite where a stress is not finite
   std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
   std::vector<double> tension;                        // [N] of a chain, by link; negative where it is pressed together
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
   std::vector<Eigen::Vector3d> contact_force;         // [N] by point: of contacts, without friction and damping
-  std::vector<double> contact_depth;                  // [m] by point: how deep it is inside something; 0 outside
+  std::vector<double> contact_depth;                  // [m] by point: the depth inside an obstacle or body; 0 outside
   std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
   std::vector<double> strain;                         // (l - L) / L by spring; of a chain, by link
 };

@@ -10,7 +10,7 @@
 namespace dartboard {
 namespace {
 
-/// A column in another order: place k gets what was in place order[k].
+/// Put a column into another order: element k becomes the former element order[k].
 template <class T>
 void reorder(std::vector<T>& column, const std::vector<std::uint32_t>& order) {
   if (column.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-// The columns of a frame that follow from vertices and springs, of bodies of every kind.
+// The columns of a frame that follow from vertices and springs, for bodies of every kind.
 
 #include <span>
 
@@ -17,19 +17,19 @@ namespace dartboard {
 /// order of these numbers: parts of a vertex one after another, vertices that refinement made last.
 void put_in_order(Frame& frame, std::span<const std::uint32_t> number);
 
-/// Fill what a frame has of the vertices and springs of a system: places, velocities and masses always, stress,
-/// displacement and strain where `fields` asks for them; who holds vertices is known to the run alone.
+/// Fill the columns of a frame from the vertices and springs of a system: places, velocities and masses always, stress,
+/// displacement and strain where `fields` asks for them; only the run knows how vertices are held.
 ///
 /// Stresses are those of `vertex_stresses`, strains (l - L) / L. A number that is not finite, as the strain of a spring
 /// without length at rest, is infinity.
-/// pre   the cells and links of the frame are there; vertices have their places at rest where displacement is asked for,
-///       and there are volumes where stress is
+/// pre   the frame has its cells and links; vertices have their rest positions if displacement is asked for, and there are
+///       volumes if stress is
 /// cost  O(vertices + springs)
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
                   const VertexVolumes& volumes);
 
-/// The same for what obstacles, and bodies, do to the vertices of a body that has contact: of each kind, or null.
-/// pre  its places are there
+/// Fill the columns of contact for the vertices of a body that has contact with obstacles or bodies; one may be null.
+/// pre  the frame has its points
 void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies);
 
 }  // namespace dartboard

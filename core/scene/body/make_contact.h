@@ -16,7 +16,7 @@ namespace dartboard {
 std::unique_ptr<ObstacleContact> make_contact(const std::vector<SceneObstacle>& obstacles,
                                               const std::vector<SkinSample>& samples);
 
-/// Which of the scene's bodies a cell of its mesh is of, where each has its first cell here.
+/// The body of the scene that a cell of its mesh belongs to; `first_cell` has the first cell of each body.
 /// pre  not empty, ascending, from 0 on
 std::uint32_t body_of_cell(std::span<const std::size_t> first_cell, std::size_t cell);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The parts that a running scene is made of, and the memory each takes: the plan predicts it, the objects report it.
+// The parts of a running scene, and the memory each takes: the plan predicts it, the objects report it.
 
 #include <cstddef>
 #include <string_view>
@@ -18,28 +18,28 @@ enum class Part {
   marks,         // stamps by dart
   embeddings,    // the number of the embedding at every dart
   cell_darts,    // the lowest dart of each vertex, edge, face and cell
-  cells,         // masses of cells, and what of them changes follow from
+  cells,         // masses of cells, and the data of cells that changes need
   components,    // the connected component of each cell
   vertices,      // mass, 1/mass, position, velocity, point of the mesh
   viscosity,     // by vertex
   fixed,         // by vertex
-  rest,          // place at rest by vertex
-  pull,          // forces from outside by vertex, and the points they are meant for
-  driven,        // paths of driven vertices, and what their work is summed over
+  rest,          // rest position by vertex
+  pull,          // external forces by vertex, and the points that they act on
+  driven,        // paths of driven vertices, and the lists that their work is summed over
   springs,       // rest length, stiffness, and the two ends
-  damping,       // by spring; beside them in one row
+  damping,       // by spring, in the same row
   elements,      // rest shape and corners of each cell, in place of springs
   cell_damping,  // of elements, by the rate of their strain: time only
   cell_springs,  // rest lengths of the diagonals of each cell, and its corners
-  bending,       // what bends across each edge of a surface
-  contact,       // places of the boundary that feel obstacles, and the obstacles
+  bending,       // bending elements across the edges of a surface
+  contact,       // samples of the boundary, and the obstacles
   gravity,       // a force term: time only
   integrator,    // columns kept between steps
   solver,        // matrices, factor and vectors of implicit methods
   detector,      // the last good state
   speed_check,   // time only
   event,         // what one event looked up at the start
-  step_check,    // looking at the step after operations: time only
+  step_check,    // estimates of the stable step after operations: time only
   output_cells,  // cells and boundary by vertex numbers, for frames and diagnostics of a body without a map
   frames,        // time only
   probes,        // the vertices followed
@@ -54,7 +54,7 @@ struct MemoryItem {
 };
 using MemoryReport = std::vector<MemoryItem>;
 
-/// Of Part::vertices: the columns that are no part of their own.
+/// The bytes of Part::vertices: of the columns that are not parts of their own.
 std::size_t bytes_of_vertices(const VertexColumns& vertices);
 
 }  // namespace dartboard

@@ -40,7 +40,7 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
   BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
   body.diagonals = scene.diagonals;
   body.bending = scene.bending;
-  // bending and the samples of a boundary follow a change of the map by what was at rest
+  // bending and the samples of a boundary follow a change of the map by rest positions
   body.rest =
       scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
   body.pull = !scene.forces.empty();

@@ -1,5 +1,5 @@
 #pragma once
-// The event that lets go of vertices held still.
+// The event that releases vertices held still.
 
 #include <cstdint>
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace dartboard {
 
-/// Vertices are known by the mesh point they came from, as driven ones are: all parts of one that came apart are let
-/// go.
+/// Vertices are known by the mesh point they came from, as driven ones are: all parts of one that came apart are
+/// released.
 class ReadyRelease final : public ReadyEvent {
  public:
   /// pre     the vertices are at rest, and outlive this
-  /// throws  InputError "PATH: ..." if none that is selected is fixed
+  /// throws  InputError "PATH: ..." if no selected vertex is fixed
   ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path);
 
-  /// returns  vertices let go; their points are chosen at the start, and none is added to the targets
+  /// returns  the number of vertices released; their points are chosen at the start, and none is added to the targets
   /// cost     O(vertices log(points))
   std::size_t apply(EventTargets*) override;
   std::size_t repeat(const EventTargets&) override { return apply(nullptr); }

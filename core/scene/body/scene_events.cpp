@@ -163,7 +163,7 @@ Eigen::Vector3d centroid(const MassSpringBody<Map, Held::by_every_dart>& body, s
   return sum / count;
 }
 
-/// Finds the cells of a selection, each time it is asked, by their numbers now.
+/// Finds the cells of a selection, by their present numbers, at each call.
 template <class Map>
 class CellChooser {
  public:
@@ -181,7 +181,7 @@ class CellChooser {
     }
   }
 
-  /// Ascending.
+  /// The numbers of the cells, ascending.
   std::vector<std::uint32_t> choose() {
     const auto count = static_cast<std::uint32_t>(on_.body().cell_dart.size());
     if (random_) return draw(count, std::get<RandomSelection>(selection_).count);
@@ -321,7 +321,7 @@ class ReadyRefinement : public ReadyEvent {
     return count;
   }
 
-  /// At rest; of equal ones, the edge with the lowest number.
+  /// The longest edge at rest; among equal ones, that with the lowest number.
   Edge longest_edge(Dart cell) const {
     const auto& body = on_.body();
     Edge best{cell};
@@ -333,8 +333,8 @@ class ReadyRefinement : public ReadyEvent {
     return best;
   }
 
-  /// The longest edge, which tetrahedra alone have.
-  /// throws  InputError where another cell has it, too
+  /// The longest edge, which only tetrahedra may share.
+  /// throws  InputError if a cell of another kind has it, too
   Edge own_edge(Dart cell) const {
     const auto& body = on_.body();
     const Edge longest = longest_edge(cell);
@@ -375,7 +375,7 @@ class ReadyTear : public Dissociation<Map> {
   }
 
  private:
-  // The lowest of several: parts of one point, or vertices as near as each other.
+  // The lowest of several: parts of one point, or vertices at the same distance.
   std::optional<std::uint32_t> chosen() const {
     const VertexColumns& v = on_.body().vertices;
     std::optional<std::uint32_t> best;
@@ -419,7 +419,7 @@ class ReadyStress : public Dissociation<Map> {
                                on_.corners())
         .faces;
   }
-  // of a seam, a bit for each face slot of a cell
+  // a seam takes a bit for each face slot of a cell
   std::size_t bytes() const override {
     return bytes_of(stress_) + (filter_ ? (on_.body().map.template slot_count<2>() + 7) / 8 : 0);
   }

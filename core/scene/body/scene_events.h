@@ -14,8 +14,8 @@ class BodyOnMap;
 
 /// `body` must outlive the event.
 ///
-/// throws  InputError "/events/3/...: ..." for an id or face that the body does not have, or an action that its
-///         dimension does not know
+/// throws  InputError "/events/3/...: ..." for an id or face that the body does not have, or an action that does not
+///         exist in its dimension
 template <class Map>
 std::unique_ptr<ReadyEvent> make_event_ready(BodyOnMap<Map>& body, const SceneEvent& event);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A body that moves and changes, whatever map it is on: the one place where scenes do not know the type of the map.
+// A body that moves and changes, on a map of any type: the one interface that hides the type of the map from scenes.
 
 #include <cstdint>
 #include <limits>
@@ -28,13 +28,13 @@ namespace dartboard {
 /// of all bodies made of one scene have the same numbers, wherever their vertices are.
 using EventTargets = std::vector<std::uint32_t>;
 
-/// An event made ready for one body: what it names has been looked up once, at the start.
+/// An event made ready for one body: all that it refers to has been looked up once, at the start.
 class ReadyEvent {
  public:
   virtual ~ReadyEvent() = default;
   /// Apply it to the body it was made for, and add what it operates on to `taken` unless that is null.
   ///
-  /// returns  operations: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
+  /// returns  operations made: faces dissociated (of a surface, edges), cells removed, vertices put in by refinement
   /// throws   StressError if a stress is not finite
   virtual std::size_t apply(EventTargets* taken) = 0;
   std::size_t apply() { return apply(nullptr); }
@@ -43,9 +43,9 @@ class ReadyEvent {
   /// pre      the same operations have been applied to both bodies so far
   /// returns  as `apply`
   virtual std::size_t repeat(const EventTargets& taken) = 0;
-  /// Of a cut: how many faces between cells (of a surface, edges between faces) it would take now.
+  /// For a cut: how many faces between cells (of a surface, edges between faces) it would dissociate now.
   virtual std::optional<std::size_t> facets() const { return std::nullopt; }
-  /// What it has changed about itself when it was applied, written or read: a stream of random numbers.
+  /// Writes or reads its own state, which applying it changes: a stream of random numbers.
   virtual void state(Archive&) {}
   /// Memory that it keeps (core/scene/body/memory.h).
   virtual std::size_t bytes() const { return 0; }
@@ -54,37 +54,37 @@ class ReadyEvent {
 class SimulatedBody {
  public:
   SimulatedBody() = default;
-  SimulatedBody(const SimulatedBody&) = delete;  // force terms look at the columns where they are
+  SimulatedBody(const SimulatedBody&) = delete;  // force terms refer to the columns in place
   SimulatedBody& operator=(const SimulatedBody&) = delete;
   virtual ~SimulatedBody() = default;
 
   /// "tetrahedral 3-g-map", "3-g-map", "2-g-map"
   virtual std::string map_name() const = 0;
   virtual const VertexColumns& vertices() const = 0;
-  /// Springs and what acts on vertices; valid until the next event.
+  /// Springs and all that acts on vertices; valid until the next event.
   virtual SpringSystem system() const = 0;
   /// Positions and velocities; valid until the next event.
   virtual Motion motion() = 0;
-  /// What pulls at each vertex [m/s^2]; empty where the body was made without. Valid until the next event.
+  /// The pull at each vertex [m/s^2]; empty where the body was made without it. Valid until the next event.
   virtual std::span<Eigen::Vector3d> pull() = 0;
-  /// Its contact with obstacles, and that of its parts with each other, the last of the terms of its system in this
-  /// order; null where the body was made without.
+  /// Its contact with obstacles, and that of its parts with each other: the last terms of its system, in this order;
+  /// null where the body was made without it.
   virtual ObstacleContact* contact() = 0;
   const ObstacleContact* contact() const { return const_cast<SimulatedBody*>(this)->contact(); }
   virtual BodyContact* body_contact() = 0;
   const BodyContact* body_contact() const { return const_cast<SimulatedBody*>(this)->body_contact(); }
-  /// The terms without these.
+  /// The terms without those of contact.
   ForceTerms terms_but_contact(ForceTerms terms) const {
     return terms.first(terms.size() - (contact() != nullptr ? 1 : 0) - (body_contact() != nullptr ? 1 : 0));
   }
 
-  /// Follow a vertex from now on, wherever its number goes: `tracked` has one more. None of it changes the body.
+  /// Follow a vertex from now on, whatever number it takes: `tracked` grows by one. Tracking does not change the body.
   void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
   /// The numbers now of the vertices tracked; `no_vertex` for those removed.
   std::span<const std::uint32_t> tracked() const { return tracked_; }
   static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
-  /// throws  InputError "/events/3/...: ..." if it cannot happen to this body
+  /// throws  InputError "/events/3/...: ..." if the event cannot happen to this body
   virtual std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) = 0;
 
   /// Mass of all cells [kg], summed by their numbers.
@@ -96,15 +96,15 @@ class SimulatedBody {
   /// [Pa] Largest principal stress of a vertex, of a chain [N] largest tension of a link or 0; infinite where one is
   /// not finite; 0 for an empty body.
   virtual double largest_stress() const = 0;
-  /// pre  made with places at rest where `fields` asks for displacement
+  /// pre  the body was made with rest positions if `fields` asks for displacement
   virtual Frame frame(const FrameFields& fields) const = 0;
-  /// Of positions and velocities, in the order of the embeddings' numbers.
+  /// A hash of positions and velocities, in the order of the embeddings' numbers.
   virtual std::uint64_t state_hash() const = 0;
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
-  /// All of it that steps and events change, written, or read into a body made of the same scene.
+  /// Writes all that steps and events change, or reads it into a body made of the same scene.
   virtual void state(Archive& archive) { archive(tracked_); }
-  /// What its parts take now.
+  /// The memory that its parts take now.
   virtual MemoryReport memory() const = 0;
 
  protected:
@@ -112,8 +112,8 @@ class SimulatedBody {
 };
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
-/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, else a 3-g-map. If not, or of a chain:
-/// columns, and no map.
+/// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, otherwise a 3-g-map. If it cannot, or for a
+/// chain: columns, and no map.
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

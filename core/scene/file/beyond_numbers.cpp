@@ -23,7 +23,7 @@ Magnitude size_of(const BodySource& body, const Mesh& mesh) {
   if (const auto* ball = std::get_if<BallMesh>(&body.mesh)) return {body.path + "/generate/ball/radius", ball->radius};
   if (const auto* chain = std::get_if<ChainMesh>(&body.mesh))
     return {body.path + "/generate/chain/spacing", chain->spacing};
-  double largest = 0.0;  // of the file: before it was scaled and moved
+  double largest = 0.0;  // in the file, before the mesh is scaled and moved
   for (const Eigen::Vector3d& x : mesh.points)
     largest = std::max(largest, ((x - body.translate) / body.scale).lpNorm<Eigen::Infinity>());
   return {body.path + "/mesh", largest};

@@ -1,5 +1,5 @@
 #pragma once
-// Which key of a scene to blame where the numbers of its first state are too large, or too small, for a double.
+// The key of a scene to blame if the numbers of its first state are too large, or too small, for a double.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace dartboard {
 /// "/material/stiffness: is 1e+308, and energies or forces at the start are not finite; expected a smaller value".
 std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
 
-/// "/body/generate/box/spacing: is 1e+300" where lengths are so far from 1 that their cubes are no numbers; else empty.
+/// "/body/generate/box/spacing: is 1e+300" if the cubes of lengths overflow or vanish; otherwise empty.
 std::string size_beyond_numbers(const SceneFile& scene, const Mesh& mesh);
 
 }  // namespace dartboard

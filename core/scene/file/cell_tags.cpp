@@ -29,10 +29,10 @@ void add_values(const CellTags& marks, std::set<std::string>& values) {
                                               : fmt::format("{}", value));
 }
 
-/// What the files of a scene are asked for, and what they have instead.
+/// The kinds of marks that the files of a scene have: those that could be meant, and the others.
 struct Found {
   std::set<std::string> kinds;   // of marks that could be meant
-  std::set<std::string> others;  // kinds that could not
+  std::set<std::string> others;  // kinds that could not be meant
   std::set<std::string> values;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Cells by the marks of their mesh file.
+// Selection of cells by the marks in their mesh file.
 
 #include <cstdint>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// The numbers of the cells that a mesh file marks so, ascending; those of several bodies count on from one to the
-/// next.
+/// The numbers of the cells that a mesh file marks in this way, ascending; those of several bodies count on from one to
+/// the next.
 ///
 /// throws  InputError "FILE: PATH: ..." where no file has such marks, several kinds of marks could be meant, or no cell
 ///         has this one; IoError if a file cannot be read

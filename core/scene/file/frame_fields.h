@@ -1,9 +1,9 @@
 #pragma once
-// What the frames of a scene hold beside motion and masses.
+// The fields that frames of a scene hold in addition to motion and masses.
 
 namespace dartboard {
 
-/// Nothing of it is computed or held that a scene does not ask for.
+/// Fields that a scene does not ask for are neither computed nor held.
 struct FrameFields {
   bool held = false;          // which vertices are free, fixed or driven
   bool stress = false;        // measures of the stress of vertices; of a chain, tensions of links

@@ -46,7 +46,7 @@ void visit_points(SceneFile& scene, const Visit& visit) {
   }
 }
 
-/// The points of a mesh in the place of one of its file: itself, and those split off it.
+/// The points of a mesh that one point of its file became: itself, and those split off it.
 class Places {
  public:
   Places(const LoadedMesh& loaded, const TouchingCells& touching) : mesh_(loaded.mesh) {
@@ -63,7 +63,7 @@ class Places {
         if (of == points[k]) points.push_back(copy);
   }
 
-  /// The face of the mesh that has these points, or others in their places, in place of them; left alone if none has.
+  /// Replaces these points by those of the mesh's face with the same points, or copies of them; otherwise does nothing.
   void find_face(std::vector<std::uint32_t>& points) const {
     if (std::ranges::none_of(points, [this](std::uint32_t p) { return is_copied(p); })) return;
     auto places = points;
@@ -151,7 +151,7 @@ LoadedMesh read_body_mesh(const BodySource& body) { return read_and_split(body).
 
 namespace {
 
-/// Nothing for a mesh that is refused: whoever makes the body meets the reason again, and says which key asked for it.
+/// No value for a mesh that is refused: making the body fails for the same reason, and that error names the key.
 std::optional<std::pair<LoadedMesh, TouchingCells>> read_or_nothing(const BodySource& body) {
   try {
     return read_and_split(body);
@@ -162,7 +162,7 @@ std::optional<std::pair<LoadedMesh, TouchingCells>> read_or_nothing(const BodySo
   }
 }
 
-/// Which body a number counts in is not said; what is told by place is clear.
+/// A number does not say which body it counts in; a place is unambiguous.
 void require_no_point_numbers(SceneFile& scene) {
   visit_points(scene, [&scene](std::uint32_t& point, const std::string& path) {
     throw InputError(

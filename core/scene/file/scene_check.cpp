@@ -64,7 +64,7 @@ class Checker {
   }
 
   void require_choice(SceneKey key, const Json& value, const std::string& path) const {
-    key.type = ValueType::choice;  // a word within a list is told by itself
+    key.type = ValueType::choice;  // a word within a list is reported alone
     if (!value.is_string()) fail(path, is_instead(value), expectation(key));
     const auto text = value.get<std::string>();
     if (std::ranges::find(key.choices, text) != key.choices.end()) return;
@@ -163,7 +163,7 @@ class Checker {
 
   Json number(const SceneKey& key, const Json& value, const std::string& path, bool whole) const {
     const auto expected = [&] {
-      SceneKey one = key;  // a number within a list is told by itself
+      SceneKey one = key;  // a number within a list is reported alone
       one.type = whole ? ValueType::integer : ValueType::real;
       return expectation(one);
     };
@@ -204,7 +204,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> nearest_of(std::span<const std::string> words, std::string_view word) {
-  // what differs in case and dashes alone is the same word to a person
+  // words that differ only in case and dashes are the same to a person
   const auto plain = [](std::string_view text) {
     std::string letters;
     for (const char c : text)
@@ -215,7 +215,7 @@ std::optional<std::string> nearest_of(std::span<const std::string> words, std::s
   std::size_t least = std::string::npos;
   for (const std::string& known : words) {
     const std::string a = plain(word), b = plain(known);
-    // at least as far apart as their lengths, and a word may be of any length
+    // the distance is at least the difference of the lengths, and a word may be of any length
     const std::size_t shorter = std::min(a.size(), b.size()), longer = std::max(a.size(), b.size());
     if (3 * (longer - shorter) > longer) continue;
     const std::size_t far = edit_distance(a, b);

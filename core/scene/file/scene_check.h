@@ -1,5 +1,5 @@
 #pragma once
-// A scene held against the table of keys, before anything is made of it.
+// The check of a scene against the table of keys, before anything is made of it.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -13,8 +13,8 @@ namespace dartboard {
 
 /// The value with every default filled in, when it is an object of this shape.
 ///
-/// throws  InputError "NAME: /path: what is there; expected ..." for the first key that is unknown, missing, of another
-///         type or out of range, and for keys that exclude each other
+/// throws  InputError "NAME: /path: what is there; expected ..." for the first key that is unknown, missing, of the
+///         wrong type or out of range, and for keys that exclude each other
 nlohmann::ordered_json check_and_complete(const nlohmann::ordered_json& value, Shape shape, std::string_view name);
 
 /// The fewest insertions, deletions, replacements and swaps of neighbours that turn one word into the other.

@@ -28,10 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// A number of steps above this is a mistake in a unit; it also keeps step numbers exact in a double.
+// More steps than this are a mistake in a unit; the limit also keeps step numbers exact in a double.
 constexpr double most_steps = 1e12;
 
-/// Makes structs of JSON that has been held against the table of keys: types are right and defaults are there.
+/// Makes structs of JSON that has been checked against the table of keys: types are right and defaults are filled in.
 class Reader {
  public:
   Reader(std::string_view name, fs::path folder) : name_(name), folder_(std::move(folder)) {}
@@ -137,7 +137,7 @@ class Reader {
     return all;
   }
 
-  // What a map keeps is numbered in 32 bits.
+  // The elements of a map are numbered in 32 bits.
   void require_room(const Json& cells, const std::string& path, std::uint64_t most) const {
     double count = 1.0;
     for (const Json& along : cells) count *= along.get<double>();
@@ -170,7 +170,7 @@ class Reader {
     if (model == Model::springs)
       fail(path + "/damping", "is " + shown(damping) + " beside no 'poisson'",
            "a number of N s/m of each spring, or elements");
-    constexpr double longest = 1e9;  // [s]: what takes longer than any run to yield is a mistake in a unit
+    constexpr double longest = 1e9;  // [s]: a relaxation longer than any run is a mistake in a unit
     const double time = damping_time_of(damping.at("ratio"), damping.at("frequency"));
     if (!(time <= longest))
       fail(path + "/damping", fmt::format("has a ratio / (pi frequency) of {:.3g} s", time),
@@ -187,7 +187,7 @@ class Reader {
     return source;
   }
 
-  /// Elements have a Young's modulus and a Poisson's ratio, springs of a ratio of their own have none.
+  /// Elements have a Young's modulus and a Poisson's ratio; springs have no 'poisson', their ratio is fixed.
   Model model(const Json& material, const std::string& path) const {
     const bool has_ratio = material.contains("poisson");
     Model model = has_ratio ? Model::neo_hookean : Model::springs;
@@ -248,7 +248,7 @@ class Reader {
     return v;
   }
 
-  /// Of length 1, whatever length it is given with.
+  /// The direction with length 1, whatever its length in the file.
   Eigen::Vector3d direction(const Json& json, const std::string& path) const {
     Eigen::Vector3d d = point(json);
     const double largest = d.lpNorm<Eigen::Infinity>();
@@ -334,9 +334,9 @@ class Reader {
       fail("/contact", "has no obstacle and no bodies that touch", "'obstacles', 'bodies' or 'pairs', or no 'contact'");
   }
 
-  /// What 'bodies' says of all pairs, then what 'pairs' says of some.
+  /// The touches by 'bodies' for all pairs, then those by 'pairs' for some.
   void touches(const Json& json, const ContactLaw& law, SceneFile& scene) const {
-    constexpr std::size_t most_bodies = 1000;  // their pairs are a table
+    constexpr std::size_t most_bodies = 1000;  // their pairs make a table
     const std::size_t bodies = scene.bodies().size();
     const std::string which = json.at("bodies");
     if (which == "others" && bodies == 1)
@@ -411,7 +411,7 @@ class Reader {
     return made;
   }
 
-  /// When what begins at `from` ends; nothing, where that is not before the scene does.
+  /// The end of an action that begins at `from`; no value if it is not before the end of the scene.
   std::optional<double> until_of(const Json& json, const std::string& path, double from, const SceneFile& scene) const {
     if (from >= scene.duration)
       fail(path + "/from", fmt::format("is {} s", from),
@@ -468,7 +468,7 @@ class Reader {
     BladeSweep sweep{points(json.at("path")), point(json.at("depth"))};
     for (std::size_t k = 0; k + 1 < sweep.path.size(); ++k) {
       const Eigen::Vector3d leg = sweep.path[k + 1] - sweep.path[k];
-      // of a parallelogram thinner than this no side can be told
+      // the side of a parallelogram thinner than this cannot be decided
       if (!(leg.cross(sweep.depth).norm() > 1e-12 * leg.norm() * sweep.depth.norm()))
         fail(fmt::format("{}/path/{}", path, k + 1), "is where the point before it is, or along the depth from there",
              "a leg that the blade sweeps an area on");
@@ -478,7 +478,7 @@ class Reader {
 
   PolygonSelection polygon(const Eigen::Vector3d& along, std::vector<Eigen::Vector3d> corners,
                            const std::string& path) const {
-    double twice_area = 0.0, around = 0.0;  // the largest of a triangle with the first corner
+    double twice_area = 0.0, around = 0.0;  // twice_area: the largest of a triangle with the first corner
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Eigen::Vector3d &here = corners[k], &next = corners[(k + 1) % corners.size()];
       twice_area = std::max(twice_area, std::abs((here - corners[0]).cross(next - corners[0]).dot(along)));
@@ -535,7 +535,7 @@ class Reader {
   }
 
   // A seam is a set of faces of the body at rest, and refinement replaces faces. A vertex that it puts between driven
-  // ones would have no path of its own, and one between fixed ones would be let go by nobody.
+  // ones would have no path of its own, and one between fixed ones would never be released.
   void require_consistent(const SceneFile& scene) const {
     if (!scene.solver.empty()) {
       if (scene.integrator.empty())
@@ -699,7 +699,7 @@ std::string_view key_of(const Action& action) {
 OutputPlan OutputPlan::in_steps_of(double step) const {
   const auto steps = [step](const std::optional<std::uint64_t>& given, const std::optional<double>& time) {
     if (given || !time) return given;
-    // far beyond the end of any run, and a number of steps must fit
+    // far beyond the end of any run, so that the number of steps fits
     const double in_reach = std::min(*time, 2.0 * most_steps * step);
     return std::optional(std::max<std::uint64_t>(1, step_of_time(in_reach, step)));
   };

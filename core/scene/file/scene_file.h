@@ -49,7 +49,7 @@ struct ChainMesh {
   double spacing;
 };
 
-/// What resists the bending of a surface; at most one of them is above 0.
+/// The resistance of a surface to bending; at most one of the two is above 0.
 struct Bending {
   double rigidity = 0.0;           // [N m] flexural rigidity of the sheet
   double second_neighbours = 0.0;  // [N/m] stiffness of Provot's springs between second neighbours
@@ -77,48 +77,48 @@ struct BodySource {
   std::variant<std::filesystem::path, BoxMesh, SheetMesh, BallMesh, ChainMesh, BodyList> mesh;
   double scale;
   Eigen::Vector3d translate;
-  bool split_touching = true;  // cells that touch without sharing a face: come apart there, or are refused
+  bool split_touching = true;  // cells that touch without sharing a face are split there; false: they are refused
   Eigen::Matrix3d rotate = Eigen::Matrix3d::Identity();
-  std::shared_ptr<const LoadedMesh> loaded{};  // what was read from the file, points that touch split (load_mesh)
-  // of one of several; nothing: the scene's
+  std::shared_ptr<const LoadedMesh> loaded{};  // the mesh of the file, touching points split (load_mesh)
+  // for one of several bodies; without a material it has that of the scene
   std::string path = "/body";
   std::optional<Material> material{};
   std::optional<InitialVelocity> velocity{};
-  std::optional<double> weld{};  // [units of the file] points of the mesh file that are at most so far apart are one
+  std::optional<double> weld{};  // [units of the file] points of the mesh file at most so far apart become one
 };
 
-/// Cells that are made of something else than the body around them.
+/// Cells made of a material other than that of the body around them.
 struct SceneRegion {
   CellSelection cells;
   Material material;
   std::string path;  // "/regions/3"
 };
 
-/// Vertices that move at a velocity of their own, turning round every so often, and are held still at other times.
+/// Vertices that move at a given velocity, which may be reversed at intervals, and are held still at other times.
 struct SceneDrive {
   VertexSelection vertices;
-  InitialVelocity velocity;             // by place at rest
+  InitialVelocity velocity;             // by rest position
   double from;                          // [s]
-  std::optional<double> until;          // [s] nothing: to the end
+  std::optional<double> until;          // [s] no value: to the end
   std::optional<double> reverse_every;  // [s]
   std::string path;                     // "/driven/3"
 };
 
-/// Vertices that are pulled or pushed from outside, in a direction that stays.
+/// Vertices that an external force pulls or pushes in a constant direction.
 struct SceneForce {
   VertexSelection vertices;
-  // one of the two
+  // exactly one of the next two has a value
   std::optional<Eigen::Vector3d> force;  // [N] on all of them together, shared in proportion to their masses
   std::optional<double> pressure;  // [Pa] on the faces of the boundary between them; of a surface, against normals
   double from;                     // [s]
-  std::optional<double> until;     // [s] nothing: to the end
+  std::optional<double> until;     // [s] no value: to the end
   std::string path;                // "/forces/3"
 
-  /// From the start to the end?
+  /// Does the force act from the start to the end?
   bool lasts() const { return from == 0.0 && !until; }
 };
 
-/// Something that the body runs into, and the law of its contact there.
+/// An obstacle for the body, and the law of the contact with it.
 struct SceneObstacle {
   Obstacle obstacle;
   ContactLaw law;
@@ -131,7 +131,7 @@ struct SceneObstacle {
 struct SceneTouch {
   std::uint32_t first = 0, second = 0;  // of the bodies, counted from 0; first <= second
   ContactLaw law;
-  std::string path;  // of the key that says so: "/contact/bodies", "/contact/pairs/3"
+  std::string path;  // of the key that gives it: "/contact/bodies", "/contact/pairs/3"
 };
 
 // ---- events
@@ -139,7 +139,7 @@ struct SceneTouch {
 struct Dissociate {
   // by the points around each; on a plane; or where a blade sweeps
   std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection, BladeSweep> faces;
-  std::optional<CutRegion> within{};  // of those on a plane, the faces with their centre there
+  std::optional<CutRegion> within{};  // of the faces on a plane, only those with their centre there are cut
 };
 struct Remove {
   CellSelection cells;
@@ -155,29 +155,29 @@ struct TearWhereStressed {
 };
 struct Refine {
   CellSelection cells;
-  bool at_centre;  // else in the longest edge
+  bool at_centre;  // false: in the longest edge
   double bracing;
 };
 
-/// Vertices held still are let go.
+/// Vertices held still are released.
 struct Release {
-  VertexSelection vertices;  // by where they are at rest
+  VertexSelection vertices;  // by rest position
 };
 
 using Action = std::variant<Dissociate, Remove, Tear, TearWhereStressed, Refine, Release>;
 bool changes_topology(const Action& action);
-/// "dissociate": the key that an event tells its action by.
+/// "dissociate": the key that names the action of an event.
 std::string_view key_of(const Action& action);
 
-/// What happens, and at which steps: an event that is due at n happens after n steps.
+/// An action and the steps at which it happens: an event that is due at n happens after n steps.
 struct SceneEvent {
   Action action;
   double from, until;           // [s]; equal for an event that happens once
-  std::optional<double> every;  // [s]; nothing: at every step
+  std::optional<double> every;  // [s]; no value: at every step
   std::string path;             // "/events/3"
 };
 
-/// What is done about a step that is too long to be stable.
+/// The treatment of a step that is too long to be stable.
 enum class UnstableStep { warn, refuse, substep };
 
 struct OutputPlan {
@@ -192,7 +192,7 @@ struct OutputPlan {
   OutputPlan in_steps_of(double step) const;
 };
 
-/// A vertex whose motion is recorded: a point of the mesh, or the one nearest to a place at rest.
+/// A vertex whose motion is recorded: a point of the mesh, or the vertex nearest to a place at rest.
 struct Probe {
   std::string name;
   std::variant<std::uint32_t, Eigen::Vector3d> vertex;
@@ -203,8 +203,8 @@ struct ExpectedPlace {
   std::size_t probe;  // its place in the list of probes
   Eigen::Vector3d position;
   double within;         // [m]
-  bool of_part = false;  // the centre of mass of the component, not the vertex
-  std::string why;       // where the numbers come from
+  bool of_part = false;  // true: the centre of mass of the vertex's component, not the vertex
+  std::string why;       // the source of the numbers
 };
 
 struct Expectation {
@@ -220,11 +220,11 @@ struct Expectation {
 };
 
 struct SceneFile {
-  std::string file;  // as errors name it
+  std::string file;  // its name in error messages
   std::string name, about;
   BodySource body;
   Material material;
-  std::vector<SceneRegion> regions;        // a later one has what it shares with an earlier one
+  std::vector<SceneRegion> regions;        // cells of two regions belong to the later one
   std::vector<std::string> without_model;  // keys of the materials that name no model
   Diagonals diagonals = Diagonals::none;
   Bending bending;
@@ -236,7 +236,7 @@ struct SceneFile {
   std::vector<SceneObstacle> obstacles;  // without any, and without touches, there is no contact
   std::vector<SceneTouch> touches;       // each pair once, in ascending order
   // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,
-  // and an integrator where it names none
+  // and an integrator if it does not name one
   double step = 0.0;               // [s]; 0 until then
   std::optional<double> accuracy;  // [mean edge lengths]
   double duration = 0.0;           // [s]
@@ -248,22 +248,22 @@ struct SceneFile {
   OutputPlan output;
   std::vector<Probe> probes;
   Expectation expect;
-  // what it was read from, for a run that is to be continued
+  // the text it was read from, for a run that is to be continued
   std::string text;
-  std::filesystem::path folder;  // that its paths are relative to
+  std::filesystem::path folder;  // its paths are relative to this
   std::uint64_t added_seed = 0;  // by `reseed`
 
-  bool has_elements() const;  // somewhere
-  bool holds_axes() const;    // of some vertices, and not all three
+  bool has_elements() const;  // in any tissue
+  bool holds_axes() const;    // for some vertices some axes, but not all three
   bool has_contact() const { return !obstacles.empty() || !touches.empty(); }
-  /// Has it springs or bending that no edge stands for, which references know nothing of? Their key, or nothing.
+  /// The key of springs or bending that no edge stands for, which references do not support; empty without them.
   std::string_view key_beside_edges() const {
     return diagonals != Diagonals::none ? "/diagonals" : bending.any() ? "/bending" : "";
   }
   bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
-  /// One, or each of several.
+  /// The one body, or each of several.
   std::span<const BodySource> bodies() const;
-  /// Of all that its cells may be made of, with the key of each.
+  /// A material that some cells may be made of, with its key.
   struct Tissue {
     Material material;
     std::string path;  // "/material", "/bodies/1/material", "/regions/0/material"
@@ -283,7 +283,7 @@ SceneFile parse_scene(std::string_view text, const std::string& name, const std:
 /// throws  IoError if the file cannot be read, InputError if it is wrong
 SceneFile read_scene(const std::filesystem::path& path);
 
-/// Let every random selection draw other cells: `seed` is added to its own. False where that changes none.
+/// Let every random selection draw other cells: `seed` is added to its own. False if there is no such selection.
 bool reseed(SceneFile& scene, std::uint64_t seed);
 
 }  // namespace dartboard

@@ -65,15 +65,15 @@ const ShapeHelp& help_of(Shape shape);
 enum class ValueType {
   text,
   choice,
-  choices,  // a list of them, none twice
+  choices,  // a list of choices, each at most once
   integer,
-  integers,  // a list of them
+  integers,  // a list of integers
   real,
   point,    // three numbers
-  points,   // a list of them
+  points,   // a list of points
   matrix,   // three rows of three numbers
   object,   // of the shape `of`
-  objects,  // a list of them
+  objects,  // a list of objects
   point_or_object,
   real_or_object,
   integer_pair,
@@ -81,7 +81,7 @@ enum class ValueType {
   integer_lists,
 };
 
-/// What a number may be: from `least` to `most`, and not `least` itself where it is `above`.
+/// The allowed range of a number: from `least` to `most`, excluding `least` itself where `above` is true.
 struct Range {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   bool above = false;
@@ -93,23 +93,23 @@ struct SceneKey {
   std::string_view name{};
   ValueType type{};
   Shape of{};                          // of an object
-  std::string_view unit{};             // empty for none
+  std::string_view unit{};             // empty without a unit
   Range range{};                       // of every number in the value
   std::size_t least_size = 0;          // of a list of points or words
   std::vector<std::string> choices{};  // of a choice or choices
   bool required = false;
-  std::string_view standard{};  // the default as JSON; empty where leaving the key out means that there is none
+  std::string_view standard{};  // the default as JSON; empty where a key that is left out has no value
   std::string_view help{};
 };
 
 std::span<const SceneKey> scene_keys();
 
-/// The integrator of a scene that names none and gives a step.
+/// The integrator of a scene that gives a step and does not name an integrator.
 inline constexpr const char* standard_integrator = "rk4";
 
-/// What the keys of a shape have to do with each other.
+/// A rule about several keys of a shape.
 struct SceneRule {
-  // excludes: the first none of the others; needs_object: beside it the others are objects
+  // excludes: the first key excludes the others; needs_object: if the first is given, the others are objects
   enum Kind { exactly_one, at_most_one, excludes, needs_object } kind;
   Shape shape;
   std::vector<std::string_view> keys;

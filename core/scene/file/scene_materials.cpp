@@ -55,7 +55,7 @@ void require_elements(const SceneFile& scene, const Mesh& mesh, const std::strin
          "none: 'viscosity' alone damps membranes");
 }
 
-/// The mean stiffness that a Young's modulus makes of the edges of some cells.
+/// The mean stiffness of the edges of some cells that follows from a Young's modulus.
 double stiffness_of_young(const SceneFile& scene, const Mesh& mesh, const SceneFile::Tissue& tissue,
                           std::span<const std::uint32_t> cells) {
   const auto wrong = [&](std::string_view found, std::string_view expected) {

@@ -17,7 +17,7 @@ Json reference_to(Shape shape) { return {{"$ref", fmt::format("#/$defs/{}", help
 
 Json number_schema(const SceneKey& key, const char* type) {
   Json schema{{"type", type}};
-  // counts in full digits
+  // counts are written in full digits
   const auto put = [&schema, type](const char* name, double value) {
     if (std::string_view(type) == "integer")
       schema[name] = static_cast<std::int64_t>(value);

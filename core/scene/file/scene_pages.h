@@ -1,13 +1,13 @@
 #pragma once
-// What is published about scene files, made from the table of keys.
+// The published pages about scene files, made from the table of keys.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace dartboard {
 
-/// The JSON Schema (draft 2020-12) of scene files. It knows keys, types, ranges and which keys exclude each other; what
-/// depends on the mesh or on two values at once is left to the parser.
+/// The JSON Schema (draft 2020-12) of scene files. It has keys, types, ranges and which keys exclude each other; checks
+/// that depend on the mesh or on two values at once are left to the parser.
 nlohmann::ordered_json scene_schema();
 
 /// The reference page of scene files, in Markdown.

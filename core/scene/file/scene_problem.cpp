@@ -35,7 +35,7 @@ Mesh generate(const ChainMesh& chain) {
   for (int k = 0; k <= chain.links; ++k) mesh.points.emplace_back(k * chain.spacing, 0, 0);
   return mesh;
 }
-/// Nothing moves faster.
+/// Refuses a speed above that of light.
 void require_slower_than_light(const std::string& path, const Eigen::Vector3d& v) {
   const double speed = v.stableNorm();
   if (speed <= speed_of_light) return;
@@ -56,7 +56,7 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
   }
 }
 
-/// Bodies as one mesh.
+/// Several bodies as one mesh.
 struct Assembled {
   Mesh mesh;
   std::vector<std::size_t> first_point, first_cell;  // of each body
@@ -96,7 +96,7 @@ Mesh make_mesh(const std::string& scene, const BodySource& body) {
   } catch (const IoError& problem) {
     throw IoError(fmt::format("{}: {}", key, problem.what()));
   } catch (const InputError& problem) {
-    if (std::holds_alternative<BodyList>(body.mesh)) throw;  // it names one of them
+    if (std::holds_alternative<BodyList>(body.mesh)) throw;  // it names one of the bodies
     throw InputError(fmt::format("{}: {}", key, problem.what()));
   } catch (const std::bad_alloc&) {
     throw InputError(fmt::format("{}: there is not enough memory for so many cells; expected fewer", key));

@@ -33,7 +33,7 @@ bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x, double th
 
 namespace {
 
-/// Of the point from a straight line between two others.
+/// The distance of a point from a straight line between two others.
 double distance_to_segment(const Eigen::Vector3d& x, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d along = to - from;
   const double length_2 = along.squaredNorm();
@@ -41,8 +41,8 @@ double distance_to_segment(const Eigen::Vector3d& x, const Eigen::Vector3d& from
   return (x - from - t * along).norm();
 }
 
-/// Of the point from the parallelogram at `corner` with these sides: from its inside where the foot of the
-/// perpendicular is there, else from one of its edges.
+/// The distance of a point from the parallelogram at `corner` with these sides: from its inside if the foot of the
+/// perpendicular is there, otherwise from one of its edges.
 double distance_to_parallelogram(const Eigen::Vector3d& x, const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
                                  const Eigen::Vector3d& v) {
   double least = std::min(
@@ -93,7 +93,7 @@ bool contains(const CutRegion& region, const Eigen::Vector3d& x, double thicknes
 
 namespace {
 
-/// Calls f(k) for each place in a region; for none where the selection names no region.
+/// Calls f(k) for each place in a region; does nothing if the selection is not a region.
 template <class Selection, class F>
 void for_each_inside(const Selection& selection, std::span<const Eigen::Vector3d> places, double thickness, F&& f) {
   std::visit(

@@ -1,5 +1,5 @@
 #pragma once
-// Selections: which points of a body a scene means.
+// Selections of points and cells of a body.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct SphereSelection {
   Eigen::Vector3d centre;
   double radius;
 };
-/// What is seen in a polygon when one looks along a direction: a prism without ends.
+/// A prism without ends: a polygon extended along a direction.
 struct PolygonSelection {
   Eigen::Vector3d along;                 // a unit vector
   std::vector<Eigen::Vector3d> corners;  // in turn; three at least
@@ -40,23 +40,23 @@ struct BladeSweep {
   std::vector<Eigen::Vector3d> path;
   Eigen::Vector3d depth;
 };
-/// All that is near a path, or near what a blade sweeps along it.
+/// All that is near a path, or near the area that a blade sweeps along it.
 struct AroundSelection {
   BladeSweep sweep;
   double distance;
 };
-/// Cells that a mesh file marks: those with this value, or the value of this name, of its tags of that name.
+/// Cells that a mesh file marks: those with this value, or the value of this name, of the tags of that name.
 struct TagSelection {
   std::string tag;  // empty where the file has one kind of tag
   std::variant<std::int32_t, std::string> value;
 };
-/// `count` of those there are, drawn without replacement.
+/// `count` of the cells, drawn without replacement.
 struct RandomSelection {
   std::uint32_t count;
   std::uint64_t seed;
 };
 
-/// Where a cut reaches.
+/// The region that limits a cut.
 using CutRegion = std::variant<BoxSelection, SphereSelection, AroundSelection, PolygonSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection>;
 /// Vertices that are held: still, or along some axes.
@@ -72,11 +72,11 @@ bool contains(const BoxSelection& box, const Eigen::Vector3d& x, double thicknes
 bool contains(const PlaneSelection& plane, const Eigen::Vector3d& x, double thickness);
 bool contains(const SphereSelection& sphere, const Eigen::Vector3d& x, double thickness);
 bool contains(const AroundSelection& around, const Eigen::Vector3d& x, double thickness);
-/// By the parity of the sides that a ray crosses, so the polygon need not be convex.
+/// Decided by the parity of the sides that a ray crosses, so the polygon need not be convex.
 bool contains(const PolygonSelection& polygon, const Eigen::Vector3d& x, double thickness);
 bool contains(const CutRegion& region, const Eigen::Vector3d& x, double thickness);
 
-/// The numbers of the points in the selection at `path`, ascending, each once. The thickness of borders is theirs.
+/// The numbers of the points in the selection at `path`, ascending, each once. The points set the thickness of borders.
 ///
 /// throws  InputError "PATH/ids/1: ..." for an id that is no point
 std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::span<const Eigen::Vector3d> points,
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> select_points(const VertexSelection& selection, std::
 std::vector<HeldAxes> held_axes_of(std::span<const HeldSelection> selections, std::span<const Eigen::Vector3d> points,
                                    std::string_view path = "/fixed");
 
-/// The numbers of those centroids that are in a region, ascending; none for what names cells otherwise.
+/// The numbers of those centroids that are in a region, ascending; empty for a selection that is not a region.
 std::vector<std::uint32_t> cells_in(const CellSelection& selection, std::span<const Eigen::Vector3d> centroids,
                                     double thickness);
 

@@ -16,7 +16,7 @@
 namespace dartboard {
 namespace {
 
-// Triangles that are bent by more than this at rest are not meant to be flat; digits of a file may tilt them by less.
+// Triangles with a larger angle at rest are not meant to be flat; rounding to the digits of a file tilts them by less.
 constexpr double largest_tilt = 1e-6;
 
 [[noreturn]] void fail(const SceneFile& scene, std::string_view path, std::string_view found,
@@ -41,7 +41,7 @@ void require_diagonals(const SceneFile& scene, const Problem& problem) {
 
 void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
   const std::string found = fmt::format("is {} N m", scene.bending.rigidity);
-  // of the first face met at an edge, the direction away from the edge
+  // by edge: the direction away from it in the first face met
   std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3d> away_from;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     if (mesh.kinds[c] != CellKind::triangle)

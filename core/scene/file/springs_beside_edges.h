@@ -1,5 +1,5 @@
 #pragma once
-// Whether the cells of a scene can have the springs and the bending that no edge stands for (section 3.1).
+// The check that the cells of a scene can have springs and bending that no edge stands for (section 3.1).
 
 #include <cstdint>
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace dartboard {
 
-/// throws  InputError "FILE: /diagonals: ..." where no cell of springs has such diagonals; "FILE: /bending...: ..." for a
-///         solid, and beside a rigidity for other cells than triangles and for a surface that is not flat at rest
+/// throws  InputError "FILE: /diagonals: ..." if no cell of springs has such diagonals; "FILE: /bending...: ..." for a
+///         solid, and with a rigidity for cells other than triangles and for a surface that is not flat at rest
 void require_springs_beside_edges(const SceneFile& scene, const Problem& problem);
 
-/// The stiffness [N/m] of the edges of these cells with a Young's modulus, a mean as `mean_stiffness` has it, where
-/// they share it with diagonals.
+/// The stiffness [N/m] of the edges of these cells with a Young's modulus, a mean as in `mean_stiffness`, if the edges
+/// share it with diagonals.
 double mean_stiffness_beside(const Mesh& mesh, double young, std::span<const std::uint32_t> cells, Diagonals diagonals);
 
 }  // namespace dartboard

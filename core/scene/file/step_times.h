@@ -1,5 +1,5 @@
 #pragma once
-// From times to steps: which step boundary an event, a frame or the end falls on.
+// Conversion of times to steps: the step boundary on which an event, a frame or the end falls.
 
 #include <cmath>
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace dartboard {
 
 /// The n for which n * step is `time`, exactly or within 4 units of rounding.
 ///
-/// Time and step are decimals rounded to doubles, each by a factor within 1 + 2^-53, and so is their quotient: three
-/// roundings make a time that is n steps in decimals n (1 + 3 * 2^-53) at most, within the 2^-51 allowed here.
+/// Time and step are decimals rounded to doubles, each by a factor within 1 + 2^-53, and so is their quotient: after
+/// three roundings a time of n steps in decimals is at most n (1 + 3 * 2^-53), within the 2^-51 allowed here.
 /// pre  time >= 0, step > 0
 inline std::optional<std::uint64_t> step_at(double time, double step) {
   const double quotient = time / step, nearest = std::round(quotient);

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Builds the value and knows the path of where it is, which the library's own builder does not tell.
+/// Builds the value and keeps the path of the present place, which the library's own builder does not report.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(std::string_view text, std::string_view name) : text_(text), name_(name) {}
@@ -26,7 +26,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override { return put(value); }
   bool number_float(number_float_t value, const string_t&) override { return put(value); }
   bool string(string_t& value) override { return put(std::move(value)); }
-  bool binary(binary_t&) override { return false; }  // JSON has none
+  bool binary(binary_t&) override { return false; }  // JSON has no binary values
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open(Json::array()); }
@@ -41,7 +41,7 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override {
-    // `position` counts the characters read, the last of which is the one that does not fit
+    // `position` counts the characters read, the last of which is the wrong one
     const std::size_t at = std::min(position == 0 ? 0 : position - 1, text_.size());
     const std::string_view before = text_.substr(0, at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -92,7 +92,7 @@ class Builder : public nlohmann::json_sax<Json> {
   std::string_view text_, name_;
   Json root_;
   std::vector<Json*> stack_;        // the values that are open, outermost first
-  std::vector<std::string> steps_;  // how each but the first is reached from the one before
+  std::vector<std::string> steps_;  // the path from each open value to the next
   std::string key_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// JSON as written in RFC 8259 and no laxer: no comment, no duplicate key, no number that overflows.
+// A parser of JSON as strict as RFC 8259: no comments, no duplicate keys, no numbers that overflow.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
@@ -8,7 +8,7 @@ namespace dartboard {
 
 /// The value of a JSON text; members keep the order of the text.
 ///
-/// throws  InputError "NAME:LINE:COLUMN: ..." for what is not JSON, and "NAME: /path: ..." for a key that is given
+/// throws  InputError "NAME:LINE:COLUMN: ..." for text that is not JSON, and "NAME: /path: ..." for a key that is given
 ///         twice
 nlohmann::ordered_json parse_strict_json(std::string_view text, std::string_view name);
 

@@ -1,12 +1,12 @@
 #pragma once
-// Files that appear whole or not at all.
+// Writing of files that appear whole or not at all.
 
 #include <filesystem>
 #include <string_view>
 
 namespace dartboard {
 
-/// Write beside the place, then rename into it: who reads at any moment finds the old contents or the new.
+/// Write to a temporary file in the same folder, then rename it: a reader always finds the old contents or the new.
 ///
 /// throws  IoError if it cannot be written
 void write_whole(const std::filesystem::path& path, std::string_view contents);

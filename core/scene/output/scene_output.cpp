@@ -46,7 +46,7 @@ void require_whole(const fs::path& folder, const OutputSoFar& so_far, bool has_p
   if (has_probes) require_text(folder / "probes.csv", so_far.probes);
 }
 
-// The first of the files to be changed.
+// The list is the first of the files to be changed.
 PvdFile continued_list(const fs::path& folder, const OutputSoFar& so_far, bool has_probes) {
   require_whole(folder, so_far, has_probes);
   return {folder / "frames.pvd", so_far.frame_bytes.size(), so_far.list.bytes};
@@ -70,7 +70,7 @@ void TextSoFar::extend(const fs::path& file, std::uint64_t to) {
   while (bytes < to) {
     const auto wanted = static_cast<std::streamsize>(std::min<std::uint64_t>(to - bytes, block.size()));
     if (!in.read(block.data(), wanted)) throw IoError(fmt::format("{}: cannot be read", file.string()));
-    // FNV-1a byte by byte: the pieces that it is read in leave no trace
+    // FNV-1a byte by byte: the sizes of the pieces read have no effect
     for (std::streamsize k = 0; k < wanted; ++k)
       hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(k)])) * 0x100000001b3u;
     bytes += static_cast<std::uint64_t>(wanted);
@@ -84,7 +84,7 @@ SceneOutput::SceneOutput(FolderClaim claim, fs::path folder, OutputSoFar so_far,
       so_far_(std::move(so_far)) {
   cut(folder_ / "diagnostics.csv", so_far_.diagnostics.bytes, diagnostics_);
   if (!probes.empty()) cut(folder_ / "probes.csv", so_far_.probes.bytes, probes_);
-  std::error_code ignored;  // they are written again, or stay unlisted
+  std::error_code ignored;  // frames left over are written again, or stay unlisted
   for (std::size_t k = list_.size(); fs::remove(folder_ / frame_name(k), ignored); ++k) {
   }
 }

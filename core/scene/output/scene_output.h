@@ -1,5 +1,5 @@
 #pragma once
-// The files that a run leaves in its folder: frames, their list, and diagnostics.
+// The files that a run writes into its folder: frames, their list, and diagnostics.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace dartboard {
 
-/// A text file up to a byte: its length, and a hash of what it holds until there. It may have grown since.
+/// A text file up to a byte: this length, and a hash of the bytes until there. The file may have grown since.
 struct TextSoFar {
   std::uint64_t bytes = 0, hash = 0xcbf29ce484222325u;
 
@@ -30,7 +30,7 @@ struct TextSoFar {
   }
 };
 
-/// What a run has written until a checkpoint.
+/// The output that a run has written until a checkpoint.
 struct OutputSoFar {
   std::vector<std::uint64_t> frame_bytes{};   // the length of each frame
   TextSoFar list{}, diagnostics{}, probes{};  // of frames.pvd: up to the end of its last entry
@@ -41,7 +41,7 @@ struct OutputSoFar {
 };
 
 /// frame_000000.vtu, frame_000001.vtu ..., frames.pvd and diagnostics.csv; probes.csv where there are probes. All of
-/// them are valid at any moment: frames appear whole, the list names only those that are there, rows are flushed one by
+/// them are valid at any moment: frames appear whole, the list names only existing frames, rows are flushed one by
 /// one.
 class SceneOutput {
  public:
@@ -54,11 +54,11 @@ class SceneOutput {
   /// be written again.
   ///
   /// throws  IoError if a frame or a part of a table is missing, or has been changed, or a file cannot be written.
-  ///         Everything is looked at before anything is changed
+  ///         Everything is checked before anything is changed
   SceneOutput(FolderClaim claim, std::filesystem::path folder, OutputSoFar so_far, std::span<const Probe> probes = {});
 
-  /// What there is now.
-  /// cost  reads what the tables have got since it was asked last
+  /// The output until now.
+  /// cost  reads what the tables have gained since the last call
   const OutputSoFar& so_far();
 
   /// throws  IoError if a file cannot be written (below too)

@@ -1,5 +1,5 @@
 #pragma once
-// The list of the frames of a run with their times, which ParaView plays.
+// The list of the frames of a run with their times, for ParaView.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +19,7 @@ struct FrameFile {
 class PvdFile {
  public:
   explicit PvdFile(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Go on with a list after so many of its entries, which end at that byte: what follows there is cut off.
+  /// Go on with a list after `size` entries, which end at byte `entries_end`: the rest of the file is cut off.
   /// throws  IoError if it cannot be written
   PvdFile(std::filesystem::path path, std::size_t size, std::uint64_t entries_end);
 

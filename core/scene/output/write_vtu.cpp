@@ -20,7 +20,7 @@ static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
 
 struct VtkCell {
   std::uint8_t type;
-  std::array<std::size_t, 8> order;  // which node of ours each point of VTK's is
+  std::array<std::size_t, 8> order;  // for each point in VTK's order, our node
 };
 
 VtkCell vtk_cell(CellKind kind) {

@@ -12,7 +12,7 @@
 namespace dartboard {
 namespace {
 
-/// Cells that a selection takes at rest.
+/// The number of cells in a selection at rest.
 double selected(const CellSelection& selection, const Mesh& mesh) {
   return std::visit(
       [&mesh](const auto& s) -> double {
@@ -29,7 +29,7 @@ double selected(const CellSelection& selection, const Mesh& mesh) {
       selection);
 }
 
-// Between the centroids of the two cells of a face is about where the face is.
+// A face lies about midway between the centroids of its two cells.
 double facets_of(const Dissociate& cut, const Mesh& mesh, const MeshTally& counts) {
   if (const auto* faces = std::get_if<0>(&cut.faces)) return static_cast<double>(faces->size());
   const double thickness = border_thickness(mesh.points);
@@ -60,7 +60,7 @@ void for_each_time(const SceneEvent& event, const SceneFile& scene, F&& f) {
   }
 }
 
-/// What of an event's cells there is each time: a region is empty after the first.
+/// Does a selection find cells each time? A region is empty after the first time.
 bool repeats(const CellSelection& selection) { return std::holds_alternative<RandomSelection>(selection); }
 
 }  // namespace
@@ -70,7 +70,7 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
   auto left = static_cast<double>(counts.cells);
   for (const SceneEvent& event : scene.events) {
     EventForecast f;
-    // counted and not enumerated where there are many
+    // many times are counted, not enumerated
     constexpr double many = 1e5;
     const double every = event.every ? std::max(*event.every, scene.step) : scene.step;
     if (const double times = (event.until - event.from) / every; times > many)
@@ -118,7 +118,7 @@ MeanSizes mean_sizes(const SceneFile& scene, const Mesh& mesh, const MeshTally& 
   const auto steps = static_cast<double>(step_count(scene));
   if (removed.empty() || steps == 0.0 || counts.cells == 0) return mean;
 
-  std::map<std::pair<std::uint32_t, bool>, double> edges;  // how many have so many cells, and are on the boundary
+  std::map<std::pair<std::uint32_t, bool>, double> edges;  // how many edges have (number of cells, on the boundary)
   for (std::size_t e = 0; e < counts.edges; ++e)
     edges[{counts.cells_of_edge[e], counts.edge_on_boundary[e] != 0}] += 1.0;
   const double around_vertex = static_cast<double>(mesh.nodes.size()) / static_cast<double>(counts.vertices);

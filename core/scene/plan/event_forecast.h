@@ -1,5 +1,5 @@
 #pragma once
-// What the events of a scene will do to a body, as far as their keys and its mesh say.
+// A forecast of the effect of a scene's events on a body, from their keys and its mesh.
 
 #include <vector>
 
@@ -9,8 +9,8 @@ namespace dartboard {
 
 std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& mesh, const MeshTally& counts);
 
-/// Removals at random leave an edge where some of its cells are left, and one more for each gap between them; what that
-/// comes to on average follows from how many cells an edge has. Other removals take cells with their share of the rest.
+/// Random removals keep an edge while some of its cells are left, and add one for each gap between them; the average
+/// follows from the number of cells of an edge. Other removals take cells with their share of the other parts.
 MeanSizes mean_sizes(const SceneFile& scene, const Mesh& mesh, const MeshTally& counts);
 
 }  // namespace dartboard

@@ -24,7 +24,7 @@ SceneFile with_events_held_back(SceneFile scene) {
 MemoryReport measured_memory(const SceneFile& scene) {
   Simulation simulation(with_events_held_back(scene));
   const bool solves = make_integrator(scene.integrator)->scheme().implicit;
-  // a step at rest has nothing to solve; some steps on there is
+  // the first steps from rest may have nothing to solve; a later one has
   constexpr int most_steps = 32;
   for (int k = 0; k < most_steps; ++k) {
     if (simulation.advance()) break;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Numbers tuples of points by when they are met first: a chain for each smallest point.
+/// Numbers tuples of points in the order in which they are met first: a chain for each smallest point.
 template <std::size_t n>
 class FirstMet {
  public:
@@ -68,7 +68,7 @@ MeshTally tally_of(const Mesh& mesh) {
     std::uint32_t cell, cells, corners;
   };
   std::vector<Facet> facets;               // by face of a solid, edge of a surface
-  std::vector<std::uint32_t> facet_edges;  // of each face of a solid the edges, 4 places each
+  std::vector<std::uint32_t> facet_edges;  // by face of a solid: its edges, 4 places each
   const auto meet_facet = [&t, &facets, &together](std::uint32_t number, std::uint32_t cell, std::size_t corners) {
     if (number == facets.size()) {
       facets.push_back({cell, 1, static_cast<std::uint32_t>(corners)});

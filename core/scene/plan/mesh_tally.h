@@ -1,5 +1,5 @@
 #pragma once
-// What a map of a mesh will consist of, counted from the mesh: no map is built.
+// The sizes that a map of a mesh will have, counted from the mesh: no map is built.
 
 #include <array>
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace dartboard {
 /// The counts of the map of a mesh, and its edges by the numbers that a body will give them.
 ///
 /// Bodies number vertices and edges by their lowest dart (`build_body`), and darts are made cell by cell in the order
-/// of `faces_of`: so these numbers are those of a first meeting. Points and pairs of them are counted:
-/// the mesh of a body has a point for each vertex (split_touching_points), and two edges between the same two are one
-/// here.
+/// of `faces_of`: so numbers follow the order of first appearance. Points and pairs of points are counted:
+/// the mesh of a body has a point for each vertex (split_touching_points), and two edges between the same two points
+/// are one here.
 struct MeshTally {
   std::size_t vertices = 0, edges = 0, faces = 0, cells = 0;  // cells: volumes, or the faces of a surface
   std::size_t darts = 0;
@@ -25,7 +25,7 @@ struct MeshTally {
 
   std::vector<std::uint32_t> point;                          // by vertex: its point of the mesh
   std::vector<SpringEnds> ends;                              // by edge
-  std::vector<std::uint32_t> cells_of_edge;                  // by edge: how many cells are around it
+  std::vector<std::uint32_t> cells_of_edge;                  // by edge: the number of cells around it
   std::vector<std::uint8_t> edge_on_boundary;                // by edge
   std::vector<std::array<std::uint32_t, 2>> cells_of_facet;  // of those between two cells
 };

@@ -22,7 +22,7 @@
 namespace dartboard {
 namespace {
 
-/// Is this the value that the key has when it is left out?
+/// Is this the default value of the key?
 bool is_default(Shape shape, std::string_view key, const nlohmann::json& value) {
   for (const SceneKey& k : scene_keys())
     if (k.shape == shape && k.name == key) return !k.standard.empty() && nlohmann::json::parse(k.standard) == value;
@@ -162,7 +162,7 @@ class Planner {
       leave_out("velocities given in every step, and their work", "/driven: none");
       return;
     }
-    // what is driven is looked up as it will be, by the points of the mesh
+    // driven vertices are looked up as in the run, by the points of the mesh
     DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
     SystemArrays arrays(problem_, plan_.needs.body);
     vertices.apply(0, plan_.counts.point, arrays.v);
@@ -272,7 +272,7 @@ class Planner {
     if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
     ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
-    // the body without what may touch at the start
+    // the body without contacts, which may exist at the start
     SpringSystem alone = arrays.system();
     alone.terms = arrays.body().terms_but_contact(alone.terms);
     const StableStep limits = StableStepEstimate().refresh(alone, arrays.x);

@@ -1,6 +1,6 @@
 #pragma once
-// The plan of a scene before anything runs: what will be there, which key asked for it, what it takes, and what no key
-// needs.
+// The plan of a scene before anything runs: what will be built, which key requires it, what it costs, and what no key
+// requires.
 
 #include <cstdint>
 #include <optional>
@@ -16,28 +16,28 @@
 
 namespace dartboard {
 
-/// One thing that will be there.
+/// One part that will be built.
 struct PlanItem {
   Part part;
   std::string what;       // "48 bytes of mass, position ... by vertex"
   std::string why;        // "/material/damping: 0.05"
   std::size_t bytes = 0;  // as Part says; of the built body (add_bytes)
   double ns = 0.0;        // per step, averaged over the run; an estimate (unit_costs.h)
-  double ns_below = 0.0;  // where it was too little to be measured: it is less than this, and ns is 0
+  double ns_below = 0.0;  // if the time was too short to be measured: it is less than this, and ns is 0
   std::size_t event = 0;  // of Part::event: which one
 };
 
-/// One thing that will not, because no key needs it.
+/// One part that will not be built, because no key requires it.
 struct LeftOut {
   std::string what, why;
 };
 
-/// How often an event will happen, and what it does to the body as far as its key says: cells drawn or in a region at
-/// rest, faces named or across a plane at rest. What stress tears is not known.
+/// How often an event will happen, and its effect on the body as far as its key determines it: cells drawn or in a
+/// region at rest, faces named or across a plane at rest. The effect of tearing by stress is not known.
 struct EventForecast {
   std::uint64_t times = 0;
   double operations = 0.0;       // in all
-  double with_operations = 0.0;  // times that do something
+  double with_operations = 0.0;  // number of times with an operation
 };
 
 /// Sizes of the body over those at the start, averaged over the steps of the run.
@@ -45,13 +45,13 @@ struct MeanSizes {
   double springs = 1.0, vertices = 1.0, cells = 1.0;
 };
 
-/// What contact will be like, as far as that can be known before anything moves.
+/// The contact expected before anything moves.
 struct ContactPlan {
   std::vector<ContactForecast> obstacles;  // in the order of the scene
   std::vector<TouchForecast> touches{};    // a row for each key that lets bodies touch
-  double share = 0.0;         // of the depths of their laws, that the following is meant for: the largest expected
+  double share = 0.0;         // the largest expected depth over that of its law; the next rates and steps are for it
   double body_rate = 0.0;     // [1/s] an upper bound of the highest frequency of the body alone
-  double contact_rate = 0.0;  // [1/s] what contacts as deep as that add, as a root of a sum of squares
+  double contact_rate = 0.0;  // [1/s] the contribution of contacts that deep, as a root of a sum of squares
   double body_step = 0.0;     // [s] the longest stable step of the body alone; infinite of an implicit method
   double stable_step = 0.0;   // [s] with such contacts
 };
@@ -68,8 +68,8 @@ struct ScenePlan {
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
   std::vector<SelectionCount> selections;  // cuts among them, last
-  std::vector<std::string> remarks;        // what the mesh and the selections do that one may not have meant
-  MemoryReport unplanned;                  // parts with bytes that no item names: none, if the plan is right
+  std::vector<std::string> remarks;        // effects of the mesh and the selections that may not be intended
+  MemoryReport unplanned;                  // parts with bytes that no item names: empty, if the plan is right
 
   std::size_t bytes() const;
   double ns() const;

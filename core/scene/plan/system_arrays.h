@@ -1,5 +1,5 @@
 #pragma once
-// The spring system of a problem with a motion of its own: what plans calibrate and analyse.
+// The spring system of a problem with a motion of its own, which plans calibrate and analyse.
 
 #include <Eigen/Core>
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace dartboard {
 
-/// A body that nothing happens to, and positions and velocities that may be moved without it.
+/// A body that stays unchanged, and positions and velocities that may move without it.
 class SystemArrays {
  public:
   /// throws  InputError as make_simulated_body does
   explicit SystemArrays(const Problem& problem) : SystemArrays(problem, body_needs(problem, false)) {}
-  /// With what a scene needs beside the problem, but for a topology that changes.
+  /// With the needs of a scene in addition to those of the problem, except for changes of topology.
   SystemArrays(const Problem& problem, BodyNeeds needs) {
     needs.topology_changes = false;
     body_ = make_simulated_body(problem, needs);

@@ -44,7 +44,7 @@ std::string names_of_meshes(const SceneFile& scene) {
 
 }  // namespace
 
-// As it was read for the run, though the file may have changed since.
+// The hash of the mesh as it was read for the run; the file may have changed since.
 std::uint64_t Checkpoint::hash_of_mesh(const SceneFile& scene) {
   Hash hash;
   bool any = false;
@@ -108,7 +108,7 @@ Checkpoint::Difference Checkpoint::difference_of(const std::string& text) const 
 
 SceneFile Checkpoint::scene() const {
   const fs::path folder = origin_.folder;
-  // the path that it was given by may have been relative to another folder than ours
+  // the path given may have been relative to a folder other than the present one
   const fs::path path = folder / fs::path(origin_.file).filename();
   std::error_code error;
   const std::string now = fs::is_regular_file(path, error) ? contents_of(path, "a scene") : origin_.text;

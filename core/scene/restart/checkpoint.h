@@ -1,5 +1,5 @@
 #pragma once
-// The file that a run can be continued from: its scene, its state, and how far its output had got.
+// The file that a run can be continued from: its scene, its state, and the extent of its output.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace dartboard {
 /// The name of that file in the folder of a run.
 inline constexpr const char* checkpoint_name = "checkpoint";
 
-/// A binary file of numbers as this processor has them, after a word, an order of bytes and the number of this format,
-/// and before a hash of all of it.
+/// A binary file of numbers as this processor stores them, after a word, an order of bytes and the number of this
+/// format, and before a hash of all of it.
 ///
-/// A run that goes on from it has the bits of one that was never interrupted, if the program is the same one.
+/// A run that goes on from it has the bits of a run without interruption, if the program is the same.
 class Checkpoint {
  public:
   /// Write one, in place of the last at once. `notes` are the caller's own.
@@ -34,9 +34,9 @@ class Checkpoint {
   /// throws  IoError if it cannot be read, is of another kind or format, is cut short, or has been changed
   explicit Checkpoint(const std::filesystem::path& file);
 
-  /// The scene as it was run, or for longer where that is all that its file says now.
+  /// The scene as it was run, with a longer duration if that is the only change in its file.
   ///
-  /// throws  InputError if the file of the scene says something else now, or its mesh is another; IoError if its mesh
+  /// throws  InputError if the file of the scene has changed otherwise, or its mesh has changed; IoError if its mesh
   ///         cannot be read. A scene file that is gone is not needed
   SceneFile scene() const;
   std::uint64_t steps_done() const { return steps_done_; }
@@ -44,14 +44,14 @@ class Checkpoint {
   const OutputSoFar& output() const { return output_; }
   const std::string& notes() const { return notes_; }
 
-  /// Put a simulation of that scene into the state of the checkpoint. Once only.
+  /// Put a simulation of that scene into the state of the checkpoint; this can be done once only.
   ///
   /// pre     it has taken no step
-  /// throws  IoError if it is not the state of such a simulation; then this is no simulation to use
+  /// throws  IoError if it is not the state of such a simulation; then the simulation must not be used
   void load_into(Simulation& simulation);
 
  private:
-  /// Where a scene came from, and what was done to it since.
+  /// The origin of a scene, and what was done to it since.
   struct Origin {
     std::string file, folder, text, integrator;
     double step = 0.0;
@@ -63,12 +63,12 @@ class Checkpoint {
     }
   };
   static std::uint64_t hash_of_mesh(const SceneFile& scene);
-  /// How a scene differs from that of the run.
+  /// The difference of a scene from that of the run.
   enum class Difference { none, longer_duration, other };
   Difference difference_of(const std::string& text) const;
 
   std::filesystem::path file_;
-  std::unique_ptr<std::string> bytes_;  // `archive_` looks at them
+  std::unique_ptr<std::string> bytes_;  // `archive_` refers to them
   Archive archive_;
   Origin origin_;
   RunProgress progress_;

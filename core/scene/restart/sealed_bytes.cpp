@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view word = "dartboard checkpoint\n";
 constexpr std::uint32_t byte_order = 0x01020304;
-// another one for every change of what is stored, or of the order that it is stored in
+// to be increased with every change of what is stored, or of the order in which it is stored
 constexpr std::uint32_t format = 9;
 
 struct Head {

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes with a seal: what says that they are ours, whole and unchanged.
+// Bytes with a seal, which shows that they are ours, whole and unchanged.
 
 #include <string>
 #include <string_view>
@@ -9,9 +9,9 @@ namespace dartboard {
 /// A word, the order of bytes, the number of the format, the length, the bytes, and a hash of all that.
 std::string sealed(std::string_view bytes);
 
-/// The bytes in what `sealed` returned; `file` is what errors name.
+/// The bytes in the result of `sealed`; errors name `file`.
 ///
-/// throws  IoError if there is another word, another order of bytes or format, or another length or hash
+/// throws  IoError if the word, the order of bytes, the format, the length or the hash differs
 std::string_view unsealed(std::string_view whole, const std::string& file);
 
 }  // namespace dartboard

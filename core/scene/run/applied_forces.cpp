@@ -27,8 +27,8 @@ Vector3d area_vector(const Corners& corners, std::span<const Vector3d> points) {
   return twice / 2;
 }
 
-/// What a pressure acts on: the boundary faces of solid cells, turned outwards; of a surface all its faces, as given.
-/// visit(corners, area vector [m^2])
+/// The faces that a pressure acts on: the boundary faces of solid cells, turned outwards; all faces of a surface, as
+/// given. visit(corners, area vector [m^2])
 template <class Visit>
 void for_each_pressed_face(const Mesh& mesh, Visit&& visit) {
   struct Side {

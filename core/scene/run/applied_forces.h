@@ -1,5 +1,5 @@
 #pragma once
-// Forces from outside that a scene applies: which vertex feels what, and when.
+// The external forces that a scene applies: on which vertices, and when.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace dartboard {
 
 /// Applies and ends forces at step boundaries.
 ///
-/// A force keeps its direction, so it has a potential. It is kept as an acceleration of each vertex, whose parts share
-/// it in proportion to their masses when it comes apart: no cut changes the sum. What loses cells loses their share.
+/// A force keeps its direction, so it has a potential. It is stored as an acceleration of each vertex, whose parts
+/// share it in proportion to their masses: no cut changes the sum. A vertex that loses cells loses their share.
 class AppliedForces {
  public:
   AppliedForces() = default;
@@ -25,7 +25,7 @@ class AppliedForces {
   ///         facet of the boundary is selected or there are no facets
   AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step);
 
-  /// Set what is due after n steps.
+  /// Set the forces that are due after n steps.
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
   /// returns  whether any has begun or ended since the last call
@@ -34,7 +34,7 @@ class AppliedForces {
 
   std::size_t size() const { return forces_.size(); }
   std::size_t bytes() const;
-  /// Which of them act; what they do is in the scene.
+  /// Writes or reads which of the forces act; the forces themselves are in the scene.
   template <class Archive>
   void state(Archive& archive) {
     for (Force& force : forces_) archive(force.acts);

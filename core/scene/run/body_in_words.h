@@ -1,5 +1,5 @@
 #pragma once
-// A body in figures that a person can check against what was meant.
+// A body in figures that a person can compare with what was intended.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@ namespace dartboard {
 /// now.
 std::string in_words(const SimulatedBody& body);
 
-/// "vertex 12", by its number in the file of the mesh; "a vertex that refinement made" of no_point.
+/// "vertex 12", by its number in the file of the mesh; "a vertex that refinement made" for no_point.
 std::string vertex_in_words(std::uint32_t number);
 
 /// "36.6 tonnes", "2.5 kg", "40 g"

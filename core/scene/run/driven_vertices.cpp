@@ -67,7 +67,7 @@ bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point
       if (sign != 0.0) v = sign * drive.velocity[k];
     }
   };
-  // one may end where another takes over
+  // one drive may end where another begins
   for (Drive& drive : drives_)
     if (n >= drive.last) set(drive, 0.0);
   for (Drive& drive : drives_) {

@@ -1,5 +1,5 @@
 #pragma once
-// The vertices that a scene moves along a path of its own: which of them gets what velocity, and when.
+// The vertices that a scene moves along given paths: their velocities, and when they apply.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -43,7 +43,7 @@ class DrivenVertices {
     for (Drive& drive : drives_)
       if (drive.turn) drive.turn->extend();
   }
-  /// Where the drives are; which vertices they move, and how, is in the scene.
+  /// Writes or reads the progress of the drives; their vertices and velocities are in the scene.
   template <class Archive>
   void state(Archive& archive) {
     for (Drive& drive : drives_) {
@@ -59,7 +59,7 @@ class DrivenVertices {
     std::vector<Eigen::Vector3d> velocity;
     std::uint64_t first, last;       // steps that it starts and ends after
     std::optional<EventClock> turn;  // the boundaries where it is reversed
-    double sign = 0.0;               // of the velocity now; 0 for none
+    double sign = 0.0;               // of the present velocity; 0 at rest
   };
   void require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// When an event is due, in steps.
+// The times at which an event is due, in steps.
 
 #include <cstdint>
 #include <limits>
@@ -9,9 +9,9 @@
 
 namespace dartboard {
 
-/// The step boundaries at which an event happens: those of the times from, from + every, from + 2 every .. until, or
-/// without `every`, or where it is no longer than the step, all boundaries in between. Times between two boundaries
-/// belong to the later one.
+/// The step boundaries at which an event happens: those of the times from, from + every, from + 2 every .. until; or
+/// without `every`, or if it is no longer than the step, all boundaries in between. Times between two boundaries belong
+/// to the later one.
 class EventClock {
  public:
   /// pre  0 <= from <= until; every > 0
@@ -22,26 +22,26 @@ class EventClock {
 
   /// The next step boundary; `never` after the last.
   std::uint64_t next() const { return next_; }
-  /// [s] The time that `next` is the boundary for, where it is between two; none where it is on one, and after the
-  /// last.
+  /// [s] The time that `next` is the boundary for, if it lies between two boundaries; no value if it lies on one, and
+  /// after the last.
   std::optional<double> time_between() const {
     if (next_ == never || step_at(time_, step_)) return {};
     return time_;
   }
-  /// On from a time between two boundaries: to the next time, which is the boundary itself where it happens at all.
+  /// Advance from a time between two boundaries to the next time; without `every` that is the boundary itself.
   void advance_from_between() {
     if (every_) return advance();
     time_ = static_cast<double>(next_) * step_;
     if (next_ > step_until(until_, step_)) next_ = never;
   }
-  /// To the boundary after `next`.
+  /// Advance to the boundary after `next`.
   void advance() {
     if (!every_) {
       time_ = static_cast<double>(++next_) * step_;
       if (next_ > step_until(until_, step_)) next_ = never;
       return;
     }
-    // a product, not a sum, so that no rounding gathers
+    // a product, not a sum, so that rounding does not accumulate
     const double time = from_ + static_cast<double>(++count_) * *every_;
     next_ = time > until_ && !is_rounding_of_end(time) ? never : step_of_time(time, step_);
     time_ = time;
@@ -52,7 +52,7 @@ class EventClock {
     if (next_ == never && (time_ <= until_ || is_rounding_of_end(time_))) next_ = step_of_time(time_, step_);
   }
 
-  /// Where it is; its times are those of the scene.
+  /// Writes or reads the position of the clock; its times are those of the scene.
   template <class Archive>
   void state(Archive& archive) {
     archive(next_, count_, time_);

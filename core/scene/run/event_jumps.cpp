@@ -11,7 +11,7 @@ KeptSums kept_sums(const SimulatedBody& body) {
   const SpringSystem system = body.system();
   const VertexColumns& v = body.vertices();
   double size = 0.0;
-  // in extended precision: what is looked for is a share that went missing, and not the rounding of another order
+  // in extended precision: a missing share is to be found, and not the rounding by another order of summation
   long double mass = 0.0L, stiffness = 0.0L;
   for (std::size_t k = 0; k < v.size(); ++k) {
     size += v.mass[k] * v.velocity[k].norm();

@@ -1,5 +1,5 @@
 #pragma once
-// What an event that only dissociates must not change, measured on both sides of it.
+// The sums that an event which only dissociates must not change, measured before and after it.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace dartboard {
 
 /// Sums over a body that no dissociation changes.
 struct KeptSums {
-  double mass, stiffness;    // [kg] of all vertices, [N/m] of all springs: m = m1 + m2 and k = k1 + k2 where one parts
+  double mass, stiffness;    // [kg] of all vertices, [N/m] of all springs: m = m1 + m2 and k = k1 + k2 at each split
   double energy;             // [J] kinetic and elastic
   Eigen::Vector3d momentum;  // [kg m/s]
   double size_of_momentum;   // [kg m/s] the sum of m |v|
 };
 KeptSums kept_sums(const SimulatedBody& body);
 
-/// How much dissociations changed what they must not change: the largest over all events that only dissociate.
+/// The largest changes of these sums by events that only dissociate, over all such events.
 struct EventJumps {
   std::uint64_t events = 0;  // that dissociated
   double mass = 0.0;         // relative to the mass before
@@ -26,7 +26,7 @@ struct EventJumps {
   double momentum = 0.0;     // relative to the sum of m |v| before
   double energy = 0.0;       // kinetic and elastic, relative to their sum before
 
-  /// Another event. What is no number stays.
+  /// Add another event. A NaN stays.
   void add(const KeptSums& before, const KeptSums& after);
   template <class Archive>
   void state(Archive& archive) {
@@ -34,7 +34,7 @@ struct EventJumps {
   }
 };
 
-/// Apply an event to its body, and add what changed where it did anything.
+/// Apply an event to its body, and add the changes of the sums if it did anything.
 ///
 /// returns  operations, as ReadyEvent::apply
 std::size_t apply_watched(ReadyEvent& event, const SimulatedBody& body, EventJumps& jumps);

@@ -10,7 +10,7 @@
 namespace dartboard {
 namespace {
 
-// A cell of each kind in no special position, in the node order of faces_of: what holds for it holds for almost all.
+// A cell of each kind in general position, in the node order of faces_of: its result holds for almost all cells.
 std::vector<Eigen::Vector3d> sample(CellKind kind) {
   std::vector<Eigen::Vector3d> nodes;
   for (const auto& [x, y, z] : std::array<std::array<double, 3>, 8>{{{0, 0, 0},

@@ -25,7 +25,7 @@ std::uint32_t vertex_of(const Probe& probe, const VertexColumns& v) {
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t k = 0; k < v.size(); ++k) {
     const double far = (v.position[k] - std::get<Eigen::Vector3d>(probe.vertex)).squaredNorm();
-    // of several, the lowest point of the mesh: vertices are numbered in another order
+    // at equal distances the lowest point of the mesh: vertices are numbered in another order
     if (far < least || (far == least && v.point[k] < lowest)) {
       best = k;
       least = far;
@@ -33,7 +33,7 @@ std::uint32_t vertex_of(const Probe& probe, const VertexColumns& v) {
     }
   }
   if (lowest == no_point) throw InputError(probe.path + "/near: the body has no vertex; expected one");
-  // farther away than the body is large it is another place that is meant
+  // a distance above the size of the body means that another place was intended
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& x : v.position) box.extend(x);
   const double size = box.diagonal().norm();

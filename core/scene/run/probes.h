@@ -16,7 +16,7 @@ struct VertexMotion {
   Eigen::Vector3d position, velocity;  // [m], [m/s]
 };
 
-/// All probes at a moment; nothing for those whose vertex has been removed.
+/// All probes at a moment; no value for those whose vertex has been removed.
 struct ProbeRow {
   double time = 0.0;  // [s]
   std::vector<std::optional<VertexMotion>> probes;

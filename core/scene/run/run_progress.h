@@ -1,5 +1,5 @@
 #pragma once
-// What a run remembers of what it has handed out: all of its summary that is not in its last state.
+// The record of what a run has handed out: all of its summary that is not in its last state.
 
 #include <cmath>
 
@@ -27,7 +27,7 @@ class EnergyDrift {
   double start_ = 0.0, change_ = 0.0, size_ = 0.0;
 };
 
-/// Of rows and frames that were due; those that only an interruption handed out do not count.
+/// The progress in rows and frames that were due; those handed out only because of an interruption do not count.
 struct RunProgress {
   Diagnostics first, last;
   EnergyDrift drift;

@@ -170,7 +170,7 @@ void SceneContact::undo(double time, Motion motion) {
   if (undoes_) std::ranges::copy(kept_v_, motion.v.begin());
 }
 
-/// The deepest over what its law allows.
+/// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
   ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
   double most = 1.0;
@@ -235,13 +235,13 @@ void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   warnings_.back().samples = lost.size();
 }
 
-/// The deepest over what its law allows.
+/// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
   if (has_told(Kind::too_deep, true)) return;
   double most = 1.0;
   std::optional<ContactWarning> worst;
-  // looking for the lost has found them already
+  // the search for samples out of reach has found them already
   for (const BodyTouch& touch :
        has_told(Kind::out_of_reach, true) ? bodies_->touching({x}) : bodies_->found_touching()) {
     const double allowed = bodies_->laws()[touch.law].depth;
@@ -253,7 +253,7 @@ void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3
   if (worst) warnings_.push_back(std::move(*worst));
 }
 
-// No two places move faster relative to each other than the corners of a box that holds all velocities.
+// The relative speed of two places is at most that between opposite corners of a box around all velocities.
 void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<const Vector3d> v) {
   if (v.empty()) return;
   Vector3d low = v[0], high = v[0];

@@ -1,5 +1,5 @@
 #pragma once
-// The contact of a run with obstacles and between bodies: what is done around each step, and what is found out on the
+// The contact of a run with obstacles and between bodies: the work around each step, and the warnings found on the
 // way.
 
 #include <Eigen/Core>
@@ -18,22 +18,22 @@
 
 namespace dartboard {
 
-/// Something about a contact that a user should know. Each kind is told once, where it is found first.
+/// Something about a contact that a user should know. Each kind is reported once, where it is found first.
 struct ContactWarning {
   enum class Kind : std::uint8_t {
-    starts_inside,  // value: how deep [m]; `samples` places do
+    starts_inside,  // value: how deep [m]; `samples` places are inside
     too_deep,       // value: the depth [m]; limit: that of the law
-    too_fast,       // value: the way in one step relative to the obstacle [m]; limit: half of what is least thick
-    will_be_fast,   // the same by the speeds that are expected, before the run; no sample
-    out_of_reach,   // a sample is so far in a body that no way out is found: it feels nothing; value: a depth [m] that
-                    // it had before, or 0; `samples` are
+    too_fast,       // value: the way in one step relative to the obstacle [m]; limit: half of the least thickness
+    will_be_fast,   // the same for the expected speeds, before the run; without a sample
+    out_of_reach,   // a sample is so deep in a body that no way out is found: it has no contact; value: a depth [m]
+                    // that it had before, or 0; `samples` places are so deep
   };
   Kind kind{};
   bool of_bodies = false;      // not with an obstacle
   double time = 0.0;           // [s]
   std::uint32_t obstacle = 0;  // of the scene
-  std::uint32_t from = 0;      // the body that comes in
-  std::uint32_t into = 0;      // which; of what is too fast, both are 0 where that is not known
+  std::uint32_t from = 0;      // the body that enters
+  std::uint32_t into = 0;      // the body that is entered; for too_fast, both are 0 where they are not known
   std::uint64_t samples = 1;
   std::vector<std::uint32_t> nodes;  // of the sample: one vertex, or the corners of a face
   double value = 0.0, limit = 0.0;
@@ -43,46 +43,46 @@ struct ContactWarning {
     archive(kind, of_bodies, time, obstacle, from, into, samples, nodes, value, limit);
   }
 };
-/// "at t = 0.12 s: vertex 5 is 0.003 m inside /contact/obstacles/0, deeper than the 0.002 m of its law"; paths of the
-/// obstacles and of the bodies.
+/// "at t = 0.12 s: vertex 5 is 0.003 m inside /contact/obstacles/0, deeper than the 0.002 m of its law"; `obstacles`
+/// and `bodies` are their paths.
 std::string to_string(const ContactWarning& warning, std::span<const std::string> obstacles,
                       std::span<const std::string> bodies);
 
 /// Wraps each step of any integrator: ContactImpulses::begin, the step, ContactImpulses::end.
 class SceneContact {
  public:
-  /// Of both terms, or of one: the other is null. `undoes`: a step may have to be taken back, for which velocities are
-  /// kept.
+  /// The contact of both terms, or of one if the other is null. `undoes`: a step may have to be taken back, for which
+  /// velocities are kept.
   /// pre  the contacts live as long as this
   SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes);
 
-  /// Look for what starts inside, and for what will be too fast for steps of h [s].
+  /// Find samples that start inside, and speeds that will be too high for steps of h [s].
   void start(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected,
              std::span<const TouchForecast> expected_touches, double h);
   /// The system has other parts than before, or other tetrahedra along its boundary at these places.
   void system_changed(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
-  /// After its state has been read, for a body at these places.
+  /// Continue after the state has been read, for a body at these places.
   void resume(std::span<const Eigen::Vector3d> x);
 
-  /// Before a step from `time` [s] of length h [s]: true if the integrator has to forget what it remembers.
+  /// To be called before a step from `time` [s] of length h [s]: true if the integrator has to be restarted.
   bool begin(double time, double h, const SpringSystem& system, Motion motion);
-  /// After it, the same.
-  /// cost  O(samples), and O(vertices) beside balls, blocks and bodies until what moves too fast for them is found
+  /// To be called after the step; returns the same.
+  /// cost  O(samples), and with balls, blocks or bodies O(vertices) until a vertex that is too fast for them is found
   bool end(double time, double h, const SpringSystem& system, Motion motion);
-  /// In place of `end`, where the step was not taken: all is as it was before `begin`.
+  /// To be called in place of `end` if the step was not taken: restores the state before `begin`.
   void undo(double time, Motion motion);
-  /// Obstacles to where they are at a time, for a body that has gone back to its state there.
+  /// Move obstacles to their places at a time, for a body that has gone back to its state at that time.
   void go_to(double time) {
     if (obstacles_ != nullptr) obstacles_->place_at(time);
   }
 
-  /// Work done on the body since this was asked last [J].
+  /// Work done on the body since the last call [J].
   double new_work();
 
   ContactDiagnostics diagnostics(std::span<const Eigen::Vector3d> x) const;
   const std::vector<ContactWarning>& warnings() const { return warnings_; }
-  /// Null where there is none.
+  /// Null without obstacles.
   const ObstacleContact* obstacles() const { return obstacles_; }
   const BodyContact* bodies() const { return bodies_; }
   std::size_t bytes() const;

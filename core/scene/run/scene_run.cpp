@@ -8,7 +8,7 @@
 namespace dartboard {
 namespace {
 
-/// The state after the last step that was taken: to whom it has not been due.
+/// Hands out the state after the last step taken in every form in which it has not been due.
 void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
                        const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunProgress& progress) {
   const std::uint64_t n = simulation.steps_done();
@@ -22,7 +22,7 @@ void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
   if (lacks(probe_steps)) watcher.probes(simulation.probes());
 }
 
-/// The last good state of a motion that has diverged, unless it was handed out, or one after it, or it is none.
+/// Hands out the last good state of a diverged motion, unless it or a later one was handed out, or it is not finite.
 void hand_out_what_is_kept(const Simulation& simulation, const RunProgress& progress, RunWatcher& watcher) {
   if (!is_finite(progress.last)) return;
   if (simulation.time() > progress.frame_time) watcher.frame(simulation.frame());
@@ -83,7 +83,7 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     if (due(probe_steps)) watcher.probes(simulation.probes());
     if (result.interrupted || (plan.checkpoint_steps && (n == end || n % *plan.checkpoint_steps == 0)))
       watcher.checkpoint(simulation, progress);
-    // a run that ends here for now hands out what a continued one will not
+    // a run that ends here for now hands out a state that its continuation will not
     if (!is_over && (n == end || result.interrupted))
       hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
     watcher.stepped(simulation);

@@ -14,7 +14,7 @@ namespace dartboard {
 std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::uint32_t vertex) {
   if (vertex == SimulatedBody::no_vertex) return {};
   const SpringSystem system = body.system();
-  // a spring is an edge of the map, and whatever is connected is so along edges
+  // a spring is an edge of the map, and connected vertices are connected along edges
   DisjointSets parts(system.mass.size());
   for (const SpringEnds& ends : system.ends) parts.join(ends[0], ends[1]);
   for (const ForceTerm* term : system.terms)
@@ -48,7 +48,7 @@ std::vector<ExpectedRow> compare_with_expectation(const SceneFile& scene, const 
                     fmt::format("{}", counts.components), counts.components >= *expect.components_at_least});
   count("operations", expect.operations, simulation.operations());
   if (expect.mass) {
-    // the cells' and the vertices', which a dissociation shares out: the one that is farther off is told
+    // the masses of the cells and of the vertices, which a dissociation shares out: the worse one is reported
     const double of_cells = simulation.body().mass(), shared = kept_sums(simulation.body()).mass;
     const double mass = std::abs(of_cells - *expect.mass) >= std::abs(shared - *expect.mass) ? of_cells : shared;
     const double tolerance =

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene expects of its own end, beside what came out.
+// The expectations of a scene about its end, compared with the result.
 
 #include <optional>
 #include <string>
@@ -14,7 +14,7 @@ struct ExpectedRow {
   bool holds;
 };
 
-/// The centre of mass of all that hangs together with a vertex; nothing for one that has been removed.
+/// The centre of mass of the component of a vertex; no value for a vertex that has been removed.
 std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::uint32_t vertex);
 
 /// One row for each expectation of the scene, in the order of the reference page.

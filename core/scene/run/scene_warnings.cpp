@@ -18,7 +18,7 @@ std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene)
                      scene.accuracy ? "'step' in place of /accuracy" : "/step", warning.stable);
 }
 
-/// Of what stress tears: how far from that it is.
+/// For tearing by stress: how far the stress is from the threshold.
 std::string why_idle(const std::string& path, const SceneFile& scene, const Simulation& simulation) {
   for (const SceneEvent& event : scene.events)
     if (const auto* tear = std::get_if<TearWhereStressed>(&event.action); tear != nullptr && event.path == path)
@@ -47,7 +47,7 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
     if (count.just_outside > 0) said.push_back(near_miss(count));
   const std::string shapes = free_shapes_of(simulation.cells_of_springs(), scene.diagonals);
   if (!shapes.empty()) said.push_back(shapes);
-  // an event that was due at the start may have its time yet
+  // an event that was due at the start may still have an effect
   if (simulation.steps_done() == 0 && simulation.step_count() > 0) return said;
   for (const std::string& path : simulation.idle_events())
     said.push_back(fmt::format("the event at {} never did anything{}", path, why_idle(path, scene, simulation)));
@@ -62,7 +62,7 @@ std::string step_in_words(const Simulation& simulation, const SceneFile& scene) 
   if (!std::isfinite(longest)) return "every step is stable";
   const std::uint64_t parts = simulation.step_warning() ? simulation.step_warning()->parts : 1;
   const double share = simulation.step() / static_cast<double>(parts) / longest;
-  // to as many digits as tell it from the longest
+  // with enough digits to distinguish it from the longest
   const std::string digits = std::abs(share - 1.0) < 0.05 ? fmt::format("{:.4g}", share) : fmt::format("{:.2g}", share);
   return parts > 1 ? fmt::format("taken in {} parts, each {} of the longest stable step", parts, digits)
                    : fmt::format("{} of the longest stable step", digits);

@@ -1,5 +1,5 @@
 #pragma once
-// What a run is warned of: one list, in words, each with the key that helps.
+// The warnings of a run: one list, in words, each with the key that helps.
 
 #include <string>
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace dartboard {
 
-/// All that can be said so far: of the scene before the first step, and of what happened since.
+/// All warnings so far: about the scene before the first step, and about what happened since.
 std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& simulation);
 
-/// How the step of a run compares with what moves in it: "0.12 of the longest stable step" of an explicit method;
-/// "motions faster than 16 Hz are not resolved" of an implicit one, for which every step is stable.
+/// The step of a run compared with its motions: "0.12 of the longest stable step" for an explicit method;
+/// "motions faster than 16 Hz are not resolved" for an implicit one, for which every step is stable.
 std::string step_in_words(const Simulation& simulation, const SceneFile& scene);
 
 }  // namespace dartboard

@@ -24,7 +24,7 @@
 namespace dartboard {
 namespace {
 
-// A step divided into more parts than this is a mistake in a unit.
+// More parts of a step than this are a mistake in a unit.
 constexpr double most_parts = 1e6;
 
 double settled_step(const SceneFile& scene) {
@@ -35,7 +35,7 @@ double settled_step(const SceneFile& scene) {
   return scene.step;
 }
 
-/// The key that a body cannot be made for: with its default in its place there would be one.
+/// The key because of which a body cannot be made: with its default it could be.
 std::string key_without_body(const SceneFile& scene, const Problem& problem) {
   SceneFile unmoved = scene, unscaled = scene, ordinary = scene;
   unmoved.body.translate.setZero();
@@ -166,7 +166,7 @@ std::optional<Divergence> Simulation::advance() {
   const auto stress_failure = [&](const SolverError& error) {
     const auto* stress = dynamic_cast<const StressError*>(&error);
     Divergence d = failure("stress", stress ? stress->vertex : 0, body_->largest_stress());
-    // what events of this step have changed is not what the state kept was of
+    // the kept state is that of the system before the events of this step
     if (operations_ == operations) d.taken_back = go_back();
     return d;
   };
@@ -187,7 +187,7 @@ std::optional<Divergence> Simulation::advance() {
   }
   if (result.ok() && done_ == step_count_) result = detector_.check_all(body_->system(), body_->motion());
   if (!result.ok()) return failure(detector_.with_witness(result, body_->system(), body_->motion()));
-  // what is too fast for physics is as finite as ever: it is looked for where energy is
+  // a speed above that of light is finite: it is checked whenever the energy is
   if (detector_.checks() != checks)
     if (auto found = diverged()) {
       found->taken_back = go_back();
@@ -204,7 +204,7 @@ std::optional<Divergence> Simulation::advance() {
   } catch (const SolverError& error) {
     return stress_failure(error);
   }
-  // no other step will look at what events leave at the end
+  // no other step will check the state after events at the end
   if (done_ == step_count_) return start_failure();
   return {};
 }
@@ -214,7 +214,7 @@ std::optional<Divergence> Simulation::start_failure() {
   return failure(detector_.with_witness(start_, body_->system(), body_->motion()));
 }
 
-// What the close look needs is let go: it is taken at the start and after events only.
+// The memory of the close estimate is freed: it is made at the start and after events only.
 StableStep Simulation::look_closely() const {
   const StableStep limits = StableStepEstimate().refresh(body_->system(), body_->vertices().position);
   if (!contact_) return limits;
@@ -243,7 +243,7 @@ void Simulation::look_at_step() {
   if (!warning_) warning_ = StepWarning{done_, stable_, parts_, is_limited_by_contact()};
 }
 
-// Of the squares that add up to that of the highest frequency, contact has more than half.
+// Contact contributes more than half of the squares that add up to that of the highest frequency.
 bool Simulation::is_limited_by_contact() const {
   if (!contact_) return false;
   const double rate = contact_rate(body_->system(), contact_->obstacles(), contact_->bodies(), expected_share_);
@@ -290,14 +290,14 @@ Divergence Simulation::failure(const StepResult& result) {
   return d;
 }
 
-// To the state kept last; a step that the integrator could not take is one that the detector has not seen.
+// Go back to the state kept last; the detector has not checked a step that the integrator could not take.
 std::uint64_t Simulation::go_back() {
   taken_back_ = done_ - watched_ + detector_.restore(body_->motion());
   if (contact_) contact_->go_to(time());
   return taken_back_;
 }
 
-/// In parts none of which is longer than those of a whole step, to rounding.
+/// Integrates in parts that are not longer than those of a whole step, to rounding.
 StepResult Simulation::integrate(double from, double duration) {
   double parts = static_cast<double>(parts_);
   if (duration != step_) parts = std::max(1.0, std::ceil(parts * (duration / step_) * (1.0 - 0x1p-50)));
@@ -327,7 +327,7 @@ StepResult Simulation::step_with_contact(double from, double duration) {
   return result;
 }
 
-/// A step in parts, from one event within it to the next.
+/// Takes a step in parts, from one event within it to the next.
 StepResult Simulation::step_through_events() {
   const double end = static_cast<double>(done_ + 1) * step_;
   double now = static_cast<double>(done_) * step_;
@@ -359,7 +359,7 @@ void Simulation::happen() {
   }
 }
 
-/// Those between two boundaries.
+/// Applies the events between two boundaries.
 void Simulation::happen_until(double time) {
   for (Scheduled& scheduled : events_) {
     const auto due = scheduled.clock.time_between();
@@ -369,7 +369,7 @@ void Simulation::happen_until(double time) {
   }
 }
 
-// An event may throw: what those before it have done counts, and the integrator has to know.
+// An event may throw: the changes by earlier events count, and the integrator has to be restarted.
 void Simulation::apply(Scheduled& scheduled) {
   const std::size_t made =
       watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, *body_, jumps_) : scheduled.event->apply();
@@ -401,7 +401,7 @@ std::optional<Divergence> Simulation::diverged() const {
   const VertexColumns& v = body_->vertices();
   if (all_slower(v.velocity, speed_of_light)) return {};
   for (std::uint32_t k = 0; k < v.size(); ++k) {
-    // a comparison that a number that is not finite fails
+    // NaN and infinity fail this comparison
     if (v.velocity[k].squaredNorm() <= speed_of_light * speed_of_light) continue;
     for (int i = 0; i < 3; ++i)
       if (!std::isfinite(v.velocity[k][i])) return failure("velocity", k, v.velocity[k][i]);

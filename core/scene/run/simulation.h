@@ -29,25 +29,25 @@
 
 namespace dartboard {
 
-/// Why a run had to stop: the motion is no longer one, or the scene refuses its step.
+/// The reason why a run had to stop: the motion is no longer valid, or the scene refuses its step.
 struct Divergence {
-  std::uint64_t step = 0;    // the one that failed
+  std::uint64_t step = 0;    // the step that failed
   double time = 0.0;         // [s] at its end
   std::string quantity;      // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;  // its number in the file of the mesh, or no_point
   double value = 0.0;
-  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest that is stable
-  std::uint64_t taken_back = 0;  // steps that the body has gone back by
+  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest stable step
+  std::uint64_t taken_back = 0;  // number of steps that the body has gone back
 };
 /// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
 std::string to_string(const Divergence& divergence);
 
 /// A step that is too long to be stable, found before the first step or after an event.
 struct StepWarning {
-  std::uint64_t step = 0;   // after this many
-  double stable = 0.0;      // [s] the longest step that is
+  std::uint64_t step = 0;   // found after this many steps
+  double stable = 0.0;      // [s] the longest stable step
   std::uint64_t parts = 1;  // that each step is divided into
-  bool by_contact = false;  // contacts as deep as is expected limit it, more than the body does
+  bool by_contact = false;  // contacts of the expected depth limit the step, more than the body does
   template <class Archive>
   void state(Archive& archive) {
     archive(step, stable, parts, by_contact);
@@ -56,15 +56,15 @@ struct StepWarning {
 /// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
 std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
 
-/// Is every vertex certainly slower? By the sum of the squares, which what is not a number does not pass.
+/// Is every vertex certainly slower? Decided by the sum of the squares; false if a velocity is NaN.
 bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
-/// What is due at a step boundary happens before the state there is looked at: at the start by the constructor, then at
-/// the end of each step.
+/// Events that are due at a step boundary happen before the state there is examined: at the start in the constructor,
+/// then at the end of each step.
 class Simulation {
  public:
-  /// throws  InputError naming the path of the key for a scene that its mesh does not fit, or that asks for an accuracy
-  ///         and has not been given a step and an integrator, whose step is too long where it refuses one that is, or
+  /// throws  InputError naming the path of the key for a scene that its mesh does not fit, that asks for an accuracy
+  ///         and has not been given a step and an integrator, that refuses unstable steps and has too long a step, or
   ///         whose numbers are too large to move; IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
   ~Simulation();
@@ -82,80 +82,80 @@ class Simulation {
   ///
   /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
   /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
-  /// looked for in every sixteenth step at least, in the first and the last), or when a stress that an event asks for
-  /// is not finite. The body then goes back to the state kept last, which is that of the start, after the last event,
-  /// or a later one whose energy could be explained: `taken_back` says how far back that is. Where another event of the
-  /// same step has changed the body already, and where the start is no state, there is none to go back to.
-  /// `unstable_step` says what is done about a step that is too long.
+  /// checked at least in every sixteenth step, in the first and in the last), or when a stress that an event asks for
+  /// is not finite. The body then goes back to the state kept last, which is that of the start, that after the last
+  /// event, or a later one whose energy could be explained: `taken_back` gives the number of steps. If another event of
+  /// the same step has changed the body already, or the state at the start is not valid, there is no state to go back
+  /// to. `unstable_step` decides the treatment of a step that is too long.
   std::optional<Divergence> advance();
-  /// What is wrong with the state at the start, which `advance` says too: for a scene of no steps.
+  /// The failure of the state at the start, which `advance` reports too: for a scene without steps.
   std::optional<Divergence> start_failure();
 
-  /// What limits the step, as it was found at the start or after the last event: only a quick bound, where by that the
-  /// step is stable.
+  /// The limits of the step, found at the start or after the last event: only a quick bound, if the step is stable by
+  /// that bound.
   const StableStep& stable_step() const { return limits_; }
-  /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps go by; see
-  /// StableStep::limit.   cost  a close look: a hundred force evaluations
+  /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps use; see
+  /// StableStep::limit.   cost  a close estimate: a hundred force evaluations
   StepLimit step_limit() const;
-  /// The first step found too long, and how it is divided now.
+  /// The first step found to be too long, and how steps are divided since.
   const std::optional<StepWarning>& step_warning() const { return warning_; }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
-  /// What else can be said of the run before its first step: springs of no length, denormal numbers, steps that
-  /// rounding loses (check_before_run). That a stable step does not resolve the fastest motions is true of most sound
-  /// runs, and no warning.
+  /// The other warnings before the first step: springs of zero length, denormal numbers, steps that rounding loses
+  /// (check_before_run). That a stable step does not resolve the fastest motions is not a warning here: it holds for
+  /// most sound runs.
   std::span<const StepResult> warnings() const { return warnings_; }
 
-  /// What each selection of the scene held at rest, before the first event; cuts come last.
+  /// The contents of each selection of the scene at rest, before the first event; cuts come last.
   std::span<const SelectionCount> selections() const { return selections_; }
   /// Bodies of elements that are expected to bend much less than they should.
   std::span<const StiffBody> stiff_bodies() const { return stiff_bodies_; }
 
-  /// The number that a vertex of the body has in the file of the mesh, in a generated one the number of its point;
-  /// parts of one vertex share it. `no_point` of a vertex that refinement made.
+  /// The number of a vertex of the body in the file of the mesh; in a generated mesh the number of its point. Parts of
+  /// one vertex share it. `no_point` for a vertex that refinement made.
   std::uint32_t file_number(std::uint32_t vertex) const;
 
   const SimulatedBody& body() const { return *body_; }
-  /// Of the cells: 3, 2 of a surface, 0 of a chain.
+  /// The dimension of the cells: 3, 2 for a surface, 0 for a chain.
   int dimension() const { return dimension_; }
-  /// How many cells of each kind there were at the start.
+  /// The number of cells of springs of each kind at the start.
   const std::map<CellKind, std::size_t>& cells_of_springs() const { return cells_of_springs_; }
   std::size_t operations() const { return operations_; }
-  /// Of its contact with obstacles; nothing without any.
+  /// The warnings of its contacts; empty without contact.
   std::span<const ContactWarning> contact_warnings() const;
-  /// The paths of the events that have been due and never changed anything.
+  /// The paths of the events that have been due and have never changed anything.
   std::vector<std::string> idle_events() const;
   Diagnostics diagnostics() const;
-  /// With the fields that the scene asks for, or with others; its points in the order of the mesh's file.
-  /// pre  displacement is asked for only where the scene does
+  /// A frame with the fields that the scene asks for, or with others; its points in the order of the mesh's file.
+  /// pre  displacement is asked for only if the scene does
   Frame frame() const { return frame(fields_); }
   Frame frame(const FrameFields& fields) const;
   ProbeRow probes() const;
 
-  /// Measure momentum and energy on both sides of events from now on. It reads and changes nothing.
+  /// Measure momentum and energy before and after events from now on. This does not change the run.
   void watch_events(bool watch) { watch_ = watch; }
   const EventJumps& jumps() const { return jumps_; }
   const WorkCounters& work() const { return integrator_->work(); }
-  /// What the parts of the run take now.
+  /// The memory that the parts of the run take now.
   MemoryReport memory() const;
 
-  /// Write all that the rest of the run depends on and the scene does not say.
+  /// Write all that the rest of the run depends on and that is not in the scene.
   void save(Archive& archive) const;
   /// Read it: the run goes on with the bits that it would have had.
   ///
   /// pre     it was saved by a simulation of the same scene, and this one has taken no step
-  /// throws  IoError where it cannot be that; then this is no simulation to use
+  /// throws  IoError if it is not such a state; then this simulation must not be used
   void load(Archive& archive) { state(archive); }
-  /// After `advance` has ended by Stopped (stop_request.h): can the step be taken again, and a state saved? Not where
-  /// the factor that it began with has been replaced or given up, nor after an event within it: then nothing may be
-  /// done with this.
+  /// After `advance` has ended by Stopped (stop_request.h): can the step be taken again, and a state saved? No if the
+  /// factor that it began with has been replaced or given up, or after an event within the step: then this must not be
+  /// used any more.
   bool undo_stopped_step() { return !within_step_ && integrator_->undo_stopped_step(); }
 
  private:
   struct Scheduled {
     std::unique_ptr<ReadyEvent> event;
     EventClock clock;
-    bool dissociates;  // and does nothing else
+    bool dissociates;  // it dissociates and does nothing else
     std::string path;
     bool was_due = false;
     std::size_t operations = 0;
@@ -187,14 +187,14 @@ class Simulation {
   DrivenVertices driven_;
   AppliedForces forces_;
   std::unique_ptr<SceneContact> contact_;  // null without contact
-  double expected_share_ = 0.0;            // of the depth of their laws, of contacts to come
+  double expected_share_ = 0.0;            // the largest expected depth of contacts over that of their law
   std::unique_ptr<Integrator> integrator_;
   std::vector<Scheduled> events_;
   std::size_t operations_ = 0;
   FrameFields fields_;
   bool exact_events_;
   bool watch_ = false;
-  bool within_step_ = false;  // past the first part of one that events divide
+  bool within_step_ = false;  // after the first part of a step that events divide
   EventJumps jumps_;
   UnstableStep unstable_step_;
   StableStep limits_;
@@ -203,14 +203,14 @@ class Simulation {
   std::vector<StepResult> warnings_;
   std::uint64_t parts_ = 1;  // of a step
   bool too_long_ = false;
-  double stable_ = 0.0;        // [s] the longest step that is, where this one is too long
-  double parts_wanted_ = 1.0;  // of a step that is not divided because they are too many
-  StepResult start_;           // what the detector finds in the state before a step
+  double stable_ = 0.0;        // [s] the longest stable step, if the step is too long
+  double parts_wanted_ = 1.0;  // of a step that is not divided because it would need too many
+  StepResult start_;           // the detector's result for the state before a step
   DivergenceDetector detector_;
-  std::uint64_t watched_ = 0;  // steps that the detector has seen
+  std::uint64_t watched_ = 0;  // steps that the detector has checked
   int dimension_ = 0;
   std::map<CellKind, std::size_t> cells_of_springs_;
-  std::vector<std::uint32_t> file_number_;  // of each point of the mesh, where that is another
+  std::vector<std::uint32_t> file_number_;  // of each point of the mesh; empty where it is the point's own
   std::vector<SelectionCount> selections_;
   std::vector<StiffBody> stiff_bodies_;
 };

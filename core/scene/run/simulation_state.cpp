@@ -3,12 +3,12 @@
 #include "core/plain/archive.h"
 #include "core/scene/run/simulation.h"
 
-// What a checkpoint holds of a simulation. Left out is what its constructor finds in the scene: the step, the horizon,
-// what events and drives choose, warnings of the start.
+// The state of a simulation in a checkpoint. Left out is what its constructor finds in the scene: the step, the
+// horizon, the choices of events and drives, warnings of the start.
 
 namespace dartboard {
 
-// What is written is not changed.
+// Writing does not change the simulation.
 void Simulation::save(Archive& archive) const { const_cast<Simulation*>(this)->state(archive); }
 
 void Simulation::state(Archive& archive) {
@@ -61,7 +61,7 @@ void Simulation::state(Archive& archive) {
       if (std::ranges::any_of(triangle.nodes, is_beyond)) archive.fail("a face of the boundary is at no vertex");
   }
   if (contact_) contact_->resume(v.position);
-  // a state that is none is found again by looking, which then changes nothing
+  // an invalid state is found again by this check, which then changes nothing
   start_ = has_start ? StepResult{} : detector_.system_changed(system, body_->motion());
 }
 

@@ -16,8 +16,8 @@ namespace dartboard {
 namespace {
 
 constexpr double worth_a_warning = 1.25;       // times too stiff
-constexpr double slender = 3.0;                // a body so many times as long as it is thin bends, a block does not
-constexpr double nearly_incompressible = 0.4;  // and above this any change of shape is too stiff
+constexpr double slender = 3.0;                // length over thickness from which on a body bends; a block does not
+constexpr double nearly_incompressible = 0.4;  // above this ratio any change of shape is too stiff
 
 CellPattern pattern_of(CellKind kind, bool mirrored) {
   switch (kind) {
@@ -28,7 +28,7 @@ CellPattern pattern_of(CellKind kind, bool mirrored) {
   }
 }
 
-/// Cells by the size of what they would be part of in a box.
+/// The sizes of a body and of its cells.
 struct Size {
   double extent;  // [m] the smallest of a block with the cells' principal moments
   double length;  // [m] the largest
@@ -69,7 +69,7 @@ std::string_view name(CellPattern pattern) {
 }
 
 double bending_stiffness(CellPattern pattern, double poisson, double across) {
-  // bending that linear elements follow by shear, and a change of volume that each resists with lambda
+  // linear elements follow bending by shear, and by a change of volume that each resists with lambda
   struct Fit {
     double shear, volume, power, thin;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// How much of a body at rest each cut of a scene takes apart.
+// The number of facets that each cut of a scene dissociates in a body at rest.
 
 #include <cstddef>
 
@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// Of a cut that takes `selected` facets apart, of `all` between cells; a bounded one names those on its plane that are
-/// just outside its bounds.
+/// The count for a cut that takes apart `selected` facets of `all` between cells; for a bounded cut also the facets on
+/// its plane that are just outside its bounds.
 ///
 /// pre   the event's action is Dissociate
 /// cost  O(cells log cells) for a bounded cut, else O(points)

@@ -13,7 +13,7 @@
 namespace dartboard {
 namespace {
 
-/// Counts in one mesh; centroids are found when the first selection asks for them.
+/// Counts in one mesh; centroids are computed when the first selection needs them.
 class Counter {
  public:
   explicit Counter(const Mesh& mesh)

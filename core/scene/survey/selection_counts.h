@@ -1,5 +1,5 @@
 #pragma once
-// How much of a body each selection of a scene holds, counted at rest before anything moves.
+// The number of vertices or cells in each selection of a scene, counted at rest before anything moves.
 
 #include <cstddef>
 #include <string>
@@ -11,26 +11,26 @@
 
 namespace dartboard {
 
-/// What one selection holds of a body at rest.
+/// The contents of one selection of a body at rest.
 struct SelectionCount {
   std::string path;                   // "/fixed/0", "/regions/1/cells", "/events/2/remove"
   std::string_view of_what;           // "vertices", "cells", "faces between cells"
-  std::size_t selected = 0, all = 0;  // `all` could be selected
+  std::size_t selected = 0, all = 0;  // `selected` of `all`
   std::size_t just_outside = 0;       // not selected, and nearer to its border than `near`
   double near = 0.0;                  // [m] ten times the thickness of borders
-  std::string_view along{};  // "x", "y and z": the axes along which vertices are held; empty where they are not
+  std::string_view along{};  // "x", "y and z": the axes along which vertices are held; empty for other selections
 };
 /// "/fixed/0: 16 of 44 vertices"
 std::string to_string(const SelectionCount& count);
 
-/// Of every selection of vertices or cells, in the order of the scene; cuts, which a map has to find, are not among
-/// them.
+/// The counts of every selection of vertices or cells, in the order of the scene; cuts, which need a map, are not
+/// included.
 ///
 /// throws  InputError "/fixed/0/ids/1: ..." for an id that is no point of the mesh
 /// cost    O(points + cells) for each
 std::vector<SelectionCount> count_selections(const SceneFile& scene, const Mesh& mesh);
 
-/// A sentence where something is just outside the border of a selection; empty elsewhere.
+/// A sentence if something is just outside the border of a selection; otherwise empty.
 std::string near_miss(const SelectionCount& count);
 
 }  // namespace dartboard

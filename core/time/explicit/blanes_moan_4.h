@@ -10,9 +10,9 @@ namespace dartboard {
 ///
 /// With damping the kicks become flows of v' = a(x) - B v at fixed x, so it is still a splitting into two parts, and of
 /// order 4. That flow is v + t (1 - z/2 + z^2/6 - z^3/24) (a - B v) with z = t B, four products with B: their error is
-///       of order t^5, they conserve both momenta, and no flow is taken spring by spring, which would be of order 2.
-///       Some of the t are negative (0.14 h): damping then amplifies for a moment, harmless as long as h B is moderate,
-///       and the amplification says how far that goes. Without damping the purely symplectic scheme runs.
+/// of order t^5, they conserve both momenta, and no flow is taken spring by spring, which would be of order 2. Some of
+/// the t are negative (0.14 h): damping then amplifies for a moment, which is harmless as long as h B is moderate; the
+/// amplification shows how far that goes. Without damping the purely symplectic scheme runs.
 class BlanesMoan4 : public Integrator {
  public:
   const Scheme& scheme() const override;

@@ -40,7 +40,7 @@ StepResult ClassicalRungeKutta::step(const SpringSystem& system, Motion motion, 
     stage_x[i] = x[i] + (h / 2) * v[i];
     stage_v[i] = v[i] + (h / 2) * a[i];
   }
-  for (const double reach : {h / 2, h}) {  // of the stage that follows
+  for (const double reach : {h / 2, h}) {  // to the stage that follows
     accelerations(system, terms, stage_.x, stage_.v, a_);
     for (std::size_t i = 0; i < n; ++i) {
       sum_x[i] += 2.0 * stage_v[i];

@@ -5,7 +5,7 @@
 
 namespace dartboard {
 
-/// Order 4, four force evaluations; damping costs it nothing but its terms.
+/// Order 4, four force evaluations; damping costs only its terms in the forces.
 class ClassicalRungeKutta : public Integrator {
  public:
   const Scheme& scheme() const override;

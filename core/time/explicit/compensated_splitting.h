@@ -29,7 +29,7 @@ class CompensatedSplitting : public Integrator {
   }
   std::size_t bytes() const override { return state_.bytes() + bytes_of(a_, product_, sum_) + damping_.bytes(); }
 
-  /// What the motion lacks, by vertex.
+  /// The digits that the motion lacks, by vertex.
   const TrialState& lost() const { return state_.lost(); }
 
  private:

@@ -8,16 +8,16 @@
 
 namespace dartboard {
 
-/// x and v as unevaluated sums of two doubles: what everybody sees, and what did not fit into it, half a unit in the
-/// last place at most.
+/// x and v as unevaluated sums of two doubles: the visible value, and the part that did not fit into it, half a unit in
+/// the last place at most.
 ///
-/// Additions are exact but for what increments themselves are rounded by (Knuth's two-sum), so that 10^6 steps that
-/// each move a vertex by less than a unit in the last place still move it. Forces see the first part only.
+/// Additions are exact except for the rounding of the increments themselves (Knuth's two-sum), so that 10^6 steps that
+/// each move a vertex by less than a unit in the last place still move it. Forces use the visible value only.
 /// source  Hairer, McLachlan, Razakarivony: Achieving Brouwer's law with implicit Runge-Kutta methods, 2008
 class CompensatedState {
  public:
-  /// Begin a step from a motion. The lost digits of a coordinate are those of the last commit where it still is what
-  /// that left, and none where somebody has changed it since.
+  /// Begin a step from a motion. The lost digits of a coordinate are those of the last commit where it has not changed
+  /// since, and zero where it has.
   void begin(Motion motion);
 
   std::span<const Eigen::Vector3d> x() const { return end_.x; }
@@ -31,7 +31,7 @@ class CompensatedState {
   /// As TrialState::commit; a step that fails loses no digits either.
   StepResult commit(Motion motion, WorkCounters& work);
 
-  /// The digits lost so far, by vertex; to be added to what is seen.
+  /// The digits lost so far, by vertex; to be added to the visible values.
   const TrialState& lost() const { return lost_; }
   template <class Archive>
   void state(Archive& archive) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Row s holds the weights of stages 0 .. s for what comes after them: stage s + 1, and in the last row the end.
+// Row s holds the weights of stages 0 .. s for the next state: that of stage s + 1, and in the last row the end.
 constexpr double weights[6][6] = {
     {1.0 / 5},
     {3.0 / 40, 9.0 / 40},
@@ -169,7 +169,7 @@ StepResult DormandPrince54::advance(const SpringSystem& system, Motion motion, d
       continue;
     }
     if (const StepResult result = end_.commit(motion, work_); !result.ok()) return result;
-    const double bounded = std::max(error, 1e-4);  // a vanishing error tells nothing about the next step
+    const double bounded = std::max(error, 1e-4);  // a vanishing error does not predict the next step
     double factor = safety * std::pow(bounded, -exponent) * std::pow(last_error_, memory);
     factor = std::clamp(factor, 0.1, rejected ? 1.0 : 5.0);
     // a last step cut short says little about how long the next may be

@@ -1,5 +1,5 @@
 #pragma once
-// The explicit Euler method: the baseline that shows why not.
+// The explicit Euler method: a baseline for comparison only.
 
 #include <vector>
 

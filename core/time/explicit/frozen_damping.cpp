@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Springs with near numbers tend to share an end, and each would wait for the one before. Taken from eight places in
-// turn they do not, and a sweep takes half the time.
+// Springs with near numbers tend to share an end, and each would wait for the one before. Taken in turn from eight
+// distant places of the list they do not wait, and a sweep takes half the time.
 constexpr std::size_t lanes = 8;
 
 template <class F>
@@ -52,7 +52,7 @@ void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::s
     for (Vector3d& force : result) force = -force;
   }
   if (terms.damping && !system.springs.damped().empty()) {
-    // copies, since the compiler must assume that a store into the result changes what is held by reference
+    // copies, since the compiler must assume that a store into the result changes data accessed by reference
     const SpringEnds* const ends = system.ends.data();
     const Spring* const springs = system.springs.damped().data();
     const Vector3d *const along = along_.data(), *const speed = v.data();
@@ -101,7 +101,7 @@ auto FrozenDamping::relaxation(const SpringSystem& system, std::span<Vector3d> v
   };
 }
 
-// The same where vertices are held along axes: what they follow of an impulse depends on its direction.
+// The same where vertices are held along axes: their response to an impulse depends on its direction.
 auto FrozenDamping::relaxation_along_axes(const SpringSystem& system, double h, std::span<Vector3d> v) const {
   return [this, &system, h, v, mobility = Mobility(mobility_, system.held_axes.span())](std::size_t s) {
     const auto [i, j] = system.ends[s];

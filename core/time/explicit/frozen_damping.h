@@ -1,6 +1,6 @@
 #pragma once
-// Damping alone, at positions that stand still: v' = -B v, where M B sums c u u^T over the springs, the damping of
-// force terms and the viscosities.
+// Damping alone, at fixed positions: v' = -B v, where M B sums c u u^T over the springs, the damping of force terms and
+// the viscosities.
 
 #include <Eigen/Core>
 #include <span>
@@ -13,8 +13,8 @@
 namespace dartboard {
 
 /// The dissipative part of a splitting. Every spring acts along its line with opposite impulses on its ends, and
-/// elements by strains, so all that is computed here leaves linear and angular momentum alone (viscosity, which is no
-/// inner force, does not).
+/// elements act by strains, so this damping conserves linear and angular momentum (viscosity, which is no inner force,
+/// does not).
 ///
 /// pre     the system and its terms are those of the last `freeze`; `forget` when masses, dampings or springs change
 class FrozenDamping {
@@ -47,8 +47,8 @@ class FrozenDamping {
   void relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Eigen::Vector3d> v) const;
 
   std::vector<Eigen::Vector3d> along_;  // unit vectors; zero for zero length
-  std::vector<Eigen::Vector3d> at_;     // of the vertices; none where no force term is damped
-  double flow_step_ = 0.0;              // what the factors below belong to
+  std::vector<Eigen::Vector3d> at_;     // positions by vertex; empty where no force term is damped
+  double flow_step_ = 0.0;              // [s] the step that the factors below belong to
   std::vector<double> mobility_;        // inverse masses, zero where fixed
   std::vector<double> impulse_;         // of each spring per relative speed, (1 - exp(-c h / mu)) mu
   std::vector<double> remains_;         // of each vertex's velocity, exp(-viscosity h / m)

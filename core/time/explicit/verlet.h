@@ -9,9 +9,9 @@ namespace dartboard {
 /// Order 2, symplectic, one force evaluation; with damping still of order 2 and symmetric.
 ///
 /// The velocity form (kick, drift, kick) is the same map half a step later. It must keep its last force for the next
-/// step, which is wrong as soon as somebody moves or cuts the body in between; this form keeps nothing.
-/// Damping acts in the middle of the kick, where positions stand still and the directions of the springs with them, by
-/// a symmetric sweep over the springs. Evaluated at an old velocity instead it would make the method one of order 1.
+/// step, which is wrong as soon as the body is moved or cut in between; this form keeps nothing.
+/// Damping acts in the middle of the kick, where positions and the directions of the springs are constant, by a
+/// symmetric sweep over the springs. Evaluated at an old velocity instead it would reduce the method to order 1.
 class Verlet : public Integrator {
  public:
   const Scheme& scheme() const override;

@@ -1,5 +1,5 @@
 #pragma once
-// What the implicit integrators have in common.
+// The base class of the implicit integrators.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace dartboard {
 
 /// An integrator whose steps solve stages.
 ///
-/// `restart` keeps the factor: the next step finds out what has changed, and updates it where that is cheaper.
+/// `restart` keeps the factor: the next step finds what has changed, and updates the factor where that is cheaper.
 class ImplicitIntegrator : public Integrator {
  public:
   explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}

@@ -89,11 +89,11 @@ void ImplicitStage::set_residual(const Problem& p, std::span<const Vector3d> w, 
   free_along_axes(s, residual_);
 }
 
-// What the residual may be at each vertex: by the tolerance, and by rounding. A length vector is wrong by an ulp of
-// itself and of what it is the sum of, d0 and tau dw; 8 covers that and the sums at a vertex. However far from the
-// origin the body is, d0 is no worse: a difference of two numbers is rounded once, relative to itself. What the
-// numbers themselves were rounded by is data here. To stop at that, eps D of the stiffness in place of eps L, moves
-// the solution by (h omega)^2 times it in each step: up to 470 eps D after a hundred, where 30 were to be had.
+// The residual allowed at each vertex, by the tolerance and by rounding. A length vector is wrong by an ulp of itself
+// and of its summands, d0 and tau dw; 8 covers that and the sums at a vertex. However far from the origin the body is,
+// the error of d0 is no larger: a difference of two numbers is rounded once, relative to itself. The rounding of the
+// numbers themselves is data here. To stop at that, eps D of the stiffness in place of eps L, would move the solution
+// by (h omega)^2 times it in each step: up to 470 eps D after a hundred, where 30 can be reached.
 void ImplicitStage::set_allowed(const Problem& p, std::span<const Vector3d> w) {
   const SpringSystem& s = p.system;
   double scale = 0.0;
@@ -135,7 +135,7 @@ double ImplicitStage::excess() const {
   return largest;
 }
 
-// The first vertex whose residual is not finite; what is allowed is NaN at all of them then.
+// The first vertex whose residual is not finite; the residual allowed is then NaN at all vertices.
 StepResult ImplicitStage::nonfinite_residual(double excess) const {
   for (std::uint32_t i = 0; i < residual_.size(); ++i)
     if (!residual_[i].allFinite()) return {StepCode::nonfinite, Witness::vertex, i, "residual", residual_[i].sum()};
@@ -150,8 +150,8 @@ double ImplicitStage::residual_norm(const Problem& p) const {
   return std::sqrt(sum) / unit;
 }
 
-// What brings the residual near 1, so that neither its squares nor energies are lost where masses and forces are very
-// small or large; a power of two, which changes no digit.
+// The factor that brings the residual near 1, so that neither its squares nor energies are lost where masses and forces
+// are very small or large; a power of two, which changes no digit.
 double ImplicitStage::residual_scale() const { return scale_to_one(max_abs_or_nan(residual_)); }
 
 // phi(w + alpha direction) - phi(w) times `unit`, and the sum of the terms' sizes times epsilon.
@@ -201,14 +201,14 @@ ImplicitStage::Change ImplicitStage::potential_change(const Problem& p, std::spa
   return {sum, 4.0 * epsilon * sizes};
 }
 
-// In a long step of a stiff body, vertices that stand still may be a better start than vertices that fly on.
+// In a long step of a stiff body, vertices at rest may be a better start than vertices that keep their velocity.
 void ImplicitStage::choose_start(const Problem& p, std::span<Vector3d> w, WorkCounters& work) {
   const std::vector<Vector3d> residual = residual_;
   const double norm = residual_norm(p);
   for (std::size_t i = 0; i < w.size(); ++i) direction_[i] = p.system.fixed[i] ? Vector3d(0, 0, 0) : Vector3d(-w[i]);
   const bool has_potential = p.force == StageForce::at_end;
   if (has_potential && !(potential_change(p, w, 1.0, residual_scale()).value < 0.0)) return;
-  // Without a potential: a spring that the flight would turn round may find a solution on the wrong side.
+  // Without a potential, a spring that these velocities would turn round may converge to a solution on the wrong side.
   const bool turned = !has_potential && std::ranges::any_of(p.system.ends, [&p, w](const SpringEnds& ends) {
     const Vector3d d0 = p.xh[ends[1]] - p.xh[ends[0]];
     return d0.dot(d0 + (2.0 * p.tau) * (w[ends[1]] - w[ends[0]])) < 0.0;
@@ -251,7 +251,7 @@ bool ImplicitStage::search(const Problem& p, std::span<Vector3d> w, WorkCounters
       return true;
     }
   }
-  if (has_potential) {  // where rounding is all that the energy changes by, the residual decides
+  if (has_potential) {  // where the energy changes by rounding only, the residual decides
     for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = w[i] + direction_[i];
     set_residual(p, trial_, work);
     if (residual_norm(p) <= (1.0 - armijo) * norm || excess() <= 1.0) {
@@ -302,7 +302,7 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
         trial_.resize(w.size());
         for (std::size_t i = 0; i < w.size(); ++i) trial_[i] = -residual_[i];
         status = solver_.solve(trial_, direction_, Accuracy::iteration, work);
-        free_along_axes(system, direction_);  // a matrix for all coordinates knows of none
+        free_along_axes(system, direction_);  // a matrix for all coordinates has no held axes
       }
       if (status == SolveStatus::ok && search(p, w, work)) break;
       if (now <= 1.0) return {};

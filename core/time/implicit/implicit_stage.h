@@ -20,14 +20,14 @@ enum class StageForce : std::uint8_t {
 ///
 /// With conservative forces r is the gradient of the incremental potential
 /// |w - vh|_M^2 / 2 + U(xh + tau w) + tau/2 sum c (d.dw)^2 + tau/2 sum viscosity |w|^2, the directions d of the dampers
-/// held, and the places of force terms that are damped; a line search on it makes the method globally convergent.
-/// Without the dissipation in it the search would stall. Changes of it are summed spring by spring from differences
-/// that do not cancel, and a change within their rounding is accepted. The matrix is M + tau C + tau^2 K (tangent.h):
+/// held, and the positions in damped force terms; a line search on the potential makes the method globally convergent.
+/// Without the dissipation in it the search would stall. Its changes are summed spring by spring from differences that
+/// do not cancel, and a change within their rounding is accepted. The matrix is M + tau C + tau^2 K (tangent.h):
 /// exact first, projected where that is not positive definite.
 ///
 /// Converged when at every vertex |r| / m is within tolerance times the largest of |vh| and tau |f| / m, which compares
-/// accelerations whatever the masses, or within what rounding leaves of r. With no
-/// tolerance, iterations go on below that until they stop gaining.
+/// accelerations whatever the masses, or within what rounding leaves of r. With a
+/// tolerance of 0, iterations go on below that until they stop gaining.
 /// source  Longva, Loeschner, Fernandez, Larionov, Ascher, Bender: Pitfalls of projection, arXiv 2311.14526
 class ImplicitStage {
  public:

@@ -5,7 +5,7 @@
 
 namespace dartboard {
 
-/// What tells one method of one stage from another.
+/// The properties that distinguish methods of one stage.
 struct OneStageMethod {
   enum class End {
     of_step,   // a stage of h: v1 = w, x1 = x0 + h w

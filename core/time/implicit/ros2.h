@@ -7,8 +7,8 @@ namespace dartboard {
 
 /// (I - g h J) k1 = f(u), (I - g h J) k2 = f(u + h k1) - 2 k1, u1 = u + h (3/2 k1 + 1/2 k2), g = 1 - 1/sqrt(2).
 ///
-/// Of order 2 whatever J is (a W-method), so a projected tangent, or one without the turning of dampers, costs no
-/// accuracy. No iteration, hence no globalisation: very stiff bodies may diverge.
+/// Of order 2 whatever J is (a W-method), so a projected tangent, or one that neglects the turning of dampers, costs no
+/// accuracy. There is no iteration, hence no globalisation: very stiff bodies may diverge.
 /// order   2; L-stable
 /// cost    two solutions and two force evaluations per step, and one factorisation unless a kept factor serves
 /// source  Verwer, Spee, Blom, Hundsdorfer 1999

@@ -28,7 +28,7 @@ enum class StepCode : std::uint8_t {
 };
 std::string_view to_string(StepCode code);
 
-/// What a diagnosis points at.
+/// The kind of element that a diagnosis names.
 enum class Witness : std::uint8_t { none, vertex, edge };
 
 /// The outcome of a step: ok, or a diagnosis that names a witness and a quantity.
@@ -44,7 +44,7 @@ struct StepResult {
 /// "NONFINITE at vertex 12: velocity = nan".
 std::string to_string(const StepResult& result);
 
-/// What the steps so far have cost, in counts that are the same on every machine.
+/// The cost of the steps so far, in counts that are the same on every machine.
 struct WorkCounters {
   std::uint64_t steps = 0;           // taken
   std::uint64_t failed_steps = 0;    // ended with a diagnosis
@@ -89,17 +89,17 @@ class Integrator {
   /// Forget what was kept from earlier steps: the system has changed.
   virtual void restart() {}
 
-  /// What the bits of the next steps depend on beside the system and the motion, written or read: what is found again
-  /// from these at the next step, or overwritten by it, is left out.
+  /// Writes or reads what the bits of the next steps depend on besides the system and the motion. What the next step
+  /// computes again from these, or overwrites, is left out.
   virtual void state(Archive& archive) { archive(work_); }
-  /// After a step that ended by Stopped: make all that is kept what it was before that step, so that it can be taken
-  /// again with the same bits.
-  /// returns  false where that is lost
+  /// After a step that ended by Stopped: restore all that is kept to what it was before that step, so that the step can
+  /// be taken again with the same bits.
+  /// returns  false where what was kept is lost
   virtual bool undo_stopped_step() { return true; }
 
-  /// Memory that it keeps between steps, in bytes (core/plain/bytes.h); none before the first step.
+  /// Memory that it keeps between steps, in bytes (core/plain/bytes.h); 0 before the first step.
   virtual std::size_t bytes() const { return 0; }
-  /// How much of that are matrices, a factor, and what solves with it.
+  /// The share of `bytes` that matrices, a factor and the workspace of its solutions take.
   virtual std::size_t solver_bytes() const { return 0; }
 
   const WorkCounters& work() const { return work_; }
@@ -109,7 +109,7 @@ class Integrator {
   WorkCounters work_;
 };
 
-/// Error allowed in one step: the root mean square over all vertices of what is estimated, by positions and by
+/// Error allowed in one step: the root mean square over all vertices of the estimated error, for positions and for
 /// velocities.
 struct Tolerance {
   double position;  // [m]

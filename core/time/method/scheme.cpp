@@ -36,7 +36,7 @@ double first_growth(const Radius& radius, const Steps& steps, double gain, doubl
   for (int i = 1; i * scan <= ceiling; ++i) {
     if (stable(i * scan)) continue;
     double low = (i - 1) * scan, high = i * scan;
-    // a limit below the first is looked for among the small numbers too: bisection stays near the large ones
+    // a limit below the first step of the scan is searched by powers of 1024: bisection stays near the large numbers
     for (int k = 0; low == 0.0 && k < 100; ++k) (stable(high / 1024) ? low : high) = high / 1024;
     for (int k = 0; k < 40; ++k) {
       const double middle = (low + high) / 2;
@@ -57,7 +57,7 @@ auto within(double phase) {
 auto oscillation(const Scheme& scheme, double zeta) {
   return [&scheme, zeta](double theta) { return spectral_radius(scheme, theta, zeta); };
 }
-// An oscillation so slow that it does nothing in a step, damped at the rate asked for: 2 zeta theta is h times that.
+// An oscillation so slow that it does nothing in a step, damped at the given rate: 2 zeta theta is h times the rate.
 auto decay(const Scheme& scheme) {
   constexpr double slow = 1e-9;
   return [&scheme](double z) { return spectral_radius(scheme, slow, z / (2 * slow)); };

@@ -1,5 +1,5 @@
 #pragma once
-// What an integrator says about itself: its order, its stability function, what it evaluates and solves.
+// The properties of an integrator: its order, its stability function, what it evaluates and solves.
 
 #include <Eigen/Core>
 #include <limits>
@@ -15,7 +15,7 @@ namespace dartboard {
 struct Scheme {
   static constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-  std::string_view name;  // what a user types
+  std::string_view name;  // as a user types it
   std::string_view what;  // one line
   int order = 1;
   int stages = 1;              // force evaluations per step; of an implicit method: systems of equations per step
@@ -24,14 +24,14 @@ struct Scheme {
   bool symmetric = false;      // a step of -h undoes a step of h, where nothing dissipates
   bool keeps_angular = false;  // angular momentum is exact; linear momentum is, for all
   bool compensated = false;    // carries on with the digits that rounding takes from the state
-  bool sweeps = false;         // damps spring by spring: in a network that is not what `amplification` says of zeta > 0
+  bool sweeps = false;         // damps spring by spring: in a network `amplification` does not hold for zeta > 0
   bool one_step = true;        // false: keeps states of earlier steps, and starts again after a restart
   double imaginary_limit = 0;  // stable for zeta = 0 and 0 < theta <= this; `unlimited` when for all
   Eigen::MatrixXd (*amplification)(double theta, double zeta) = nullptr;
   std::string_view source;
 };
 
-/// h times the matrix of the test oscillator in the coordinates (omega q, v): what Runge-Kutta methods put into R(z).
+/// h times the matrix of the test oscillator in the coordinates (omega q, v): the argument z of a method's R(z).
 Eigen::Matrix2d test_oscillator(double theta, double zeta);
 
 /// Largest modulus of an eigenvalue of the amplification.
@@ -39,10 +39,10 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 
 /// The first theta at which the method amplifies the test oscillator by `gain` or more within `steps` steps.
 ///
-/// That is spectral_radius^steps = gain, what a run of that length can measure: of methods with weak growth it is far
+/// There spectral_radius^steps = gain, which a run of that length can measure: for methods with weak growth it is far
 /// above the limit for infinitely many steps. Found by scanning in steps of 1e-3 and bisection.
 /// throws  InputError unless gain > 1 and steps > 0
-/// returns `unlimited` when there is none below `ceiling`
+/// returns `unlimited` when there is no such theta below `ceiling`
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling = 20.0);
 
 /// The same for a run of a given duration instead of a number of steps: `phase` is the duration times omega, which is

@@ -1,5 +1,5 @@
 #pragma once
-// Splitting methods as their tables of drifts and kicks.
+// The tables of drifts and kicks of the splitting methods.
 
 #include <Eigen/Core>
 #include <span>

@@ -10,12 +10,12 @@ namespace dartboard {
 namespace {
 
 constexpr double unlimited = Scheme::unlimited;
-// Limits beyond this [1 / omega_max] are not looked for: an overdamped frequency may have none, where others do.
+// Limits are searched up to this [1 / omega_max] only: an overdamped frequency may have no limit where others do.
 constexpr double ceiling = 20.0;
 
-// A sweep in one direction is no symmetric matrix: where a step damps much, motions that damping couples can grow. On
-// grids, chains, wheels and complete networks, with damping ratios up to 100, none was seen to for h d
-// below 4.4 unless h omega was above 2, and some were from 4.5 on.
+// The matrix of a sweep in one direction is not symmetric: where a step damps much, motions that damping couples can
+// grow. On grids, chains, wheels and complete networks, with damping ratios up to 100, no growth was seen for h d
+// below 4.4 unless h omega was above 2, and some was seen from 4.5 on.
 constexpr double one_way_sweep = 3.0;
 
 bool has_no_limit(const Scheme& scheme) {
@@ -32,7 +32,7 @@ double first_limit(const Scheme& scheme, double omega, double rate, const Horizo
          omega;
 }
 
-/// The same of what decays and does not oscillate.
+/// The same for a motion that decays and does not oscillate.
 double first_limit_of_decay(const Scheme& scheme, double rate, const Horizon& horizon) {
   if (rate == 0.0) return unlimited;
   return (horizon.duration > 0.0 ? damping_limit_within(scheme, horizon.duration * rate, horizon.gain, ceiling)
@@ -40,18 +40,18 @@ double first_limit_of_decay(const Scheme& scheme, double rate, const Horizon& ho
          rate;
 }
 
-/// Does a step of h amplify this one by less than the gain? Not where that is not a number.
+/// Does a step of h amplify this oscillation by less than the gain? No where the amplification is NaN.
 bool is_stable_for(const Scheme& scheme, double h, double omega, double rate, const Horizon& horizon) {
   const double steps = horizon.duration > 0.0 ? std::max(1.0, horizon.duration / h) : horizon.steps;
-  // of a limit itself the step is as exact as the bisection for it
+  // where h is a limit itself, it is only as exact as the bisection for it
   return std::log(spectral_radius(scheme, h * omega * (1 - 1e-9), rate / (2 * omega))) < std::log(horizon.gain) / steps;
 }
 
 bool is_one(const Bounds& rates) { return rates.upper - rates.lower <= 1e-9 * rates.upper; }
 
-/// The rates of damping to be looked at for one omega.
+/// The rates of damping to be examined for one omega.
 std::vector<double> rates_to_try(const StableStep& system, const Scheme& scheme, double omega) {
-  // a symmetric sweep between half kicks takes energy and gives none: the step of no damping is stable with any
+  // a symmetric sweep between half kicks only takes energy: the stable step without damping is stable with any damping
   if (scheme.sweeps) return {0.0};
   const Bounds rates = system.damping_rates(omega);
   if (is_one(rates)) return {rates.upper};
@@ -115,7 +115,7 @@ double StableStep::stable_step(const Scheme& scheme, const Horizon& horizon) con
   for (int k = 0; k < tries; ++k) {
     const double before = h;
     for (int i = samples; i >= 1; --i) shorten(highest * i / samples);
-    // the slowest that all damping together can act on
+    // the lowest frequency that can have the largest rate of damping
     if (damping_time.upper > 0.0 && damping_rate.upper > viscous_rate.upper)
       shorten(std::min(highest, std::sqrt((damping_rate.upper - viscous_rate.upper) / damping_time.upper)));
     // Above its first limit a method may be stable again, and the gap between may be narrow (that of Blanes and Moan's
@@ -128,9 +128,9 @@ double StableStep::stable_step(const Scheme& scheme, const Horizon& horizon) con
   return h;
 }
 
-// What is certain of the fastest oscillation is that its frequency lies within the bracket. Its damping is known where
-// it follows from the frequency; what an integrator makes of it where damping is not swept, or has no say: a symmetric
-// sweep leaves a mode alone that the half kicks around it stop and turn into its opposite, at h omega = 2.
+// The frequency of the fastest oscillation certainly lies within the bracket. Its damping is known where it follows
+// from the frequency; its effect on a step is known where damping is not swept, or has no effect: a symmetric sweep
+// does not change a mode that the half kicks around it stop and turn into its opposite, at h omega = 2.
 double StableStep::unstable_step(const Scheme& scheme, const Horizon& horizon) const {
   const bool damped = damping_time.upper > 0.0 || viscous_rate.upper > 0.0;
   const double highest = highest_omega();

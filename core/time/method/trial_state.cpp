@@ -6,8 +6,8 @@
 namespace dartboard {
 namespace {
 
-// 0 * x is 0 for every finite x and not a number for all others, and sums keep that; a maximum would not. Eight sums at
-// once, so that none waits for the one before.
+// 0 * x is 0 for every finite x and NaN for all others, and sums keep that; a maximum would not. There are eight
+// independent partial sums, so that no addition waits for the one before.
 bool all_finite(std::span<const Eigen::Vector3d> column) {
   using Eight = Eigen::Array<double, 8, 1>;
   const double* data = column.data()->data();

@@ -1,5 +1,5 @@
 #pragma once
-// The state a step ends with, before it is known to be one.
+// The state that a step ends with, before it is known to be finite.
 
 #include <Eigen/Core>
 #include <span>
@@ -14,7 +14,7 @@ namespace dartboard {
 /// The first vertex with a position or velocity that is not finite, as a diagnosis; or ok.
 StepResult check_finite(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
 
-/// Positions and velocities that a step is computed in, so that one that fails leaves the motion alone.
+/// Positions and velocities that a step is computed in, so that a step that fails leaves the motion unchanged.
 struct TrialState {
   std::vector<Eigen::Vector3d> x, v;
 
@@ -31,7 +31,7 @@ struct TrialState {
   StepResult commit(Motion motion, WorkCounters& work) const;
 };
 
-/// The terms of a system, looked up when it is met first and after `forget`.
+/// The terms of a system, looked up at the first step and after `forget`.
 class KnownTerms {
  public:
   const Terms& of(const SpringSystem& system) {

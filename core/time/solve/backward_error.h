@@ -1,5 +1,5 @@
 #pragma once
-// How wrong the solution of a linear system is, told by the system itself.
+// Backward errors: how wrong the solution of a linear system is, computed from the system itself.
 
 #include <Eigen/Core>
 #include <span>
@@ -18,7 +18,7 @@ std::vector<ExtendedVector> extended_residual(const BlockMatrix& matrix, std::sp
 /// Componentwise: max_i |b - A x|_i / (|A| |x| + |b|)_i, the least relative change of entries that makes x exact; NaN
 /// if anything is.
 ///
-/// The residual is summed in extended precision. Rows where nothing is there to divide by must have no residual.
+/// The residual is summed in extended precision. In rows whose denominator is zero the residual must be zero.
 /// source  Oettli, Prager 1964; Higham, Accuracy and Stability of Numerical Algorithms, theorem 7.3
 double backward_error(const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
                       std::span<const Eigen::Vector3d> x);

@@ -29,7 +29,7 @@ Cholesky::~Cholesky() = default;
 Cholesky::Cholesky(Cholesky&&) noexcept = default;
 Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 
-// Where the work is given up it keeps what it works on, and we begin anew.
+// Work that is given up keeps its data, and we begin anew.
 template <class Action>
 SolveStatus Cholesky::unless_stopped(Action&& action) {
   ++generation_;

@@ -26,7 +26,7 @@ std::string_view to_string(SolveStatus status);
 
 enum class Ordering : std::uint8_t { amd, metis };  // METIS halves the work from some 4,000 vertices on
 enum class FactorKind : std::uint8_t { automatic, simplicial, supernodal };
-enum class AnalysisGraph : std::uint8_t { nodes, unknowns };  // what is ordered
+enum class AnalysisGraph : std::uint8_t { nodes, unknowns };  // the graph that is ordered
 
 /// Seconds that one unit of work takes, for the rule that chooses between an update and a factorisation. Constants
 /// rather than clocks, so that equal runs make equal choices; the defaults were measured with OpenBLAS on one thread,
@@ -45,20 +45,20 @@ struct CholeskyOptions {
   Ordering ordering = Ordering::amd;
   FactorKind kind = FactorKind::automatic;
   AnalysisGraph graph = AnalysisGraph::nodes;
-  std::uint32_t spare_nodes = 0;  // rows kept for vertices to come, so that they can enter by updates
+  std::uint32_t spare_nodes = 0;  // rows kept for vertices added later, so that they can enter by updates
   double order_again = 1.2;       // when nnz(L) grows by this factor, a fresh ordering is found
   // Rank-one updates after which `follow` factors again, a replaced row counting as two: their rounding adds up. During
   // 3,000 edits of a body of 512 vertices the normwise backward error stays below 5e-16; never renewed it reaches 2e-15
   // by rows and 1e-14 by terms. One refinement brings it to 2e-17, but doubles the cost of every solution.
   std::uint32_t renew_after = 1500;
-  // Where an update would take away more than so many times what it leaves of a diagonal entry, `follow` factors again:
-  // the update would lose as many digits.
+  // Where an update would subtract from a diagonal entry more than so many times what remains of it, `follow` factors
+  // again: the update would lose as many digits.
   double cancellation = 1e3;
   bool ready_for_updates = false;  // convert supernodal factors at once: an update is then three to five times cheaper
   FactorRates rates = {};
 };
 
-/// What a factor has been through.
+/// Counts of the operations on a factor.
 struct CholeskyCounters {
   std::uint64_t orderings = 0;       // AMD or METIS
   std::uint64_t analyses = 0;        // symbolic, with a fresh or a kept ordering
@@ -82,7 +82,7 @@ struct CholeskyCounters {
 ///
 /// Ordering works on the graph of the vertices, a third of the unknowns; the three rows of a vertex stay together.
 /// A matrix that is not positive definite never passes: CHOLMOD's status, the column it stopped at, the signs of D and
-/// the finiteness of every solution are all looked at.
+/// the finiteness of every solution are all checked.
 /// source  Chen, Davis, Hager, Rajamanickam, ACM TOMS 35 (2008), algorithm 887; Davis, Hager, SIAM J. Matrix Anal.
 ///         Appl. 22 (2001), multiple-rank updates
 class Cholesky {
@@ -92,23 +92,23 @@ class Cholesky {
   Cholesky(Cholesky&&) noexcept;
   Cholesky& operator=(Cholesky&&) noexcept;
 
-  /// Factor a matrix; it is analysed if its pattern is not the one of last time. A pattern that has grown or changed
-  /// keeps the ordering: vertices that are added stand beside the vertex that they share most neighbours with.
+  /// Factor a matrix; it is analysed if its pattern is not that of the last call. A pattern that has grown or changed
+  /// keeps the ordering: an added vertex is placed next to the vertex that it shares most neighbours with.
   ///
-  /// throws  Stopped (stop_request.h) where that was asked for while it took long; there is no factor then
+  /// throws  Stopped (stop_request.h) where a stop was asked for during long work; there is no factor then
   SolveStatus factorise(const BlockMatrix& matrix);
   SolveStatus factorise(const ScalarMatrix& matrix);
 
-  /// Change the factor as the matrix changes by `terms`. Of a scalar matrix, directions have one coordinate, the first.
+  /// Change the factor as the matrix changes by `terms`. Directions for a scalar matrix have the first coordinate only.
   ///
   /// A supernodal factor becomes a simplicial one first and stays it until the next factorisation. After failure there
   /// is no factor.
   SolveStatus update(std::span<const RankOneTerm> terms);
 
-  /// Make the factor that of `after`, to which `terms` lead, by whatever is predicted to be cheapest: an update by the
+  /// Make the factor that of `after`, to which `terms` lead, by the way predicted to be cheapest: an update by the
   /// terms; replacing rows, where the terms leave the diagonal blocks of all other vertices as they are; an analysis
-  /// with the kept ordering and a factorisation. Also by the last, where an update would cancel digits (`cancellation`)
-  /// or `renew_after` is exceeded.
+  /// with the kept ordering and a factorisation. The last is also taken where an update would cancel digits
+  /// (`cancellation`) or `renew_after` is exceeded.
   ///
   /// A vertex that is dissociated hands springs to its twin at the same place: only their rows change, however many
   /// springs there are and however they are stretched. The twin's row is a spare one.
@@ -125,10 +125,10 @@ class Cholesky {
   SolveStatus solve_refined(const BlockMatrix& matrix, std::span<const Eigen::Vector3d> b,
                             std::span<Eigen::Vector3d> x);
 
-  /// The factor with all that later updates and factorisations depend on: the order of its rows, the room in its
+  /// Writes or reads the factor with all that later updates depend on: the order of its rows, the room in its
   /// columns, its symbolic analysis. A factor that was updated differs in its last bits from a fresh one.
   void state(Archive& archive);
-  /// Another number whenever the factor has been changed, or given up, since; 0 as long as there never was one.
+  /// A number that changes whenever the factor is changed or given up; 0 as long as there never was a factor.
   std::uint64_t generation() const { return generation_; }
 
   bool has_factor() const;
@@ -145,7 +145,7 @@ class Cholesky {
   /// After not_positive_definite: the vertex of the first bad pivot.
   std::uint32_t failed_node() const;
   const CholeskyCounters& counters() const;
-  /// The numbers of L and the columns beside it; not the indices, copies and workspace of the library.
+  /// Bytes of the numbers of L and of the columns kept with it; not the indices, copies and workspace of the library.
   std::size_t bytes() const;
   /// How many numbers L will have, from the pattern alone: ordered and analysed, nothing factored. With one row for
   /// each vertex, or three.

@@ -103,7 +103,7 @@ bool Cholesky::Implementation::find_order(const NodePattern& p, std::size_t per_
   if (per_node == 1) {
     order = std::move(permutation);
   } else {
-    // The unknowns of a node are not kept together by their own ordering: a node stands where its first one does.
+    // An ordering of the unknowns does not keep those of a node together: a node takes the place of its first unknown.
     std::vector<std::uint8_t> seen(p.node_count(), 0);
     for (const int unknown : permutation)
       if (const std::size_t node = static_cast<std::size_t>(unknown) / per_node; !seen[node]) {
@@ -166,7 +166,7 @@ bool Cholesky::Implementation::shape(const NodePattern& p) {
   return true;
 }
 
-// Roughly: it decides on nothing but a thread. The ordering takes most of it.
+// A rough prediction: it only decides whether a thread is started. The ordering takes most of the time.
 double Cholesky::Implementation::predicted_analysis_seconds(const NodePattern& p) const {
   return 1e-6 * static_cast<double>(p.row.size() + p.node_count());
 }

@@ -6,7 +6,7 @@
 #include "core/time/solve/stop_request.h"
 #include "core/time/system/nan_proof.h"
 
-// Present where OpenBLAS is the BLAS.
+// Defined where OpenBLAS is the BLAS.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace dartboard {
@@ -51,7 +51,7 @@ void Cholesky::Implementation::copy_values(const NodeEntries& m) {
     }
     sum += m.diagonal_at(j, 0, 0);
   }
-  // Spare rows are of the size of the others, so that what an update puts there is not lost against them.
+  // Spare rows are of the size of the others, so that entries added by an update are not lost against them.
   spare = m.nodes ? sum / static_cast<double>(m.nodes) : 1.0;
   for (std::size_t k = (capacity() - m.nodes) * d; k > 0; --k) *value++ = spare;
 }
@@ -68,7 +68,7 @@ SolveStatus Cholesky::Implementation::memory_failure() {
   return SolveStatus::out_of_memory;
 }
 
-// CHOLMOD returns TRUE for a matrix that is not positive definite; and L D L' exists for some that are not.
+// CHOLMOD returns TRUE for a matrix that is not positive definite, and some such matrices have a factor L D L'.
 SolveStatus Cholesky::Implementation::checked() {
   factored = false;
   if (common.status < CHOLMOD_OK) return memory_failure();
@@ -87,7 +87,7 @@ SolveStatus Cholesky::Implementation::checked() {
   return SolveStatus::ok;
 }
 
-// In a thread of its own where it is predicted to take long; that keeps us alive if the work is given up.
+// Work predicted to take long gets a thread of its own, which keeps this object alive if the work is given up.
 int Cholesky::Implementation::unless_stopped(double seconds, std::function<int(Implementation&)> work) {
   if (!may_be_stopped(seconds)) return work(*this);
   const auto result = std::make_shared<int>(0);

@@ -1,5 +1,5 @@
 #pragma once
-// What is behind the facade of cholesky.h: CHOLMOD's objects and how they are kept in step. For its sources and tests
+// The implementation of cholesky.h: CHOLMOD's objects and how they are kept in step. For its sources and tests
 // only.
 
 #include <cholmod.h>
@@ -36,7 +36,7 @@ struct NodeEntries {
   }
 };
 
-/// `order` of the first `old_count` nodes with those that are added put beside their twins, and spare ones last.
+/// `order` of the first `old_count` nodes, with added nodes next to their twins, and spare ones last.
 std::vector<int> extended_order(const std::vector<int>& order, std::size_t old_count, const NodePattern& pattern,
                                 std::size_t capacity);
 
@@ -101,7 +101,7 @@ struct Cholesky::Implementation : std::enable_shared_from_this<Implementation> {
   struct ChangedRows {
     std::vector<std::uint32_t> nodes;  // whose diagonal block changes, ascending
     bool are_all = false;              // every term has an end among them: nothing else changes
-    bool cancels = false;              // something that is left is small against what was taken away
+    bool cancels = false;              // what remains of some entry is small against what was subtracted
   };
   ChangedRows changed_rows(const NodeEntries& after, std::span<const RankOneTerm> terms) const;
   double rows_cost(const NodeEntries& after, std::span<const std::uint32_t> nodes) const;

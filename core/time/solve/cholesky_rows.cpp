@@ -13,7 +13,7 @@ namespace {
 using Eigen::Matrix3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// What terms do to the diagonal block of a node.
+// The change of the diagonal block of a node by the terms.
 struct NodeChange {
   Matrix3d sum = Matrix3d::Zero();
   double taken = 0.0;  // the largest diagonal entry of what is subtracted
@@ -51,7 +51,7 @@ Cholesky::Implementation::ChangedRows Cholesky::Implementation::changed_rows(con
       }
     }
     if (!(change.taken <= options.cancellation * least)) rows.cancels = true;
-    // what moves from one vertex to another leaves the blocks of its other ends as they are, but for rounding
+    // springs that move from one vertex to another leave the blocks of their other ends unchanged, except for rounding
     if (!(change.sum.cwiseAbs().maxCoeff() <= 4.0 * epsilon * largest)) rows.nodes.push_back(node);
   }
   const auto among = [&rows](std::uint32_t node) { return std::ranges::binary_search(rows.nodes, node); };
@@ -61,7 +61,7 @@ Cholesky::Implementation::ChangedRows Cholesky::Implementation::changed_rows(con
 
 double Cholesky::Implementation::rows_cost(const NodeEntries& after, std::span<const std::uint32_t> nodes) const {
   const std::vector<double> to_root = flops_to_root();
-  std::vector<std::size_t> first(capacity(), L->n);  // position in L of what a node couples to
+  std::vector<std::size_t> first(capacity(), L->n);  // by node: the first position in L that it couples to
   const auto position = [this](std::size_t node) { return static_cast<std::size_t>(inverse[node * rows_per_node]); };
   for (std::size_t j = 0; j < after.nodes; ++j)
     for (std::uint32_t k = after.pattern.column_start[j]; k < after.pattern.column_start[j + 1]; ++k) {
@@ -118,7 +118,7 @@ SolveStatus Cholesky::Implementation::replace_rows(const NodeEntries& after, std
       if (node < after.nodes)
         for (std::size_t c = 0; c < r; ++c) entries.emplace_back(inverse[node * d + c], after.diagonal_at(node, r, c));
       for (const auto [other, entry] : couplings[which_node])
-        if (which[other] == absent || which[other] < which_node)  // else it is not there yet
+        if (which[other] == absent || which[other] < which_node)  // otherwise the other row is still the identity
           for (std::size_t c = 0; c < d; ++c) entries.emplace_back(inverse[other * d + c], after.below_at(entry, r, c));
       std::erase_if(entries, [place](const auto& e) { return e.second == 0.0 && e.first != place; });
       std::sort(entries.begin(), entries.end());

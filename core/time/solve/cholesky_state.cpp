@@ -5,7 +5,7 @@
 #include "core/plain/archive.h"
 #include "core/time/solve/cholesky_implementation.h"
 
-// The factor on its way into a checkpoint, or out of one. CHOLMOD's objects are plain arrays, whose lengths its header
+// The factor written into a checkpoint, or read from one. CHOLMOD's objects are plain arrays, whose lengths its header
 // documents.
 
 namespace dartboard {
@@ -16,7 +16,7 @@ class FactorArrays {
  public:
   FactorArrays(Archive& archive, cholmod_common& common) : archive_(archive), common_(common) {}
 
-  /// Those that are there, or not, together.
+  /// An array that may be absent.
   template <class Element>
   void array(void*& data, std::size_t length) {
     bool is_there = data != nullptr;
@@ -49,7 +49,7 @@ class FactorArrays {
   }
 
  private:
-  // An array is stored whole, and columns with room for four times what is in them at most.
+  // An array is stored whole, and columns have room for at most four times their entries.
   template <class Element>
   void* allocate(std::size_t length) {
     constexpr std::size_t room = 64;

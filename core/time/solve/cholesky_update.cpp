@@ -16,7 +16,7 @@ SolveStatus Cholesky::Implementation::update(std::span<const RankOneTerm> terms)
   for (const RankOneTerm& term : terms)
     if (!term.direction.allFinite() || !std::isfinite(term.weight)) return SolveStatus::not_finite;
   pattern_kept = false;  // entries may be added
-  // What is added goes first: then no matrix in between is less definite than the last.
+  // Terms that add go first: then no matrix in between is less definite than the last.
   for (const bool adding : {true, false}) {
     const auto count = static_cast<std::size_t>(std::count_if(
         terms.begin(), terms.end(), [adding](const RankOneTerm& t) { return (t.weight > 0.0) == adding; }));

@@ -19,7 +19,7 @@ bool positive_definite(const Matrix3d& m) {
   return m(0, 0) > 0.0 && m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0) > 0.0 && m.determinant() > 0.0;
 }
 
-// Minors and determinants are products of three entries: of the block brought near 1, none under- or overflows.
+// Minors and determinants are products of three entries: of the block scaled to near 1, they do not under- or overflow.
 std::optional<Matrix3d> inverse_of_definite(const Matrix3d& block) {
   const double scale = scale_to_one(block.cwiseAbs().maxCoeff());
   const Matrix3d scaled = scale * block;
@@ -105,8 +105,8 @@ ConjugateGradientsResult ConjugateGradients::solve(const Matrix& matrix, std::sp
   }
   result.residual = std::sqrt(true_residual() / b_squared);
   if (result.status != SolveStatus::ok) return result;
-  // The recurrence of the residual drifts from the residual; where by more than this, the tolerance was below what
-  // rounding allows.
+  // The residual of the recurrence drifts from the true one; if it does by more than this, the tolerance was below the
+  // limit by rounding.
   if (!std::isfinite(result.residual))
     result.status = SolveStatus::not_finite;
   else if (result.residual > 10.0 * options.tolerance)

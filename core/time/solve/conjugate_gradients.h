@@ -15,7 +15,7 @@ struct ConjugateGradientsOptions {
   int max_iterations = 1000;
 };
 
-/// What came of a solution.
+/// The outcome of a solution.
 struct ConjugateGradientsResult {
   SolveStatus status = SolveStatus::ok;
   int iterations = 0;
@@ -24,8 +24,8 @@ struct ConjugateGradientsResult {
 
 /// Conjugate gradients for a positive definite A that need not be formed.
 ///
-/// An indefinite A is not seen for certain: it is reported as soon as a diagonal block, or a direction p with p'Ap <=
-/// 0, shows it. Then x is the iterate before.
+/// An indefinite A may go unnoticed: it is reported as soon as a diagonal block, or a direction p with p'Ap <= 0, shows
+/// it. Then x is the iterate before.
 ///
 /// source  Hestenes, Stiefel 1952
 class ConjugateGradients {

@@ -46,7 +46,7 @@ void StepMatrix::set_inertia(const SpringSystem& system) {
   held_axes_.assign(system.held_axes.begin(), system.held_axes.end());
 }
 
-// A block without the rows of what is held at vertex i, and the columns at j.
+// A block without the rows of the axes held at vertex i, and the columns of those held at j.
 Matrix3d StepMatrix::free_block(std::size_t i, std::size_t j, Matrix3d block) const {
   for (int c = 0; c < 3; ++c) {
     if (holds(held_axes_[i], c)) block.row(c).setZero();
@@ -55,7 +55,7 @@ Matrix3d StepMatrix::free_block(std::size_t i, std::size_t j, Matrix3d block) co
   return block;
 }
 
-// Velocities along held axes are given: on the diagonal, what they are multiplied by is the inertia.
+// Velocities along held axes are given: their diagonal entries are the inertia.
 void StepMatrix::hold_axes() {
   for (std::size_t i = 0; i < held_axes_.size(); ++i) {
     if (held_axes_[i] == 0) continue;
@@ -185,7 +185,7 @@ std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::spa
   for (auto i = static_cast<std::uint32_t>(inertia_.size()); i < old_inertia.size(); ++i)
     for (int c = 0; c < 3; ++c) terms.push_back({i, NodePattern::none, Vector3d::Unit(c), spare - old_inertia[i]});
 
-  // The ends that a block couples: none for fixed vertices, which are eliminated.
+  // The ends that a block couples; `none` in place of fixed vertices, which are eliminated.
   const auto coupled = [](const SpringEnds& ends, const std::vector<std::uint8_t>& fixed) {
     const auto [a, b] = ends;
     if (a == b || (fixed[a] && fixed[b])) return SpringEnds{NodePattern::none, NodePattern::none};
@@ -210,7 +210,7 @@ std::vector<RankOneTerm> StepMatrix::follow(const SpringSystem& system, std::spa
       if (sources_[e] == source) continue;
       const double ratio = source.stiffness / sources_[e].stiffness;
       if (std::isfinite(ratio) && source.damping == ratio * sources_[e].damping) {
-        // In proportion, as when a spring gains or loses some of its cells: the direction stays, so half the terms do.
+        // A proportional change, as when a spring gains or loses cells, keeps the direction: half the terms suffice.
         Block& block = blocks_[e];
         add(after, block.d, (ratio - 1.0) * block.p, (ratio - 1.0) * block.q);
         block.p *= ratio;

@@ -1,6 +1,6 @@
 #pragma once
-// The matrix of every implicit step, A = M + tau C + tau^2 K, as the springs give it: no entry is formed but for force
-// terms.
+// The matrix of every implicit step, A = M + tau C + tau^2 K, applied spring by spring: entries are formed for force
+// terms only.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -21,15 +21,15 @@ struct RankOneTerm {
   double weight;
 };
 
-/// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whatever they would couple eliminated;
-/// along held axes, with the inertia on the diagonal.
+/// A = M + tau C + tau^2 K, with identity rows and columns for fixed vertices, whose couplings are eliminated; along
+/// held axes, with the inertia on the diagonal.
 ///
 /// C holds the damping of the springs and of the force terms, and the ambient viscosity.
 class StepMatrix {
  public:
-  StepMatrix() { terms_.pattern.column_start = dampers_.pattern.column_start = {}; }  // not one byte until needed
+  StepMatrix() { terms_.pattern.column_start = dampers_.pattern.column_start = {}; }  // takes no memory until needed
 
-  /// Of the springs and, given what they are like and the pattern of the system, of its force terms.
+  /// Evaluate the matrix of the springs and, given the pattern of the system and `terms`, of its force terms.
   ///
   /// cost    O(vertices + springs); no memory is taken after the first call for a body
   void evaluate(const SpringSystem& system, std::span<const SpringTangent> tangents, double tau);
@@ -51,7 +51,7 @@ class StepMatrix {
   /// m + tau * viscosity by vertex; 1 for fixed ones.
   std::span<const double> inertia() const { return inertia_; }
 
-  /// y = A x, from the springs: five numbers and two ends each, where entries would take nine.
+  /// y = A x, from the springs: five numbers and two ends for each, where entries would need nine numbers.
   /// pre  x is zero along held axes
   void multiply(std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> y) const;
 
@@ -62,9 +62,9 @@ class StepMatrix {
   /// cost    O(vertices + springs)
   void assemble(const NodePattern& pattern, BlockMatrix& matrix) const;
 
-  /// Follow a topological change while keeping what was evaluated for springs that are the same as before: the terms
-  /// that lead from this matrix to the one returned in its place. Of springs alone: pre  there are no force terms, and
-  /// no vertex is held along axes
+  /// Follow a topological change while keeping the evaluated blocks of unchanged springs. Returned are the terms that
+  /// lead from the old matrix to the new one.
+  /// pre  there are no force terms, and no vertex is held along axes
   ///
   /// Springs and vertices are matched by number; those that changed are evaluated at `tangents`. A vertex whose number
   /// is beyond the old ones starts from `spare` times the identity.
@@ -81,7 +81,7 @@ class StepMatrix {
       archive(ends, d, p, q);
     }
   };
-  struct Source {  // what a block was evaluated for
+  struct Source {  // the spring that a block was evaluated for
     double stiffness, damping;
     friend bool operator==(const Source&, const Source&) = default;
     template <class Archive>
@@ -102,14 +102,14 @@ class StepMatrix {
   double tau_ = 0.0;
   std::vector<double> inertia_;
   std::vector<std::uint8_t> fixed_;
-  std::vector<HeldAxes> held_axes_;  // nothing without
+  std::vector<HeldAxes> held_axes_;  // by vertex; empty without held axes
   std::vector<Block> blocks_;        // by spring
   std::vector<Source> sources_;      // by spring
   std::vector<Eigen::Matrix3d> diagonal_;
   std::vector<std::uint32_t> links_;    // springs between two free vertices
   std::vector<std::uint32_t> anchors_;  // springs between a free and a fixed vertex
-  BlockMatrix terms_;                   // tau^2 K of the force terms; nothing without
-  BlockMatrix dampers_;                 // tau C of those that are damped; nothing without
+  BlockMatrix terms_;                   // tau^2 K of the force terms; empty without force terms
+  BlockMatrix dampers_;                 // tau C of the damped force terms; empty without such terms
 };
 
 }  // namespace dartboard

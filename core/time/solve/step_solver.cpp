@@ -25,7 +25,7 @@ void StepSolver::evaluate(const TangentsAt& tangents, const SpringSystem& system
   const Kind kind = options_.solver == LinearSolver::laplacian ? Kind::constant
                     : projecting_                              ? Kind::projected
                                                                : Kind::exact;
-  // conjugate gradients know no pattern: then it is that of the last change here
+  // conjugate gradients need no pattern; where they found none, that of the last change here is used
   if (changed_ || pattern_.node_count() != system.vertex_count()) pattern_ = node_pattern_of(system);
   matrix_.evaluate(system, tangents_, tau, pattern_, {tangents.at, kind});
 }
@@ -65,7 +65,7 @@ void StepSolver::project(WorkCounters& work) {
 }
 
 bool StepSolver::undo_step(WorkCounters& work) {
-  // where there was no factor yet there is none to lose
+  // where there was no factor before the step, dropping the present one loses nothing
   if (before_.generation == 0) cholesky_ = Cholesky(options_.cholesky);
   if (cholesky_.generation() != before_.generation) return false;
   work = before_.work;
@@ -96,7 +96,7 @@ SolveStatus StepSolver::prepare(const SpringSystem& given, const TangentsAt& tan
   if (changed_ && system.terms.empty()) pattern_ = node_pattern_of(system);
   ready_ = false;
   std::vector<RankOneTerm> terms;
-  // what elements change by is of rank nine each; and changes at held axes have different directions at both ends
+  // the change of an element has rank nine; and changes at held axes have different directions at both ends
   const bool follow = usable && system.terms.empty() && system.held_axes.empty();
   if (follow) {
     terms = factored_.follow(system, tangents_, cholesky_.spare_diagonal());
@@ -133,7 +133,7 @@ SolveStatus StepSolver::solve(std::span<const Vector3d> b, std::span<Vector3d> x
           {.tolerance = full ? 1e-12 : options_.kept_tolerance, .max_iterations = 4 * options_.patience});
       if (result.iterations > (full ? 3 : 1) * options_.patience) due_ = true;
       if (result.status == SolveStatus::not_converged) {
-        // What has been found by then is a direction of descent: Newton's method can go on from it.
+        // The iterate found by then is a direction of descent: Newton's method can go on from it.
         result.status = SolveStatus::ok;
         if (full) {
           factored_ = matrix_;

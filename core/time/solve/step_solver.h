@@ -1,5 +1,5 @@
 #pragma once
-// Solves with the matrix of an implicit step, M + tau C + tau^2 K, by the way asked for.
+// Solutions with the matrix of an implicit step, M + tau C + tau^2 K, by the linear solver chosen.
 
 #include <Eigen/Core>
 #include <functional>
@@ -32,7 +32,7 @@ enum class Accuracy : std::uint8_t { iteration, full };
 struct ImplicitOptions {
   LinearSolver solver = LinearSolver::kept_factor;
   TangentPolicy tangent = TangentPolicy::on_demand;
-  double tolerance = 1e-10;      // of Newton's method: acceleration left over, relative to what acts
+  double tolerance = 1e-10;      // of Newton's method: residual acceleration, relative to what acts
   int max_iterations = 300;      // of Newton's method
   double kept_tolerance = 0.03;  // of the solutions with a kept factor, for an iteration
   int patience = 12;             // iterations that a solution with a kept factor may take; then a fresh one is due
@@ -41,13 +41,13 @@ struct ImplicitOptions {
   ConjugateGradientsOptions conjugate_gradients = {.tolerance = 1e-6, .max_iterations = 2000};
 };
 
-/// The tangents at some linearisation: of all springs, and where those of the force terms are taken.
+/// The tangents at some linearisation: those of all springs, and the places where those of the force terms are taken.
 struct TangentsAt {
   std::function<void(Compression, std::vector<SpringTangent>&)> springs;
   StagePlaces at{};
 };
 
-/// The matrix and what solves with it, kept between steps.
+/// The matrix and its solvers, kept between steps.
 ///
 /// A matrix that is not positive definite is replaced by that of the projected tangents. A factor that is kept is that
 /// of an earlier matrix: it preconditions conjugate gradients on the present one.
@@ -55,17 +55,17 @@ class StepSolver {
  public:
   explicit StepSolver(const ImplicitOptions& options) : options_(options), cholesky_(options.cholesky) {}
 
-  /// Exact tangents may be tried again. What is kept is noted, and the work so far, for `undo_step`.
+  /// Exact tangents may be tried again. The kept state and the work so far are noted for `undo_step`.
   void begin_step(const WorkCounters& work = {}) {
     projecting_ = options_.tangent == TangentPolicy::projected;
     wait_ = remaining_ = 0;
     before_ = {work, tau_, changed_, ready_, due_, cholesky_.generation()};
   }
-  /// Back to the beginning of the step: what is kept then solves as it would have.
+  /// Go back to the beginning of the step: the next solutions are those that would have followed then.
   ///
   /// returns  false where the factor of that time has been replaced or given up since
   bool undo_step(WorkCounters& work);
-  /// Topology or material may have changed: look at them before the next solution.
+  /// Topology or material may have changed: check them before the next solution.
   void system_changed() { changed_ = true; }
 
   /// Get ready to solve with M + tau C + tau^2 K at this linearisation.
@@ -78,7 +78,7 @@ class StepSolver {
   SolveStatus solve(std::span<const Eigen::Vector3d> b, std::span<Eigen::Vector3d> x, Accuracy accuracy,
                     WorkCounters& work);
 
-  /// The factor, what it is of, and when it serves; what a step fills before it reads it is left out.
+  /// Writes or reads the factor, its matrix, and when it serves; what a step fills before it reads it is left out.
   template <class Archive>
   void state(Archive& archive) {
     archive(cholesky_, factored_, pattern_, tau_, changed_, ready_, due_);
@@ -101,7 +101,7 @@ class StepSolver {
   Cholesky cholesky_;
   ConjugateGradients conjugate_gradients_;
   StepMatrix matrix_;    // of the last `prepare`
-  StepMatrix factored_;  // what the factor is of
+  StepMatrix factored_;  // the matrix of the factor
   NodePattern pattern_;
   BlockMatrix blocks_;
   ScalarMatrix scalars_;

@@ -16,7 +16,7 @@ std::atomic<StopRequest::Asked> asked_now = nullptr;
 std::atomic<double> least_seconds_now = std::numeric_limits<double>::infinity();
 std::atomic<int> left_behind = 0;
 
-/// What the thread and who waits for it both hold.
+/// The data shared by the thread and its waiting caller.
 struct Job {
   std::function<void()> work;
   std::mutex mutex;
@@ -61,7 +61,7 @@ void do_unless_stopped(std::function<void()> work) {
   job->work = std::move(work);
   try {
     std::thread([job] { carry_out(*job); }).detach();
-  } catch (const std::system_error&) {  // no thread to be had: it cannot be stopped then
+  } catch (const std::system_error&) {  // no thread is available: the work cannot be stopped then
     job->work();
     return;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Work that takes seconds and cannot be cut short, given up when somebody asks for an end.
+// Work that takes seconds and cannot be interrupted, given up when the user asks for a stop.
 
 #include <exception>
 #include <functional>

@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Columns are reached by pointers of this frame: stores of Eigen's packets may alias anything, so what is reached
-// through a reference is loaded again after each. Pairing springs for SIMD gains nothing here: the sums at shared ends
-// are what the loop waits for.
+// Columns are accessed by local pointers: stores of Eigen's packets may alias anything, so a pointer accessed through a
+// reference is loaded again after each store. Pairing springs for SIMD gains nothing here: the loop waits for the sums
+// at shared ends.
 template <bool damped, class SomeSpring>
 void add_spring_forces(const SpringSystem& system, std::span<const SomeSpring> springs, std::span<const Vector3d> x,
                        std::span<const Vector3d> v, std::span<Vector3d> force) {
@@ -95,7 +95,7 @@ double frequency_bound(const SpringSystem& system) {
     for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
   for (const ForceTerm* term : system.terms)
     term->for_each_constant_tangent([&sum](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
-      // half of what all blocks in a row of the piece add up to: the sum is doubled below
+      // half of the sum of all blocks in a row of the piece: the sum is doubled below
       for (std::size_t a = 0; a < nodes.size(); ++a)
         for (std::size_t b = 0; b < nodes.size(); ++b)
           sum[nodes[a]] += 0.5 * std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));

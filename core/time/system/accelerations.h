@@ -1,5 +1,5 @@
 #pragma once
-// The forces of a spring system on arrays; what a system does not have costs nothing in the loops.
+// The forces of a spring system on arrays; effects that a system does not have cost nothing in the loops.
 
 #include <Eigen/Core>
 #include <span>
@@ -10,12 +10,12 @@ namespace dartboard {
 
 /// Which parts of the mechanics act in a system.
 struct Terms {
-  bool damping = false;    // along some spring, or of some force term
+  bool damping = false;    // of some spring or some force term
   bool viscosity = false;  // on some vertex
   bool fixed = false;      // some vertex
   friend bool operator==(const Terms&, const Terms&) = default;
 };
-/// cost    O(springs + vertices); ask once, not in every step
+/// cost    O(springs + vertices); to be called once, not in every step
 Terms terms_of(const SpringSystem& system);
 /// Is any of its force terms damped?
 bool has_damped_terms(const SpringSystem& system);
@@ -25,13 +25,13 @@ bool has_damped_terms(const SpringSystem& system);
 ///
 /// Leaving damping and viscosity out of the terms gives the conservative part. Springs are added in the order of their
 /// numbers with the operations of `spring_force` and `acceleration` (core/walks/spring_forces.h): the same bits.
-/// pre     a has room for all vertices and is none of x, v; v is read only for damping and viscosity
+/// pre     a.size() is the number of vertices; a aliases neither x nor v; v is read only for damping and viscosity
 void accelerations(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> x,
                    std::span<const Eigen::Vector3d> v, std::span<Eigen::Vector3d> a);
 
 /// An upper bound of the highest angular frequency [1/s] of the undamped system in any state where no spring is
-/// compressed: Gershgorin's, max over i of sqrt(2 sum_j k_ij / m_i). 0 without springs. With force terms no bound but
-/// a measure: their stiffness is that near rest.
+/// compressed: Gershgorin's, max over i of sqrt(2 sum_j k_ij / m_i). 0 without springs. With force terms it is an
+/// estimate, not a bound: their stiffness is that near rest.
 double frequency_bound(const SpringSystem& system);
 
 }  // namespace dartboard

@@ -37,8 +37,8 @@ struct Search {
   }
 };
 
-// Between any two vertices of a piece, diagonals too: where rounding is coarse for one of them, it is for the shorter
-// edges beside it.
+// Between any two vertices of a piece, diagonals too: where rounding is coarse for a diagonal, it is coarse for the
+// shorter edges next to it.
 void look_at_pieces(const SpringSystem& system, Search& search) {
   std::vector<std::uint8_t> has_spring(system.vertex_count(), 0);
   for (const auto& [i, j] : system.ends) has_spring[i] = has_spring[j] = 1;

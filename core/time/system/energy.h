@@ -11,8 +11,8 @@ namespace dartboard {
 // Sums of energies are compensated: their error is a few roundings of the result's largest term, whatever the size of
 // the body.
 
-/// Sum of the squares of all coordinates, plain, in eight parts so that none waits for the one before. What is not a
-/// number leaves none.   cost    a sixtieth of a force evaluation
+/// Sum of the squares of all coordinates, in eight independent partial sums, uncompensated. NaN propagates.
+/// cost    a sixtieth of a force evaluation
 double sum_of_squares(std::span<const Eigen::Vector3d> v);
 
 /// Sum of m v^2 / 2 [J].
@@ -21,7 +21,7 @@ double kinetic_energy(const SpringSystem& system, std::span<const Eigen::Vector3
 double elastic_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// - sum of m g . x [J], zero at the origin.
 double gravity_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
-/// The same of what pulls at vertices, - sum of m p . x [J].
+/// The same for the pull at the vertices, - sum of m p . x [J].
 double pull_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// All of them.
 double total_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);

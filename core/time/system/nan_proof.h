@@ -1,5 +1,5 @@
 #pragma once
-// Columns of vectors that may hold what is not a number.
+// Functions of columns of vectors that may hold NaN.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// The largest absolute coordinate; NaN if one is NaN, 0 if there is none.
+/// The largest absolute coordinate; NaN if one is NaN, 0 of an empty column.
 inline double max_abs_or_nan(std::span<const Eigen::Vector3d> v) {
   double largest = 0.0;
   for (const Eigen::Vector3d& p : v)

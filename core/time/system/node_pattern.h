@@ -1,6 +1,6 @@
 #pragma once
-// Which vertices are coupled by springs and force terms: the sparsity of every matrix of a spring system, one row per
-// vertex.
+// The pairs of vertices coupled by springs and force terms: the sparsity of every matrix of a spring system, one row
+// per vertex.
 
 #include <cstdint>
 #include <vector>
@@ -19,7 +19,7 @@ struct NodePattern {
 
   std::vector<std::uint32_t> column_start{0};  // nodes + 1
   std::vector<std::uint32_t> row;              // of the entries below the diagonal
-  // by spring, then by pair of each piece of each force term: its entry below the diagonal; none if an end is fixed
+  // by spring, then by pair of each piece of each force term: its entry below the diagonal; `none` if an end is fixed
   std::vector<std::uint32_t> place;
 
   std::size_t node_count() const { return column_start.size() - 1; }

@@ -1,5 +1,5 @@
 #pragma once
-// The mechanics as the time loop sees them: contiguous columns, no map and no dart.
+// The mechanics as the time loop uses them: contiguous columns, no map and no dart.
 
 #include <Eigen/Core>
 #include <concepts>
@@ -33,10 +33,10 @@ class OptionalColumn {
   std::span<const T> column_;
 };
 
-/// What acts on a set of vertices: springs between them, other force terms, ambient viscosity, gravity (the formulas:
+/// All effects on a set of vertices: springs between them, other force terms, ambient viscosity, gravity (the formulas:
 /// core/plain/problem.h), and forces from outside, each as an acceleration of its vertex.
 ///
-/// A view of columns that somebody else owns; valid until they change their size. Columns are by vertex or by spring
+/// A view of columns that the body owns; valid until they change their size. Columns are by vertex number or by spring
 /// number.
 struct SpringSystem {
   std::span<const SpringEnds> ends;
@@ -46,21 +46,21 @@ struct SpringSystem {
   OptionalColumn<double> viscosity;         // [kg/s]
   OptionalColumn<std::uint8_t> fixed;       // 1: held still
   Eigen::Vector3d gravity{0, 0, 0};         // [m/s^2]
-  std::span<const Eigen::Vector3d> pull{};  // [m/s^2] of each vertex, beside gravity; empty where nothing pulls
-  ForceTerms terms{};                       // beside the springs
+  std::span<const Eigen::Vector3d> pull{};  // [m/s^2] of each vertex, besides gravity; empty where nothing pulls
+  ForceTerms terms{};                       // the forces other than springs
   OptionalColumn<HeldAxes> held_axes{};     // of vertices that keep their velocity along some axes; 0 where fixed
 
   std::size_t vertex_count() const { return mass.size(); }
 };
 
-/// Take out of a column by vertex what is along held axes.
+/// Set to zero the components along held axes in a column by vertex.
 inline void free_along_axes(const SpringSystem& system, std::span<Eigen::Vector3d> column) {
   if (system.held_axes.empty()) return;
   for (std::size_t i = 0; i < column.size(); ++i)
     if (const HeldAxes held = system.held_axes[i]; held != 0) column[i] = free_part(held, column[i]);
 }
 
-/// Positions [m] and velocities [m/s] by vertex number: what an integrator advances, in place.
+/// Positions [m] and velocities [m/s] by vertex number, which an integrator advances in place.
 struct Motion {
   std::span<Eigen::Vector3d> x, v;
 };

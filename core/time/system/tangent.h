@@ -12,8 +12,8 @@ namespace dartboard {
 
 /// The 3x3 blocks of one spring, by their eigenvalues along its direction d and across it.
 ///
-/// K_e = k [(1 - L/l)(I - d d') + d d'] and C_e = c d d'. The force on the first end changes by K_e and C_e times what
-/// the second end moves more than the first, plus what damping loses or gains as the direction turns: that part,
+/// K_e = k [(1 - L/l)(I - d d') + d d'] and C_e = c d d'. The force on the first end changes by K_e and C_e times the
+/// motion of the second end relative to the first, plus a change of damping as the direction turns: that part,
 /// c (dv.d)/l, is unsymmetric and left out, which every user of the tangent allows.
 ///
 /// A spring of zero length has no direction and exerts no force (`spring_force`). Its K_e is k I, so that it resists

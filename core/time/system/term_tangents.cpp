@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 
 namespace {
 
-/// Puts the blocks of pieces into a matrix, term after term in the order that they have in the pattern.
+/// Puts the blocks of pieces into a matrix, term after term in the order of the pattern.
 class Assembly {
  public:
   Assembly(const SpringSystem& system, BlockMatrix& matrix)
@@ -21,7 +21,7 @@ class Assembly {
     matrix.below.assign(matrix.pattern.row.size(), Matrix3d::Zero());
   }
 
-  /// Every block, or `weight(piece)` times it.
+  /// Adds every block, or `weight(piece)` times it.
   ForceTerm::VisitTangent add() {
     return [this](ForceTerm::Nodes nodes, std::span<const Matrix3d> blocks) {
       add_piece(nodes, [&blocks](std::size_t k) -> const Matrix3d& { return blocks[k]; });

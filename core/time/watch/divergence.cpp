@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Twice the energy of force terms whose vertices are off by rounding, each in the same direction as no other: by the
+// Twice the energy of force terms whose vertices are displaced by rounding, each in a direction of its own: by the
 // stiffness near rest, K <= trace of its blocks.
 double energy_of_rounding(const SpringSystem& system, Motion motion, double place) {
   double sum = 0.0;
@@ -31,10 +31,10 @@ double energy_of_rounding(const SpringSystem& system, Motion motion, double plac
   return sum;
 }
 
-// Energy that nobody put in: positions rounded to 16 units in the last place move the ends of springs; what moves by
-// less than half a unit of its place in a step stands still, and has not fallen; gravity and what pulls set vertices
-// going before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no energy, but must
-// be finite: zero times one that is not is not a number.
+// Energy without a supply: positions rounded to 16 units in the last place move the ends of springs; a vertex that
+// moves by less than half a unit in its last place in a step stands still, and has not fallen; gravity and pulls
+// accelerate vertices before they have fallen; and a driven vertex passes on up to twice its speed. Dampers have no
+// energy, but must be finite: zero times an infinite damping is NaN.
 double small_energy(const SpringSystem& system, Motion motion, double h) {
   constexpr double place = 16 * std::numeric_limits<double>::epsilon();
   double elastic = 0.0, mass = 0.0, driven = 0.0, pulled = 0.0, standing = 0.0;
@@ -66,7 +66,7 @@ DivergenceDetector::Sums DivergenceDetector::sums(const SpringSystem& system, Mo
     twice += system.mass[i] * motion.v[i].squaredNorm();
     moment += system.mass[i] * motion.x[i];
   }
-  // a product with zero gravity keeps what is not finite
+  // a product with zero gravity is still NaN where the moment is not finite
   double gravity = -system.gravity.dot(moment);
   for (std::size_t i = 0; i < system.pull.size(); ++i) gravity -= system.mass[i] * system.pull[i].dot(motion.x[i]);
   return {twice / 2, gravity, std::isfinite(twice) && std::isfinite(gravity)};
@@ -95,7 +95,7 @@ void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) 
   }
 }
 
-// What moves a driven vertex does work against the springs and the weight there.
+// The work per time that drives do at driven vertices against the springs and the weight there.
 double DivergenceDetector::power(const SpringSystem& system, Motion motion) {
   double sum = 0.0;
   for (const std::uint32_t s : driven_springs_) {
@@ -157,7 +157,7 @@ StepResult DivergenceDetector::begin(const SpringSystem& system, Motion motion, 
   for (const double m : system.mass) heaviest_ = max_or_nan(heaviest_, m);
   since_start_ = 0;
   next_check_ = 1;
-  since_all_ = all_steps;  // the first suspicion is followed at once
+  since_all_ = all_steps;  // the first suspicion is checked at once
   keep(motion);
   return {};
 }
@@ -184,20 +184,20 @@ StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion mot
     const double power_now = power(system, motion);
     work_ += step_ / 2 * (power_ + power_now);
     power_ = power_now;
-    if (work_ > most_work_) most_work_ = work_;  // one that is no number is of a state that is none, and found by it
+    if (work_ > most_work_) most_work_ = work_;  // a NaN here comes from a state with NaN, and is found in that state
   }
   if (++since_start_ < next_check_) return {};
   next_check_ += std::min(since_start_, check_steps);
   ++checks_;
   const double elastic = energy_of_some(system, motion);
-  // Comparisons that a NaN fails. Most checks end at the first, but for gravity, whose work has to be summed.
+  // A NaN fails these comparisons. Most checks end at the first, except with gravity, whose work has to be summed.
   if (since_kept_ < keep_steps && system.gravity.isZero(0.0) && system.pull.empty() &&
       heaviest_ / 2 * sum_of_squares(motion.v) + elastic <= suspicion * supply())
     return {};
   const Sums now = sums(system, motion);
   const double energy = available(now);
   if (!now.finite || !(now.kinetic <= gain * energy)) return diagnose(system, motion);
-  // a few springs may hold much of it, or little: what they suggest is looked at
+  // a few springs may hold much of the energy, or little: what they suggest is checked
   const double seen = now.kinetic + elastic;
   if (!(seen <= gain * energy) || (seen > suspicion * energy && since_all_ >= all_steps))
     if (const StepResult result = check_all(system, motion); !result.ok()) return result;

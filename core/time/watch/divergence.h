@@ -1,6 +1,6 @@
 #pragma once
-// Does a run still follow an energy that nothing in the system could supply? A check in the step loop that ends it
-// before anything overflows.
+// A check in the step loop that ends a run whose energy exceeds what the system could supply, before anything
+// overflows.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace dartboard {
 
-/// Compares what moves with what there was to move it.
+/// Compares the energy of the motion with the energy that was available for it.
 ///
 /// Forces do work from an elastic energy that is never negative, from gravity, and from vertices that are driven; the
 /// rest dissipates. So kinetic energy stays below T_0 + V_0 plus the work of gravity and of driven vertices, and so
 /// does the energy of any springs. The work of driven vertices is summed after every step, by the trapezoidal rule,
-/// over the springs that end at them. An unstable motion raises it in proportion to its amplitude and its own energy
-/// with the square of that: it cannot hide behind it. Compared are the kinetic energy, and the energy of some springs,
-/// others each time: what is overdamped grows without moving fast. What a bound from above already shows is not summed
-/// exactly: the largest mass times the sum of the squared speeds, beside what there is without the work of gravity. A
+/// over the springs that end at them. An unstable motion raises that work in proportion to its amplitude, and its own
+/// energy with the square of it, so the work cannot mask it. Compared are the kinetic energy and the energy of a sample
+/// of springs that rotates: an overdamped instability grows without moving fast. Exact sums are skipped where an upper
+/// bound suffices: the largest mass times the sum of the squared speeds, compared with the supply without gravity. A
 /// stable method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 - theta^2 / 4). More than `gain`
 /// times the energy available, that is a tenfold amplitude, is no oscillation of a stable one below 0.99 of its limit.
 ///
-/// An energy that stays above the bound is found within 16 steps where what moves, or the springs looked at, show it,
-/// and within 64 where they only suggest it (`suspicion`): then all springs are summed. How soon an unstable step
-/// brings the energy there is another matter: ln(10 / share of the unstable oscillation) / ln(growth per step) steps.
+/// An energy that stays above the bound is found within 16 steps where the velocities or the sampled springs show it,
+/// and within 64 where they only suggest it (`suspicion`): then all springs are summed. An unstable step needs
+/// ln(10 / share of the unstable oscillation) / ln(growth per step) steps to bring the energy above the bound.
 ///
 /// Sums, never maxima: a sum with a NaN in it is NaN.
 class DivergenceDetector {
@@ -35,20 +35,20 @@ class DivergenceDetector {
   static constexpr std::uint64_t keep_steps = 64;   // between states kept
   static constexpr double suspicion = 10;           // in energy; stable runs below 0.94 of their limit have less
   static constexpr std::uint64_t all_steps = 48;    // between two sums over all springs that are made on suspicion
-  static constexpr std::size_t spring_share = 32;   // one spring of so many is looked at, but 8 if there are
+  static constexpr std::size_t spring_share = 32;   // one spring of so many is sampled, but at least 8 if there are 8
 
   /// A run starts here, with steps of h [s]. The state is kept.
   /// returns  nonfinite if the state, a mass or a spring is not finite; then there is no state to go back to
   /// cost     a force evaluation
   StepResult start(const SpringSystem& system, Motion motion, double h);
 
-  /// The system has changed between two steps. Of the energy available, what was dissipated is no longer there, and
-  /// what cannot be explained is not added: a run with a change after every step is watched like any other.
+  /// The system has changed between two steps. The available energy is reset to the present energy, capped by the old
+  /// bound: a run with a change after every step is watched like any other.
   ///
   /// cost  a force evaluation
   StepResult system_changed(const SpringSystem& system, Motion motion);
 
-  /// Since the last step, work has been done on the body that is in no force here [J]: by obstacles that move.
+  /// Adds work [J] done on the body since the last step by forces that the system does not have: by moving obstacles.
   void add_work(double work);
 
   /// After each step: ok, unstable_step, or nonfinite, with the vertex that has most of the energy, or is not finite.
@@ -58,15 +58,15 @@ class DivergenceDetector {
   /// cost  a force evaluation
   StepResult check_all(const SpringSystem& system, Motion motion);
 
-  /// A diagnosis nonfinite without a witness, with the vertex or the spring that is not finite, if there is one.
+  /// Adds to a diagnosis nonfinite without a witness the vertex or the spring that is not finite, if there is one.
   StepResult with_witness(const StepResult& result, const SpringSystem& system, Motion motion) const;
 
-  /// Put the motion back to the state kept last: the start, that after the last change, or one since then that was not
-  /// above twice the energy available.
+  /// Put the motion back to the state kept last: the start, the state after the last change, or a later one whose
+  /// kinetic energy was not above twice the energy available.
   /// returns  how many steps ago it was
   std::uint64_t restore(Motion motion) const;
 
-  /// What its later verdicts depend on, and the state kept.
+  /// Writes or reads what later verdicts depend on, and the state kept.
   template <class Archive>
   void state(Archive& archive) {
     archive(step_, energy_, gravity_, small_, heaviest_, driven_, driven_springs_, driven_pieces_);
@@ -76,7 +76,7 @@ class DivergenceDetector {
 
   std::uint64_t checks() const { return checks_; }
   std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
-  /// The same for what the work of driven vertices is summed over.
+  /// The same for the lists of driven vertices and of the springs at them.
   std::size_t driven_bytes() const { return bytes_of(driven_, driven_springs_); }
   std::size_t driven_springs() const { return driven_springs_.size(); }
 
@@ -88,7 +88,7 @@ class DivergenceDetector {
   };
   Sums sums(const SpringSystem& system, Motion motion) const;
   double available(const Sums& now) const;
-  double supply() const { return energy_ + small_ + most_work_; }  // what is available but for the work of gravity
+  double supply() const { return energy_ + small_ + most_work_; }  // available energy without the work of gravity
   void find_driven(const SpringSystem& system, Motion motion);
   double power(const SpringSystem& system, Motion motion);
   double energy_of_some(const SpringSystem& system, Motion motion);
@@ -97,9 +97,9 @@ class DivergenceDetector {
   void keep(Motion motion);
 
   double step_ = 0.0;
-  double energy_ = 0.0;    // kinetic and elastic, that the run began with
-  double gravity_ = 0.0;   // at the beginning
-  double small_ = 0.0;     // what rounding, the first step of gravity, and driven vertices may supply
+  double energy_ = 0.0;    // [J] kinetic and elastic, at the start
+  double gravity_ = 0.0;   // [J] of gravity, at the start
+  double small_ = 0.0;     // [J] what rounding, the first step of gravity, and driven vertices may supply
   double heaviest_ = 0.0;  // [kg] the largest mass
   std::vector<std::uint32_t> driven_, driven_springs_;  // vertices, and the springs at them that may change in length
   std::vector<std::vector<std::uint32_t>> driven_pieces_;  // by force term: those with a driven vertex

@@ -1,5 +1,5 @@
 #pragma once
-// What can be said of a run before its first step.
+// The checks of a run before its first step.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// What a warning is about where a stable step does not resolve the fastest motions.
+/// The quantity of the warning that a stable step does not resolve the fastest motions.
 inline constexpr std::string_view step_times_frequency = "step times highest frequency";
 
 /// Diagnoses of a system, a motion and a step: `refused` keep a run from starting, `warnings` do not.
@@ -31,7 +31,7 @@ struct Preflight {
 Preflight check_before_run(const SpringSystem& system, Motion motion, const Scheme& scheme, double h,
                            const StableStep& limits, const Horizon& horizon = {});
 
-/// A warning with what it means for the run: "BAD_SCALING: step times highest frequency = 15.5; motions that fast are
+/// A warning and its meaning for the run: "BAD_SCALING: step times highest frequency = 15.5; motions that fast are
 /// not resolved".
 std::string explained(const StepResult& warning);
 

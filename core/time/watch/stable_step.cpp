@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double unlimited = Scheme::unlimited;
 constexpr std::size_t dense_coordinates = 60;
-// What rounding may do to a Ritz value, relative: far above k unit roundoffs, far below what the bracket leaves open.
+// The relative error of a Ritz value by rounding: far above k unit roundoffs, far below the width of the bracket.
 constexpr double rounding = 1e-12;
 
 double dot(std::span<const Vector3d> a, std::span<const Vector3d> b) {
@@ -40,7 +40,7 @@ double largest_ritz_value(const std::vector<double>& diagonal, const std::vector
   return solver.eigenvalues().maxCoeff();
 }
 
-// A damper without a spring, or as good as that: it has no damping time.
+// A damper without a spring, or with one too soft to count: it has no damping time.
 bool only_damps(const Spring& s) { return s.stiffness == 0.0 || std::isinf(s.damping / s.stiffness); }
 
 Bounds damping_times(const SpringSystem& system) {
@@ -63,7 +63,7 @@ Bounds damping_times(const SpringSystem& system) {
   return b;
 }
 
-// Dampers without a spring belong here: between nothing and Gershgorin's bound of their matrix over the masses.
+// Dampers without a spring belong here: their rates are between 0 and Gershgorin's bound of their matrix per mass.
 Bounds viscous_rates(const SpringSystem& system) {
   std::vector<double> dampers;
   for (std::size_t s = 0; s < system.springs.size(); ++s) {
@@ -100,7 +100,7 @@ double damping_bound(const SpringSystem& system) {
   return highest;
 }
 
-/// The same for what the springs have across their directions, as a frequency.
+/// The same for the stiffness of the springs across their directions, as a frequency.
 double across_bound(const SpringSystem& system, std::span<const SpringTangent> tangents) {
   std::vector<double> sum(system.vertex_count(), 0.0);
   for (std::size_t s = 0; s < tangents.size(); ++s)
@@ -119,8 +119,8 @@ StableStep quick_stable_step(const SpringSystem& system) {
   step.any_state = step.upper = step.across = frequency_bound(system);
   step.damping_time = damping_times(system);
   step.viscous_rate = viscous_rates(system);
-  // the bound knows nothing of damping, and the extremes of the rates pass over what is not a number
-  double finite = 0.0;  // 0 times what is finite, else not a number
+  // the bound does not depend on damping, and the extremes of the rates ignore NaN
+  double finite = 0.0;  // 0 if all are finite, otherwise NaN
   for (const Spring& s : system.springs) finite += 0.0 * (s.stiffness + s.damping);
   for (std::size_t i = 0; i < system.vertex_count(); ++i)
     if (!system.fixed[i]) finite += 0.0 * (system.inverse_mass[i] + system.viscosity[i]);
@@ -146,7 +146,7 @@ bool StableStepEstimate::prepare(const SpringSystem& system, std::span<const Vec
   unit_ = scale_frequency_ * scale_frequency_;
   springs_ = system.springs.size();
   scale_.resize(n);
-  double finite = 0.0;  // 0 times what is finite, else not a number
+  double finite = 0.0;  // 0 if all are finite, otherwise NaN
   for (std::size_t i = 0; i < n; ++i) {
     scale_[i] = system.fixed[i] ? 0.0 : std::sqrt(system.inverse_mass[i]);
     finite += 0.0 * (scale_[i] + x[i].sum());
@@ -188,7 +188,7 @@ double StableStepEstimate::power_iteration(const Operator& matrix) {
       for (double& c : shape_[i]) c = random_.next_signed();
     if (scale_[i] == 0.0) shape_[i].setZero();
   }
-  if (scale_to_unit(shape_) == 0.0) {  // what was kept has no part in what is left
+  if (scale_to_unit(shape_) == 0.0) {  // the kept shape has no component in the present system
     for (std::size_t i = 0; i < shape_.size(); ++i)
       if (scale_[i] != 0.0)
         for (double& c : shape_[i]) c = random_.next_signed();
@@ -256,7 +256,7 @@ Bounds StableStepEstimate::largest_eigenvalue(const Operator& matrix, SplitMix64
   return {largest, largest};
 }
 
-// The draws are of its own, so that damping changes no bit of the frequencies.
+// It draws its own random numbers, so that damping changes no bit of the frequencies.
 Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, std::span<const Vector3d> x,
                                                 double factor) {
   const bool damped = has_damped_terms(system);
@@ -273,10 +273,10 @@ Bounds StableStepEstimate::largest_damping_rate(const SpringSystem& system, std:
   return {bound * std::max(0.0, found.lower * (1.0 - rounding)), std::min(bound, bound * (found.upper + rounding))};
 }
 
-// With damped force terms. Of those x'Kx = x'Nx + x'Dx, with N the stiffness that their damping is in proportion to and
-// D the difference, which is nothing near rest; Gershgorin bounds x'Dx by r x'Mx. So a rate of damping lies between
-// time (omega^2 - across^2 - r) and time (omega^2 + r), besides viscosity. Terms that are not damped, of which a bound
-// from below would know nothing, have no damping time.
+// Damped force terms have x'Kx = x'Nx + x'Dx, with N the stiffness that their damping is proportional to and D the
+// difference, which vanishes near rest; Gershgorin bounds x'Dx by r x'Mx. So a rate of damping lies between
+// time (omega^2 - across^2 - r) and time (omega^2 + r), besides viscosity. Terms that are not damped have no damping
+// time; a bound from below would not cover them.
 void StableStepEstimate::allow_for_stress(const SpringSystem& system, std::span<const Vector3d> x) {
   stiffness_of_stress(system, {{x}, TermTangents::Kind::projected}, terms_);
   const double missing = largest_row_sum(system, terms_);
@@ -304,10 +304,10 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
   if (has_damped_terms(system))
     allow_for_stress(system, x);
   else if (!system.terms.empty())
-    latest_.across = unlimited;  // elements have no direction of their own
+    latest_.across = unlimited;  // elements have no direction as springs have
   latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));
-  // just above a ratio of 1 the rate of decay grows with the root of what is missing: 10 % are 0.9 % of a rate
+  // just above a ratio of 1 the rate of decay grows with the root of the excess: 10 % are 0.9 % of a rate
   const Bounds ratio = latest_.damping_ratio();
   const bool is_critical = ratio.upper > 0.95 && ratio.lower < 1.25;
   latest_.damping_rate = largest_damping_rate(system, x, is_critical ? critical_excess : std::sqrt(excess));

@@ -15,9 +15,9 @@
 
 namespace dartboard {
 
-/// What Gershgorin's bound says: `upper` is `any_state`, `lower` is 0, and nothing is known of directions. Where a step
-/// is stable by that, there is nothing to look at more closely. Of force terms, whose stiffness grows with what they
-/// are deformed by, it knows nothing: no step is stable by it.
+/// The limits by Gershgorin's bound: `upper` is `any_state`, `lower` is 0, and directions are unknown. A step that is
+/// stable by this bound needs no closer estimate. The bound does not cover force terms, whose stiffness grows with
+/// their deformation: with them no step is stable by it.
 ///
 /// cost  a third of a force evaluation
 StableStep quick_stable_step(const SpringSystem& system);
@@ -31,19 +31,19 @@ StableStep quick_stable_step(const SpringSystem& system);
 /// polynomial of degree 2k - 1 that is b_1 <= 1 / sinh((2k - 1) asinh r), r^2 = e / (1 - e). A slice of a cube is at
 /// most sqrt 2 times as large as a face (Ball 1986), so b_1 <= t has a probability of at most sqrt(2 N) t. Hence
 ///
-///     omega_max <= sqrt(xi) cosh( asinh(sqrt(2 N) / failure) / (2k - 1) )    but for the probability `failure`
+///     omega_max <= sqrt(xi) cosh( asinh(sqrt(2 N) / failure) / (2k - 1) )    except with probability `failure`
 ///
 /// and k is chosen for the factor `excess`. Systems of up to 60 coordinates have their eigenvalues computed. The same
 /// is done for the rate of damping, whose bracket is `excess` wide itself: strong damping limits steps by that rate.
 class StableStepEstimate {
  public:
-  static constexpr double failure = 1e-9;            // probability that the upper bound is none
+  static constexpr double failure = 1e-9;            // probability that the upper bound fails
   static constexpr double excess = 1.06;             // upper / true, at most
-  static constexpr double critical_excess = 1.0045;  // squared, of the rate of damping where it is nearly critical
+  static constexpr double critical_excess = 1.0045;  // squared: that of the rate of damping where nearly critical
 
-  /// Bracket anew: about 40 multiplications by the stiffness, each the cost of a force evaluation; and where there is
-  /// damping as many by that, thrice as many where it is nearly critical. Force terms are linearised once, projected,
-  /// into a matrix that is let go of; damped ones thrice, as far as they are stressed too.
+  /// Bracket anew: about 40 multiplications by the stiffness, each the cost of a force evaluation; where there is
+  /// damping, as many by the damping, three times as many if it is nearly critical. Force terms are linearised once,
+  /// projected, into a matrix that is then freed; damped terms three times, the last time for their stress.
   const StableStep& refresh(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
   /// One power iteration on a vector that is kept, which raises the lower bound to where the highest frequency is now.
@@ -73,7 +73,7 @@ class StableStepEstimate {
   std::vector<Eigen::Vector3d> scaled_, shape_, q_, previous_, w_;
   double scale_frequency_ = 0.0;  // [1/s] Gershgorin's bound of the matrix here; `any_state` without force terms
   double unit_ = 0.0;             // [1/s^2] its square, which the matrix is divided by
-  BlockMatrix terms_;             // the stiffness of force terms or their damping, while it is looked at
+  BlockMatrix terms_;             // the stiffness of force terms or their damping, while it is bracketed
   std::size_t springs_ = 0, pieces_ = 0;  // of force terms
   std::uint64_t multiplications_ = 0;
   SplitMix64 random_{1};

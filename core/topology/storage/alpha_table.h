@@ -28,12 +28,12 @@ class AlphaTable {
   bool is_live(Dart d) const { return d.index < capacity() && generation_[d.index] != 0; }
   std::uint32_t generation(Dart d) const { return is_live(d) ? generation_[d.index] : 0; }
 
-  /// Where the label of the i-cell of `d` is kept, when every dart holds one; here each dart has its own place.
+  /// The place of the label of the i-cell of `d`, when every dart holds one; here each dart has its own place.
   template <int i>
   static std::uint32_t slot(Dart d) {
     return d.index;
   }
-  /// How many such places there are.
+  /// The number of such places.
   template <int i>
   std::size_t slot_count() const {
     return capacity();
@@ -56,7 +56,7 @@ class AlphaTable {
   std::size_t bytes() const { return 4 * (alphas_.capacity() + generation_.capacity() + free_.capacity()); }
   /// Equal for equal tables, dead slots and their order included.
   std::uint64_t hash() const;
-  /// What a checkpoint holds of it (core/plain/archive.h).
+  /// Writes or reads what a checkpoint holds (core/plain/archive.h).
   template <class Archive>
   void state(Archive& archive) {
     archive(alphas_, generation_, free_, births_);
@@ -76,7 +76,7 @@ class AlphaTable {
   std::vector<std::uint32_t> alphas_;      // alphas_[(N + 1) d + i]
   std::vector<std::uint32_t> generation_;  // 0 for a dead slot
   std::vector<std::uint32_t> free_;
-  std::uint32_t births_ = 0;  // never turned back: a generation is not given out twice
+  std::uint32_t births_ = 0;  // never decreases: a generation is not given out twice
   Journal* journal_ = nullptr;
 };
 

@@ -19,7 +19,7 @@ struct Dart {
   }
 };
 
-/// No dart at all: what a default-constructed Dart is. (An i-free dart is its own alpha_i instead.)
+/// No dart at all: the value of a default-constructed Dart. (An i-free dart is its own alpha_i instead.)
 inline constexpr Dart no_dart{};
 
 /// A dart that survives edits: resolving it after the dart died is an error, also when its slot has been used again.

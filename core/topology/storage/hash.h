@@ -1,5 +1,5 @@
 #pragma once
-// State hashes: equal bits give equal numbers, printed beside every time.
+// State hashes: equal bits give equal numbers, printed next to every time.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace dartboard {
 class Hash {
  public:
   Hash() = default;
-  /// Goes on from the value of another.
+  /// Continues from the value of another hash.
   explicit Hash(std::uint64_t value) : value_(value) {}
   /// pre  T is plain numbers without padding
   template <class T>

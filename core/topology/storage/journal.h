@@ -1,5 +1,5 @@
 #pragma once
-// What the operations on a map changed, one primitive write at a time, so that it can be taken back.
+// The changes of a map by operations, one primitive write at a time, so that they can be taken back.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// What a storage checks before it takes more: its numbers have 32 bits.
+// The check of a storage before it grows: its numbers have 32 bits.
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@ namespace dartboard {
 [[noreturn]] void throw_no_room(std::uint64_t used, std::uint64_t more, std::uint64_t most, const char* what);
 
 /// pre     used <= most
-/// throws  TopologyError if `more` of `what` beside those `used` are more than `most`
+/// throws  TopologyError if `used` and `more` of `what` together are more than `most`
 inline void require_room(std::uint64_t used, std::uint64_t more, std::uint64_t most, const char* what) {
   if (more > most - used) throw_no_room(used, more, most, what);
 }

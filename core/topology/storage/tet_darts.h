@@ -26,9 +26,9 @@ struct TetDarts {
     std::uint8_t face, r;
   };
   std::array<std::array<std::array<Exit, 4>, 24>, 8> exits{};
-  // Where one comes in: turned[r][turn] is the dart of a face opposite dart r of a face sewn to it with that turn
-  // (turns are told by where dart 0 goes); entry[set][r][8 f + turn] is the lowest dart of the block met when that face
-  // is f.
+  // The entry into the next block: turned[r][turn] is the dart of a face opposite dart r of a face sewn to it with that
+  // turn (named by the image of dart 0); entry[set][r][8 f + turn] is the lowest dart of the block entered when that
+  // face is f.
   std::array<std::array<std::uint8_t, 8>, 6> turned{};
   std::array<std::array<std::array<std::uint8_t, 32>, 6>, 8> entry{};
 

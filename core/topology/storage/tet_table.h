@@ -29,7 +29,7 @@ class TetTable {
   bool is_live_tetrahedron(std::uint32_t t) const { return t < generation_.size() && generation_[t] != 0; }
   std::uint32_t generation(Dart d) const { return is_live(d) ? generation_[d.index / 24] : 0; }
 
-  /// Where the label of the i-cell of `d` is kept: tetrahedron by tetrahedron, 4 nodes, 6 edges, 4 faces, 1 volume.
+  /// The place of the label of the i-cell of `d`: tetrahedron by tetrahedron, 4 nodes, 6 edges, 4 faces, 1 volume.
   template <int i>
   static std::uint32_t slot(Dart d) {
     const std::uint32_t t = d.index / 24, p = d.index % 24;
@@ -62,7 +62,7 @@ class TetTable {
 
   std::size_t bytes() const { return 4 * (opposite_.capacity() + generation_.capacity() + free_.capacity()); }
   std::uint64_t hash() const;
-  /// What a checkpoint holds of it (core/plain/archive.h).
+  /// Writes or reads what a checkpoint holds (core/plain/archive.h).
   template <class Archive>
   void state(Archive& archive) {
     archive(opposite_, generation_, free_, births_);
