@@ -28,7 +28,7 @@ struct SceneFeatures {
   double motion_size = 0.0;                  // [edges] velocities over that rate
   double force_s = 0.0;                      // seconds of a force evaluation here
   double implicit_step_s = 0.0;              // seconds of a linearly implicit step here, its factor kept
-  std::vector<StableStep> limits{};          // of the step: at the start, and there after each event
+  std::vector<StableStep> limits{};          // of the step: at the start, and there after events (of many, about 16)
 };
 
 /// All but `implicit_step_s`, which takes a factorisation to know. The forces are timed three times, `timing_ns` each.

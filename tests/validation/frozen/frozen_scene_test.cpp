@@ -118,6 +118,25 @@ TEST(FrozenScene, TearsWhatAnAccurateRunTearsByEveryMethodAndStep) {
   EXPECT_EQ(scene.omissions[0], "/events/0 tears what it tears in one accurate run, at the times of that run.");
 }
 
+TEST(FrozenScene, CutsWhatLiesOnThePlaneOnceContactHasMovedTheBody) {
+  // a wall pushes the box, and with it the faces in its middle, to the plane
+  const TradeoffScene scene = scene_of_file(parse(changed(
+      R"({"fixed": [], "initial_velocity": [0, 0, 0], "gravity": [0, 0, 0], "duration": 0.5, "step": 0.0078125,
+          "contact": {"pressure": 500, "depth": 0.02,
+                      "obstacles": [{"plane": {"point": [-0.01, 0, 0], "normal": [1, 0, 0]}, "velocity": [0.5, 0, 0]}]},
+          "events": [{"at": 0.45, "dissociate": {"plane": {"point": [0.3, 0, 0], "normal": [1, 0, 0]}}}]})")));
+  EXPECT_EQ(scene.motion.events.size(), 1u);
+  EXPECT_EQ(scene.beyond_references, "contact");
+}
+
+TEST(FrozenScene, IsNotRunThroughContactInStepsThatTheIntegratorChooses) {
+  const TradeoffScene scene = scene_of_file(parse(changed(
+      R"({"contact": {"pressure": 500, "depth": 0.02,
+                      "obstacles": [{"plane": {"point": [0, 0, -1], "normal": [0, 0, 1]}}]}})")));
+  EXPECT_THROW(run_timed(scene, *make_integrator("dormand-prince-54"), {.tolerance = 1e-3}, [] { return 0; }),
+               InputError);
+}
+
 TEST(FrozenScene, LooksAtTheBodyInEveryStepOnlyWhereThereIsOne) {
   Json json = changed(R"({"step": null, "accuracy": 1e-2, "events": [{"tear_where_stressed": {"threshold": 1}}]})");
   const TradeoffScene scene = scene_of_file(parse(json));

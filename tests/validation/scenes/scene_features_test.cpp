@@ -88,6 +88,19 @@ TEST(StiffScene, IsCriticallyDampedAtItsFastestModeWhereItIsDamped) {
   EXPECT_EQ(damped.duration, undamped.duration);
 }
 
+TEST(SceneFeatures, OfManyEventsLookAtSomeOfTheStepsThatTheyAllowAndAtTheLast) {
+  moving::Json json = moving::with_events(
+      moving::moving_box(),
+      R"([{"from": 0.0001, "every": 0.0002, "until": 0.0079, "remove": {"random": {"count": 1, "seed": 3}}},
+                                {"at": 0.009, "refine": {"cells": {"sphere": {"centre": [0, 0, 0], "radius": 1}}}}])");
+  const TradeoffScene scene = scene_of_file(moving::parse(json));
+  ASSERT_EQ(scene.motion.events.size(), 41u);
+  const SceneFeatures f = features_of(scene, ticking());
+  EXPECT_GE(f.limits.size(), 17u);
+  EXPECT_LE(f.limits.size(), 33u);
+  EXPECT_GT(f.limits.back().lower, 1.2 * f.limits[f.limits.size() - 2].upper);  // of shorter edges
+}
+
 TEST(SizesInWords, NameSpringsWhereThereAreSomeOrNothingElse) {
   EXPECT_EQ(sizes_in_words(5, 4, {}), "5 vertices, 4 springs");
   EXPECT_EQ(sizes_in_words(5, 0, {}), "5 vertices, 0 springs");

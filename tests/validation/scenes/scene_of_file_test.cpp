@@ -61,19 +61,6 @@ TEST(SceneOfFile, RefusesWhatIsNoMotionToStudy) {
   EXPECT_THROW(scene_of_file(parse(json)), InputError);
 }
 
-TEST(SceneOfFile, RefusesContactByItsKey) {
-  Json json = moving_box();
-  json["contact"] = Json::parse(R"({"pressure": 1, "depth": 1,
-                                    "obstacles": [{"sphere": {"centre": [9, 9, 9], "radius": 1}}]})");
-  try {
-    scene_of_file(parse(json));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "file: /contact: says what touches; expected none: runs through contact are not compared");
-  }
-}
-
 TEST(FindScene, TakesFilesAndNamesOfTheStudy) {
   EXPECT_EQ(find_scene("chain", "").name, "chain");
   EXPECT_THROW(find_scene("no-such-scene", ""), InputError);
