@@ -120,7 +120,7 @@ void check(const NetworkMotion& motion) {
     t = event.time;
     check(event.network);
     if (event.from.size() != event.network.point_count())
-      throw InputError(fmt::format("event at {} s tells the origin of {} points of {}", t, event.from.size(),
+      throw InputError(fmt::format("event at {} s gives the origin of {} points of {}", t, event.from.size(),
                                    event.network.point_count()));
     for (const std::uint32_t i : event.from)
       if (i >= points) throw InputError(fmt::format("event at {} s: a point comes from point {} of {}", t, i, points));

@@ -92,7 +92,7 @@ SpringNetwork spring_network(const Problem& problem) {
 void check(const SpringNetwork& network) {
   const std::size_t n = network.point_count();
   if (network.fixed.size() != n)
-    throw InputError(fmt::format("{} points, {} of them told fixed or not", n, network.fixed.size()));
+    throw InputError(fmt::format("{} points, {} entries in `fixed`", n, network.fixed.size()));
   for (const std::size_t size : {network.pull.size(), network.held_axes.size()})
     if (size != 0 && size != n) throw InputError(fmt::format("a column of {} for {} points", size, n));
   for (const Eigen::Vector3d& pull : network.pull)

@@ -12,7 +12,7 @@ void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& 
       texts.keeps_folder ? fmt::format("dartboard-results/{}-TIME", verb.get_name()) : "nothing is written";
   verb.add_option("--out", options.out,
                   texts.out.empty() ? fmt::format("folder to write to, new or empty [{}]", otherwise) : texts.out);
-  if (!texts.seed.empty()) verb.add_option("--seed", options.seed, fmt::format("of {} [1]", texts.seed));
+  if (!texts.seed.empty()) verb.add_option("--seed", options.seed, fmt::format("seed of {} [1]", texts.seed));
   verb.add_flag("--json", options.json, "print JSON on standard output, and all else on standard error");
 }
 

@@ -25,7 +25,7 @@ std::string_view name(Verdict verdict) {
 Claim claim_on_share(std::string id, std::string text, std::size_t good, std::size_t all, double asked) {
   Claim claim{.id = std::move(id), .text = std::move(text), .paper_value = fmt::format(">= {:g} %", 100.0 * asked)};
   if (all == 0) {
-    claim.reason = "no pair to tell it from";
+    claim.reason = "no pair to judge by";
     return claim;
   }
   const Figure part{static_cast<double>(good) / static_cast<double>(all), share_interval(good, all)};
@@ -79,7 +79,7 @@ Met at_least(const Figure& figure, double bound) {
 void judge(Claim& claim, Met met) {
   claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::undecided;
   if (met == Met::open)
-    claim.reason = "the interval lies on both sides of the bound, or rests on too little: this run cannot tell";
+    claim.reason = "the interval lies on both sides of the bound, or has too few values: this run cannot decide";
 }
 
 int exit_code(std::span<const Claim> claims) {

@@ -57,14 +57,14 @@ std::span<const PaperClaim> paper_claims() {
        About::times},
       {"sews-translated", "sewing and unsewing cannot be translated into changes of an indexed structure", "5.2",
        "not possible", About::programs,
-       "an operation tells which cells it split or removed, and arrays that follow these need no more"},
+       "an operation reports which cells it split or removed, and arrays that follow these need no more"},
       {"arrays-overhead", "cell arrays cost at most 10 % more than the adjacency graph", "5.2", "<= 1.10",
        About::times},
       {"paper-ladder", "coverage : lists : arrays : graph cost 6 : 4 : 1 : 1", "5", "6 : 4 : 1 : 1", About::times,
        "contiguous arrays have gained more from processors since 2010 than walks through links, each of "
        "which waits for the one before"},
-      {"rebuild-negligible", "rebuilding the arrays is negligible beside the topological changes", "5.2", "negligible",
-       About::times, "rebuilding covers every dart, while a removal has come down to microseconds"},
+      {"rebuild-negligible", "rebuilding the arrays is negligible compared with the topological changes", "5.2",
+       "negligible", About::times, "rebuilding covers every dart, while a removal has come down to microseconds"},
       {"connectivity-marks", "connectivity is lost when a walk along all alphas leaves darts without a mark",
        "conclusion", "exactly then"},
   }};

@@ -28,7 +28,7 @@ void require_sane(const Material& m) {
   if (m.model == Model::springs) {
     require(m.young == 0.0 || m.stiffness > 0.0, "stiffness", m.stiffness,
             "the mean of what 'young' makes of the edges");
-    require(m.damping_time == 0.0, "damping time", m.damping_time, "0 s beside springs");
+    require(m.damping_time == 0.0, "damping time", m.damping_time, "0 s with springs");
   } else {
     require(m.young > 0.0, "young", m.young, "a positive number of Pa");
     require(m.poisson > -1.0 && m.poisson < 0.5, "poisson", m.poisson, "more than -1 and less than 0.5");

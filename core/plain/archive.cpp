@@ -52,7 +52,7 @@ void Archive::part(std::string_view name) {
 }
 
 void Archive::require_end() const {
-  if (!left_.empty()) fail(fmt::format("{} bytes are left; expected none", left_.size()));
+  if (!left_.empty()) fail(fmt::format("{} bytes are left; expected 0", left_.size()));
 }
 
 }  // namespace dartboard

@@ -26,7 +26,7 @@ class RungeKutta4 {
     if (!body.cell_shape.empty() || !body.cell_solid.empty() || !body.cell_triangle.empty() ||
         !body.cell_membrane.empty() || !body.cell_springs.empty())
       throw InputError(
-          "RungeKutta4 knows springs along edges alone, and the body has other forces; expected an "
+          "RungeKutta4 supports only springs along edges, and the body has other forces; expected an "
           "integrator of core/time over its system");
     VertexColumns& v = body.vertices;
     if (!v.held_axes.empty())

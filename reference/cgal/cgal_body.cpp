@@ -177,7 +177,7 @@ struct CgalBody::Complex {
   Complex(const Problem& problem, CgalWalk how)
       : walk(how), h(problem.h), gravity(to_vector(problem.surroundings.gravity)) {
     if (problem.material.young > 0.0)
-      throw InputError("a body on CGAL's map knows one stiffness for all cells; expected no Young's modulus");
+      throw InputError("a body on CGAL's map supports only one stiffness for all cells; expected no Young's modulus");
     const AdjacencyGraph graph(problem);  // refuses malformed problems
     const std::vector<NamedDart> darts = build_darts(map, problem.mesh);
     add_vertices(problem, darts, masses_of_points(problem));

@@ -444,8 +444,8 @@ TEST(Explain, SaysWhatIsLeftOutAndWhy) {
                                 "duration": 0.01, "material": {"damping": 0}})");
   const Answer answer = run("explain " + scene.path.string());
   EXPECT_EQ(answer.status, 0) << answer.out;
-  for (const char* words : {"no map", "/events: none changes the topology", "/material/damping: 0.0",
-                            "/integrator: rk4 (the default) is explicit", "/fixed: none"})
+  for (const char* words : {"no map", "/events: no event changes the topology", "/material/damping: 0.0",
+                            "/integrator: rk4 (the default) is explicit", "/fixed: not given"})
     EXPECT_NE(answer.out.find(words), std::string::npos) << words << " is not in\n" << answer.out;
 }
 

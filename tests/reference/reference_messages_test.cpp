@@ -127,7 +127,7 @@ TEST(ReferenceRefuses, AMeshThatIsNoMap) {
 
 TEST(ReferenceRefuses, ANetworkByTheFirstThingThatIsWrong) {
   EXPECT_EQ(refusal_of([](auto&) {}), "no refusal");
-  EXPECT_EQ(refusal_of([](auto& m) { m.network.fixed.pop_back(); }), "4 points, 3 of them told fixed or not");
+  EXPECT_EQ(refusal_of([](auto& m) { m.network.fixed.pop_back(); }), "4 points, 3 entries in `fixed`");
   EXPECT_EQ(refusal_of([](auto& m) { m.network.mass[2] = -3.0; }), "point 2 has a mass of -3, expected a positive one");
   EXPECT_EQ(refusal_of([](auto& m) { m.network.mass[3] = std::numeric_limits<double>::infinity(); }),
             "point 3 has a mass of inf, expected a positive one");
@@ -173,7 +173,7 @@ TEST(ReferenceRefuses, TimesThatDoNotAscend) {
 }
 
 TEST(ReferenceRefuses, AnEventWhosePointsComeFromNowhere) {
-  EXPECT_EQ(refusal_of([](auto& m) { m.events[0].from.pop_back(); }), "event at 2 s tells the origin of 3 points of 4");
+  EXPECT_EQ(refusal_of([](auto& m) { m.events[0].from.pop_back(); }), "event at 2 s gives the origin of 3 points of 4");
   EXPECT_EQ(refusal_of([](auto& m) { m.events[0].from[1] = 4; }), "event at 2 s: a point comes from point 4 of 4");
   // the points before the second event are those that the first one left: three
   const auto second_from = [](std::uint32_t last) {

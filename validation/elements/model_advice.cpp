@@ -43,7 +43,7 @@ const MeasuredModel* ModelAdvice::pick() const {
 ModelAdvice advise_model(const ClampedBar& bar, const BarMeshes& meshes, double poisson, double error,
                          const std::function<std::int64_t()>& clock,
                          const std::function<void(const std::string&)>& tells) {
-  if (!(error > 0.0)) throw InputError(fmt::format("an error of {} is asked for; expected one above 0", error));
+  if (!(error > 0.0)) throw InputError(fmt::format("an error of {} is requested; expected one above 0", error));
   ModelAdvice advice{.error = error, .trends = {}, .trials = {}};
   const auto tell = [&](const std::string& what) {
     if (tells) tells(what);
@@ -51,7 +51,7 @@ ModelAdvice advise_model(const ClampedBar& bar, const BarMeshes& meshes, double 
   const BarTruth truth = bar_truth(bar, meshes, poisson);
   tell("the reference");
   if (error < 2.0 * truth.unsure.motion) {
-    advice.why_not = fmt::format("the reference cannot tell errors below {:.2g}", 2.0 * truth.unsure.motion);
+    advice.why_not = fmt::format("the reference cannot resolve errors below {:.2g}", 2.0 * truth.unsure.motion);
     return advice;
   }
   std::vector<int> least;  // the fineness that each model needs, by the measurements

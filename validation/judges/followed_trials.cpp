@@ -49,7 +49,7 @@ std::vector<JudgeTrial> try_followed(const TradeoffScene& scene, const SceneRefe
       else if (same_run(sound, wrong))
         ++trial.same;
       else
-        trial.unseen.push_back(fmt::format("{}: {:.2g} of the error asked for", entry.name, missed / error));
+        trial.unseen.push_back(fmt::format("{}: {:.2g} of the requested error", entry.name, missed / error));
     }
   }
   return trials;

@@ -89,7 +89,7 @@ RemovalAnswers try_removals(const Problem& problem, int removals, std::uint64_t 
   RemovalAnswers answers;
   const bool counted = stiffness_counted && lost_stiffness.within();
   answers.shares = {done > 0 && neighbours > 0 && masses.within() && lost_mass.within() && counted,
-                    fmt::format("{} removals; masses off by {:.2g} of the rounding bound, what is lost by {:.2g}, "
+                    fmt::format("{} removals; masses off by {:.2g} of the rounding bound, losses by {:.2g}, "
                                 "stiffnesses {}",
                                 done, masses.share(), lost_mass.share(),
                                 counted ? "those of the cells left" : "NOT those of the cells left")};

@@ -48,7 +48,7 @@ struct Candidate {
   bool untried = false;  // because there was no time left for pilots: nothing is known against it
   Confidence confidence = Confidence::none;
   bool full_length = false;  // pilots over the whole duration confirm it
-  double seen_part = 1.0;    // of the duration, by the longest pilots; the rest is foretold
+  double seen_part = 1.0;    // of the duration, by the longest pilots; the rest is predicted
   double growth_rate = 0.0;  // [1/s] of errors, where they were seen to grow as those of chaotic motions do; else 0
   int order = 1;
   double observed_order = 0.0;  // of an adaptive one, the power of the tolerance

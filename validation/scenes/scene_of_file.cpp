@@ -19,7 +19,7 @@ TradeoffScene scene_of_file(const SceneFile& file) {
   };
   if (!(file.duration > 0.0)) fail("/duration", "is 0 s", "a motion to study");
   if (file.material.stiffness == 0.0 && file.material.damping > 0.0)
-    fail("/material/stiffness", "is 0 N/m beside a damping", "springs, or nothing between the vertices");
+    fail("/material/stiffness", "is 0 N/m together with a damping", "springs, or nothing between the vertices");
   const Problem problem = make_problem(file);
   if (problem.mesh.points.empty()) fail("/body", "has no points", "a body that moves");
 

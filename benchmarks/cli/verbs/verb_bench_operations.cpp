@@ -35,7 +35,7 @@ void add_measure_operations(CLI::App& app) {
 void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "operations",
-      "Dissociate, remove, tear, refine, split off, undo: by size of the body, beside the time of a step.");
+      "Dissociate, remove, tear, refine, split off, undo: by size of the body, compared with the time of a step.");
   auto options =
       study_options(*verb, {.quick = "small bodies, fewer processes", .seed = "the places of the operations"});
   verb->callback([options, &outcome] {

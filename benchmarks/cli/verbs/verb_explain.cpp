@@ -102,7 +102,7 @@ void add_explain(CLI::App& app, Outcome& outcome) {
       "The plan of a scene before it runs: what will be there and why, its bytes and time, what is left out.");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
       ->required();
-  verb->add_flag("--measure", options->measure, "run it, and print the time it took beside the estimate");
+  verb->add_flag("--measure", options->measure, "run it, and print its time next to the estimate");
   verb->add_flag("--json", options->json, "print JSON");
   verb->callback([options, &outcome] { explain(*options, outcome); });
 }

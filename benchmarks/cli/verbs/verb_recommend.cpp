@@ -66,7 +66,7 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
       ->check(positive_number());
   auto* against =
       verb->add_option("--against", options->against,
-                       "truth: beside converged quadratic elements, of a scene whose box is held at one end, "
+                       "truth: compared with converged quadratic elements, of a scene whose box is held at one end, "
                        "or of 'cantilever'; errors are then shares of how far it is bent, over one period")
           ->check(CLI::IsMember({"truth"}));
   verb->add_option("--budget", options->plan.budget_s,

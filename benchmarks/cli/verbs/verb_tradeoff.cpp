@@ -82,9 +82,10 @@ void add_tradeoff(CLI::App& app, Outcome& outcome) {
   verb->add_option("SCENE", options->scene,
                    "a scene file (.json), the name of one of the gallery, or one of " + study_scene_names());
   auto* all = verb->add_flag("--all", options->all, "all scenes");
-  auto* models = verb->add_flag("--models", options->models,
-                                "springs and elements beside converged quadratic ones: of 'cantilever', or of a scene "
-                                "whose box is held at one end");
+  auto* models =
+      verb->add_flag("--models", options->models,
+                     "springs and elements compared with converged quadratic ones: of 'cantilever', or of a scene "
+                     "whose box is held at one end");
   auto* only = verb->add_option("--only", options->plan.only, "names of the integrators that take part [all]");
   auto* solvers = verb->add_flag("--solvers", options->plan.solvers, "implicit methods with every linear solver");
   auto* most = verb->add_option("--most", options->plan.most_s, "seconds that one run may take [8, quick 0.4]")

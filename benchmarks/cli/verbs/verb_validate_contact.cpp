@@ -14,7 +14,7 @@ void add_validate_contact(CLI::App& validate, Outcome& outcome) {
       "contact",
       "Whether bodies feel what overlaps of them, placed at random and in motion: CGAL and separating axes.");
   auto options = study_options<Options>(
-      *verb, {.quick = "fewer placements and looks", .seed = "the random placements", .keeps_folder = false});
+      *verb, {.quick = "fewer placements and inspections", .seed = "the random placements", .keeps_folder = false});
   verb->add_option("--placements", options->placements, "of bodies in each other [100000; 400 with --quick]");
   verb->callback([options, &outcome] {
     const ContactStudyPlan plan{.placements = options->placements.value_or(options->quick ? 400 : 100'000),

@@ -9,7 +9,7 @@ void add_validate_judges(CLI::App& validate, Outcome& outcome) {
     JudgesPlan plan;
   };
   auto* verb = validate.add_subcommand(
-      "judges", "Integrators that are wrong on purpose, through the judges of integrators: who notices?");
+      "judges", "Integrators that are wrong on purpose, through the judges of integrators: which judges notice?");
   auto options = study_options<Options>(
       *verb, {.quick = "a sample of the runs, orders of three integrators", .keeps_folder = false});
   verb->add_option("--axis", options->plan.axis, "only these runs of `extremes` [all, and the other judges]");

@@ -211,7 +211,7 @@ Report elements_study(const ElementsPlan& plan, StudyLog& log) {
   report.tables = {
       {"references", "The beam by two kinds of element: ours, and those of another code", references_table(results)},
       {"errors", "What models miss of it: work at the tip, frequencies", errors_table(results)},
-      {"confined", "Stiffness of what cannot give way to the sides, in Young's moduli", std::move(confined)},
+      {"confined", "Stiffness of a slab that cannot expand sideways, in Young's moduli", std::move(confined)},
       {"costs",
        fmt::format("What they cost, {} across: one evaluation of forces, and a second at Verlet's longest step",
                    results.across),

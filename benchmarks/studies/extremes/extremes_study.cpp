@@ -31,9 +31,9 @@ constexpr unsigned hang_seconds = 20;  // of one run
 
 // Studies measured in addition to the matrix, and requested by name as its axes are.
 constexpr std::array studies{
-    ExtremeAxis{"limits", "longest stable steps beside theory"},
+    ExtremeAxis{"limits", "longest stable steps compared with theory"},
     ExtremeAxis{"maps", "stability over step and damping ratio"},
-    ExtremeAxis{"amplification", "amplitude and phase of a step beside closed forms"},
+    ExtremeAxis{"amplification", "amplitude and phase of a step compared with closed forms"},
     ExtremeAxis{"detection", "unstable steps: predicted, and how soon they are detected"},
     ExtremeAxis{"rounding", "energy over 10^7 steps, motion in tiny steps"},
 };

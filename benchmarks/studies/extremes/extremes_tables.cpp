@@ -218,7 +218,7 @@ std::vector<NamedTable> tables_of(const ExtremesResults& results) {
   }
   if (!results.limits.empty())
     tables.push_back({.name = "limits",
-                      .heading = "Longest stable step times omega_max, beside theory",
+                      .heading = "Longest stable step times omega_max, compared with theory",
                       .table = table_of(results.limits),
                       .study = "limits"});
   if (!results.meshes.empty())

@@ -26,7 +26,7 @@ constexpr Judge judges[]{
     {"order", "orders-see-wrong-integrators", "core's forces and methods: Odeint, SUNDIALS", "three orders within 0.1"},
     {"exact maps", "maps-see-wrong-integrators", "all code: powers of a closed form", "1e-10"},
     {"recommend --verify", "verify-sees-wrong-integrators", "core's methods: a closed form, Odeint, SUNDIALS",
-     "the error asked for"},
+     "the requested error"},
 };
 
 std::string_view word(Wrong kind) { return std::ranges::find(wrong_integrators(), kind, &WrongIntegrator::kind)->name; }
@@ -86,7 +86,7 @@ Table judges_table(const JudgesResults& results) {
 Table others_table() {
   Table table({{"study", Align::left}, {"what it says of integrators", Align::left}});
   table.add_row({"tradeoff",
-                 "nothing: it shows their errors beside a reference, and says no only where none of them "
+                 "nothing: it shows their errors against a reference, and says no only where none of them "
                  "follows the motion"});
   table.add_row({"validate conservation",
                  "nothing: it judges what operations keep, and moves bodies by the Runge-Kutta "
@@ -139,7 +139,7 @@ std::vector<Claim> claims_of(const JudgesResults& results) {
     if (sum.right == 0) continue;
     const bool sees = sum.share() >= least_share;
     Claim claim{.id = std::string(judge.id),
-                .text = fmt::format("{}: wrong integrators are told from right ones", judge.name),
+                .text = fmt::format("{}: wrong integrators are distinguished from right ones", judge.name),
                 .paper_value = fmt::format(">= {:g} %", 100 * least_share),
                 .measured = percent(sum.share())};
     claim.bound_or_interval = fmt::format("{} of {}; in {} more being wrong changes nothing; least: {}", sum.seen,

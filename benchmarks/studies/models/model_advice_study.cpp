@@ -15,9 +15,9 @@ std::string in_words(const ClampedBar& bar, const ModelAdvice& advice) {
     return fmt::format("Nothing is recommended for an error of {:g}: {}.", advice.error, advice.why_not);
   const ModelTrial& last = advice.trials.back();
   return fmt::format(
-      "For an error of {:g} of how far the bar is bent, over one period: {} with sides of {:.3g} m ({} nodes), {} with a "
-      "step of {:.3g} s. Measured: an error of {:.3g} (foretold {:.3g}), {:.3g} s of processor time for a simulated second "
-      "(foretold {:.3g}).",
+      "For an error of {:g} of how far the bar is bent, over one period: {} with sides of {:.3g} m ({} nodes), {} "
+      "with a step of {:.3g} s. Measured: an error of {:.3g} (predicted {:.3g}), {:.3g} s of processor time for a "
+      "simulated second (predicted {:.3g}).",
       advice.error, in_words(pick->model), bar.spacing / pick->finer, pick->nodes, pick->method.integrator, pick->h,
       pick->errors.motion, last.predicted_error, pick->rough_cost(), last.predicted_cost);
 }
@@ -28,7 +28,7 @@ Table trends_table(const ModelAdvice& advice) {
                {"of a finer one", Align::right},
                {"order", Align::right},
                {"needs cubes finer by", Align::right},
-               {"foretold s per simulated s", Align::right}});
+               {"predicted s per simulated s", Align::right}});
   for (const ModelTrend& t : advice.trends) {
     const int finer = t.finer_for(advice.error);
     table.add_row({in_words(t.model), fmt::format("{:.3g}", t.coarse_error), fmt::format("{:.3g}", t.fine_error),

@@ -90,7 +90,7 @@ std::vector<Claim> claims_of(const ModelsResults& results) {
   reference.verdict = unsure <= results.sure ? Verdict::holds : Verdict::falls_short;
 
   Claim steps{.id = "models-steps",
-              .text = "errors by time steps are a tenth of each model's own, or of what the reference can tell",
+              .text = "errors by time steps are a tenth of each model's own, or of the resolution of the reference",
               .paper_value = "all"};
   std::size_t small = 0;
   for (const ModelPoint& p : results.points)

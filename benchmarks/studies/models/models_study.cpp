@@ -121,7 +121,7 @@ Report models_study(const ModelsPlan& plan, StudyLog& log) {
       {"models", "Errors, and the cheapest integrator and step that adds no more than a tenth to them",
        points_table(results),
        "Errors are shares: of the work of a shear traction at the tip; the largest of the six lowest frequencies; of the "
-       "modulus of what cannot give way to the sides; of the positions of the coarsest mesh's corners over one period "
+       "modulus of a slab that cannot expand sideways; of the positions of the coarsest mesh's corners over one period "
        "after the load is let go of. They have no sign: where springs pass the truth from too stiff to too soft their error is small on one mesh and not on the next."},
       {"cheapest", "Which model is the cheapest for which error", reigns_table(results)}};
   report.claims = claims_of(results);

@@ -150,11 +150,12 @@ int reproduce_exit_code(const std::vector<Claim>& claims, bool gates_passed) {
 
 std::string closing_words(const std::vector<Claim>& claims, bool gates_passed, bool quick) {
   std::string text = quick ? "This was a quick run. " : "";
-  text += gates_passed ? "Every gate is passed: " : "A gate has failed, and who failed it was not timed: ";
+  text += gates_passed ? "Every gate is passed: " : "A gate has failed, and contenders that failed it were not timed: ";
   text += in_words(claims) + "\n";
   if (reproduce_exit_code(claims, gates_passed) != 0)
     text +=
-        "What failed or fell short is told above and in claims.md; a run with another --seed tells whether it stays.";
+        "What failed or fell short is listed above and in claims.md; "
+        "run again with another --seed to see whether it persists.";
   else
     text +=
         "Next: './dartboard gallery' runs and draws the scenes, './dartboard simulate FILE.json' one of your own, "

@@ -46,7 +46,7 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
   }
   Report report{.tables = {{"timing", "Time per RK4 step", timing_table(results), timing_note(results, problem)}},
                 .claims = answer_claims(results, problem)};
-  if (!gates.passed) report.disagreements.emplace_back("A gate has failed: see above who was not timed.");
+  if (!gates.passed) report.disagreements.emplace_back("A gate has failed: see above which contenders were not timed.");
   return report;
 }
 

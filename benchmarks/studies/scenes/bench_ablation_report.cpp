@@ -54,7 +54,7 @@ Table features_table(const AblationFigures& r) {
 }
 
 Table staircase_table(const AblationFigures& r) {
-  Table table({{"not asked for, or always there"},
+  Table table({{"not requested, or always there"},
                {"task"},
                {"over"},
                {"us per step", Align::right},
@@ -86,10 +86,10 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
   // memory held by a map, and columns of terms that are zero
   const AblationBytes bare = r.bytes.at("bare");
   claims.push_back(target("bare-scene-holds-no-dart",
-                          "such a scene holds no dart, and no column of what it does not ask for", "0 bytes",
+                          "such a scene holds no dart, and no column of what it does not request", "0 bytes",
                           fmt::format("{} bytes", bare.not_asked_for), "exact", none(bare.not_asked_for), ""));
-  claims.push_back(target("unasked-damping-bytes", "damping that is not asked for takes no byte", "0 bytes",
-                          fmt::format("{} bytes for {} springs; {} where it is asked for", bare.damping, bare.springs,
+  claims.push_back(target("unasked-damping-bytes", "damping that is not requested takes no byte", "0 bytes",
+                          fmt::format("{} bytes for {} springs; {} where it is requested", bare.damping, bare.springs,
                                       r.bytes.at("bare + damping").damping),
                           "exact", none(bare.damping), "springs hold it"));
   const std::map<std::string, std::string> ids{{"loop", "unasked-terms-time"},
@@ -99,7 +99,7 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
   for (const AblationPair& pair : staircase()) {
     if (pair.task == "simulation" && pair.baseline == "loop") continue;
     const Ratio ratio = paired_ratio(r.samples, pair.task, pair.baseline);
-    Claim claim = target(ids.at(pair.task), fmt::format("{}: time when not asked for", pair.feature),
+    Claim claim = target(ids.at(pair.task), fmt::format("{}: time when not requested", pair.feature),
                          "<= 0.5 % of a step", percent(ratio.cpu.median), percent(ratio.cpu.interval),
                          at_most(ratio.cpu, 1.005), fmt::format("'{}' over '{}'", pair.task, pair.baseline));
     claim.verdict = verdict_on_time(ratio.cpu);

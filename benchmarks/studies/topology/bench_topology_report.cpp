@@ -24,7 +24,7 @@ const std::vector<Target>& targets() {
       {"local-check", "incremental check of an operation", {"local-check"}, "us per face", 1e3, 1.0, 0.0},
       {"build", "build from a mesh in memory", {"build"}, "us per tetrahedron", 1e3, 0.8, 0.0},
       {"unsew",
-       "unsew a face and tell what came apart",
+       "unsew a face and report what came apart",
        {"unsew-cut", "unsew-scattered"},
        "us per face",
        1e3,
@@ -68,7 +68,7 @@ Row row_of(const TopologyFigures& r, const Target& t, const std::string& figure,
   const std::string verdict = t.bound == 0.0         ? "-"
                               : !row.timed           ? "not timed"
                               : row.met == Met::yes  ? "holds"
-                              : row.met == Met::open ? "cannot tell"
+                              : row.met == Met::open ? "undecided"
                                                      : "falls short";
   const std::string which = t.figures.size() == 1 ? "" : figure == "unsew-cut" ? ", along a cut" : ", at random";
   row.cells = {t.text + which, body,  target_text(t),    show("general"), show("tetrahedral"),
@@ -156,7 +156,7 @@ std::string figures_note() {
          "\n"
          "CGAL's map carries what the memory counts for all, a number on each vertex and edge, and is_valid() checks "
          "those too; bare CGAL has no attributes, so it compares walks and conditions alone. CGAL's unsew renews the "
-         "attributes of the cells that came apart, its only way to tell them, while ours reports them, has written a "
+         "attributes of the cells that came apart, its only way to report them, while ours reports them, has written a "
          "journal and has checked the darts it touched. Not in the memory: a mark in use takes 4 bytes per dart of "
          "ours, 96 per tetrahedron, for each mark in use at once; CGAL's marks are in its darts.";
 }

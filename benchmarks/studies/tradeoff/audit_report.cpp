@@ -78,9 +78,9 @@ Claim claim_on_regret(std::string id, const std::vector<AuditedPair>& pairs) {
       regrets.push_back(p.audit.regret());
   }
   const std::string without =
-      left_out > 0 ? fmt::format("{} left out, whose error was missed or cannot be told", left_out) : "";
+      left_out > 0 ? fmt::format("{} left out, whose error was missed or cannot be resolved", left_out) : "";
   if (regrets.empty()) {
-    claim.reason = left_out > 0 ? without : pairs.empty() ? "no pair to tell it from" : "no sweep";
+    claim.reason = left_out > 0 ? without : pairs.empty() ? "no pair to judge by" : "no sweep";
     return claim;
   }
   const Figure figure{median(regrets), median_interval(regrets)};
@@ -121,7 +121,7 @@ std::vector<Claim> audit_claims(AuditKind kind, const std::vector<AuditedPair>& 
   std::vector<Claim> claims;
   if (is_long) claims.push_back(claim_on_predictions(pairs));
   claims.push_back(claim_on_part(
-      is_long ? "foretold-error" : "recommend-error", "the setting recommended meets the error asked for", counted,
+      is_long ? "foretold-error" : "recommend-error", "the setting recommended meets the requested error", counted,
       &AuditedPair::is_resolved, [](const AuditedPair& p) { return has_pick(p) && p.audit.met(); }));
   if (!is_long)
     claims.push_back(claim_on_part("recommend-evaluations", "predicted force evaluations within 15 % of those counted",
@@ -143,7 +143,7 @@ std::string met_in_words(AuditKind kind, const AuditedPair& p) {
   if (!has_pick(p)) return p.followed ? "NO" : "not followed";
   if (!p.is_resolved() && is_long) return "not judged: the other codes differ by more";
   if (!std::isfinite(p.floor)) return "not judged: followed for its cost only";
-  if (!p.is_resolved()) return "not judged: the reference is no better than that";
+  if (!p.is_resolved()) return "not judged: below the resolution of the reference";
   if (!p.audit.met()) return "NO";
   return is_long && !p.foretold() ? "yes, but not counted" : "yes";
 }
@@ -248,11 +248,11 @@ nlohmann::json json_of(const AuditedPair& p) {
 Plot audit_plot(AuditKind kind, const std::vector<AuditedPair>& pairs, const std::string& subtitle) {
   const bool is_long = kind == AuditKind::long_motions;
   Plot plot;
-  plot.title = is_long ? "recommend, foretold and met" : "recommend, promised and met";
+  plot.title = is_long ? "recommend, predicted and met" : "recommend, promised and met";
   plot.subtitle = subtitle;
   plot.x_axis = is_long ? "part of the motion that its pilots saw"
                         : "predicted over measured time of the run (between the lines: within 15 %)";
-  plot.y_axis = "actual error over the error asked for (below the line: met)";
+  plot.y_axis = "actual error over the requested error (below the line: met)";
   plot.x_low = is_long ? 1e-4 : 0.3;
   plot.x_high = is_long ? 1.0 : 3.0;
   plot.y_low = 1e-4;

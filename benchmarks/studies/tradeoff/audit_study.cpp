@@ -99,7 +99,7 @@ constexpr std::string_view reading_of_long_motions =
     "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, the largest of eight checkpoints, "
     "against a run in extended precision that another library confirms (scenes.md: how far they differ; ten times that "
     "is what can be judged). Seconds are as recommend prints them, nothing is corrected. 'seen' is the part of the "
-    "motion that the longest pilots of the pick ran: the rest is foretold. Counted are runs that cost 20 times their "
+    "motion that the longest pilots of the pick ran: the rest is predicted. Counted are runs that cost 20 times their "
     "pilots. Regret is the cost of the pick over that of the cheapest setting of a sweep of all methods, interpolated "
     "between steps; a method ends there when it is as good as the smallest error, when a run takes 2.2 times the "
     "dearest pick, or when it could not come to the largest error in that time.";

@@ -144,10 +144,10 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
                                  : "",
       pick->predicted_error, milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
   if (!pick->full_length && pick->seen_part < 1.0)
-    text += fmt::format("Its pilots saw {:.2g} % of the motion; the rest is foretold.\n", 100.0 * pick->seen_part);
+    text += fmt::format("Its pilots saw {:.2g} % of the motion; the rest is predicted.\n", 100.0 * pick->seen_part);
   if (pick->growth_rate > 0.0)
     text += fmt::format(
-        "Errors were seen to grow e-fold in {:.3g} s: the motion is chaotic, and soon no error can be foretold; from "
+        "Errors were seen to grow e-fold in {:.3g} s: the motion is chaotic, and soon no error can be predicted; from "
         "this one to that of an edge it takes {:.3g} s.\n",
         1.0 / pick->growth_rate, max_or_nan(0.0, -std::log(pick->predicted_error)) / pick->growth_rate);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
@@ -184,7 +184,7 @@ Table followed_table(const std::vector<FollowedPick>& picks) {
   for (const auto& [pick, a, told] : picks)
     table.add_row({fmt::format("{:.0e}", a.error), pick, told ? fmt::format("{:.2e}", a.actual_error) : "-",
                    fmt::format("{:.2e}", a.predicted_error),
-                   !told     ? "not judged: the reference is no better than that"
+                   !told     ? "not judged: below the resolution of the reference"
                    : a.met() ? "yes"
                              : "NO",
                    fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),

@@ -9,7 +9,7 @@ namespace dartboard {
 std::string trouble_of(const WorkPrecision& study) {
   constexpr double largest_floor = 1e-2;  // [edges]
   if (!(study.reference.floor <= largest_floor))
-    return fmt::format("{}: nothing can be told, the reference is uncertain by {:.1e} edges: {}", study.scene,
+    return fmt::format("{}: nothing can be concluded, the reference is uncertain by {:.1e} edges: {}", study.scene,
                        study.reference.floor, study.reference.what);
   const auto ended = std::ranges::count_if(study.points, [](const WorkPoint& p) { return !p.failed(); });
   const auto useless = std::ranges::count(study.points, Standing::useless, &WorkPoint::standing);

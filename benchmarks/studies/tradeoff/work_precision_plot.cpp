@@ -102,7 +102,7 @@ Plot work_precision_plot(const WorkPrecision& study) {
   plot.y_high = border * std::pow(10.0, row_height * static_cast<double>(std::max<std::size_t>(rows, 1)));
   plot.y_last_tick = top;
   plot.shaded_below = study.reference.floor;
-  plot.shaded_label = fmt::format("below {:.0e} edges the reference cannot tell ({})", study.reference.floor,
+  plot.shaded_label = fmt::format("below {:.0e} edges: not resolved by the reference ({})", study.reference.floor,
                                   name(study.reference.kind));
 
   // faded: everything, line by line; a method without a point on the front is no darker

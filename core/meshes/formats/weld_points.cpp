@@ -89,7 +89,7 @@ void weld_points(LoadedMesh& loaded, double distance, const std::string& file,
   welder.require_corners_apart(joined);
   const std::size_t welded = loaded.mesh.points.size() - joined.count();
   if (welded == 0) {
-    loaded.notices.push_back(fmt::format("welded no points: none is within {} of another", distance));
+    loaded.notices.push_back(fmt::format("welded no points: no two are within {} of each other", distance));
     return;
   }
   welder.renumber(joined);

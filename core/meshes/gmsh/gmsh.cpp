@@ -40,11 +40,11 @@ void read_format(GmshReader& r) {
   if (type == 0) return;
   if (size != 8) r.scan.fail(fmt::format("numbers of {} bytes", size), "8 bytes");
   r.scan.line_end();
-  const std::string_view one = r.scan.bytes(4, "the number 1, which tells the order of bytes");
+  const std::string_view one = r.scan.bytes(4, "the number 1, which gives the order of bytes");
   const bool big_endian = load<std::int32_t>(one, true) == 1;
   if (!big_endian && load<std::int32_t>(one, false) != 1)
     fail_at_byte(r.scan.file(), r.scan.place() - 4, fmt::format("found {}", in_quotes(one)),
-                 "the number 1, which tells the order of bytes");
+                 "the number 1, which gives the order of bytes");
   r.numbers.set_binary(big_endian);
 }
 

@@ -61,7 +61,7 @@ struct Reader {
   }
 
   void refuse_document_type() {
-    fail_at(file, line(), "found a document type", "none: entities of one's own are not read");
+    fail_at(file, line(), "found a document type", "no document type: user-defined entities are not read");
   }
 
   // no exception may pass through the functions of a C library

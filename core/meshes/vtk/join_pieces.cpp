@@ -41,7 +41,7 @@ void join_place(const Pieces& p, std::span<const std::uint32_t> there, Numbers& 
       fail_at(
           p.file, 0,
           fmt::format("{} and {} are at the place of {}", p.called(there[k - 1]), p.called(there[k]), p.called(other)),
-          "one point of each piece there: which are to be joined cannot be told");
+          "one point of each piece there: which points to join is ambiguous");
     }
     same[there[k]] = there.front();
   }

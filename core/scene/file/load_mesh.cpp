@@ -166,8 +166,8 @@ std::optional<std::pair<LoadedMesh, TouchingCells>> read_or_nothing(const BodySo
 void require_no_point_numbers(SceneFile& scene) {
   visit_points(scene, [&scene](std::uint32_t& point, const std::string& path) {
     throw InputError(
-        fmt::format("{}: {}: is {} beside /bodies; expected a place, of several bodies nothing is known by "
-                    "its number",
+        fmt::format("{}: {}: is {} together with /bodies; expected a place, because numbers are ambiguous "
+                    "with several bodies",
                     scene.file, path, point));
   });
 }

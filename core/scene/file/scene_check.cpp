@@ -96,14 +96,14 @@ class Checker {
       return text;
     };
     if (rule.kind == SceneRule::exactly_one && given.size() != 1)
-      fail(path, given.empty() ? "has none of the keys it could be told by" : "has " + quoted(given),
+      fail(path, given.empty() ? "has none of the keys that it needs" : "has " + quoted(given),
            "exactly one of " + quoted(rule.keys));
     if (rule.kind == SceneRule::at_most_one && given.size() > 1)
       fail(path, "has " + quoted(given), "at most one of them");
     if (rule.kind == SceneRule::needs_object && given.size() > 1 && given[0] == rule.keys[0])
       for (std::size_t k = 1; k < given.size(); ++k)
         if (const std::string key(given[k]); !value.at(key).is_object())
-          fail(fmt::format("{}/{}", path, key), fmt::format("is {} beside '{}'", shown(value.at(key)), given[0]),
+          fail(fmt::format("{}/{}", path, key), fmt::format("is {} together with '{}'", shown(value.at(key)), given[0]),
                fmt::format("an object ({})", help_of(find(rule.shape, key)->of).name));
     if (rule.kind == SceneRule::excludes && given.size() > 1 && given[0] == rule.keys[0])
       fail(path, "has " + quoted(given), fmt::format("'{}' without the others", rule.keys[0]));

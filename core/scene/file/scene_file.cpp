@@ -114,7 +114,7 @@ class Reader {
     if (scene.output.fields.springs && !has_springs(scene))
       fail("/output/fields", "has \"springs\", and the body is made of elements", "fields without it");
     if (scene.output.fields.contact && !scene.has_contact())
-      fail("/output/fields", "has \"contact\" beside no /contact", "obstacles or bodies that touch, or no such field");
+      fail("/output/fields", "has \"contact\" without /contact", "obstacles or bodies that touch, or no such field");
     for (std::size_t k = 0; k < output.at("probes").size(); ++k)
       scene.probes.push_back(probe(output.at("probes")[k], fmt::format("/output/probes/{}", k), scene.probes));
     if (!scene.accuracy) scene.output = scene.output.in_steps_of(scene.step);
@@ -168,7 +168,7 @@ class Reader {
 
   double damping_time(const Json& damping, const std::string& path, Model model) const {
     if (model == Model::springs)
-      fail(path + "/damping", "is " + shown(damping) + " beside no 'poisson'",
+      fail(path + "/damping", "is " + shown(damping) + " without 'poisson'",
            "a number of N s/m of each spring, or elements");
     constexpr double longest = 1e9;  // [s]: a relaxation longer than any run is a mistake in a unit
     const double time = damping_time_of(damping.at("ratio"), damping.at("frequency"));
@@ -195,13 +195,14 @@ class Reader {
       model = static_cast<Model>(std::ranges::find(model_names, material.at("model").get<std::string>()) -
                                  model_names.begin());
     if (model == Model::springs && has_ratio)
-      fail(path + "/poisson", "stands beside the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface",
+      fail(path + "/poisson",
+           "cannot be combined with the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface",
            "another model, or no 'poisson'");
     if (model != Model::springs && !has_ratio)
-      fail(path + "/model", "is " + shown(material.at("model")) + " beside no 'poisson'",
-           "'young' and 'poisson' beside it");
+      fail(path + "/model", "is " + shown(material.at("model")) + " without 'poisson'",
+           "'young' and 'poisson' together with it");
     if (model != Model::springs && !material.contains("young"))
-      fail(path + "/poisson", "stands beside no 'young'", "Young's modulus beside it");
+      fail(path + "/poisson", "is given without 'young'", "Young's modulus together with it");
     return model;
   }
 
@@ -340,7 +341,7 @@ class Reader {
     const std::size_t bodies = scene.bodies().size();
     const std::string which = json.at("bodies");
     if (which == "others" && bodies == 1)
-      fail("/contact/bodies", "is \"others\" beside one body", "\"themselves\", \"all\", or several bodies");
+      fail("/contact/bodies", "is \"others\" with only one body", "\"themselves\", \"all\", or several bodies");
     if ((which != "none" || !json.at("pairs").empty()) && bodies > most_bodies)
       fail("/contact", fmt::format("has bodies that touch among {}", bodies), fmt::format("at most {}", most_bodies));
     std::map<std::pair<std::uint32_t, std::uint32_t>, SceneTouch> all;
@@ -443,7 +444,7 @@ class Reader {
     const bool by_stress = json.contains("tear_where_stressed");
     if (json.contains("refine") && json.at("refine").contains("bracing") && !has_springs(scene))
       fail(path + "/refine/bracing", "is " + shown(json.at("refine").at("bracing")),
-           "none, as the body is made of elements, which have no springs");
+           "no such key: a body of elements has no springs");
     if (json.contains("at")) {
       event.from = event.until = json.at("at");
     } else {
@@ -539,7 +540,7 @@ class Reader {
   void require_consistent(const SceneFile& scene) const {
     if (!scene.solver.empty()) {
       if (scene.integrator.empty())
-        fail("/solver", fmt::format("is \"{}\" beside no 'integrator'", scene.solver), "an implicit one to be named");
+        fail("/solver", fmt::format("is \"{}\" without an 'integrator'", scene.solver), "an implicit one to be named");
       try {
         make_integrator(scene.integrator, scene.solver);
       } catch (const InputError& error) {
@@ -547,39 +548,41 @@ class Reader {
       }
     }
     if (scene.is_chain() && !scene.regions.empty())
-      fail("/regions", "stand beside /body/generate/chain, which has no cells", "none");
+      fail("/regions", "cannot be combined with /body/generate/chain, which has no cells", "no such key");
     for (const SceneFile::Tissue& tissue : scene.tissues()) {
       if (tissue.material.model == Model::springs) continue;
-      if (scene.is_chain()) fail(tissue.path + "/poisson", "stands beside /body/generate/chain", "cells");
+      if (scene.is_chain()) fail(tissue.path + "/poisson", "cannot be combined with /body/generate/chain", "cells");
     }
     if (const std::string key(scene.key_beside_edges()); !key.empty() && scene.is_chain())
-      fail(key, "stands beside /body/generate/chain, which has no cells", "cells");
+      fail(key, "cannot be combined with /body/generate/chain, which has no cells", "cells");
     if (scene.has_contact()) {
-      if (scene.is_chain()) fail("/contact", "stands beside /body/generate/chain, which has no surface", "cells");
+      if (scene.is_chain())
+        fail("/contact", "cannot be combined with /body/generate/chain, which has no surface", "cells");
       if (scene.accuracy)
         fail("/accuracy", "cannot be combined with /contact, through which no run is compared with another",
              "'step' in its place");
     }
     if (!scene.touches.empty() && scene.integrator == "energy-momentum")
       fail(scene.touches.front().path,
-           "stands beside the integrator \"energy-momentum\", whose forces are not there where depths have kinks",
-           "another integrator, or obstacles alone");
+           "cannot be combined with the integrator \"energy-momentum\", whose forces are not defined where "
+           "depths have kinks",
+           "another integrator, or only obstacles");
     if (scene.exact_events && !scene.driven.empty())
-      fail("/event_times", "is \"exact\" beside /driven, which turns at steps alone", "\"steps\"");
+      fail("/event_times", "is \"exact\" together with /driven, which turns only at steps", "\"steps\"");
     for (const SceneForce& force : scene.forces)
       if (scene.exact_events && !force.lasts())
-        fail("/event_times", fmt::format("is \"exact\" beside {}, which begins or ends at steps alone", force.path),
-             "\"steps\"");
+        fail("/event_times",
+             fmt::format("is \"exact\" together with {}, which begins or ends only at steps", force.path), "\"steps\"");
     if (scene.is_chain())
       for (const SceneForce& force : scene.forces)
         if (force.pressure)
-          fail(force.path + "/pressure", "stands beside /body/generate/chain, which has no faces", "'force'");
+          fail(force.path + "/pressure", "cannot be combined with /body/generate/chain, which has no faces", "'force'");
     if (scene.accuracy && scene.material.stiffness == 0.0 && scene.material.damping > 0.0)
-      fail("/accuracy", "stands beside /material/stiffness of 0 and a damping", "'step' in its place");
+      fail("/accuracy", "cannot be combined with /material/stiffness of 0 and a damping", "'step' in its place");
     const SceneEvent *seam = nullptr, *refinement = nullptr, *release = nullptr;
     for (const SceneEvent& event : scene.events) {
       if (scene.is_chain() && changes_topology(event.action))
-        fail(fmt::format("{}/{}", event.path, key_of(event.action)), "is meant for cells, and a chain has none",
+        fail(fmt::format("{}/{}", event.path, key_of(event.action)), "needs cells, which a chain does not have",
              "no such event");
       const auto* stress = std::get_if<TearWhereStressed>(&event.action);
       if (stress != nullptr && stress->seam) seam = &event;
@@ -587,15 +590,17 @@ class Reader {
       if (std::holds_alternative<Release>(event.action)) release = &event;
     }
     if (seam != nullptr && refinement != nullptr)
-      fail(refinement->path + "/refine", fmt::format("stands beside {}/tear_where_stressed/plane", seam->path),
+      fail(refinement->path + "/refine",
+           fmt::format("cannot be combined with {}/tear_where_stressed/plane", seam->path),
            "no refinement where a seam is given");
     if (refinement != nullptr && release != nullptr)
-      fail(refinement->path + "/refine", fmt::format("stands beside {}/release", release->path),
-           "no refinement where fixed vertices are let go");
+      fail(refinement->path + "/refine", fmt::format("cannot be combined with {}/release", release->path),
+           "no refinement where fixed vertices are released");
     if (refinement != nullptr && !scene.driven.empty())
-      fail(refinement->path + "/refine", "stands beside /driven", "no refinement where vertices are driven");
+      fail(refinement->path + "/refine", "cannot be combined with /driven", "no refinement where vertices are driven");
     if (refinement != nullptr && !scene.forces.empty())
-      fail(refinement->path + "/refine", "stands beside /forces: it takes mass from the vertices that share them",
+      fail(refinement->path + "/refine",
+           "cannot be combined with /forces: it takes mass from the vertices that share them",
            "no refinement where forces are applied");
   }
 
@@ -647,7 +652,7 @@ class Reader {
         if (touch.law.friction > 0.0) taker = path + "/friction";
       }
       if (!taker.empty())
-        fail("/expect/energy_drift_at_most", fmt::format("stands beside {}, which changes the energy", taker),
+        fail("/expect/energy_drift_at_most", fmt::format("cannot be combined with {}, which changes the energy", taker),
              "damping and viscosity of 0, no driven vertices or events, and forces from start to end");
     }
     if (json.contains("hash")) {

@@ -39,16 +39,16 @@ std::vector<SceneKey> keys_by_hand() {
                "/contact says otherwise. "
                "What is selected in them is selected by place or by tag, not by number"},
       {.shape = scene, .name = "material", .type = object, .of = material, .standard = "{}",
-       .help = "what the body is made of"},
+       .help = "the material of the body"},
       {.shape = scene, .name = "regions", .type = objects, .of = region, .standard = "[]",
-       .help = "cells that are made of something else; of a cell in several, the last counts"},
+       .help = "cells of another material; for a cell in several regions, the last counts"},
       {.shape = scene, .name = "diagonals", .type = choice, .choices = {"none", "faces", "volumes", "all"},
        .standard = "\"none\"",
        .help = "springs between corners of one cell that no edge joins: across faces of four corners, through the volume of "
                "hexahedra, or both. Each cell has its own, of the material's stiffness, undamped. They hold the shape of "
                "hexahedra, prisms, pyramids and quadrilaterals, which edges alone do not (those through the volume alone "
                "do not either); with 'young' in the material, cubes then are an elastic solid of Poisson's ratio 1/4, "
-               "squares a sheet of 1/3. Cells made of elements have none"},
+               "squares a sheet of 1/3. Cells made of elements have no diagonals"},
       {.shape = scene, .name = "bending", .type = object, .of = bending, .help = "what resists the bending of a surface"},
       {.shape = bending, .name = "rigidity", .type = real, .unit = "N m", .range = not_negative,
        .help = "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of thickness h: energy "
@@ -71,11 +71,11 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "forces from outside on some of the vertices"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
        .help = "contact of bodies with obstacles, with each other and with themselves; not of a chain, and not with an "
-               "accuracy. Left out, there is none: bodies pass through each other and through themselves"},
+               "accuracy. Without it bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
-       .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator where "
-               "none is named; not with contact. The choice rests on timings: it may differ from machine to machine "
+       .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator if "
+               "it is not named; not with contact. The choice rests on timings: it may differ from machine to machine "
                "and from run to run, and the hash with it; 'simulate' prints the 'integrator' and 'step' that settle "
                "it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
@@ -142,7 +142,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = box_mesh, .name = "jitter", .type = real, .range = {0.0, 0.5}, .standard = "0",
        .help = "random moves of the inner points, in spacings; for tetrahedra only"},
       {.shape = box_mesh, .name = "seed", .type = integer, .range = exact_integer, .standard = "0",
-       .help = "of the random moves"},
+       .help = "seed of the random moves"},
       {.shape = sheet_mesh, .name = "cells", .type = integer_pair, .range = {1, 100000}, .required = true,
        .help = "squares along x and y"},
       {.shape = sheet_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
@@ -150,9 +150,10 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = sheet_mesh, .name = "kind", .type = choice, .choices = {"triangles", "quadrilaterals"},
        .standard = "\"triangles\"", .help = "two triangles per square, or one quadrilateral"},
       {.shape = ball_mesh, .name = "layers", .type = integer, .range = {1, 256}, .required = true,
-       .help = "of tetrahedra from the centre to the surface: 8 layers^3 of them in all; a map has room for 2^27"},
+       .help = "layers of tetrahedra from the centre to the surface: 8 layers^3 tetrahedra in all; a map has room for "
+               "2^27"},
       {.shape = ball_mesh, .name = "radius", .type = real, .unit = "m", .range = positive, .required = true,
-       .help = "of the ball; the points of its surface lie on it"},
+       .help = "radius of the ball; the points of its surface lie on it"},
       {.shape = chain_mesh, .name = "links", .type = integer, .range = {1, 1000000}, .required = true,
        .help = "springs; there is one point mass more"},
       {.shape = chain_mesh, .name = "spacing", .type = real, .unit = "m", .range = positive, .required = true,
@@ -163,7 +164,7 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "mass per volume; of a surface, per area [kg/m^2]; of a chain, per length [kg/m], half of a link's at each "
                "end"},
       {.shape = material, .name = "stiffness", .type = real, .unit = "N/m", .range = not_negative, .standard = "50",
-       .help = "of the spring that a cell contributes to each of its edges; of a chain, of a link"},
+       .help = "stiffness of the spring that a cell contributes to each of its edges; in a chain, of a link"},
       {.shape = material, .name = "young", .type = real, .unit = "Pa", .range = positive,
        .help = "Young's modulus, in place of a stiffness: a tetrahedron of volume V gives its edge of length l the "
                "stiffness young V / l^2, so that a finer mesh of the same body sags the same. Its springs then have "
@@ -171,8 +172,8 @@ std::vector<SceneKey> keys_by_hand() {
                "[N/m], with their areas and the ratio 1/3; of a chain [N], young / l. Other cells have no such springs. The "
                "damping is then a mean over the edges of all cells, shared out as the stiffness is"},
       {.shape = material, .name = "poisson", .type = real, .range = {.least = -0.99, .most = 0.4999},
-       .help = "Poisson's ratio of elements, which resist in place of springs; 'young' stands beside it. Solid cells of all "
-               "kinds have them; hexahedra bend four times as truly as tetrahedra of as many nodes. Surfaces are membranes "
+       .help = "Poisson's ratio of elements, which resist in place of springs; 'young' is given together with it. "
+               "Solid cells of all kinds have them; hexahedra bend four times as truly as tetrahedra of as many nodes. Surfaces are membranes "
                "in plane stress, 'young' being Young's modulus times the thickness [N/m], which resist their bending only "
                "by what /bending says. All solids are too stiff above "
                "some 0.45"},
@@ -181,11 +182,11 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "what resists deformation: springs, or elements of an elastic law: stable neo-Hookean (smooth, also where it "
                "is turned inside out), corotational (linear elasticity that turns with the material) or St. "
                "Venant-Kirchhoff; surfaces have the latter two. Without it, where there is a 'poisson', stvk in a surface and "
-               "neo-hookean in a solid, and springs where there is none"},
+               "neo-hookean in a solid, and springs otherwise"},
       {.shape = material, .name = "damping", .type = real_or_object, .of = damping, .unit = "N s/m",
        .range = not_negative, .standard = "0.01",
-       .help = "of the damper that a cell contributes to each of its edges; of a chain, of a link. Solid elements take an object, a "
-               "damping ratio at a frequency, and have no damping without it"},
+       .help = "damping that a cell contributes to each of its edges; in a chain, that of a link. Solid elements "
+               "take an object, a damping ratio at a frequency, and have no damping without it"},
       {.shape = damping, .name = "ratio", .type = real, .range = not_negative, .required = true,
        .help = "damping ratio zeta of an oscillation of that frequency: its amplitude falls by exp(-2 pi zeta / sqrt(1 - "
                "zeta^2)) in a period. Of others it is in proportion to their frequency"},
@@ -196,9 +197,9 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = region, .name = "cells", .type = object, .of = cell_selection, .required = true,
        .help = "which, at rest; not at random"},
       {.shape = region, .name = "material", .type = object, .of = tissue, .required = true,
-       .help = "what they are made of: nothing of it is taken from the body's"},
+       .help = "their material: nothing of it is taken from the body's"},
       {.shape = one_body, .name = "material", .type = object, .of = tissue,
-       .help = "what it is made of; left out, what the scene's 'material' says"},
+       .help = "its material; left out, what the scene's 'material' says"},
       {.shape = one_body, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
        .help = "at the start; left out, what the scene's says"},
       {.shape = velocity, .name = "constant", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
@@ -245,9 +246,9 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "how far surfaces may come into obstacles and bodies under that pressure: a run is warned where one is "
                "deeper"},
       {.shape = contact, .name = "exponent", .type = integer, .range = {2, 4}, .standard = "3",
-       .help = "of the depth in the energy of a contact: integrators are of no higher order than it"},
+       .help = "exponent of the depth in the energy of a contact: integrators are of no higher order than it"},
       {.shape = contact, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
-       .standard = "1", .help = "of the normal speed, what is left after a bounce, however fast"},
+       .standard = "1", .help = "share of the normal speed left after a bounce, at any speed"},
       {.shape = contact, .name = "friction", .type = real, .range = not_negative, .standard = "0",
        .help = "Coulomb's coefficient, of sticking and of sliding"},
       {.shape = contact, .name = "mass_behind", .type = real, .unit = "kg/m^2", .range = not_negative, .standard = "0",
@@ -255,10 +256,10 @@ std::vector<SceneKey> keys_by_hand() {
                "the restitution is meant; 0 means the vertices of the surface alone, as of a body that is soft against its "
                "contact"},
       {.shape = contact, .name = "obstacles", .type = objects, .of = obstacle, .standard = "[]",
-       .help = "what bodies run into"},
+       .help = "the obstacles of bodies"},
       {.shape = contact, .name = "bodies", .type = choice, .choices = {"none", "others", "themselves", "all"},
        .standard = "\"none\"",
-       .help = "which bodies each of them touches: none, those beside it, itself (where it folds, and what a cut or a tear "
+       .help = "which bodies each of them touches: none, the others, itself (where it folds, and what a cut or a tear "
                "leaves of it), or all of these. Solids alone do, surfaces touch obstacles only; not with the integrator "
                "'energy-momentum'"},
       {.shape = contact, .name = "pairs", .type = objects, .of = contact_pair, .standard = "[]",
@@ -300,7 +301,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = cell_selection, .name = "tag", .type = object, .of = tag,
        .help = "the cells that the mesh file marks so ('dartboard mesh info' lists its marks)"},
       {.shape = tag, .name = "of", .type = text, .standard = "\"\"",
-       .help = "what the file calls its marks; may be left out where it has one kind of them"},
+       .help = "name of the marks in the file; may be left out where it has one kind of them"},
       {.shape = tag, .name = "value", .type = integer, .range = {.least = -2147483648.0, .most = 2147483647.0},
        .help = "the mark, a number"},
       {.shape = tag, .name = "named", .type = text, .help = "or the name that the file gives to it"},
@@ -318,11 +319,11 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = around, .name = "depth", .type = point, .unit = "m", .standard = "[0, 0, 0]",
        .help = "how far, and which way, a blade reaches from the path"},
       {.shape = around, .name = "distance", .type = real, .unit = "m", .range = not_negative, .required = true,
-       .help = "how far from it"},
+       .help = "distance from it"},
       {.shape = random, .name = "count", .type = integer, .range = count_from_1, .required = true,
-       .help = "how many; all when fewer remain"},
+       .help = "number of cells; all when fewer remain"},
       {.shape = random, .name = "seed", .type = integer, .range = exact_integer, .standard = "1",
-       .help = "of the random numbers; each time an event repeats it draws further numbers"},
+       .help = "seed of the random numbers; each time an event repeats it draws further numbers"},
 
       // ---- events
       {.shape = event, .name = "at", .type = real, .unit = "s", .range = not_negative,
@@ -341,7 +342,7 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "tear wherever the stress is too large"},
       {.shape = event, .name = "refine", .type = object, .of = refine, .help = "subdivide tetrahedra"},
       {.shape = event, .name = "release", .type = object, .of = vertex_selection,
-       .help = "let go of fixed vertices, by where they are at rest; of those held along some axes too"},
+       .help = "release fixed vertices, by where they are at rest; those held along some axes too"},
       {.shape = dissociate, .name = "points", .type = integer_lists, .range = number,
        .help = "faces, each by three of its points in the mesh, counted from 0 in the order of the file; in a surface "
                "edges, each by its two ends"},
@@ -379,16 +380,16 @@ std::vector<SceneKey> keys_by_hand() {
        .standard = "\"longest edge\"",
        .help = "where each gets a vertex; in an edge, all tetrahedra around it are subdivided, and no other cell may have it"},
       {.shape = refine, .name = "bracing", .type = real, .range = not_negative,
-       .help = "stiffness of the springs from the vertex to those across, over the material's [0.5]; of elements none, as they "
-               "have no springs"},
+       .help = "stiffness of the springs from the vertex to those across, over the material's [0.5]; not used for elements, "
+               "which have no springs"},
 
       // ---- output and expectations
       {.shape = output, .name = "frames_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
        .help = "from one frame to the next, or {\"steps\": 10}; the first and the last state are always written"},
       {.shape = output, .name = "fields", .type = choices, .choices = {"held", "stress", "displacement", "springs", "contact"},
        .standard = "[\"held\", \"stress\"]",
-       .help = "what frames hold beside velocities and masses of vertices and numbers and components of cells. 'held': "
-               "which vertices are free (0), fixed (1), driven (2) or held along some axes (3). 'stress': of each vertex the largest principal "
+       .help = "the fields of frames in addition to velocities and masses of vertices and numbers and components of "
+               "cells. 'held': which vertices are free (0), fixed (1), driven (2) or held along some axes (3). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
                "one is not finite: Cauchy's, per area (length) as it is now, of springs their virial over the volume "
                "(area) of the cells; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
@@ -420,7 +421,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = expect, .name = "components_at_least", .type = integer, .range = number,
        .help = "no fewer connected components"},
       {.shape = expect, .name = "operations", .type = integer, .range = number,
-       .help = "faces dissociated, cells removed, vertices put in by refinement or let go"},
+       .help = "faces dissociated, cells removed, vertices put in by refinement or released"},
       {.shape = expect, .name = "mass", .type = real, .unit = "kg", .range = not_negative,
        .help = "total mass, to 12 digits"},
       {.shape = expect, .name = "kinetic_at_most", .type = real, .unit = "J", .range = not_negative,
@@ -440,7 +441,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = expected_place, .name = "within", .type = real, .unit = "m", .range = not_negative, .required = true,
        .help = "distance from there that is allowed"},
       {.shape = expected_place, .name = "of", .type = choice, .choices = {"vertex", "part"}, .standard = "\"vertex\"",
-       .help = "what has its place there: the probe's vertex; or the centre of mass of all that hangs together with it, "
+       .help = "what has its place there: the probe's vertex; or the centre of mass of all that is connected with it, "
                "whose way through the air needs no simulation to be known"},
       {.shape = expected_place, .name = "why", .type = text, .standard = "\"\"",
        .help = "where the place comes from, for readers"},
@@ -485,18 +486,18 @@ std::span<const ShapeHelp> scene_shapes() {
   static constexpr ShapeHelp shapes[] = {
       {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
       {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
-      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and what it is made of."},
+      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and its material."},
       {Shape::generate, "generate", "A mesh made on the spot."},
       {Shape::box_mesh, "box_mesh", "A box of cubes."},
       {Shape::sheet_mesh, "sheet_mesh", "A rectangle of squares."},
       {Shape::ball_mesh, "ball_mesh",
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
-       "A chain has links and no cells, so nothing can happen to it but that fixed points are let go. In place of the "
-       "largest principal stress it has the largest tension [N]."},
+       "A chain has links and no cells, so nothing can happen to it except that fixed points are released. In place of "
+       "the largest principal stress it has the largest tension [N]."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::tissue, "tissue",
-       "What some of the cells are made of: what a 'material' has, but for the viscosity, which is that of what "
+       "The material of some of the cells: what a 'material' has, except the viscosity, which is that of what "
        "surrounds everything."},
       {Shape::region, "region", "Some of the cells, and their material."},
       {Shape::bending, "bending", "What resists the bending of a surface: by its rigidity, or by springs."},
@@ -518,8 +519,8 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::contact, "contact",
        "Contact of the surface of bodies with obstacles, and of solids with solids: of a solid its boundary, cuts included, "
        "of a surface all of it, from both sides. It is felt at the vertices and in the middles of faces, each by its share of the area at rest, and "
-       "has no thickness: a fresh cut touches nothing. 'dartboard explain' tells how deep a body will rest and come in a "
-       "fall, and the longest stable step there."},
+       "has no thickness: a fresh cut touches nothing. 'dartboard explain' reports how deep a body will rest and come in "
+       "a fall, and the longest stable step there."},
       {Shape::contact_pair, "contact_pair", "Two bodies, or one and itself, and whether and how they touch."},
       {Shape::obstacle, "obstacle",
        "Something that no force moves: half of space, a ball or a box, at rest or moving straight on, and the law of the "
@@ -613,7 +614,7 @@ std::string expectation(const SceneKey& key) {
     case ValueType::text: return "a text";
     case ValueType::choice: return "one of " + quoted_list(key.choices, ", ");
     case ValueType::choices:
-      return fmt::format("a list of words, {}none twice, out of {}", key.least_size > 0 ? "at least one, " : "",
+      return fmt::format("a list of different words, {}out of {}", key.least_size > 0 ? "at least one, " : "",
                          quoted_list(key.choices, ", "));
     case ValueType::integer: return "an integer" + range + unit;
     case ValueType::integers: return "a list of integers" + range + ", at least one";

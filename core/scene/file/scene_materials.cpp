@@ -52,7 +52,7 @@ void require_elements(const SceneFile& scene, const Mesh& mesh, const std::strin
          fmt::format("\"{}\", \"{}\" or \"{}\"", name(Model::stvk), name(Model::corotational), name(Model::springs)));
   if (material.damping_time > 0.0)
     fail(scene, path + "/damping", "is a ratio at a frequency, and the body is a surface",
-         "none: 'viscosity' alone damps membranes");
+         "no such key: only 'viscosity' damps membranes");
 }
 
 /// The mean stiffness of the edges of some cells that follows from a Young's modulus.
@@ -64,7 +64,7 @@ double stiffness_of_young(const SceneFile& scene, const Mesh& mesh, const SceneF
   for (const std::uint32_t c : cells)
     if (first_loose_cell(mesh, {&c, 1}) && diagonals_of(mesh.kinds[c], scene.diagonals).empty())
       wrong(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", c, name(mesh.kinds[c])),
-            "tetrahedra, triangles or a chain, /diagonals beside it, or 'stiffness' in its place");
+            "tetrahedra, triangles or a chain, /diagonals together with it, or 'stiffness' in its place");
   const double mean = scene.diagonals == Diagonals::none
                           ? mean_stiffness(mesh, tissue.material.young, cells)
                           : mean_stiffness_beside(mesh, tissue.material.young, cells, scene.diagonals);

@@ -110,7 +110,7 @@ std::string rule_text(const SceneRule& rule) {
   const std::string first = names[0];
   names.erase(names.begin());
   if (rule.kind == SceneRule::needs_object)
-    return fmt::format("beside '{}', {} as an object", first, quoted_list(names, ", "));
+    return fmt::format("together with '{}', {} as an object", first, quoted_list(names, ", "));
   return fmt::format("'{}' stands without {}", first, quoted_list(names, ", "));
 }
 

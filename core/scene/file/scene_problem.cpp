@@ -66,8 +66,8 @@ Assembled assembled(const std::string& scene, std::span<const BodySource> bodies
   for (const BodySource& body : bodies) {
     const Mesh mesh = make_mesh(scene, body);
     if (all.mesh.cell_count() > 0 && mesh.dimension() != all.mesh.dimension())
-      throw InputError(fmt::format("{}: {}: is a {} beside {}, which is a {}; expected bodies of one kind", scene,
-                                   body.path, mesh.dimension() == 2 ? "surface" : "solid", bodies.front().path,
+      throw InputError(fmt::format("{}: {}: is a {}, but {} is a {}; expected bodies of one kind", scene, body.path,
+                                   mesh.dimension() == 2 ? "surface" : "solid", bodies.front().path,
                                    mesh.dimension() == 2 ? "solid" : "surface"));
     all.first_point.push_back(all.mesh.points.size());
     all.first_cell.push_back(all.mesh.cell_count());
@@ -123,8 +123,8 @@ Problem make_problem(const SceneFile& scene) {
   problem.mesh = std::move(body.mesh);
   if (!scene.touches.empty() && problem.mesh.dimension() == 2)
     throw InputError(
-        fmt::format("{}: {}: stands beside surfaces, which are inside of nothing; expected solids, or "
-                    "obstacles alone",
+        fmt::format("{}: {}: cannot be used with surfaces, which have no inside; expected solids, or "
+                    "only obstacles",
                     scene.file, scene.touches.front().path));
   assign_materials(scene, body.first_cell, problem);
   require_springs_beside_edges(scene, problem);

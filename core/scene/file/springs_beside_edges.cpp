@@ -33,7 +33,8 @@ void require_diagonals(const SceneFile& scene, const Problem& problem) {
     if (!diagonals_of(problem.mesh.kinds[c], scene.diagonals).empty()) return;
   }
   const std::string found = fmt::format("is \"{}\"", name(scene.diagonals));
-  if (!springs) fail(scene, "/diagonals", found + ", and all cells are made of elements", "cells of springs, or none");
+  if (!springs)
+    fail(scene, "/diagonals", found + ", and all cells are made of elements", "cells of springs, or no such key");
   fail(scene, "/diagonals", found + ", and no cell has such diagonals",
        scene.diagonals == Diagonals::volumes ? "hexahedra, or no such key"
                                              : "hexahedra, prisms, pyramids or quadrilaterals, or no such key");
@@ -70,7 +71,7 @@ void require_springs_beside_edges(const SceneFile& scene, const Problem& problem
   if (scene.diagonals != Diagonals::none) require_diagonals(scene, problem);
   if (!scene.bending.any()) return;
   if (problem.mesh.dimension() != 2)
-    fail(scene, "/bending", "stands beside a solid, whose cells do not bend at edges", "a surface");
+    fail(scene, "/bending", "cannot be combined with a solid, whose cells do not bend at edges", "a surface");
   if (scene.bending.rigidity > 0.0) require_flat_triangles(scene, problem.mesh);
 }
 

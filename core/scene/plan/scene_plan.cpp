@@ -68,7 +68,8 @@ class Planner {
     else if (scene_.is_chain())
       leave_out("map, darts and cells", source_of(scene_) + ": links alone");
     else
-      leave_out("map, marks, embeddings and every dart once the body is built", "/events: none changes the topology");
+      leave_out("map, marks, embeddings and every dart once the body is built",
+                "/events: no event changes the topology");
     columns();
     driven();
     forces();
@@ -120,11 +121,11 @@ class Planner {
                     springs_of_young ? ", stiffness shares of its edges" : ""),
         changed + (springs_of_young || !materials.is_one() ? "; " + elasticity() : ""));
     add(Part::components, fmt::format("the component of each cell, {} at the start", n.components),
-        changed + "; /output: frames and diagnostics tell the components");
+        changed + "; /output: frames and diagnostics report the components");
     if (tetrahedra) leave_out("alphas of each dart (16 bytes)", source_of(scene_) + ": tetrahedra alone");
     if (storage == Storage::surface) leave_out("a third dimension of the map", source_of(scene_) + ": a surface");
     if (!plan_.needs.refinement && !springs_of_young)
-      leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: none refines");
+      leave_out("stiffness shares by edge and cell, which only refinement needs", "/events: no event refines");
   }
 
   void columns() {
@@ -147,7 +148,7 @@ class Planner {
           fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()));
     else
       leave_out("column and term of fixed vertices",
-                scene_.fixed.empty() ? "/fixed: none" : "/fixed: its selections are empty");
+                scene_.fixed.empty() ? "/fixed: not given" : "/fixed: its selections are empty");
     if (plan_.needs.body.rest)
       add(Part::rest, "place at rest by vertex",
           scene_.output.fields.displacement ? "/output/fields: frames show 'displacement'"
@@ -159,7 +160,7 @@ class Planner {
 
   void driven() {
     if (scene_.driven.empty()) {
-      leave_out("velocities given in every step, and their work", "/driven: none");
+      leave_out("velocities given in every step, and their work", "/driven: not given");
       return;
     }
     // driven vertices are looked up as in the run, by the points of the mesh
@@ -183,7 +184,7 @@ class Planner {
       add(Part::elements, fmt::format("{} {}: rest shape, corners", n.cells, surface ? "membranes" : "solid cells"),
           source_of(scene_) + "; " + elasticity());
     if (elements && surface && !scene_.bending.any())
-      leave_out("stiffness against bending, which membranes have none of", "/bending: none");
+      leave_out("stiffness against bending, which membranes do not have", "/bending: not given");
     if (elements && !materials.has_springs()) {
       leave_out("springs and their damping", elasticity());
       if (plan_.needs.body.topology_changes)
@@ -210,10 +211,10 @@ class Planner {
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity = told("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
     if (plan_.needs.body.pull)
-      add(Part::pull, "of each vertex, what of forces from outside is its share; added beside gravity",
+      add(Part::pull, "by vertex, its share of the external forces; added together with gravity",
           fmt::format("/forces: {}", scene_.forces.size()));
     else
-      leave_out("column and term of forces from outside", "/forces: none");
+      leave_out("column and term of forces from outside", "/forces: not given");
     if (plan_.needs.gravity)
       add(Part::gravity, "added where forces are divided by masses", gravity);
     else
@@ -241,7 +242,7 @@ class Planner {
 
   void contact() {
     if (!scene_.has_contact()) {
-      leave_out("contact, which bodies would feel with obstacles and with each other", "/contact: none");
+      leave_out("contact of bodies with obstacles and with each other", "/contact: not given");
       return;
     }
     const SystemArrays arrays(problem_, plan_.needs.body);
@@ -319,19 +320,19 @@ class Planner {
 
   void output() {
     if (scene_.is_chain())
-      add(Part::output_cells, "masses of links", "/output: diagnostics tell mass");
+      add(Part::output_cells, "masses of links", "/output: diagnostics report mass");
     else if (!plan_.needs.body.topology_changes)
       add(Part::output_cells,
           fmt::format("cells, their masses{} and the boundary by vertex numbers",
                       problem_.materials.empty() ? "" : ", materials"),
-          "/output: frames show the cells, diagnostics tell mass and boundary");
+          "/output: frames show the cells, diagnostics report mass and boundary");
     add(Part::frames, "the cells where they are" + fields_in_words(),
         output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
       add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
     add(Part::diagnostics, fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
-    if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: none tears by stress");
+    if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: no event tears by stress");
   }
 
   std::string elasticity() const {

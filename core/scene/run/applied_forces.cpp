@@ -98,7 +98,7 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
     for (const Vector3d& pull : force.pull)
       if (!(pull.squaredNorm() < std::numeric_limits<double>::max()))
         throw InputError(
-            fmt::format("{}/{}: accelerates a vertex by {:.3g} m/s^2, whose square is no number; expected a "
+            fmt::format("{}/{}: accelerates a vertex by {:.3g} m/s^2, whose square is not finite; expected a "
                         "smaller value",
                         from.path, from.force ? "force" : "pressure", pull.lpNorm<Eigen::Infinity>()));
     forces_.push_back(std::move(force));

@@ -58,11 +58,11 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
     case ContactWarning::Kind::will_be_fast:
       if (w.of_bodies)
         return fmt::format(
-            "what falls or moves as fast as can be expected comes {:.4g} m in a step relative to {}, where half of the "
+            "at the expected speeds a vertex moves {:.4g} m in a step relative to {}, where half of the "
             "least altitude of a cell at the boundary is {:.4g} m: it may pass through; take a shorter /step",
             w.value, other, w.limit);
       return fmt::format(
-          "what falls or moves as fast as can be expected comes {:.4g} m in a step relative to {}, where "
+          "at the expected speeds a vertex moves {:.4g} m in a step relative to {}, where "
           "nothing is more than {:.4g} m inside: it may pass through; take a shorter /step",
           w.value, other, w.limit);
     case ContactWarning::Kind::too_fast: break;

@@ -10,7 +10,7 @@ namespace dartboard {
 
 std::string to_string(const CoordinatePrecision& found) {
   return fmt::format(
-      "coordinate {} = {:.6g} m of vertex {} is rounded by up to {:.2g} of the {} beside it ({:.4g} m); move the "
+      "coordinate {} = {:.6g} m of vertex {} is rounded by up to {:.2g} of the {} next to it ({:.4g} m); move the "
       "body to the origin",
       "xyz"[found.axis], found.coordinate, found.vertex, found.relative,
       found.edge == CoordinatePrecision::of_element ? "shortest edge of an element" : "spring", found.length);

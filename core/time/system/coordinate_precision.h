@@ -25,8 +25,8 @@ struct CoordinatePrecision {
     archive(edge, vertex, axis, coordinate, length, relative);
   }
 };
-/// "coordinate x = 1e+10 m of vertex 3 is rounded by up to 2.2e-06 of the spring beside it (1 m); move the body to the
-/// origin"; "... of the shortest edge of an element beside it (1 m); ..."
+/// "coordinate x = 1e+10 m of vertex 3 is rounded by up to 2.2e-06 of the spring next to it (1 m); move the body to the
+/// origin"; "... of the shortest edge of an element next to it (1 m); ..."
 std::string to_string(const CoordinatePrecision& found);
 
 /// A larger relative rounding is worth a warning: a run at D edge lengths from the origin ends some 30 eps D from the

@@ -111,7 +111,7 @@ TEST(Archive, RefusesWhatGoesOnAfterItsEnd) {
                         archive.part("outer");
                         archive(read);
                       }),
-            "file: is damaged, in 'outer': 1 bytes are left; expected none");
+            "file: is damaged, in 'outer': 1 bytes are left; expected 0");
 }
 
 // A length of 2^62 numbers: no machine has that much memory.

@@ -448,7 +448,7 @@ TEST(ElementsOnAMap, AreSolidCellsOfAMaterialThatExists) {
   EXPECT_EQ(message(box(), [](Material& m) { m.stiffness = m.damping = 1.0; }), "");  // of springs, and not used
   EXPECT_EQ(message(box(), [](Material& m) { m.damping_time = -1.0; }), "damping time is -1, expected at least 0 s");
   EXPECT_EQ(message(box(), [](Material& m) { m = {.damping_time = 1.0}; }),
-            "damping time is 1, expected 0 s beside springs");
+            "damping time is 1, expected 0 s with springs");
 }
 
 }  // namespace

@@ -202,8 +202,8 @@ Mesh flat_sheet(bool triangles) {
   return mesh;
 }
 
-// The same rule on every triangle halved three times, until corners alone are exact to (1/8)^2 of the curvature, then
-// extrapolated, by the trapezoidal rule of triangles T_k -> (4 T_k+1 - T_k) / 3, exact for quadratics.
+// The rule of the three corners on a triangle and on its four quarters, extrapolated once to (4 fine - coarse) / 3,
+// which is exact for quadratics.
 template <class F>
 double over_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, F&& f) {
   const double area = 0.5 * (b - a).cross(c - a).norm();

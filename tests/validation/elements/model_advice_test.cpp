@@ -59,7 +59,7 @@ TEST(ModelAdvice, SaysWhyThereIsNone) {
   const auto clock = [&now] { return now += 1000; };
   const ModelAdvice none = advise_model(bar, {.models = {}, .truth = 2}, 0.25, 1e-5, clock);
   EXPECT_EQ(none.pick(), nullptr);
-  EXPECT_NE(none.why_not.find("the reference cannot tell errors below"), std::string::npos);
+  EXPECT_NE(none.why_not.find("the reference cannot resolve errors below"), std::string::npos);
   EXPECT_TRUE(none.trials.empty());
   EXPECT_THROW(advise_model(bar, {.models = {}, .truth = 2}, 0.25, 0.0, clock), InputError);
 }

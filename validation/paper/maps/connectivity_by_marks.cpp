@@ -44,9 +44,9 @@ ClaimAnswer try_marking(const Mesh& mesh, int series, std::uint64_t seed,
                                    connected ? "hang together" : "do not hang together")};
     }
   }
-  return {
-      lost == series && asked > 2 * series,
-      fmt::format("{} questions in {} series, {} losses of connectivity: all told, and no other", asked, series, lost)};
+  return {lost == series && asked > 2 * series,
+          fmt::format("{} questions in {} series, {} losses of connectivity: all reported, and no other", asked, series,
+                      lost)};
 }
 
 }  // namespace dartboard

@@ -223,7 +223,7 @@ TEST(ExtremesTables, StandUnderTheirHeadings) {
             (Row{"matrix, extremes: Extremes, by axis; 1 runs: judged by the motion 0.0 %, by the scheme 0.0 %, by "
                  "survival 100.0 %, diagnosed 0.0 %",
                  "matrix, integrators: Extremes, by integrator",
-                 "limits, limits: Longest stable step times omega_max, beside theory",
+                 "limits, limits: Longest stable step times omega_max, compared with theory",
                  "limits, frequencies: Highest frequencies of meshes, by Lanczos",
                  "maps, maps: Boundaries of stability, by runs and in theory",
                  "amplification, amplification: One step of an undamped oscillation",

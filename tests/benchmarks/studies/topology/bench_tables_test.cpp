@@ -75,10 +75,10 @@ TEST(BenchTopologyTable, HasTheFiguresOfEachBodyByContender) {
   EXPECT_EQ(row_with(table, "vertex orbit", "kuhn-48000"),
             (Row{"vertex orbit", "kuhn-48000", "<= 3 ns per dart, 20x CGAL", "6", "4", "100", steady(25.0), "-", "-",
                  "falls short"}));
-  EXPECT_EQ(row_with(table, "unsew a face and tell what came apart, at random", "liver564"),
-            (Row{"unsew a face and tell what came apart, at random", "liver564", "<= 1.5 us per face", "3", "1.2", "-",
-                 "-", "-", "-", "holds"}));
-  EXPECT_EQ(row_with(table, "unsew a face and tell what came apart, along a cut", "liver564").back(), "not timed");
+  EXPECT_EQ(row_with(table, "unsew a face and report what came apart, at random", "liver564"),
+            (Row{"unsew a face and report what came apart, at random", "liver564", "<= 1.5 us per face", "3", "1.2",
+                 "-", "-", "-", "-", "holds"}));
+  EXPECT_EQ(row_with(table, "unsew a face and report what came apart, along a cut", "liver564").back(), "not timed");
   EXPECT_EQ(row_with(table, "vertex to tetrahedra", "kuhn-48000"),
             (Row{"vertex to tetrahedra", "kuhn-48000", "-", "-", "0.1", "20", steady(200.0), "-", "-", "-"}));
 }
@@ -87,8 +87,8 @@ TEST(BenchTopologyTable, CannotTellWhereTheBoundLiesWithinTheInterval) {
   TopologyFigures f = topology();
   for (Sample& s : f.samples["liver564:unsew-scattered"])
     if (s.task == "tetrahedral") s.cpu_ns = 1000 * (s.process % 2 == 0 ? 1600 : 1300);
-  EXPECT_EQ(row_with(figures_table(f), "unsew a face and tell what came apart, at random", "liver564").back(),
-            "cannot tell");
+  EXPECT_EQ(row_with(figures_table(f), "unsew a face and report what came apart, at random", "liver564").back(),
+            "undecided");
 }
 
 TEST(BenchTopologyTable, HasTheTimesOfAllSizesOfABody) {
@@ -252,7 +252,7 @@ TEST(BenchAblationTable, HasTheStairsFromTheSceneToThePlainLoop) {
     const AblationPair pair = staircase()[k];
     const Row row = labelled(table, k);
     EXPECT_EQ(Row(row.begin(), row.begin() + 5),
-              (Row{"not asked for, or always there: " + pair.feature, "task: " + pair.task, "over: " + pair.baseline,
+              (Row{"not requested, or always there: " + pair.feature, "task: " + pair.task, "over: " + pair.baseline,
                    fmt::format("us per step: {:.2f}", ns_of(f, pair.task) / 20 / 1e3),
                    "of a step: " + percent(ratio_of(f, pair))}));
     EXPECT_TRUE(row[5].starts_with(fmt::format("interval: [{:+.2f}, ", 100 * (ratio_of(f, pair) - 1)))) << row[5];
@@ -271,11 +271,11 @@ TEST(BenchAblationClaimsInWords, SayWhatIsAskedAndWhatWasMeasured) {
   EXPECT_EQ(bare.bound_or_interval, to_string(median_interval(std::vector<double>(7, speed))));
   EXPECT_EQ(find_claim(claims, "bare-scene-holds-no-dart").measured, "4 bytes");
   const Claim& damping = find_claim(claims, "unasked-damping-bytes");
-  EXPECT_EQ(damping.measured, "5 bytes for 3 springs; 6 where it is asked for");
+  EXPECT_EQ(damping.measured, "5 bytes for 3 springs; 6 where it is requested");
   EXPECT_EQ(damping.paper_value, "0 bytes");
   EXPECT_EQ(damping.bound_or_interval, "exact");
   const Claim& detector = find_claim(claims, "detector-time");
-  EXPECT_EQ(detector.text, "divergence detector: time when not asked for");
+  EXPECT_EQ(detector.text, "divergence detector: time when not requested");
   EXPECT_EQ(detector.paper_value, "<= 0.5 % of a step");
   EXPECT_EQ(detector.measured, percent(ns_of(f, "loop and detector") / ns_of(f, "loop")));
   EXPECT_EQ(detector.reason, "'loop and detector' over 'loop'");

@@ -129,7 +129,7 @@ TEST(AuditClaims, APickThatMissesItsErrorIsNotCheap) {
   }
   const Claim regret = audit_claims(scenes, pairs)[3];
   EXPECT_EQ(regret.verdict, no);
-  EXPECT_EQ(regret.measured, "1.400, 11 pairs; 9 left out, whose error was missed or cannot be told");
+  EXPECT_EQ(regret.measured, "1.400, 11 pairs; 9 left out, whose error was missed or cannot be resolved");
   pairs.resize(9);
   EXPECT_EQ(audit_claims(scenes, pairs)[3].verdict, untold);
 }
@@ -300,7 +300,7 @@ TEST(AuditTable, SaysOfAPairThatCannotBeJudgedNothingThatLooksLikeAJudgement) {
   pairs[1].audit.actual_error = std::numeric_limits<double>::quiet_NaN();
   const Table table = audit_table(scenes, pairs);
   EXPECT_EQ(table.rows()[0][3], "-");
-  EXPECT_EQ(table.rows()[0][4], "not judged: the reference is no better than that");
+  EXPECT_EQ(table.rows()[0][4], "not judged: below the resolution of the reference");
   EXPECT_EQ(table.rows()[1][3], "-");
   EXPECT_EQ(table.rows()[1][4], "not judged: followed for its cost only");
   EXPECT_EQ(table.rows()[2][3], "0.500");
@@ -315,7 +315,7 @@ TEST(AuditPlot, PlacesEachPairByWhatItPromised) {
   EXPECT_EQ(plot.title, "recommend, promised and met");
   EXPECT_EQ(plot.subtitle, "of today");
   EXPECT_TRUE(plot.x_axis.starts_with("predicted over measured time")) << plot.x_axis;
-  EXPECT_TRUE(plot.y_axis.starts_with("actual error over the error asked for")) << plot.y_axis;
+  EXPECT_TRUE(plot.y_axis.starts_with("actual error over the requested error")) << plot.y_axis;
   ASSERT_EQ(plot.series.size(), 5u);  // the requested error and 15 % to either side as lines, then the picks by name
   const auto expect_line = [&](std::size_t k, double x1, double y1, double x2, double y2) {
     const PlotSeries& line = plot.series[k];

@@ -142,7 +142,7 @@ TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
 TEST(RecommendText, SaysHowMuchOfTheMotionIsForetold) {
   Recommendation r = recommendation();
   r.candidates[0].seen_part = 0.0125;
-  EXPECT_NE(text_of(r, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is foretold.\n"),
+  EXPECT_NE(text_of(r, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is predicted.\n"),
             std::string::npos)
       << text_of(r, false, 1.0);
   r.candidates[0].full_length = true;
@@ -235,7 +235,7 @@ TEST(RecommendFollowed, HasWhatWasPredictedBesideWhatHappened) {
                                      "cost [evaluations' time]: 400", "predicted/actual: 0.750",
                                      "best of the sweep: verlet", "regret: 1.25"}));
   EXPECT_EQ(table.rows()[1][4], "NO");
-  EXPECT_EQ(table.rows()[2], (Row{"5e-01", "rk4", "-", "3.75e-01", "not judged: the reference is no better than that",
+  EXPECT_EQ(table.rows()[2], (Row{"5e-01", "rk4", "-", "3.75e-01", "not judged: below the resolution of the reference",
                                   "400", "0.750", "-", "-"}));
 }
 

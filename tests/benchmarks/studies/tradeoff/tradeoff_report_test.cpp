@@ -42,7 +42,7 @@ TEST(TradeoffTrouble, IsThatNoRunThatEndedFollowsTheMotion) {
 TEST(TradeoffTrouble, IsAReferenceThatCannotTellAHundredthOfAnEdge) {
   EXPECT_EQ(trouble_of(study_of({point(Standing::front)}, 1e-2)), "");
   EXPECT_EQ(trouble_of(study_of({point(Standing::front)}, 2e-2)),
-            "chain: nothing can be told, the reference is uncertain by 2.0e-02 edges: two codes");
+            "chain: nothing can be concluded, the reference is uncertain by 2.0e-02 edges: two codes");
   EXPECT_NE(trouble_of(study_of({point(Standing::front)}, std::numeric_limits<double>::quiet_NaN())), "");
 }
 

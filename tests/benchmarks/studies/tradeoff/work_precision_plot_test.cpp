@@ -64,7 +64,7 @@ TEST(WorkPrecisionDiagram, SaysWhatItIsOf) {
   EXPECT_EQ(plot.x_axis, "cost: CPU time in units of one force evaluation (51 vertices, 41 springs)");
   EXPECT_TRUE(plot.y_axis.starts_with("error of positions [mean edge lengths]")) << plot.y_axis;
   EXPECT_EQ(plot.shaded_below, 1e-7);
-  EXPECT_EQ(plot.shaded_label, "below 1e-07 edges the reference cannot tell (certified)");
+  EXPECT_EQ(plot.shaded_label, "below 1e-07 edges: not resolved by the reference (certified)");
   EXPECT_EQ(plot.y_last_tick, 1.0);
 }
 

@@ -54,7 +54,7 @@ TEST(WeldedPoints, AreKnownByEachOfTheirNumbersInTheFile) {
 TEST(WeldedPoints, AreNoneBeyondTheDistance) {
   const LoadedMesh loaded = read(two_triangles("1e-6"), 0.9e-6);
   EXPECT_EQ(loaded.mesh.points.size(), 6u);
-  EXPECT_EQ(loaded.notices.at(1), "welded no points: none is within 9e-07 of another");
+  EXPECT_EQ(loaded.notices.at(1), "welded no points: no two are within 9e-07 of each other");
 }
 
 // 1 + 1e-9 is not at a distance of 1e-9 from 1, because of the last bits of both.

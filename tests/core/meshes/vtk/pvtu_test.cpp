@@ -89,7 +89,7 @@ TEST_F(Pvtu, RefusesToGuessWhichOfTwoPointsIsMeant) {
   EXPECT_EQ(refused(),
             (folder_ / "all.pvtu").string() +
                 ": point 1 of 'a.vtu' and point 4 of 'a.vtu' are at the place of point 0 of 'b.vtu'; expected "
-                "one point of each piece there: which are to be joined cannot be told");
+                "one point of each piece there: which points to join is ambiguous");
 }
 
 // The shortest edge is 1, the size of the mesh sqrt 3: nearer than 1.7e-6 is too near.

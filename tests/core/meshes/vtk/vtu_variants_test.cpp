@@ -98,7 +98,7 @@ TEST(VtuTagsOfCells, ThatNeedMoreThan32BitsAreLeftOutWithANotice) {
 
 TEST(XmlText, HasNoDocumentType) {
   expect_part(refused(with(vtu_ascii, "<VTKFile", "<!DOCTYPE a [<!ENTITY b \"c\">]><VTKFile")),
-              "found a document type; expected none");
+              "found a document type; expected no document type");
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(Release, OfADrivenVertexIsRefused) {
 TEST(Release, BesideARefinementIsRefused) {
   Json scene = held_box(all_at_4_ms);
   scene["events"].push_back(Json::parse(R"({"at": 0.001, "refine": {"cells": {"ids": [0]}}})"));
-  EXPECT_NE(refusal(scene).find("/events/1/refine: stands beside /events/0/release"), std::string::npos);
+  EXPECT_NE(refusal(scene).find("/events/1/refine: cannot be combined with /events/0/release"), std::string::npos);
 }
 
 }  // namespace

@@ -177,10 +177,10 @@ TEST(ScenePlan, LeavesOutWhatNoKeyNeeds) {
   scene["material"]["viscosity"] = 0;
   const ScenePlan bare = plan(parse(scene));
   EXPECT_EQ(bare.map, "no map");
-  EXPECT_TRUE(leaves_out(bare, "map", "/events: none changes the topology"));
+  EXPECT_TRUE(leaves_out(bare, "map", "/events: no event changes the topology"));
   EXPECT_TRUE(leaves_out(bare, "damping", "/material/damping: 0"));
   EXPECT_TRUE(leaves_out(bare, "viscosity", "/material/viscosity: 0"));
-  EXPECT_TRUE(leaves_out(bare, "fixed", "/fixed: none"));
+  EXPECT_TRUE(leaves_out(bare, "fixed", "/fixed: not given"));
   EXPECT_TRUE(leaves_out(bare, "Jacobian", "rk4 (the default) is explicit"));
   EXPECT_TRUE(leaves_out(bare, "stresses", "/events"));
   EXPECT_TRUE(leaves_out(bare, "places at rest", "/output/fields: without 'displacement'"));
@@ -189,7 +189,7 @@ TEST(ScenePlan, LeavesOutWhatNoKeyNeeds) {
     EXPECT_EQ(item(bare, part), nullptr) << name(part);
 
   const ScenePlan cut = plan(parse(with_events(moving_box(), one_removal)));
-  EXPECT_TRUE(leaves_out(cut, "refinement", "/events: none refines"));
+  EXPECT_TRUE(leaves_out(cut, "refinement", "/events: no event refines"));
   EXPECT_FALSE(leaves_out(cut, "map, marks", ""));
 }
 

@@ -285,7 +285,7 @@ TEST(AppliedForces, ArePlannedToTheByteAndLeftOutWhereNoKeyAsksForThem) {
   EXPECT_EQ(item->bytes, 27 * 24 + 9 * 4 + 24 + 9 * 4 + 9 * 24);
   EXPECT_EQ(item->why, "/forces: 2");
   EXPECT_TRUE(std::ranges::none_of(without.items, [](const PlanItem& i) { return i.part == Part::pull; }));
-  EXPECT_TRUE(std::ranges::any_of(without.left_out, [](const LeftOut& l) { return l.why == "/forces: none"; }));
+  EXPECT_TRUE(std::ranges::any_of(without.left_out, [](const LeftOut& l) { return l.why == "/forces: not given"; }));
 }
 
 }  // namespace

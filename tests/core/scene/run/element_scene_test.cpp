@@ -74,20 +74,21 @@ TEST(ElementScene, NamesTheKeyOfAMaterialThatIsNone) {
   EXPECT_EQ(with("poisson", 0.5), "file: /material/poisson: is 0.5; expected a number >= -0.99 and <= 0.4999");
   EXPECT_EQ(
       with("model", "springs"),
-      "file: /material/poisson: stands beside the model \"springs\", which have a ratio of 1/4, or 1/3 in a surface; "
-      "expected another model, or no 'poisson'");
+      "file: /material/poisson: cannot be combined with the model \"springs\", which have a ratio of 1/4, or 1/3 in a "
+      "surface; expected another model, or no 'poisson'");
   EXPECT_EQ(with("stiffness", 3), "file: /material: has 'stiffness', 'young'; expected at most one of them");
-  EXPECT_EQ(with("damping", 3), "file: /material/damping: is 3 beside 'poisson'; expected an object (damping)");
+  EXPECT_EQ(with("damping", 3), "file: /material/damping: is 3 together with 'poisson'; expected an object (damping)");
   Json scene = of_elements();
   scene["material"].erase("young");
-  EXPECT_EQ(refusal(scene), "file: /material/poisson: stands beside no 'young'; expected Young's modulus beside it");
+  EXPECT_EQ(refusal(scene),
+            "file: /material/poisson: is given without 'young'; expected Young's modulus together with it");
   scene = of_elements("stvk");
   scene["material"].erase("poisson");
   EXPECT_EQ(refusal(scene),
-            "file: /material/model: is \"stvk\" beside no 'poisson'; expected 'young' and 'poisson' beside it");
+            "file: /material/model: is \"stvk\" without 'poisson'; expected 'young' and 'poisson' together with it");
   scene = of_elements();
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 2, "spacing": 1}}})");
-  EXPECT_EQ(refusal(scene), "file: /material/poisson: stands beside /body/generate/chain; expected cells");
+  EXPECT_EQ(refusal(scene), "file: /material/poisson: cannot be combined with /body/generate/chain; expected cells");
 }
 
 Json damped(Json scene, double ratio = 0.05, double frequency = 4.0) {
@@ -112,16 +113,17 @@ TEST(ElementScene, IsDampedByARatioAtAFrequency) {
             "file: /material/damping/ratio: is -0.1; expected a number >= 0");
   EXPECT_EQ(with(R"({"ratio": 1, "frequency": 1e-12})"),
             "file: /material/damping: has a ratio / (pi frequency) of 3.18e+11 s; expected at most 1e+09 s");
-  EXPECT_EQ(with("\"much\""), "file: /material/damping: is \"much\" beside 'poisson'; expected an object (damping)");
+  EXPECT_EQ(with("\"much\""),
+            "file: /material/damping: is \"much\" together with 'poisson'; expected an object (damping)");
   EXPECT_EQ(refusal(damped(moving_box())),
-            "file: /material/damping: is an object with 2 keys beside no 'poisson'; expected a number of N s/m of each "
+            "file: /material/damping: is an object with 2 keys without 'poisson'; expected a number of N s/m of each "
             "spring, or elements");
   Json scene = damped(of_elements());
   scene["material"]["viscosity"] = 0;
   scene["expect"]["energy_drift_at_most"] = 1e-3;
   EXPECT_EQ(refusal(scene),
-            "file: /expect/energy_drift_at_most: stands beside /material/damping, which changes the energy; expected "
-            "damping and viscosity of 0, no driven vertices or events, and forces from start to end");
+            "file: /expect/energy_drift_at_most: cannot be combined with /material/damping, which changes the energy; "
+            "expected damping and viscosity of 0, no driven vertices or events, and forces from start to end");
 }
 
 // Regions are of materials of their own, damped or not; the remaining energy shows it.
@@ -292,7 +294,7 @@ TEST(ElementScene, IsToldWhereItsCoordinatesAreTooCoarse) {
     scene["body"]["translate"] = {0, -1e9, 0};
     ASSERT_EQ(warnings().size(), 1u) << kind;
     EXPECT_NE(warnings()[0].find("coordinate y = -1e+09 m"), std::string::npos) << warnings()[0];
-    EXPECT_NE(warnings()[0].find("of the shortest edge of an element beside it"), std::string::npos) << warnings()[0];
+    EXPECT_NE(warnings()[0].find("of the shortest edge of an element next to it"), std::string::npos) << warnings()[0];
     EXPECT_NE(warnings()[0].find("move the body to the origin (/body/translate)"), std::string::npos) << warnings()[0];
   }
 }

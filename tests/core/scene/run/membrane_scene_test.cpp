@@ -99,15 +99,15 @@ TEST(MembraneScene, NamesTheKeyOfAModelThatSurfacesDoNotHave) {
   EXPECT_EQ(refusal(region), "file: /regions/0/" + has_not);
   Json chain = sheet("triangles");
   chain["body"] = Json::parse(R"({"generate": {"chain": {"links": 3, "spacing": 1}}})");
-  EXPECT_EQ(refusal(chain), "file: /material/poisson: stands beside /body/generate/chain; expected cells");
+  EXPECT_EQ(refusal(chain), "file: /material/poisson: cannot be combined with /body/generate/chain; expected cells");
 }
 
 TEST(MembraneScene, HasNoDampingRatioThatNothingWouldTake) {
   Json scene = sheet("triangles");
   scene["material"]["damping"] = Json::parse(R"({"ratio": 0.1, "frequency": 2})");
   EXPECT_EQ(refusal(scene),
-            "file: /material/damping: is a ratio at a frequency, and the body is a surface; expected none: 'viscosity' "
-            "alone damps membranes");
+            "file: /material/damping: is a ratio at a frequency, and the body is a surface; expected no such key: "
+            "only 'viscosity' damps membranes");
   Problem problem;
   problem.mesh = triangle_sheet(1, 1, 0.1);
   problem.material = {.stiffness = 0, .damping = 0, .young = 1, .model = Model::stvk, .damping_time = 0.1};
@@ -289,7 +289,7 @@ TEST(MembraneScene, IsPlannedToTheByteAndSaysThatNothingResistsBending) {
       EXPECT_EQ(elements, fmt::format("{} membranes: rest shape, corners", problem.mesh.cell_count()));
       EXPECT_TRUE(plan.unplanned.empty()) << name(plan.unplanned.front().part);
       const bool told = std::ranges::any_of(plan.left_out, [](const auto& left_out) {
-        return left_out.what == "stiffness against bending, which membranes have none of";
+        return left_out.what == "stiffness against bending, which membranes do not have";
       });
       EXPECT_EQ(told, !json.contains("bending"));
     }

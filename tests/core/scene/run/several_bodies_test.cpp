@@ -185,7 +185,7 @@ TEST(SceneRegions, NameTheKeyThatIsWrong) {
   EXPECT_EQ(refusal(with_region(left_half, R"({"young": 1e4, "poisson": 0.5})")),
             "file: /regions/0/material/poisson: is 0.5; expected a number >= -0.99 and <= 0.4999");
   EXPECT_EQ(refusal(with_region(left_half, R"({"poisson": 0.3})")),
-            "file: /regions/0/material/poisson: stands beside no 'young'; expected Young's modulus beside it");
+            "file: /regions/0/material/poisson: is given without 'young'; expected Young's modulus together with it");
   EXPECT_EQ(
       refusal(with_region(left_half, R"({"viscosity": 1})")),
       "file: /regions/0/material/viscosity: unknown key; the valid keys are 'density', 'stiffness', 'young', 'poisson', "
@@ -197,7 +197,8 @@ TEST(SceneRegions, NameTheKeyThatIsWrong) {
             "file: /regions/0/material/model: is \"neo-hookean\", and the body is a surface; expected \"stvk\", "
             "\"corotational\" or \"springs\"");
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 2, "spacing": 1}}})");
-  EXPECT_EQ(refusal(scene), "file: /regions: stand beside /body/generate/chain, which has no cells; expected none");
+  EXPECT_EQ(refusal(scene),
+            "file: /regions: cannot be combined with /body/generate/chain, which has no cells; expected no such key");
 }
 
 // ---- marks of cells in a mesh file
@@ -327,7 +328,7 @@ TEST(SceneBodies, NameTheKeyThatIsWrong) {
   };
   EXPECT_EQ(with(1, "scale", -1), "file: /bodies/1/scale: is -1; expected a number > 0");
   EXPECT_EQ(with(1, "generate", Json::parse(R"({"sheet": {"cells": [2, 2], "spacing": 1}})")),
-            "file: /bodies/1: is a surface beside /bodies/0, which is a solid; expected bodies of one kind");
+            "file: /bodies/1: is a surface, but /bodies/0 is a solid; expected bodies of one kind");
   EXPECT_EQ(with(0, "generate", Json::parse(R"({"chain": {"links": 2, "spacing": 1}})")),
             "file: /bodies/0/generate/chain: is a chain; expected cells, or a chain alone in its scene");
   EXPECT_EQ(with(1, "initial_velocity", Json{0, 0, 3e8}),
@@ -351,8 +352,8 @@ TEST(SceneBodies, AreSelectedByPlaceAndNotByNumber) {
   } catch (const InputError& error) {
     EXPECT_STREQ(
         error.what(),
-        "file: /fixed/0/ids/0: is 3 beside /bodies; expected a place, of several bodies nothing is known by its "
-        "number");
+        "file: /fixed/0/ids/0: is 3 together with /bodies; expected a place, because numbers are ambiguous with "
+        "several bodies");
   }
   json["fixed"] = Json::parse(R"([{"box": {"min": [0.9, -1, -1], "max": [2, 1, 1]}}])");
   EXPECT_EQ(make_problem(parse(json)).fixed.size(), 27u);

@@ -58,13 +58,15 @@ TEST(SpringsBesideEdges, NameTheKeyThatFitsNoCell) {
             "file: /diagonals: is \"volumes\", and no cell has such diagonals; expected hexahedra, or no such key");
   Json scene = block("hexahedra");
   scene["material"] = Json::parse(R"({"young": 2e4, "poisson": 0.3})");
-  EXPECT_EQ(refusal(scene),
-            "file: /diagonals: is \"faces\", and all cells are made of elements; expected cells of springs, or none");
+  EXPECT_EQ(
+      refusal(scene),
+      "file: /diagonals: is \"faces\", and all cells are made of elements; expected cells of springs, or no such key");
   scene = with(moving_box(), "diagonals", "faces");
   scene["body"] = Json::parse(R"({"generate": {"chain": {"links": 3, "spacing": 1}}})");
-  EXPECT_EQ(refusal(scene), "file: /diagonals: stands beside /body/generate/chain, which has no cells; expected cells");
+  EXPECT_EQ(refusal(scene),
+            "file: /diagonals: cannot be combined with /body/generate/chain, which has no cells; expected cells");
   EXPECT_EQ(refusal(with(moving_box(), "bending", Json::parse(rigid))),
-            "file: /bending: stands beside a solid, whose cells do not bend at edges; expected a surface");
+            "file: /bending: cannot be combined with a solid, whose cells do not bend at edges; expected a surface");
   EXPECT_EQ(refusal(sheet("quadrilaterals", rigid)),
             "file: /bending/rigidity: is 0.25 N m, and cell 0 is a quadrilateral; expected triangles, or "
             "'second_neighbours' in its place");

@@ -314,7 +314,8 @@ TEST(TouchingBodies, AreToldWhereTheyMayPassThroughEachOtherInAStep) {
   ASSERT_NE(before, nullptr);
   EXPECT_NEAR(before->value, 0.0142, 1e-12);
   EXPECT_NEAR(before->limit, 0.02 / std::sqrt(2.0), 1e-15);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "comes 0.0142 m in a step relative to /bodies/1"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation),
+                               "at the expected speeds a vertex moves 0.0142 m in a step relative to /bodies/1"));
   EXPECT_EQ(warning_of(simulation, ContactWarning::Kind::too_fast), nullptr);
   ASSERT_FALSE(simulation.advance());
   const ContactWarning* now = warning_of(simulation, ContactWarning::Kind::too_fast);

@@ -103,7 +103,7 @@ TEST(CoordinatePrecision, IsThatOfTheShortestEdgeOfElements) {
   EXPECT_EQ(found->length, 0.5);
   EXPECT_NEAR(found->relative, epsilon * 2e10, 1e-9 * epsilon * 2e10);
   const std::string text = to_string(*found);
-  EXPECT_NE(text.find("of the shortest edge of an element beside it (0.5 m); move the body to the origin"),
+  EXPECT_NE(text.find("of the shortest edge of an element next to it (0.5 m); move the body to the origin"),
             std::string::npos)
       << text;
 }
