@@ -27,7 +27,8 @@ Problem link() {
 /// An event with an arbitrary effect on a body.
 struct Push : ReadyEvent {
   explicit Push(std::function<std::size_t()> what) : act(std::move(what)) {}
-  std::size_t apply() override { return act(); }
+  std::size_t apply(EventTargets*) override { return act(); }
+  std::size_t repeat(const EventTargets&) override { return act(); }
   std::function<std::size_t()> act;
 };
 
