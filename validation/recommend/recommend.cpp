@@ -79,7 +79,7 @@ class Search {
       for (const Scheme& other : schemes)
         if (first && other.implicit && is_promising(other)) try_implicit(other);
     }
-    if (options_.adaptive && !scene_.has_contact())
+    if (options_.adaptive)
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)
@@ -314,6 +314,10 @@ std::vector<std::string> Recommendation::untried() const {
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
                          const RecommendOptions& options) {
   if (!(error > 0.0)) throw InputError("an error to meet is positive");
+  if (scene.has_contact())
+    throw InputError(fmt::format(
+        "{}: /contact: changes motions after the part that short runs see; expected none: 'tradeoff' measures whole runs",
+        scene.frozen->file.file));
   return Search(scene, error, clock, options).run();
 }
 

@@ -48,7 +48,7 @@ struct Recommendation {
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); what
 /// has had none by then is left out, and says so (`untried`). What is left out so may differ from run to run.
 ///
-/// throws  InputError unless error > 0
+/// throws  InputError unless error > 0, and for a scene with contact
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
                          const RecommendOptions& options = {});
 

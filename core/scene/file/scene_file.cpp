@@ -559,7 +559,7 @@ class Reader {
       if (scene.is_chain())
         fail("/contact", "cannot be combined with /body/generate/chain, which has no surface", "cells");
       if (scene.accuracy)
-        fail("/accuracy", "cannot be combined with /contact, through which no run is compared with another",
+        fail("/accuracy", "cannot be combined with /contact, which changes motions after the part that short runs see",
              "'step' in its place");
     }
     if (!scene.touches.empty() && scene.integrator == "energy-momentum")

@@ -9,8 +9,10 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
+#include "tests/support/moving_box.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/recommendation_audit.h"
+#include "validation/scenes/scene_of_file.h"
 
 namespace dartboard::recommend_test {
 namespace {
@@ -380,6 +382,22 @@ TEST(Recommend, OnAStiffSceneImplicitMethodsAreTriedBeforeTheTimeForPilotsIsUp) 
 TEST(Recommend, ANonsensicalErrorIsRefused) {
   EXPECT_THROW(recommend(chain_scene(4, 4.0), 0.0, ticking()), InputError);
   EXPECT_THROW(recommend(chain_scene(4, 4.0), std::nan(""), ticking()), InputError);
+}
+
+TEST(Recommend, RefusesContactByItsKey) {
+  moving::Json json = moving::moving_box();
+  json["contact"] = moving::Json::parse(
+      R"({"pressure": 1, "depth": 1, "obstacles": [{"sphere": {"centre": [9, 9, 9], "radius": 1}}]})");
+  const TradeoffScene scene = scene_of_file(moving::parse(json));
+  try {
+    recommend(scene, 1e-3, ticking());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "file: /contact: changes motions after the part that short runs see; expected none: 'tradeoff' measures "
+        "whole runs");
+  }
 }
 
 }  // namespace
