@@ -172,9 +172,9 @@ namespace {
 std::string omission_of(const SceneEvent& event, std::size_t operations) {
   if (operations == 0) return fmt::format("{} is left out: it changes nothing.", event.path);
   if (std::holds_alternative<TearWhereStressed>(event.action))
-    return fmt::format("{} tears what it tears in one accurate run, at the times of that run.", event.path);
+    return fmt::format("{} tears in every run what one accurate run tears, at the same times.", event.path);
   if (depends_on_positions(event) && event.until > 0.0)
-    return fmt::format("{} takes what it takes in one accurate run, wherever the vertices are in others.", event.path);
+    return fmt::format("{} operates in every run on what one accurate run finds.", event.path);
   return {};
 }
 

@@ -115,7 +115,7 @@ TEST(FrozenScene, TearsWhatAnAccurateRunTearsByEveryMethodAndStep) {
   for (const char* integrator : {"rk4", "backward-euler"})
     EXPECT_EQ(run_as_study(scene, integrator, 16).x.size(), vertices) << integrator;
   ASSERT_EQ(scene.omissions.size(), 1u);
-  EXPECT_EQ(scene.omissions[0], "/events/0 tears what it tears in one accurate run, at the times of that run.");
+  EXPECT_EQ(scene.omissions[0], "/events/0 tears in every run what one accurate run tears, at the same times.");
 }
 
 TEST(FrozenScene, CutsWhatLiesOnThePlaneOnceContactHasMovedTheBody) {
