@@ -25,14 +25,6 @@ constexpr std::array<std::pair<Model, CellKind>, 3> kinds{std::pair{Model::sprin
 
 std::string percent(double share) { return fmt::format("{:+.1f} %", 100.0 * share); }
 
-struct Kind {
-  Model model;
-  CellKind cells;
-};
-constexpr Kind springs_on_edges{Model::springs, CellKind::tetrahedron};
-constexpr Kind tetrahedra{Model::neo_hookean, CellKind::tetrahedron},
-    hexahedra{Model::neo_hookean, CellKind::hexahedron};
-
 }  // namespace
 
 ModelErrors errors_of(Model model, CellKind cells, int across, double poisson, const CantileverAnswers& truth) {

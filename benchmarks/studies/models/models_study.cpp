@@ -68,7 +68,7 @@ void measure_costs(ModelsResults& results, const ModelsPlan& plan, StudyLog& log
 ModelsPlan models_plan(const std::string& name_or_file) {
   if (name_or_file == "cantilever") return {};
   const std::filesystem::path file(name_or_file);
-  const ModelsPlan plan{.name = file.stem().string(), .of = bar_of_scene(read_scene(file))};
+  ModelsPlan plan{.name = file.stem().string(), .of = bar_of_scene(read_scene(file))};
   try {
     bar_meshes(plan.of.bar, false);
   } catch (const InputError& error) {
