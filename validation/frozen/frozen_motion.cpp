@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A body in the mesh of its cells now, every vertex where its point is at rest.
+/// The mesh of the cells of a body now, with every vertex at the rest position of its mesh point.
 Mesh mesh_at_rest(const FrozenScene& scene, const Frame& frame) {
   Mesh mesh = frame.mesh;
   for (std::size_t k = 0; k < mesh.points.size(); ++k)
@@ -61,12 +61,12 @@ void add_cells(const FrozenScene& scene, const Frame& frame, reference::SpringNe
   }
 }
 
-/// Places that tell, when they are copied or averaged, which of some vertices they come from: (k, k^2, 0) of vertex k.
+/// Positions that identify the vertex they come from when they are copied or averaged: (k, k^2, 0) for vertex k.
 void mark_places(std::span<Vector3d> x) {
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = Vector3d(static_cast<double>(k), static_cast<double>(k * k), 0.0);
 }
 
-/// Of a copy, the vertex itself; of a vertex that refinement has put between two, the first of them.
+/// For a copy, the vertex itself; for a vertex that refinement has put between two, the first of them.
 std::uint32_t origin_of(const Vector3d& x, std::size_t vertices) {
   const double k = std::round(x.x() - std::sqrt(std::max(0.0, x.y() - x.x() * x.x())));
   return static_cast<std::uint32_t>(std::clamp(k, 0.0, static_cast<double>(vertices - 1)));
@@ -142,7 +142,7 @@ FrozenMotion motion_of(const FrozenScene& scene, std::size_t checkpoints) {
     moved.pass();
     reference::NetworkEvent event{.time = change.time, .network = network_now(), .from = {}};
     for (const Vector3d& x : body.motion().x) event.from.push_back(origin_of(x, before));
-    // the others go on as they move by then
+    // the other vertices keep the velocities that they have by then
     for (std::uint32_t k = 0; k < event.network.point_count(); ++k)
       if (event.network.fixed[k] != 0) event.drives.push_back({k, body.motion().v[k]});
     motion.events.push_back(std::move(event));

@@ -8,16 +8,16 @@
 
 namespace dartboard {
 
-/// What no list of the references holds, such as "membranes", of a scene that has it; else empty.
+/// The part of a scene that the lists of the references cannot hold, such as "membranes"; else empty.
 std::string beyond_references(const SceneFile& file, const Mesh& mesh);
 
-/// [m] Mean length of the edges of cells at rest, of a chain that of its links; 1 where there are none.
+/// [m] Mean length at rest of the edges of the cells, or of the links of a chain; 1 without either.
 double mean_edge(const Mesh& mesh);
 
-/// A body at rest in its mesh. Where it is not beyond the references, forces come from its cells, their rest places and
-/// materials alone, by reference/rebuild and reference/elements; else there are masses only.
+/// A body at rest in its mesh. Where it is not beyond the references, forces come from its cells, their rest positions
+/// and materials alone, by reference/rebuild and reference/elements; else there are masses only.
 ///
-/// From the body come the vertices of each cell, which of them are fixed, and what pulls at them.
+/// The body gives the vertices of each cell, the vertices that are fixed, and the forces applied.
 reference::SpringNetwork network_of(const FrozenScene& scene, const SimulatedBody& body);
 
 struct FrozenMotion {

@@ -17,12 +17,12 @@
 namespace dartboard {
 namespace {
 
-// [edges] per step, of the run that finds what events operate on
+// [edges] per step, of the run that finds the cells of events
 constexpr double tolerance = 1e-8;
 // the same through contact: h omega_max of its equal steps
 constexpr double contact_phase = 0.25;
 
-/// Why an event cannot take place alike in every run, or leaves the motion as it is; empty when it takes part.
+/// The reason why an event cannot take place alike in every run, or changes no motion; empty when it takes part.
 std::string reason_to_omit(const SceneEvent& event, const SceneFile& file) {
   if (event.from >= file.duration) return "it happens at the end, and changes no motion";
   if (event.from != event.until && !event.every && !(file.step > 0.0))
@@ -41,16 +41,16 @@ bool depends_on_positions(const SceneEvent& event) {
   return !std::holds_alternative<Release>(event.action);
 }
 
-/// The unit of the times of drives and forces, which counts steps elsewhere: so short that it is exact.
+/// The unit of the times of drives and forces, so short that they are exact; elsewhere the unit is the step.
 double tick(const SceneFile& file) { return 0x1p-40 * file.duration; }
 
-/// A time at which something may change: an event, or what drives and pulls.
+/// A time at which something may change: by an event, a drive or a force.
 struct Moment {
   double time;
   std::optional<std::size_t> event;
 };
 
-/// From, from + every, ... up to until, each a product, and before the end of the scene.
+/// Add from, from + every, ... up to until, each a product, and before the end of the scene.
 void add_times(double from, double until, double every, double duration, const std::optional<std::size_t>& event,
                std::vector<Moment>& moments) {
   for (double k = 0.0;; ++k) {
@@ -61,7 +61,7 @@ void add_times(double from, double until, double every, double duration, const s
   }
 }
 
-/// Ascending; at one time events come first, in the order of the scene.
+/// The moments of a scene, ascending; at equal times events come first, in the order of the scene.
 std::vector<Moment> moments_of(const SceneFile& file) {
   std::vector<Moment> moments;
   for (std::size_t e = 0; e < file.events.size(); ++e) {
@@ -98,7 +98,7 @@ class Scout {
   explicit Scout(const FrozenScene& scene)
       : scene_(scene), at_(scene), edge_(mean_edge(scene.problem.mesh)), done_(scene.file.events.size(), 0) {}
 
-  /// All that changes before the end.
+  /// All changes before the end.
   std::vector<FrozenChange> changes() {
     const std::vector<Moment> moments = moments_of(scene_.file);
     const auto depends = [this](const Moment& m) {
@@ -121,7 +121,7 @@ class Scout {
     return found;
   }
 
-  /// Operations of an event, all its times together.
+  /// The number of operations of an event, over all its times.
   std::size_t done(std::size_t event) const { return done_[event]; }
 
  private:
@@ -142,7 +142,7 @@ class Scout {
   }
 
   StepResult advance_to(double time) {
-    // as in run_timed: the error of a velocity that belongs to one of a position
+    // as in run_timed: the velocity error that belongs to a position error
     const Tolerance allowed{tolerance * edge_, tolerance * edge_ * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
     return integrator_.advance(at_.body().system(), at_.body().motion(), time - time_, allowed);
   }
@@ -162,13 +162,13 @@ class Scout {
   const FrozenScene& scene_;
   FrozenBody at_;
   DormandPrince54 integrator_;
-  double edge_, rate_ = 0.0, time_ = 0.0;  // [m]; [1/s], once it is asked for
+  double edge_, rate_ = 0.0, time_ = 0.0;  // [m]; [1/s], computed on first use
   std::vector<std::size_t> done_;
 };
 
 namespace {
 
-/// What a frozen event is about, where that is not what the scene says.
+/// A sentence on how a frozen event differs from the event of the scene; empty where it does not.
 std::string omission_of(const SceneEvent& event, std::size_t operations) {
   if (operations == 0) return fmt::format("{} is left out: it changes nothing.", event.path);
   if (std::holds_alternative<TearWhereStressed>(event.action))
@@ -185,7 +185,7 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem) {
   scene.file.output = {};
   scene.file.probes.clear();
   scene.file.expect = {};
-  if (scene.file.integrator.empty()) scene.file.integrator = "rk4";  // needed for nothing here
+  if (scene.file.integrator.empty()) scene.file.integrator = "rk4";  // not used here
   std::erase_if(scene.file.events, [&](const SceneEvent& event) {
     const std::string reason = reason_to_omit(event, file);
     if (!reason.empty()) scene.omissions.push_back(fmt::format("{} is left out: {}.", event.path, reason));

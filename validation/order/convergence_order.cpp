@@ -10,7 +10,7 @@
 namespace dartboard {
 namespace {
 
-// The one whose distance from the theory is larger.
+// The value whose distance from the theory is larger.
 double farther(double theory, double a, double b) { return std::abs(b - theory) > std::abs(a - theory) ? b : a; }
 
 bool at_most(double error, double bound) { return error <= bound; }  // false for NaN

@@ -1,5 +1,5 @@
 #pragma once
-// The order of convergence that an integrator shows, halving by halving, against what its scheme says.
+// The order of convergence that an integrator shows, halving by halving, compared with that of its scheme.
 
 #include <cstdint>
 #include <span>
@@ -13,17 +13,17 @@
 
 namespace dartboard {
 
-/// Where on its way to zero an error is.
+/// The stage of an error on its way to zero.
 enum class Regime : std::uint8_t {
   failed,          // the run ended with a diagnosis
-  large,           // above the window, or not a number
+  large,           // above the window, or NaN
   pre_asymptotic,  // not yet of the order of the method
   asymptotic,
-  floor,  // below what the reference, or the rounding of the method, can tell
+  floor,  // below the resolution of the reference, or the rounding of the method
 };
 std::string_view name(Regime regime);
 
-/// One run, and what the error became since the previous one.
+/// One run, and the change of its error since the previous one.
 struct OrderPoint {
   std::uint64_t steps = 0;
   double h_omega = 0.0;
@@ -37,7 +37,7 @@ struct OrderPoint {
 struct OrderStudy {
   std::string integrator;
   OrderCase which = OrderCase::undamped;
-  int theory = 1;  // what is expected
+  int theory = 1;  // the expected order
   std::vector<OrderPoint> points;
   bool holds = false;           // three successive orders, in x and in v, within the tolerance of the theory
   double p_x = 0.0, p_v = 0.0;  // of those three, the ones farthest from theory; else of the last ones in the window

@@ -1,5 +1,5 @@
 #pragma once
-// What a cut must leave alone: the energy and the momenta of a body that moves.
+// Quantities that a cut must not change: the energy and the momenta of a body that moves.
 
 #include <vector>
 

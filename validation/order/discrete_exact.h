@@ -9,7 +9,7 @@
 
 namespace dartboard {
 
-/// How far an integrator is from the n-th power of what its scheme says.
+/// The deviation of an integrator from the n-th power of the map of its scheme.
 struct DiscreteExact {
   std::string integrator;
   double zeta = 0.0, h_omega = 0.0;

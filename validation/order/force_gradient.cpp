@@ -1,4 +1,4 @@
-// The bound. Of one spring with elongation e = l - L: V = k e^2 / 2, and with s the cosine between the spring and the
+// The bound. For one spring with elongation e = l - L: V = k e^2 / 2, and with s the cosine between the spring and the
 // axis, l' = s, l'' = (1 - s^2) / l, l''' = -3 s (1 - s^2) / l^2, so
 //
 //     V''' = k (3 l' l'' + e l''') = 3 k s (1 - s^2) L / l^2,   |V'''| <= 1.155 k L / l^2  (s = 1 / sqrt 3).

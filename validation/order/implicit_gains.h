@@ -1,5 +1,5 @@
 #pragma once
-// What two of the implicit methods are there for: energy that does not drift at large steps, and factors that are kept.
+// The gains by two implicit methods: energy that does not drift at large steps, and factors that are kept.
 
 #include <cstdint>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct KeptFactor {
   std::uint64_t steps = 0;
   std::uint64_t fresh = 0, kept = 0;  // factorisations
   double difference = 0.0;            // [edges] between the two motions (reference/error_norms.h, x)
-  double step_error = 0.0;            // [edges] between steps of h and of h/2: what the method itself is off by
+  double step_error = 0.0;            // [edges] between steps of h and of h/2: the error of the method itself
   std::string diagnosis;              // of a step that failed
 };
 /// `meshes` is the folder of liver564.mesh.

@@ -11,7 +11,7 @@
 namespace dartboard {
 namespace {
 
-/// How many steps run_timed takes when it is asked for `steps`: they end at events and checkpoints.
+/// The number of steps that run_timed takes when `steps` are requested: they end at events and checkpoints.
 double steps_taken(const reference::NetworkMotion& motion, std::uint64_t steps) {
   const double h = motion.checkpoints.back() / static_cast<double>(steps);
   double t = 0.0, count = 0.0;
@@ -28,7 +28,7 @@ double steps_taken(const reference::NetworkMotion& motion, std::uint64_t steps) 
   return count;
 }
 
-/// Two pilots and the power law between them; beyond the coarsest errors grow by the order at least.
+/// Two pilots and the power law between them; beyond the coarsest, errors grow at least with the order.
 struct Segment {
   Candidate::Seen from;
   double power, until;  // [s]
@@ -46,7 +46,7 @@ std::vector<Segment> segments_of(const Candidate& c) {
   return segments;
 }
 
-/// The largest step whose error but for rounding is at most `error`.
+/// The largest step whose error without rounding is at most `error`.
 double step_for_truncation(const Candidate& c, double error) {
   if (!(error > c.error_at_pilot)) return c.pilot_h * std::pow(error / c.error_at_pilot, 1.0 / c.slope);
   double h = c.pilot_h;
@@ -57,7 +57,7 @@ double step_for_truncation(const Candidate& c, double error) {
   return h;
 }
 
-/// How many steps an adaptive candidate takes.
+/// The number of steps that an adaptive candidate takes.
 double steps_within(const Candidate& c, double tolerance) {
   if (tolerance <= c.pilot_h) return c.pilot_steps * std::pow(tolerance / c.pilot_h, -c.steps_slope);
   Candidate::Seen from{c.pilot_h, c.error_at_pilot, c.pilot_steps};
@@ -71,7 +71,7 @@ double steps_within(const Candidate& c, double tolerance) {
   return from.steps;
 }
 
-/// Over the whole duration; `step` is a tolerance of an adaptive candidate.
+/// The rounding error over the whole duration; `step` is the tolerance of an adaptive candidate.
 double rounding_at(const Candidate& c, double step) {
   if (!(c.rounding.factor > 0.0)) return 0.0;
   return c.rounding.at(c.adaptive ? c.duration / steps_within(c, step) : step);
@@ -102,8 +102,8 @@ double Candidate::error_at(double step) const {
 }
 
 double Candidate::best_step() const {
-  // of a h^s + r h^-p the least is where s a h^s = p r h^-p; of an adaptive one h ~ tolerance^steps_slope; where
-  // rounding does not grow, ten times below it is as good as none
+  // a h^s + r h^-p is least where s a h^s = p r h^-p; for an adaptive one h ~ tolerance^steps_slope; where rounding
+  // does not grow, an error ten times below it is negligible
   const double p = adaptive ? rounding.power * steps_slope : rounding.power;
   const double falls = slope * error_at_pilot, grows = std::max(p, 0.1) * rounding_at(*this, pilot_h);
   if (!(falls > 0.0)) return pilot_h;
@@ -131,7 +131,7 @@ RealTime best_in_real_time(std::span<const Candidate> candidates, double force_s
   for (const Candidate& candidate : candidates) {
     if (!candidate.usable() || candidate.adaptive) continue;
     Candidate c = candidate;
-    if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
+    if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen: that of the method
     // seconds of the run = duration / h * step_s (h / pilot_h)^step_slope <= duration
     const double step_s = c.step_cost * force_s;
     const double h = c.step_slope < 1.0
@@ -189,7 +189,7 @@ void solve_for_error(Candidate& c, double error, const reference::NetworkMotion&
   }
   c.predicted_evaluations = count * c.step_evaluations;
   c.predicted_s = c.predicted_cost * force_s;
-  // of an exact motion nothing but rounding is left
+  // for an exact motion only rounding is left
   if (c.predicted_error <= error || !std::isfinite(c.predicted_error)) return;
   c.least_error = c.predicted_error;
   c.pruned = fmt::format("double precision leaves it {:.1e} edges at best", c.least_error);

@@ -12,7 +12,7 @@
 namespace dartboard {
 namespace {
 
-// Of the duration: pilots that see less foretell the rest by `beyond`.
+// The part of the duration below which pilots predict the rest by `beyond`.
 constexpr double short_part = 0.1;
 
 /// The power of h that errors are extrapolated with.
@@ -25,7 +25,7 @@ double slope_of(const Candidate& c) {
   return c.observed_order > 0.6 * order ? 0.5 * (c.observed_order + order) : std::max(c.observed_order, 0.3);
 }
 
-// Left in the finer of two runs; by the order that was seen, which promises less than the one of the method.
+// The error left in the finer of two runs, by the observed order, which promises less than that of the method.
 double richardson(const Candidate& c, double change) {
   const double order = c.confidence == Confidence::asymptotic
                            ? c.order
@@ -41,7 +41,7 @@ void take_cost(Candidate& c, const PilotRun& pilot) {
                        static_cast<double>(std::max<std::uint64_t>(pilot.run.work.steps, 1));
 }
 
-/// Does a motion go on for ever? Damping brings a body to rest that is held, and leaves a free one its rotation.
+/// Does a motion go on for ever? Damping brings a held body to rest, and leaves a free one its rotation.
 bool lasts(const TradeoffScene& scene) {
   const reference::SpringNetwork& network = scene.motion.network;
   if (std::ranges::find(network.fixed, std::uint8_t{1}) == network.fixed.end()) return true;
@@ -49,8 +49,8 @@ bool lasts(const TradeoffScene& scene) {
          std::ranges::none_of(network.springs, [](const reference::Spring& s) { return s.damping > 0.0; });
 }
 
-/// The errors of the pilots, the last of them the finest: Richardson's estimate there, and of the coarser ones what
-/// they are away from it; grown from the part that was run to the whole.
+/// Set the errors of the pilots, the last of them the finest: Richardson's estimate for it, and for the coarser ones
+/// their distance from it in addition; extrapolated from the part that was run to the whole.
 void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<const PilotRun*>& runs, double part) {
   const TimedRun& finest = runs.back()->run;
   std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
@@ -67,8 +67,8 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   }
 }
 
-/// Errors as large as the motion itself grow no more, neither with time nor with the step: they tell of nothing. An
-/// event that gives numbers to other points gives no size to compare with.
+/// Errors as large as the motion itself grow no more, neither with time nor with the step: they are of no use. After an
+/// event that gives numbers to other points there is no size to compare with.
 bool saturated(const TradeoffScene& scene, const std::vector<double>& errors, const TimedRun& run) {
   if (!scene.motion.events.empty()) return false;
   TimedRun rest;
@@ -76,7 +76,7 @@ bool saturated(const TradeoffScene& scene, const std::vector<double>& errors, co
   return !(max_or_nan(errors) < 0.1 * max_or_nan(differences(scene, rest, run)));
 }
 
-/// How far a body may have moved that has not exploded [edges]: as a thousand edges beside its flight.
+/// [edges] How far a body may have moved that has not exploded: a thousand edges in addition to its flight.
 double farthest_flight(const TradeoffScene& scene) {
   double speed = 0.0;
   for (const auto& v : scene.motion.start.v) speed = std::max(speed, v.norm());
@@ -103,7 +103,7 @@ double growth_with_time(const std::vector<double>& errors, const std::vector<dou
 }
 
 void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double error) {
-  // a third of what there is, for three pilots; no run with this method takes less than its largest steps do
+  // a third of the time there is, for three pilots; no run with this method takes less than with its largest steps
   const double steps_in_all = pilots.scene().duration / h;
   const RecommendOptions& options = pilots.options();
   if (options.budget_s > 0.0) step_s = std::max(step_s, pilots.step_seconds(c, h));
@@ -117,7 +117,7 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   double part = all_times[prefix - 1] / pilots.scene().duration;
   std::optional<TradeoffScene> shorter;
   if (const double expected_s = 7.0 * part * steps_in_all * step_s; expected_s > allowed_s) {
-    // sixteen steps at least, and no less than a hundredth or 64 steps: growth is told from what is seen
+    // sixteen steps at least, and no less than a hundredth or 64 steps: growth is estimated from what is seen
     const double least = std::max(16.0 / steps_in_all, std::min(0.01, 64.0 / steps_in_all));
     part = std::min(part, std::max(part * allowed_s / expected_s, least));
     prefix = part < short_part ? 16 : 4;
@@ -158,7 +158,7 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     if (shows_its_order(c)) break;
     if (3.0 * runs.back().cpu_s > allowed_s) break;
   }
-  // of two runs no order is seen: a part of the method's, where there is nothing else to go by
+  // two runs show no order: a part of the method's is used, where there is nothing else to go by
   const bool blindly = !at_once && change.size() == 1 && !std::isfinite(pilots.cheapest_s());
   if (blindly) c.observed_order = 0.7 * c.order;
   if (!at_once &&
@@ -222,7 +222,7 @@ void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
     return static_cast<double>(runs[runs.size() - 1 - back].run.work.steps);
   };
   c.pilot_steps = steps_of(0);
-  // coarse steps are short for stability's sake; the finer, the nearer the number of steps comes to its power
+  // stability keeps coarse steps short; the finer they are, the nearer their number comes to its power law
   const double last = std::log10(steps_of(0) / steps_of(1)), before = std::log10(steps_of(1) / steps_of(2));
   const double power = 1.0 / c.order;
   c.steps_slope = std::clamp(std::min(last + 0.5 * std::max(last - before, 0.0), std::max(last, power)), 0.0, 0.5);
@@ -258,8 +258,8 @@ Longer pilot_far(Candidate& c, Pilots& pilots) {
 }
 
 Longer pilot_longer(Candidate& c, Pilots& pilots) {
-  // three pilots with k, k/2 and k/4 times the step take 7/k of the run; of a run that is short they always see the
-  // whole, for what comes late is in no prefix
+  // three pilots with k, k/2 and k/4 times the step take 7/k of the run; in a short run they always see the whole, as
+  // late effects are in no prefix
   const RecommendOptions& options = pilots.options();
   const double always_s = options.budget_s > 0.0 ? 0.0 : options.last_look_s;
   const double budget = std::max(0.8 * pilots.left_s(), always_s);
@@ -268,7 +268,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   const double h = std::min(times_h * c.h, options.stability * c.limit_h);
   double part = 1.0;
   if (const double expected_s = 3.0 * c.predicted_s * c.h / h; expected_s > budget) part = budget / expected_s;
-  // half of the run foretells it no better than the prefix; of a prefix that saw little, coarser ones see more
+  // half of the run predicts it no better than the prefix; where the prefix saw little, coarser pilots see more
   if (part < 0.5) return c.seen_part < short_part ? pilot_far(c, pilots) : Longer::skipped;
   std::optional<TradeoffScene> shorter;
   if (part < 1.0) shorter = first_part(pilots.scene(), part, pilots.scene().motion.checkpoints.size());
@@ -285,7 +285,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   }
   const std::vector<double> change = differences(scene, coarse.run, fine.run);
   if (!(max_or_nan(change) > 0.0) || saturated(scene, change, fine.run)) return Longer::skipped;
-  // a third, where there is time for it, tells whether the order shows
+  // a third pilot, where there is time for it, shows whether the order is reached
   const PilotRun* finest = &fine;
   PilotRun third;
   if (2.0 * fine.cpu_s <= pilots.left_s()) {

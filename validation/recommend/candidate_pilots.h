@@ -1,5 +1,5 @@
 #pragma once
-// The pilots of one candidate, and what is read off them: errors, orders and costs.
+// The pilots of one candidate, and the errors, orders and costs that are derived from them.
 
 #include <cstddef>
 #include <vector>
@@ -9,12 +9,12 @@
 
 namespace dartboard {
 
-/// How many checkpoints the pilots of a scene reach: the first quarter, at least two; where there are events, up to the
-/// one after the first.
+/// The number of checkpoints that the pilots of a scene reach: the first quarter, at least two; where there are events,
+/// up to the one after the first.
 std::size_t pilot_checkpoints(const TradeoffScene& scene);
 
-/// The power of time that the largest error so far grows with, between 1/2 and 2: from the middle one of the errors, at
-/// the first of these times, to the last.
+/// The power of time with which the largest error so far grows, between 1/2 and 2: from the middle one of the errors to
+/// the last. The errors are those at the first of `times`.
 double growth_with_time(const std::vector<double>& errors, const std::vector<double>& times);
 
 /// Pilots with h, h/2 and h/4, up to five where orders do not show, on the first quarter of the scene or up to the
@@ -22,7 +22,7 @@ double growth_with_time(const std::vector<double>& errors, const std::vector<dou
 /// is left out.
 ///
 /// Richardson's estimate at each checkpoint, the observed order, and the growth of the error with time give the error
-/// of the whole run. `step_s` is about what a step takes.
+/// of the whole run. `step_s` is the approximate time of a step.
 void pilot_prefix(Candidate& candidate, Pilots& pilots, double h, double step_s, double error);
 
 /// Runs that choose their steps, with three or four tolerances from ten times the error down, over the whole duration:
@@ -31,16 +31,16 @@ void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
 
 enum class Longer : std::uint8_t { confirmed, skipped, unstable };
 
-/// Where the prefix was a small part of a long scene: two pilots in the coarsest steps of those over as much more as
-/// there is time for. They say how errors grow with time, which the prefix is then corrected by.
+/// Where the prefix was a small part of a long scene: two pilots with its coarsest steps, over as much more as there is
+/// time for. They show how errors grow with time; the prediction from the prefix is corrected by that.
 ///
 /// pre  the candidate has been solved for an error
 Longer pilot_far(Candidate& candidate, Pilots& pilots);
 
 /// Two or three pilots over the whole duration, or over as much of it as there is time for, in steps coarser than those
-/// of the run, where they say something.
+/// of the run, where their errors are useful.
 ///
-/// Some instabilities take longer than the prefix to show: the limit of the step is lowered to what has failed then.
+/// Some instabilities take longer than the prefix to show: the limit of the step is then lowered to the failed one.
 Longer pilot_longer(Candidate& candidate, Pilots& pilots);
 
 }  // namespace dartboard

@@ -39,7 +39,7 @@ double beyond(std::span<const double> errors, double times_longer, bool lasts) {
     const double seen = 0.5 * std::log2(octaves.last / octaves.first);
     if (std::isfinite(seen)) power = std::clamp(seen, power, most_power);
   }
-  // what has decayed may still be the largest
+  // an early error may still be the largest
   return std::max(1.0, last / all * std::pow(times_longer, power));
 }
 

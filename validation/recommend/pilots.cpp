@@ -43,7 +43,7 @@ PilotRun Pilots::run(const Candidate& candidate, const TradeoffScene& scene, con
                      std::size_t checkpoints) {
   const double least_s_allowed = options_.budget_s > 0.0 ? std::min(0.01, 20.0 * timing_s()) : options_.last_look_s;
   const double limit_s = std::clamp(left_s(), least_s_allowed, std::max(options_.most_pilot_s, options_.budget_s));
-  // a neighbour only ever makes things slower: the least times are compared
+  // other processes only make runs slower: the least times are compared
   PilotRun pilot;
   double least_s = std::numeric_limits<double>::infinity(), total_s = 0.0;
   for (int k = 0; k < 5 && total_s < 10.0 * timing_s(); ++k) {
@@ -77,7 +77,7 @@ double Pilots::step_seconds(const Candidate& candidate, double h) {
 double Pilots::step_cost(const Candidate& candidate) {
   const double run_s = 16.0 * timing_s(),
                all_s = options_.budget_s > 0.0 ? std::clamp(0.4 * left_s(), 0.0, 0.15) : 0.15;
-  // sixteen steps at least; a run that is short anyway is timed whole, with all that belongs to its start
+  // sixteen steps at least; a run that is short anyway is timed whole, including its start
   const double steps = static_cast<double>(candidate.steps);
   const double part = std::min(1.0, std::max(run_s / candidate.predicted_s, 16.0 / steps));
   std::optional<TradeoffScene> shorter;

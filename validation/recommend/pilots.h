@@ -21,7 +21,7 @@ struct PilotRun {
 /// pre  0 < part <= 1
 TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t checkpoints);
 
-/// Runs pilots and knows what they have taken.
+/// Runs pilots and counts the time that they take.
 class Pilots {
  public:
   /// `start` is the time of the clock from which all is counted.   pre  the arguments outlive it
@@ -31,21 +31,21 @@ class Pilots {
   PilotRun run(const Candidate& candidate, const TradeoffScene& scene, const RunSetting& setting,
                std::size_t checkpoints = std::numeric_limits<std::size_t>::max());
 
-  /// What a step of a candidate's fixed setting costs in force evaluations: the median of short runs, each between two
+  /// The cost of a step of a candidate's fixed setting in force evaluations: the median of short runs, each between two
   /// timings of the forces.   pre  the candidate has been solved for an error
   double step_cost(const Candidate& candidate);
 
-  /// What a step of h takes, by some steps from the start.
+  /// The time [s] of a step of h, measured over some steps from the start.
   double step_seconds(const Candidate& candidate, double h);
 
   double spent_s() const;
-  /// What is left for pilots; without a budget, `most_pilot_s` for the next one as long as nothing is predicted.
+  /// The time left for pilots; without a budget, `most_pilot_s` for the next one as long as nothing is predicted.
   double left_s() const;
-  /// A run was predicted to take so long [s]: the cheapest counts.
+  /// Report the predicted time of a run [s]: the cheapest counts.
   void predicted(double seconds) { cheapest_s_ = std::min(cheapest_s_, seconds); }
   double cheapest_s() const { return cheapest_s_; }
 
-  /// [s] What a timing of the forces takes: little of a budget where that is little.
+  /// [s] The time that a timing of the forces takes: short where the budget is small.
   double timing_s() const;
 
   const TradeoffScene& scene() const { return scene_; }
@@ -61,14 +61,14 @@ class Pilots {
   double cheapest_s_ = std::numeric_limits<double>::infinity();
 };
 
-/// Of two runs of a scene, at the checkpoints reached by both, one by one [edges].
+/// The distances [edges] of two runs of a scene, one for each checkpoint that both have reached.
 std::vector<double> differences(const TradeoffScene& scene, const TimedRun& a, const TimedRun& b);
 
-/// The farthest that a point is from where its number was at the start, in edges: what tells a motion from an
-/// explosion, also where an event has given some numbers to other points. A NaN stays one.
+/// The largest distance [edges] of a point from the place of its number at the start: distinguishes a motion from an
+/// explosion, also where an event has given some numbers to other points. NaN propagates.
 double distance_from_start(const TradeoffScene& scene, const TimedRun& run);
 
-/// Steps of at most h, as many between any two checkpoints: others would be split there, and not all of one size.
+/// The number of steps of at most h, equal between any two checkpoints: others would be split there, to unequal sizes.
 std::uint64_t whole_steps(const TradeoffScene& scene, double h);
 
 }  // namespace dartboard

@@ -17,13 +17,13 @@ namespace dartboard {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// An implicit step has not been seen to cost fewer force evaluations.
+// The fewest force evaluations that an implicit step has been seen to cost.
 constexpr double least_implicit_step = 10.0;
-// A stage of a splitting that sweeps through dampers costs as many.
+// The force evaluations that a stage of a splitting costs where it sweeps through dampers.
 constexpr double swept_stage = 3.0;
-// The law knows the motion at the start only: it has to be wrong by this before a method is lost to it.
+// The law uses the motion at the start only: it has to be wrong by this factor before a method is lost to it.
 constexpr double doubt = 4.0;
-// Of the least time for pilots, what explicit methods leave to implicit ones.
+// The part of the least time for pilots that explicit methods leave to implicit ones.
 constexpr double for_implicit = 0.25;
 
 void rank(std::vector<Candidate>& candidates) {
@@ -33,9 +33,9 @@ void rank(std::vector<Candidate>& candidates) {
   });
 }
 
-/// Explicit methods before implicit ones, high orders before low ones: what they cost is what the others have to beat.
-/// Where nothing is damped the symplectic method of order 4 comes before all. A compensated method is the plain one
-/// until rounding shows, at some more cost: these are the others, or they alone.
+/// Explicit methods before implicit ones, high orders before low ones: the later ones must cost less. Where nothing is
+/// damped the symplectic method of order 4 comes before all. A compensated method equals the plain one until rounding
+/// shows, at a higher cost: the list has either the plain ones or the compensated ones.
 std::vector<Scheme> schemes_in_order(bool damped, const std::string& only, bool compensated = false) {
   std::vector<Scheme> schemes;
   for (const IntegratorEntry& entry : integrators())
@@ -68,8 +68,8 @@ class Search {
 
   Recommendation run() {
     auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
-    // where there may be no time for all, those first that the law thinks cheapest; of motions that last it knows less
-    // than their symplectic method
+    // where there may be no time for all, the cheapest by the law come first; for motions that last, the law is a worse
+    // guide than their symplectic method
     if (options_.budget_s > 0.0 && r_.features.damping_ratio > 0.0)
       std::ranges::stable_sort(schemes, {}, [this](const Scheme& s) { return expected_s(s); });
     for (const Scheme& scheme : schemes) {
@@ -122,13 +122,13 @@ class Search {
     else
       c.pruned = "its pilots say nothing about its errors";
   }
-  /// [s] What explicit methods leave to implicit ones; and all of them, of a budget, to a second look at the best.
+  /// [s] The time that explicit methods leave to implicit ones; of a budget, all leave some to longer pilots.
   double left_for_others(bool implicit) const {
     if (options_.budget_s > 0.0) return pilots_->cheapest_s() < infinity ? options_.kept_back * options_.budget_s : 0.0;
     return implicit ? 0.0 : for_implicit * options_.pilot_floor_s;
   }
   bool has_time(Candidate& c) const {
-    // where dampers are swept, a long look at amplification factors tells the stable step of many stages
+    // where dampers are swept, the stable step of many stages takes a long look at amplification factors
     constexpr double long_look_s = 0.1;
     const Scheme& scheme = make_integrator(c.contender)->scheme();
     const bool long_look =
@@ -146,7 +146,7 @@ class Search {
     if (c.usable()) solve(c);
   }
 
-  /// What a run takes by the law, or by stability where nothing is damped.
+  /// [s] The time of a run by the law, or by stability without damping.
   double expected_s(const Scheme& scheme) const {
     const double needed = steps_for_error(r_.features, scheme.order, scene_.duration, sought());
     if (scheme.implicit) return needed * scheme.stages * least_implicit_step * r_.features.force_s;
@@ -169,13 +169,13 @@ class Search {
       c.pruned = fmt::format("its largest stable step takes {:.1e} s in all, against {:.1e} s", least_s,
                              pilots_->cheapest_s());
     else if (c.usable())
-      // the longest step that could be recommended is tried: close to the limit errors grow faster than any order says
+      // the longest step that could be recommended is tried: close to the limit errors grow faster than by any order
       pilot(c, std::min({options_.stability * c.limit_h, per_interval(), 2.7 / r_.features.omega_low}), step_s);
     r_.candidates.push_back(std::move(c));
   }
 
-  /// Does the law, wrong as it may be, give an implicit method less than what the best method so far takes? Of a motion
-  /// that starts at rest it knows nothing.
+  /// Does the law, wrong as it may be, predict less time for an implicit method than for the best method so far? It
+  /// says nothing about a motion that starts at rest.
   bool is_promising(const Scheme& scheme) const {
     if (!(r_.features.motion_size > 0.0)) return false;
     const double step_s = std::max(r_.features.implicit_step_s, least_implicit_step * r_.features.force_s);
@@ -224,7 +224,7 @@ class Search {
     r_.candidates.push_back(std::move(c));
   }
 
-  /// Until the best two have been looked at as long as that is affordable.
+  /// Run longer pilots of the best two, as long as they can be afforded.
   void confirm() {
     std::vector<std::string> tried;
     for (int round = 0; round < 12; ++round) {
@@ -244,7 +244,7 @@ class Search {
     }
   }
 
-  /// The pilots of the best two were timed once each, and by the way: look again.
+  /// Time the best two again: their pilots were timed only once each, in passing.
   void time_the_best() {
     for (std::size_t k = 0; k < std::min<std::size_t>(2, r_.candidates.size()); ++k) {
       Candidate& c = r_.candidates[k];
@@ -255,7 +255,7 @@ class Search {
     rank(r_.candidates);
   }
 
-  /// What one more digit would cost, and what real time would allow.
+  /// The cost of one more digit, and the error in real time.
   void look_around() {
     const Candidate* pick = r_.pick();
     if (pick == nullptr) return;
@@ -267,7 +267,7 @@ class Search {
     for (const Candidate& candidate : r_.candidates) {
       if (!candidate.usable()) continue;
       Candidate c = candidate;
-      if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen; the method's, then
+      if (c.confidence == Confidence::sufficient) c.slope = c.order;  // no order was seen: that of the method
       solve_for_error(c, error_ / 10.0, scene_.motion, r_.features.force_s, options_);
       if (c.usable() && c.predicted_s < best) {
         best = c.predicted_s;
@@ -278,7 +278,7 @@ class Search {
   }
 
   static bool kept_by_rounding(const Candidate& c) { return c.least_error > 0.0; }
-  /// Pilots and the law look for an error that rounding leaves room for.
+  /// The error that pilots and the law aim at: rounding must leave room for it.
   double sought() const { return std::max(error_, least_error_); }
   double per_interval() const { return scene_.duration / static_cast<double>(scene_.motion.checkpoints.size()); }
   std::string law(double needed, double step_s) const {

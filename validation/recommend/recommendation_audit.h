@@ -1,5 +1,5 @@
 #pragma once
-// A recommendation beside what happens when it is followed.
+// A recommendation compared with the outcome of following it.
 
 #include <span>
 #include <string>
@@ -11,10 +11,10 @@ namespace dartboard {
 
 struct Audit {
   double error = 0.0, actual_error = 0.0, predicted_error = 0.0;
-  double actual_cost = 0.0, predicted_cost = 0.0;                // in force evaluations: times, measured in turn
+  double actual_cost = 0.0, predicted_cost = 0.0;                // in force evaluations, by time: both timed in turn
   double actual_evaluations = 0.0, predicted_evaluations = 0.0;  // counted
   double actual_s = 0.0, predicted_s = 0.0;                      // at the speed of the machine during the run
-  double printed_s = 0.0;                                        // what was predicted, as it was printed
+  double printed_s = 0.0;                                        // the prediction as it was printed
   double pilot_s = 0.0;
   std::string best;        // of the sweep, for that error
   double best_cost = 0.0;  // infinite when no run of the sweep meets it
@@ -22,9 +22,9 @@ struct Audit {
   double regret() const { return actual_cost / best_cost; }
 };
 
-/// Run the pick and compare it with the reference and with a sweep; three times at least, if that takes no longer than
-/// four seconds, or `fewest` times. Where the reference has no states, the actual error
-/// is not a number.
+/// Run the pick and compare it with the reference and with a sweep; at least `fewest` times, if
+/// that takes no longer than four seconds. Where the reference has no states, the actual error is
+/// NaN.
 ///
 /// throws  InputError when there is no pick
 Audit audit(const TradeoffScene& scene, const SceneReference& reference, const Recommendation& recommendation,

@@ -18,8 +18,8 @@
 namespace dartboard {
 namespace {
 
-/// Above its first limit a method may be stable again where damping helps, but not for long where events change what is
-/// damped: there a step keeps below that limit by a tenth. No bound for scenes without events.
+/// Above its first limit a method may be stable again where damping helps, but not for long where events change the
+/// damped parts: there a step stays a tenth below that limit. Scenes without events have no bound.
 double longest_undamped_step(const SceneFile& scene, const SceneFeatures& features) {
   const Scheme& scheme = make_integrator(scene.integrator)->scheme();
   double longest = std::numeric_limits<double>::infinity();
@@ -125,7 +125,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     settled.omissions = studied.omissions;
     settled.untried = r.untried();
   } else {
-    // nothing moves: any will do
+    // nothing moves: any step will do
     scene.step = 1.0;
     if (scene.integrator.empty()) scene.integrator = "rk4";
   }

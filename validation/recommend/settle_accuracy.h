@@ -1,5 +1,5 @@
 #pragma once
-// A scene may ask for an accuracy: the step is chosen for it, and the integrator where none is named.
+// The choice of a step for a scene that asks for an accuracy, and of an integrator where it names none.
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -12,7 +12,7 @@
 
 namespace dartboard {
 
-/// What was chosen for a scene, and why.
+/// The choice for a scene, and the reason for it.
 struct SettledAccuracy {
   double accuracy = 0.0;  // [mean edge lengths] asked for
   std::string integrator;
@@ -25,20 +25,20 @@ struct SettledAccuracy {
   std::vector<std::string> omissions;  // what it leaves out of consideration
   std::vector<std::string> untried;    // the methods that there was no time to try
 };
-/// In one line, and a second with the members of the scene that make the choice a fixed one; a third for what was not
-/// tried.
+/// The choice in one line, and a second with the members of the scene that make it a fixed one; a third for what was
+/// not tried.
 std::string to_string(const SettledAccuracy& settled);
 void to_json(nlohmann::json& json, const SettledAccuracy& settled);
 void from_json(const nlohmann::json& json, SettledAccuracy& settled);
 
-/// The largest step that is at most `largest` [s] and of which the duration is a multiple, and that of all times of
-/// events and output if there is one not much shorter.
+/// The largest step that is at most `largest` [s] and divides the duration. It divides all times of events and output
+/// too, if there is such a step that is not much shorter.
 ///
 /// pre  duration > 0 and largest > 0
 double step_fitting_times(const SceneFile& scene, double largest);
 
-/// Give a scene that asks for an accuracy its step, by `recommend`, which tells whose pilot has run; does nothing to
-/// others.
+/// Give a scene that asks for an accuracy its step, by `recommend`, which calls `tells` after each pilot with the name
+/// of its method; does nothing to others.
 ///
 /// throws  InputError as scene_of_file, and when no step of the integrator is found to meet the accuracy
 std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock,

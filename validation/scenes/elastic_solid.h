@@ -1,5 +1,5 @@
 #pragma once
-// A solid of elements built by hand: the force term of core, and what the witnesses know of it.
+// A solid of elements built by hand: the force term of core, and the elastic points of the references.
 
 #include <memory>
 #include <vector>
@@ -25,7 +25,7 @@ class ElasticSolid {
   const ForceTerm& term() const { return *term_; }
   const std::vector<reference::ElasticPoint>& points() const { return points_; }
 
-  /// Of the same rest shape and the same materials?
+  /// Does `other` have the same rest shape and the same materials?
   bool is_like(const ElasticSolid& other) const;
 
  private:

@@ -26,8 +26,8 @@ inline SpringColumns elastic_body(std::string_view name, const Material& materia
 }
 inline constexpr std::string_view elastic_bodies[]{"tetrahedra", "hexahedra"};
 
-/// Displace and set going the free vertices, by up to `size` edge lengths and `size` times omega of them per second;
-/// along the x axis only for bodies on it.
+/// Displace the free vertices by up to `size` edge lengths and set them moving at up to `size` times omega edge lengths
+/// per second; along the x axis only for bodies on it.
 void set_moving(SpringColumns& body, double size, double omega);
 
 }  // namespace dartboard

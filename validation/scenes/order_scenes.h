@@ -8,7 +8,7 @@
 
 namespace dartboard {
 
-/// How a method meets a scene of the study.
+/// The variants of the scene of the study.
 enum class OrderCase { undamped, damped, aligned_cut, unaligned_cut };
 inline constexpr OrderCase order_cases[]{OrderCase::undamped, OrderCase::damped, OrderCase::aligned_cut,
                                          OrderCase::unaligned_cut};
@@ -23,12 +23,12 @@ std::string_view name(OrderCase which);
 void set_off(SpringScene& scene, double strain, double rate);
 
 /// A jittered box of 3 x 3 x 3 cubes under gravity, one edge of it held, for 16.5 / omega_max. Undamped, or with a
-/// damping ratio of 0.1 at omega_max. The cut is a plane one, and a fan torn off it in an interior vertex, both at 3/8
-/// of the duration, where steps end, or the plane one at 7/18, where none of 24 * 2^k does.
+/// damping ratio of 0.1 at omega_max. The aligned cut is a plane cut with a fan torn at an interior vertex, both at 3/8
+/// of the duration, where steps end; the unaligned one is the plane cut at 7/18, where no step ends for 24 * 2^k steps.
 SpringScene order_scene(OrderCase which);
 
-/// A body moving softly and smoothly, free and undamped, for `phase` / omega_max: what work-precision diagrams start
-/// with.
+/// A body moving softly and smoothly, free and undamped, for `phase` / omega_max: the starting point of work-precision
+/// diagrams.
 SpringScene smooth_scene(Mesh mesh, const Material& material, double phase);
 
 }  // namespace dartboard

@@ -19,7 +19,7 @@ double distance(const TradeoffScene& scene, const reference::CodeRun& a, const r
 SceneReference reference_by_other_codes(const TradeoffScene& scene, double accepted) {
   SceneReference found;
   found.kind = ReferenceKind::other_codes;
-  // damped motions forget their errors
+  // errors decay in damped motions
   const auto& springs = scene.motion.network.springs;
   const bool damped = std::ranges::any_of(springs, [](const reference::Spring& s) { return s.damping > 0.0; });
   double step = damped ? 2.0 : 0.7, tolerance = damped ? 1e-9 : 1e-11;
@@ -33,7 +33,7 @@ SceneReference reference_by_other_codes(const TradeoffScene& scene, double accep
     other = beside.get();
     found.cpu_s += odeint.cpu_s + other.cpu_s;
     found.agreement = distance(scene, odeint, other);
-    // half the step leaves a 256th; what that does not mend is chaotic
+    // half the step leaves a 256th of an error; where that is not enough the motion is chaotic
     if (found.agreement <= accepted || !(found.agreement < 256.0 * accepted)) break;
   }
   for (const auto& y : odeint.states) found.states.push_back(reference::to_points(y));

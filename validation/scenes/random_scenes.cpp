@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is drawn, one after another.
+/// Random draws, one after another.
 class Draw {
  public:
   Draw(std::uint64_t seed, std::uint64_t number) : random_(seed * 1000003 + number) { random_.next(); }
@@ -113,13 +113,13 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
   const double edge = reference::mean_rest_length(reference::spring_network(problem));
   const double strain = draw.logarithmic(options.least_strain, options.most_strain), slowness = draw.uniform(4.0, 24.0);
   if (draw.happens(0.5)) {
-    // moves the body by about an edge within a slow turn
+    // gravity moves the body by about an edge within a slow turn
     problem.surroundings.gravity = draw.direction() * (draw.uniform(options.least_sag, options.most_sag) * edge *
                                                        std::pow(soft_rate / slowness, 2));
     what += ", gravity";
   }
 
-  // what happens to it
+  // a stiff inclusion, a cut, or neither
   const double lot = draw.uniform(0.0, 1.0);
   const double contrast = lot < 0.35 ? draw.logarithmic(3.0, 1e4) : 1.0;
   const bool cut = options.cuts && lot >= 0.35 && lot < 0.65;
@@ -141,7 +141,7 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
         problem.initial_velocity[i] += spin.cross(problem.mesh.points[i]);
     what += problem.fixed.empty() ? ", spinning" : "";
   }
-  for (std::size_t c = 0; c < stiff.size(); ++c)  // what is stiff starts at rest: it would hold all of the energy
+  for (std::size_t c = 0; c < stiff.size(); ++c)  // stiff cells start at rest: else they would hold all of the energy
     if (stiff[c])
       for (const std::uint32_t i : problem.mesh.cell(c)) {
         scene.initial_position[i] = problem.mesh.points[i];

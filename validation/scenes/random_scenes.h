@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that nobody has seen: bodies, materials, motions and cuts drawn from a seed.
+// Unseen scenes: bodies, materials, motions and cuts drawn from a seed.
 
 #include <cstdint>
 
@@ -10,19 +10,19 @@ namespace dartboard {
 struct RandomSceneOptions {
   int least_points = 100;
   int most_points = 3000;      // of the body, about
-  double most_work = 4e5;      // springs times duration times omega_max: what a reference costs
-  double least_work = 0.0;     // what a run costs at least
-  double damped_work = 1.0;    // times both of a scene that is damped, whose runs take longer steps
-  double least_phase = 30.0;   // duration times omega_max,
-  double most_phase = 400.0;   // as far as the work allows
-  double least_strain = 0.01;  // at the start,
-  double most_strain = 0.1;    // at which bodies that nothing damps are chaotic after some hundred periods
-  double least_sag = 0.02;     // [edges] by which gravity moves a body, about
+  double most_work = 4e5;      // springs times duration times omega_max: the cost of a reference
+  double least_work = 0.0;     // the least cost of a run
+  double damped_work = 1.0;    // factor of both for a damped scene, whose runs take longer steps
+  double least_phase = 30.0;   // duration times omega_max
+  double most_phase = 400.0;   // the same, as far as the work allows
+  double least_strain = 0.01;  // at the start
+  double most_strain = 0.1;    // at this strain undamped bodies are chaotic after some hundred periods
+  double least_sag = 0.02;     // [edges] about how far gravity moves a body
   double most_sag = 0.2;
   bool cuts = true;  // may a plane cut it?
 };
 
-/// Scene `number` of a seed, whatever the others are.
+/// Scene `number` of a seed; it does not depend on the others.
 ///
 /// A jittered box or a Delaunay ball; free, or clamped on one side; with or without gravity;
 /// damping ratios at omega_max of 0, 0.001 to 0.1, or 0.3 to 1.5; a tenth of the cells 1 to 10^4 times as stiff, or a

@@ -33,14 +33,14 @@ double gershgorin(const reference::SpringNetwork& network) {
   return std::sqrt(largest);
 }
 
-/// Of many events about sixteen are looked at, the last among them: each look costs hundreds of force evaluations.
+/// About sixteen of many events are examined, among them the last: each costs hundreds of force evaluations.
 bool is_looked_at(std::size_t interval, std::size_t events) {
   constexpr std::size_t most = 16;
   return events <= most || interval % (events / most) == 0 || interval == events;
 }
 
-/// Frequencies and damping of springs alone, by interval, the points of each where they were at the start; rates of
-/// decay are not frequencies.
+/// Frequencies and damping of springs alone, for each interval, with the points where they were at the start;
+/// frequencies are those without damping, as rates of decay are not frequencies.
 void look_at_networks(const TradeoffScene& scene, SceneFeatures& f) {
   const reference::SpringNetwork& start = scene.motion.network;
   std::vector<Eigen::Vector3d> x = scene.motion.start.x;
@@ -63,7 +63,7 @@ void look_at_networks(const TradeoffScene& scene, SceneFeatures& f) {
   f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
 }
 
-/// The same of any body, by what limits its step.
+/// The same for any body, from the limits of its step.
 void look_at_limits(SceneFeatures& f) {
   for (const StableStep& limit : f.limits) {
     f.omega_low = std::max(f.omega_low, limit.lower);
@@ -72,7 +72,7 @@ void look_at_limits(SceneFeatures& f) {
   }
 }
 
-/// At the start, and after each event that is looked at.
+/// The limits of the step at the start, and after each event that is examined.
 std::vector<StableStep> limits_of(const TradeoffScene& scene) {
   SceneStage stage(scene);
   std::vector<StableStep> limits{stage.limits()};

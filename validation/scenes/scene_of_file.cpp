@@ -39,8 +39,8 @@ TradeoffScene scene_of_file(const SceneFile& file) {
   made.beyond_references = beyond_references(file, problem.mesh);
   made.duration = file.duration;
   made.edge = reference::mean_rest_length(made.motion.network);
-  if (!(made.fastest_rate > 0.0)) made.fastest_rate = 1.0 / file.duration;  // nothing but flight
-  // the name of the file: it names files in turn
+  if (!(made.fastest_rate > 0.0)) made.fastest_rate = 1.0 / file.duration;  // free flight only
+  // the stem of the file's name, as files are named after the scene
   made.name = std::filesystem::path(file.file).stem().string();
   made.what = file.about.empty() ? file.name : file.about;
   return made;

@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// The motion of a scene file, its events frozen (frozen_scene.h): they take place at their exact times and operate on
-/// the same cells in every run. Whatever is left out stands in `omissions`, and so does what an accurate run has
+/// The motion of a scene file, its events frozen (frozen_scene.h): they take place at their exact times and
+/// operate on the same cells in every run. `omissions` says what is left out, and what an accurate run has
 /// chosen.
 ///
 /// With the step and integrator of the file, and events at step boundaries, the motion has the bits of a Simulation.

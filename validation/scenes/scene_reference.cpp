@@ -17,8 +17,8 @@
 namespace dartboard {
 namespace {
 
-// Of the right-hand side in extended precision, per spring and Gauss point; and the evaluations in a step of the
-// oracle's.
+// The time of the right-hand side in extended precision per spring and per Gauss point, and its evaluations in a step
+// of the oracle.
 constexpr double oracle_spring_ns = 45.0, oracle_point_ns = 1500.0, oracle_stages = 13.0;
 
 TimedRun must_run(const TradeoffScene& scene, Integrator&& integrator, std::uint64_t steps, const CpuClock& clock) {
@@ -49,7 +49,7 @@ SceneReference self_converged(const TradeoffScene& scene, const CpuClock& clock,
     if (change < 1e-12 || 2e-9 * static_cast<double>(coarse.cpu_ns) > most_s) break;
   }
   found.cpu_s += 1e-9 * static_cast<double>(coarse.cpu_ns);
-  // through the kinks of contact no method keeps its order: of order p, the finer run has 1 / (2^p - 1) of the change
+  // the kinks of contact lower every order: at order p, the finer run is off by 1 / (2^p - 1) of the change
   const double order = scene.has_contact() ? std::clamp(std::log2(change_before / change), 0.5, 4.0) : 4.0;
   const double left = 15.0 / (std::exp2(order) - 1.0) * change;
   const double own = self_converged_floor(left, 0.0);
@@ -86,13 +86,13 @@ std::string_view name(ReferenceKind kind) {
 }
 
 double self_converged_floor(double change, double agreement) {
-  // order 4: the finer run has a fifteenth of the change; ten times that is the floor
+  // order 4: the finer run is off by a fifteenth of the change; ten times that is the floor
   return max_or_nan(max_or_nan(10.0 / 15.0 * change, 1e-12), agreement);
 }
 
 std::string certainty_of(const reference::CertifiedMotion& certified) {
   if (certified.accepted && certified.independent) return "certified by two independent codes";
-  // by the same measure as the oracle's
+  // the bound that the oracle uses
   constexpr double accepted = reference::CertifyOptions{}.accepted;
   if (certified.self_difference <= accepted && certified.agreement <= accepted)
     return fmt::format("confirmed by another method of the same library, by no independent code to {:.0e}", accepted);

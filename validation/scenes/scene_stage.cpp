@@ -69,8 +69,8 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
     throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
   if (setting.steps == 0 && scene.has_contact())
     throw InputError(fmt::format("{}: contact acts around equal steps", scene.name));
-  // an error of the position that the fastest oscillation would turn into one of the velocity, of a sixteenth of that
-  // rate: the motions of these scenes are slower than the fastest they could be
+  // the error of a velocity that belongs to one of a position in an oscillation of a sixteenth of the fastest rate: the
+  // motions of these scenes are slower than the fastest they could be
   const Tolerance tolerance{setting.tolerance * scene.edge, setting.tolerance * scene.edge * scene.fastest_rate / 16};
 
   SceneStage stage(scene);

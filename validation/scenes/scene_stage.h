@@ -1,5 +1,5 @@
 #pragma once
-// Runs of a scene with equal steps or with a tolerance, as far as asked for, timed.
+// Timed runs of a scene or of its first part, with equal steps or with a tolerance.
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace dartboard {
 
-/// Processor time of this thread [ns], or what stands for it in a test.
+/// Processor time of this thread [ns], or its substitute in a test.
 using CpuClock = std::function<std::int64_t()>;
 
 /// A scene at some moment of a run: what the time loop needs, and the way to the next moment.
@@ -26,12 +26,12 @@ class SceneStage {
   SpringSystem system() const;
   Motion motion();
   PointState state() const;
-  /// The next event takes place. Whoever keeps something about the system has to be told.
+  /// The next event takes place. All that was computed from the system before has to be renewed.
   void pass_event();
   /// FrozenBody::begin_step, end_step; nothing where there is no contact.
   bool begin_step(double time, double h) { return frozen_ && frozen_->begin_step(time, h); }
   bool end_step(double time, double h) { return frozen_ && frozen_->end_step(time, h); }
-  /// What limits the step now.
+  /// The limits of the step now.
   StableStep limits();
 
  private:
@@ -43,15 +43,15 @@ class SceneStage {
   SpringColumns columns_;
 };
 
-/// How a run goes: in equal steps, or, of an AdaptiveIntegrator, within a tolerance.
+/// The steps of a run: equal ones or, for an AdaptiveIntegrator, those within a tolerance.
 struct RunSetting {
   std::uint64_t steps = 0;  // over the whole duration; steps end at events and checkpoints, so there may be more
   double tolerance = 0.0;   // [edges] per step, when steps is 0
 };
 
 struct RunLimits {
-  std::size_t checkpoints = std::numeric_limits<std::size_t>::max();  // stop after as many
-  std::int64_t cpu_ns = std::numeric_limits<std::int64_t>::max();     // give up after that
+  std::size_t checkpoints = std::numeric_limits<std::size_t>::max();  // stop after this many
+  std::int64_t cpu_ns = std::numeric_limits<std::int64_t>::max();     // give up after this time
 };
 
 struct TimedRun {
@@ -62,10 +62,10 @@ struct TimedRun {
   std::int64_t cpu_ns = 0;
 };
 
-/// Run a scene from its start. What is timed are the steps and the events, not the copy of the body before them.
+/// Run a scene from its start. The steps and the events are timed; the copy of the body before them is not.
 ///
-/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or through contact, or without
-///         either
+/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or with contact; and for a
+///         setting without steps and tolerance
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits = {});
 

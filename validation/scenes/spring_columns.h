@@ -15,7 +15,7 @@ namespace dartboard {
 
 class ElasticSolid;
 
-/// Owns what a SpringSystem and a Motion show.
+/// Owns the arrays that a SpringSystem and a Motion refer to.
 struct SpringColumns {
   std::vector<SpringEnds> ends;
   std::vector<Spring> springs;
@@ -23,9 +23,9 @@ struct SpringColumns {
   std::vector<std::uint8_t> fixed;
   Eigen::Vector3d gravity{0, 0, 0};
   std::vector<Eigen::Vector3d> x, v;
-  std::shared_ptr<const ElasticSolid> solid{};  // elements beside the springs
+  std::shared_ptr<const ElasticSolid> solid{};  // elements besides the springs
   std::vector<const ForceTerm*> terms{};        // of the solid
-  std::vector<HeldAxes> held_axes{};            // empty where none are held
+  std::vector<HeldAxes> held_axes{};            // empty where no axis is held
 
   SpringSystem system() const {
     return {ends, springs, mass, inverse_mass, viscosity, fixed, gravity, {}, terms, held_axes};

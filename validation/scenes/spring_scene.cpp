@@ -166,7 +166,7 @@ SceneRun run_scene(const PreparedScene& scene, Integrator& integrator, std::uint
     for (std::uint64_t k = 0; k < count && result.ok(); ++k) result = integrator.step(system, motion, step);
     return result;
   };
-  // how many steps up to a time: an excess of 2^-30 of one is rounding
+  // the number of steps up to a time: an excess of 2^-30 of a step is rounding
   const auto steps_to = [h](double time) { return std::ceil(time / h - 0x1p-30); };
 
   std::uint64_t done = 0;  // steps, where they are not split
@@ -178,7 +178,7 @@ SceneRun run_scene(const PreparedScene& scene, Integrator& integrator, std::uint
     }
     if (to <= from) return StepResult{};
     const double count = std::max(1.0, steps_to(to - from)), step = (to - from) / count;
-    // the same bits throughout a run, for methods that keep what belongs to a step size
+    // the same bits throughout a run, for methods that keep data for a step size
     return take(system, motion, static_cast<std::uint64_t>(count), std::abs(step - h) < 0x1p-40 * h ? h : step);
   });
   run.h = h;

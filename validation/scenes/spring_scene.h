@@ -1,5 +1,5 @@
 #pragma once
-// A body, what happens to it and when: the scenes of the studies in time, run by any integrator, and for the oracle.
+// The scenes of the studies in time: a body and its events, run by any integrator, and as plain lists for the oracle.
 
 #include <cstdint>
 #include <functional>
@@ -15,7 +15,7 @@ namespace dartboard {
 
 using TetBody = MassSpringBody<TetMap, Held::by_every_dart>;
 
-/// Faces come apart at a time, at 0 before the motion starts. Which ones is asked once, of the body at rest: the same
+/// Faces come apart at a time, at 0 before the motion starts. They are found once, in the body at rest: the same faces
 /// in every run, however wrong its positions are by then.
 struct TimedCut {
   double time;  // [s]
@@ -26,8 +26,8 @@ TimedCut plane_cut(double time, const Eigen::Vector3d& point, const Eigen::Vecto
 /// The fan of the lowest dart at a mesh point (`fan`).
 TimedCut fan_tear(double time, std::uint32_t point);
 
-/// What a study in time simulates. What a `SceneFile` cannot say is why there are both: its faces come from a function
-/// of the body at rest, and it starts from any positions.
+/// A scene of a study in time. In contrast to a `SceneFile`, its faces come from a function of the body at rest, and it
+/// starts from any positions.
 struct SpringScene {
   std::string name;
   Problem problem;                                  // at rest in its mesh; tetrahedra; `h` is not used
@@ -50,8 +50,8 @@ struct PreparedScene {
 
 /// Build the body and take it apart once, at rest, to know the network of each interval.
 ///
-/// The networks come from the cells that remain (RemainingCells, which knows no dart) by reference/rebuild; springs
-/// side by side are one there, with the sum of their stiffnesses. From the body come the numbers of its vertices only.
+/// The networks come from the cells that remain (RemainingCells, which has no darts) by reference/rebuild; parallel
+/// springs are one there, with the sum of their stiffnesses. Only the numbers of the vertices come from the body.
 /// throws  InputError as build_body; if an event is not within the duration, or finds no face; and if the vertices of
 ///         the body are not those of the cells that remain
 PreparedScene prepare(const SpringScene& scene);
@@ -65,7 +65,7 @@ enum class EventTiming {
 };
 
 struct SceneRun {
-  std::vector<PointState> states;  // at the checkpoints, by vertex number; those reached
+  std::vector<PointState> states;  // at the checkpoints reached, by vertex number
   WorkCounters work;
   StepResult result;  // of the last step
   double h = 0.0;     // [s] duration / steps; 0 where the integrator chose

@@ -122,7 +122,7 @@ void stiffen(PreparedScene& scene, const Mesh& mesh, std::span<const std::uint8_
 
   std::vector<std::uint32_t> vertex(mesh.points.size());
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k) vertex[body.vertices.point[k]] = k;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> cells;  // by edge: how many, in units of the material's
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> cells;  // by edge: stiffness in units of the material's
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     const auto nodes = mesh.cell(c);
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -150,7 +150,7 @@ TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const Stif
   const std::vector<std::uint8_t> stiff = inclusion(mesh);
   SpringScene scene = smooth_scene(std::move(mesh), soft, options.phase);
   scene.checkpoints = options.checkpoints;
-  // the inclusion starts at rest: stretched as the rest is, it would hold almost all of the energy
+  // the inclusion starts at rest: stretched like the other cells, it would hold almost all of the energy
   Problem& problem = scene.problem;
   for (std::uint32_t c = 0; c < stiff.size(); ++c)
     if (stiff[c])

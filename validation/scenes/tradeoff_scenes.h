@@ -15,14 +15,14 @@
 
 namespace dartboard {
 
-/// A scene, ready to be run many times: a scene file, a body of the table's on its map, or point masses and springs
-/// alone. Of a table's, no file could say the closed form.
+/// A scene that is ready to be run many times: a scene file, a body of the table on its map, or point masses and
+/// springs alone. A scene file cannot state the closed form of a scene of the table.
 struct TradeoffScene {
   std::string name, what;
   std::shared_ptr<const FrozenScene> frozen{};                // of a scene file (scene_of_file.h)
-  std::optional<PreparedScene> body{};                        // without both, what moves is motion.network
+  std::optional<PreparedScene> body{};                        // without both, motion.network moves
   reference::NetworkMotion motion;                            // for references; that of the body where there is one
-  std::string beyond_references{};                            // "membranes": what `motion` holds only the masses of
+  std::string beyond_references{};                            // "membranes": `motion` has only the masses of these
   std::function<std::vector<PointState>()> closed_form = {};  // the exact states at the checkpoints, where known
   double duration = 1.0;                                      // [s]
   double fastest_rate = 0.0;                                  // [1/s] reference::fastest_rate, the largest over time
@@ -37,7 +37,7 @@ struct TradeoffEntry {
   std::string_view what;
 };
 
-/// What there is to choose from, in the order of the study.
+/// The table of scenes, in the order of the study.
 std::span<const TradeoffEntry> tradeoff_scenes();
 
 /// Build one of them; `meshes` is the folder of liver564.mesh.
@@ -45,7 +45,7 @@ std::span<const TradeoffEntry> tradeoff_scenes();
 /// throws  InputError for a name that is not in the table, naming those that are; IoError if the mesh cannot be read
 TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::path& meshes);
 
-/// A scene of a body that the table does not have.
+/// A scene of a body that is not in the table.
 TradeoffScene tradeoff_scene(std::string what, const SpringScene& scene);
 
 /// `count` equal masses on a line between two walls, moving along it in several modes at once; the motion is linear and
@@ -59,7 +59,7 @@ struct StiffSceneOptions {
   double phase = 26.4;  // the duration, in units of 1/omega_max of the soft body
   std::size_t checkpoints = 8;
 };
-/// A body in soft motion whose tenth of cells nearest to the middle is stiffer by a factor and starts at rest.
+/// A body in soft motion. The tenth of its cells nearest to the middle is stiffer by a factor and starts at rest.
 TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const StiffSceneOptions& options);
 
 /// Multiply what some cells contribute to the stiffness and damping of their edges, in the body and in its network.

@@ -59,7 +59,7 @@ StepPrices step_prices(const TradeoffScene& scene, double h, const CpuClock& clo
 ImplicitWork implicit_work(const WorkCounters& work) {
   const auto steps = static_cast<double>(std::max<std::uint64_t>(work.steps, 1));
   ImplicitWork result;
-  // a line search looks at the energy of every spring once per iteration: another evaluation of the forces
+  // a line search evaluates the energy of every spring once per iteration: another evaluation of the forces
   result.forces =
       static_cast<double>(work.force_evaluations + work.newton_iterations + work.line_search_trials) / steps;
   result.linearisations = static_cast<double>(work.newton_iterations) / steps;

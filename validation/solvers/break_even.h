@@ -1,5 +1,5 @@
 #pragma once
-// The break-even law: what a run costs with an explicit and with an implicit method, from what their parts cost.
+// The break-even law: the cost of a run with an explicit and with an implicit method, from the costs of its parts.
 
 #include <limits>
 
@@ -19,7 +19,7 @@ struct StepPrices {
 /// Measured on the scene at its start, for steps of h [s]: the least of five of each.
 StepPrices step_prices(const TradeoffScene& scene, double h, const CpuClock& clock);
 
-/// What an implicit run does, from the counters of a shorter one.
+/// The work of an implicit run, from the counters of a shorter one.
 struct ImplicitWork {
   double forces = 0.0, linearisations = 0.0, solves = 0.0;  // in a step
   double factorisations = 1.0;                              // in the run: a kept factor lasts, however short the steps
@@ -27,10 +27,10 @@ struct ImplicitWork {
 ImplicitWork implicit_work(const WorkCounters& work);
 
 /// Steps that a method of that order needs for a motion of that rate and size: the local error of a turn, over all
-/// turns. Crude: it knows the motion at the start only.
+/// turns. Crude: it uses the motion at the start only.
 double steps_for_error(const SceneFeatures& features, int order, double duration, double error);
 
-/// Steps of an explicit method that stability asks for: duration / (0.9 limit), with `limit` [s] as of
+/// Steps of an explicit method that stability requires: duration / (0.9 limit), with `limit` [s] as of
 /// `stability_limit`, z_lim / omega_max.
 double steps_for_stability(double duration, double limit);
 

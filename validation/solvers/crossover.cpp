@@ -34,10 +34,10 @@ class Study {
     const auto integrator = make_integrator(method);
     return run_timed(scene, *integrator, {.steps = static_cast<std::uint64_t>(std::ceil(steps))}, clock_);
   }
-  /// The same at least three times, and more often while that is quick.
+  /// The same run at least three times, and more often while that is quick.
   struct Timed {
     TimedRun run;
-    double forces = 0.0;  // what it costs in evaluations of the forces, timed before and after each run: the median
+    double forces = 0.0;  // its cost in evaluations of the forces, timed before and after each run: the median
   };
   Timed run_well(const TradeoffScene& scene, std::string_view method, double steps) {
     Timed timed;
@@ -89,7 +89,7 @@ class Study {
       p.method = method;
       p.work = implicit_work(fine.work);
       p.steps = 2.0 * pilot * std::pow(error / options_.error, 1.0 / order);
-      // iterations for a longer step: by the power that the pilots show
+      // a longer step needs more iterations: by the power that the pilots show
       const double more = std::log2(implicit_work(coarse.work).solves / p.work.solves);
       p.work.solves *= std::pow(2.0 * pilot / p.steps, std::clamp(more, 0.0, 1.0));
       p.pilot_steps = static_cast<double>(fine.work.steps);
@@ -171,8 +171,8 @@ class Study {
     return ns;
   }
 
-  // Prices are the same whatever the stiffness. All are taken in evaluations of the forces at the same moment, and
-  // between the pilots: a machine changes its pace from one second to the next, by as much as the law is off.
+  // Prices do not depend on the stiffness. All are taken in evaluations of the forces at the same moment, and between
+  // the pilots: a machine changes its pace from one second to the next, by as much as the error of the law.
   void sample_prices(const TradeoffScene& at) {
     for (int k = 0; k < 3; ++k) {
       const StepPrices now = step_prices(at, at.duration / static_cast<double>(options_.pilot_steps), clock_);
@@ -195,7 +195,7 @@ class Study {
   Mesh mesh_;
   TradeoffScene pilot_scene_;
   ForceTimer force_;
-  double force_ns_ = infinity;                     // the least of all: for what is printed, not for ratios
+  double force_ns_ = infinity;                     // the least of all: for printed times, not for ratios
   std::vector<double> samples_[std::size(parts)];  // of prices, in evaluations of the forces
   std::vector<double> explicit_step_;              // the same of an explicit step
 };
@@ -219,7 +219,7 @@ Crossover find_crossover(int side, const CrossoverOptions& options, const CpuClo
   Study study(side, options, clock);
   Crossover result;
   result.explicit_method = explicit_method;
-  // omega_max^2 is proportional to the factor as soon as the inclusion is what is fastest
+  // omega_max^2 is proportional to the factor as soon as the inclusion has the largest frequency
   const auto factor_of = [](double factor, double phase, double wanted) {
     return factor * (wanted / phase) * (wanted / phase);
   };

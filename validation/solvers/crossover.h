@@ -1,5 +1,5 @@
 #pragma once
-// Where implicit methods become cheaper than explicit ones: predicted by the break-even law, and measured.
+// The point where implicit methods become cheaper than explicit ones: predicted by the break-even law, and measured.
 
 #include <functional>
 #include <optional>
@@ -37,14 +37,14 @@ struct Crossover {
   double overhead = 1.0;         // of a pilot over the law for its own counts: what the parts leave out
   double predicted_s = 0.0;      // of both at the crossover
   double first_phase = 0.0;      // predicted by pilots at pilot_factor
-  double predicted_phase = 0.0, predicted_factor = 0.0;  // by pilots at what that says
+  double predicted_phase = 0.0, predicted_factor = 0.0;  // by pilots at the stiffness of first_phase
   double measured_phase = 0.0, measured_factor = 0.0;
   std::vector<CostPair> costs;
   std::string failure;  // empty when it was found
   double deviation() const { return predicted_phase / measured_phase - 1.0; }
 
   /// T omega_max of the stiffest body that was seen to cost less by explicit steps, and of the softest by implicit
-  /// ones, the smaller first: what is measured lies between. Nothing where no run was on one of the two sides.
+  /// ones, the smaller first: the measured crossover lies between. No value where no run was on one of the two sides.
   struct Enclosure {
     double low, high;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// A Cholesky factor that follows thousands of edits of a body: how wrong it becomes, and what keeping it right costs.
+// A Cholesky factor that follows thousands of edits of a body: its error, and the cost of keeping it accurate.
 
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace dartboard {
 
-/// How the factor follows.
+/// The way in which the factor follows.
 struct EditPolicy {
   std::string name;
   CholeskyOptions options;
   bool refine = false;  // one step of refinement in each solution
 };
-/// Those that are compared: updates that are never renewed, by terms and by rows, renewed after several numbers of
-/// rank-one updates, and refinement.
+/// The policies that are compared: updates that are never renewed, by terms and by rows, renewed after several numbers
+/// of rank-one updates, and refinement.
 std::vector<EditPolicy> edit_policies();
 
 struct EditRun {

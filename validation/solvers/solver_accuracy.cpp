@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// From `low` to `high`, evenly on a logarithmic scale; the same for the same bits.
+// A number from `low` to `high`, evenly on a logarithmic scale; the same for the same bits of `key`.
 double drawn(double key, double low, double high) {
   SplitMix64 random(std::bit_cast<std::uint64_t>(key));
   return low * std::pow(high / low, 0.5 + 0.5 * random.next_signed());
@@ -54,7 +54,7 @@ SolveCell solve_iteratively(SolveCell cell, const BlockMatrix& matrix, double to
   cell.normwise = normwise_backward_error(matrix, b, x);
   std::vector<Vector3d> left;
   for (const ExtendedVector& r : extended_residual(matrix, b, x)) left.push_back(r.cast<double>());
-  // what a correction leaves is told by the sum, whether or not the correction itself met the tolerance
+  // the sum shows the effect of a correction, whether or not the correction itself met the tolerance
   (void)solver.solve(matrix, left, more, options);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += more[i];
   cell.after = backward_error(matrix, b, x);
@@ -66,7 +66,7 @@ SolveCell solve_cell(SolveCell cell, const System& system, Compression compressi
   if (cell.path == SolvePath::conjugate_gradients) return solve_iteratively(cell, after.blocks, tolerance);
   if (cell.path == SolvePath::updated) {
     CholeskyOptions options{.spare_nodes = 1, .ready_for_updates = true};
-    // on a body this small to factor again is always cheaper: leave that to cancellation alone
+    // on a body this small a new factor is always cheaper: leave that to cancellation alone
     options.rates.supernodal_flop = options.rates.simplicial_flop = 1.0;
     Cholesky cholesky(options);
     SolverMatrix before(system.whole, compression, system.tau);
@@ -98,7 +98,7 @@ double definiteness(const BlockMatrix& m) {
   return values[0] / std::max(std::abs(values[0]), values[n - 1]);
 }
 
-// From the projected matrix to the exact one: what compressed springs take away across their directions.
+// The terms from the projected matrix to the exact one: what compressed springs subtract across their directions.
 std::vector<RankOneTerm> terms_to_exact(const SpringColumns& columns, const SolverMatrix& exact,
                                         const SolverMatrix& projected, double tau) {
   std::vector<RankOneTerm> terms;

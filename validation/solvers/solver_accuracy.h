@@ -1,6 +1,6 @@
 #pragma once
-// How wrong the solutions of linear systems are, over all scales of mass, stiffness and step; and whether a matrix
-// that is not positive definite is ever taken for one.
+// The errors of solutions of linear systems, over all scales of mass, stiffness and step; and whether a matrix that is
+// not positive definite is ever taken for one that is.
 
 #include <string>
 #include <string_view>
@@ -42,10 +42,10 @@ void spread_scales(SpringColumns& columns, bool masses, bool stiffnesses);
 
 /// All combinations. Masses and stiffnesses are drawn on a logarithmic scale by place, so that parts of a dissociated
 /// vertex or edge get the same; omega_max is Gershgorin's bound. The body floats: at h omega = 1e8 its inertia is at
-/// the rounding of its stiffness, and a factor may fail, as it must then say.
+/// the rounding of its stiffness, and a factor may fail, which it must report.
 std::vector<SolveCell> solve_accuracy(const SolveAccuracyOptions& options);
 
-/// An indefinite matrix, and what each path says to it.
+/// An indefinite matrix, and the status that a path reports for it.
 struct IndefiniteCell {
   std::string path;
   double h_omega = 0.0;

@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// A box of `side`^3 vertices, edges of about 0.1 m, on its map, and what becomes of it when the fan of one interior
-/// vertex is torn: that vertex, and no other, comes apart into two.
+/// A box of `side`^3 vertices, edges of about 0.1 m, on its map, and the same box with the fan of one interior vertex
+/// torn: that vertex, and no other, comes apart into two.
 ///
 /// `stretch` is the strain of a linear field that the positions are moved by; 0 is rest, where every spring has its
 /// rest length.

@@ -40,7 +40,7 @@ struct CvodeAdams::Implementation {
   Terms terms;
   std::uint64_t evaluations = 0;
   double t = 0.0;
-  // in this order: the context goes last
+  // in this order: the context is freed last
   std::unique_ptr<_SUNContext, void (*)(SUNContext)> context{nullptr, [](SUNContext c) { SUNContext_Free(&c); }};
   std::unique_ptr<_generic_N_Vector, void (*)(N_Vector)> y{nullptr, N_VDestroy}, absolute{nullptr, N_VDestroy};
   std::unique_ptr<_generic_SUNNonlinearSolver, void (*)(SUNNonlinearSolver)> solver{
@@ -64,7 +64,7 @@ struct CvodeAdams::Implementation {
   void begin(const SpringSystem& s, Motion motion, const Tolerance& tolerance) {
     SUNContext made = nullptr;
     if (SUNContext_Create(nullptr, &made) != 0) throw SolverError("SUNContext_Create fails");
-    // what belongs to the old context goes before it
+    // objects of the old context are freed before it
     solver.reset();
     absolute.reset();
     y.reset();

@@ -1,5 +1,5 @@
 #pragma once
-// What rounding leaves of a position, however short the steps.
+// The error of a position that is left by rounding, however short the steps.
 
 #include "core/time/method/scheme.h"
 #include "validation/scenes/tradeoff_scenes.h"
@@ -12,15 +12,15 @@ struct RoundingFloor {
   double at(double h) const;
 };
 
-/// A random walk of the roundings of positions: 1.5 * 2^-53 X sqrt(u n) after n steps, u the times that a step rounds
-/// positions (once; in every stage of a splitting method), X the root mean square of the coordinates over mass, with
-/// the way that the centre of mass goes.
+/// A random walk of the roundings of positions: 1.5 * 2^-53 X sqrt(u n) after n steps, u the number of times that a
+/// step rounds positions (once; in every stage of a splitting method), X the root mean square of the coordinates over
+/// mass, plus the path of the centre of mass.
 ///
 /// One rounding is off by 0.3 to 0.6 of 2^-53 of the coordinate, with the root mean square over its binade. Runs in
 /// ever shorter steps, against compensated ones, show 0.2 to 0.6 of 2^-53 X sqrt(u n) on undamped bodies and 1.0 to 1.3
 /// on a damped one, which is swept over for the damping too. Implicit methods are off by no more (`extremes --axis
-/// offset`: up to 10 eps D, Verlet 9.6). Compensated methods keep what rounding takes: 1 to 2 of 2^-53 X however many
-/// steps; 4 are counted. That motions multiply disturbances is not in it.
+/// offset`: up to 10 eps D, Verlet 9.6). Compensated methods keep the parts that are rounded off: 1 to 2 of 2^-53 X
+/// however many steps; 4 are counted. The growth of disturbances in a motion is not included.
 RoundingFloor rounding_floor(const TradeoffScene& scene, const Scheme& scheme);
 
 }  // namespace dartboard

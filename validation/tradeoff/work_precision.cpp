@@ -57,7 +57,7 @@ class Study {
         if (!run.result.ok()) {
           point.code = to_string(run.result.code);
           point.diagnosis = to_string(run.result);
-          break;  // what a failed run costs need not be known well
+          break;  // the cost of a failed run need not be precise
         }
         point.errors = reference::motion_errors(scene_.motion, run.states, reference_.states);
       }
@@ -131,7 +131,7 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
   const double phase = scene.fastest_rate * scene.duration;
   const std::uint64_t checkpoints = scene.motion.checkpoints.size();
 
-  // a drawn order, so that no method always follows the same other one
+  // a random order, so that no method always follows the same other one
   std::vector<std::size_t> order(contenders.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   SplitMix64 random(options.seed);
@@ -214,7 +214,7 @@ double error_of_rest(const TradeoffScene& scene, const SceneReference& reference
 }
 
 void classify(std::span<WorkPoint> points, double floor, double useless_from) {
-  // what is not a number is not less than anything
+  // NaN is not less than anything
   for (WorkPoint& p : points)
     p.standing = p.failed() ? Standing::failed : p.errors.x < useless_from ? Standing::front : Standing::useless;
   for (WorkPoint& p : points) {

@@ -28,7 +28,7 @@ struct AuditedPair {
   bool swept = false;  // is there a sweep to compare with?
   Audit audit;
 
-  /// Can the reference tell whether the error was met?
+  /// Can the reference resolve whether the error was met?
   bool is_resolved() const { return audit.error >= floor; }
   /// Is it a prediction: does the run cost 20 times the pilots, and have they kept to 2 s or a tenth of it?
   bool foretold() const;
