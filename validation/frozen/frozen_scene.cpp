@@ -26,7 +26,7 @@ constexpr double contact_phase = 0.25;
 std::string reason_to_omit(const SceneEvent& event, const SceneFile& file) {
   if (event.from >= file.duration) return "it happens at the end, and changes no motion";
   if (event.from != event.until && !event.every && !(file.step > 0.0))
-    return "it looks at the body in every step, and none has been chosen";
+    return "it looks at the body in every step, and no step has been chosen";
   return {};
 }
 
@@ -172,9 +172,10 @@ namespace {
 std::string omission_of(const SceneEvent& event, std::size_t operations) {
   if (operations == 0) return fmt::format("{} is left out: it changes nothing.", event.path);
   if (std::holds_alternative<TearWhereStressed>(event.action))
-    return fmt::format("{} tears in every run what one accurate run tears, at the same times.", event.path);
+    return fmt::format("{} tears the same faces at the same times in every run, those of one accurate run.",
+                       event.path);
   if (depends_on_positions(event) && event.until > 0.0)
-    return fmt::format("{} operates in every run on what one accurate run finds.", event.path);
+    return fmt::format("{} operates on the same cells in every run, those of one accurate run.", event.path);
   return {};
 }
 

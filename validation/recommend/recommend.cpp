@@ -313,7 +313,7 @@ std::vector<std::string> Recommendation::untried() const {
 
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
                          const RecommendOptions& options) {
-  if (!(error > 0.0)) throw InputError("an error to meet is positive");
+  if (!(error > 0.0)) throw InputError("the requested error must be positive");
   if (scene.has_contact())
     throw InputError(fmt::format(
         "{}: /contact: changes motions after the part that short runs see; expected none: 'tradeoff' measures whole runs",

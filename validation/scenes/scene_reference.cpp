@@ -111,7 +111,7 @@ SceneReference reference_of(const TradeoffScene& scene, const CpuClock& clock, c
   }
   if (!scene.beyond_references.empty()) {
     SceneReference found = self_converged(scene, clock, options.self_converged_s);
-    found.what += fmt::format(" (the oracle knows no {})", scene.beyond_references);
+    found.what += fmt::format(" (the oracle does not support {})", scene.beyond_references);
     return found;
   }
   const reference::SpringNetwork& network = scene.motion.network;

@@ -68,7 +68,7 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
   if (setting.steps == 0 && adaptive == nullptr)
     throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
   if (setting.steps == 0 && scene.has_contact())
-    throw InputError(fmt::format("{}: contact acts around equal steps", scene.name));
+    throw InputError(fmt::format("{}: contact requires equal steps", scene.name));
   // the error of a velocity that belongs to one of a position in an oscillation of a sixteenth of the fastest rate: the
   // motions of these scenes are slower than the fastest they could be
   const Tolerance tolerance{setting.tolerance * scene.edge, setting.tolerance * scene.edge * scene.fastest_rate / 16};

@@ -141,7 +141,7 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
   for (const std::size_t which : order) {
     const TradeoffContender& contender = contenders[which];
     if (contender.adaptive && scene.has_contact()) {
-      result.omissions.push_back(fmt::format("{}: contact acts around equal steps", contender.name));
+      result.omissions.push_back(fmt::format("{}: contact requires equal steps", contender.name));
       continue;
     }
     auto& points = by_contender[which];
