@@ -48,7 +48,8 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
   const double errors[]{recommendation.error};
   const Winner winner = winners(sweep, errors)[0];
   a.best = winner.contender;
-  a.best_cost = winner.contender.empty() ? infinity : winner.cost;
+  a.best_cost = infinity;
+  if (!winner.contender.empty()) a.best_cost = winner.cost;
   return a;
 }
 
