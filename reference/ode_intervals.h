@@ -2,6 +2,7 @@
 // The common part of all codes of the ODE oracle: the walk from checkpoint to checkpoint and from event to event.
 
 #include <ctime>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,11 +67,14 @@ void run_intervals(const NetworkMotion& motion, const Eigen::Vector3d& centre, C
   };
   for (std::size_t interval = 0; interval <= motion.events.size() && next < motion.checkpoints.size(); ++interval) {
     if (interval > 0) y = taken_over(y, motion.events[interval - 1]);
-    auto solver = make_solver(motion.network_of(interval), y, t);
+    // a network without points is no system to solve
+    using Solver = decltype(make_solver(motion.network, y, t));
+    std::optional<Solver> solver;
+    if (!y.empty()) solver.emplace(make_solver(motion.network_of(interval), y, t));
     const bool last = interval == motion.events.size();
     const double end = last ? motion.checkpoints.back() : motion.events[interval].time;
     const auto go_to = [&](double stop) {
-      if (stop > t) solver.advance(y, t, stop);
+      if (stop > t && solver) solver->advance(y, t, stop);
       t = stop;
     };
     for (; next < motion.checkpoints.size() && motion.checkpoints[next] <= end; ++next) {
@@ -78,7 +82,7 @@ void run_intervals(const NetworkMotion& motion, const Eigen::Vector3d& centre, C
       record();
     }
     go_to(end);
-    run.evaluations += solver.evaluations();
+    if (solver) run.evaluations += solver->evaluations();
   }
   run.cpu_s = thread_cpu_seconds() - start;
 }

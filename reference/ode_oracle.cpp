@@ -75,7 +75,7 @@ double position_distance(const SpringNetwork& network, const std::vector<long do
     mass += network.mass[i];
     for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) sum += network.mass[i] * (a[k] - b[k]) * (a[k] - b[k]);
   }
-  return static_cast<double>(std::sqrt(sum / mass) / edge);
+  return mass > 0.0L ? static_cast<double>(std::sqrt(sum / mass) / edge) : 0.0;
 }
 
 double CertifiedMotion::largest_gain() const {

@@ -109,7 +109,7 @@ std::vector<double> differences(const TradeoffScene& scene, const TimedRun& a, c
       mass += network.mass[i];
       sum += network.mass[i] * (a.states[c].x[i] - b.states[c].x[i]).squaredNorm();
     }
-    all.push_back(std::sqrt(sum / mass) / scene.edge);
+    all.push_back(mass > 0.0 ? std::sqrt(sum / mass) / scene.edge : 0.0);  // all cells may have been removed
   }
   return all;
 }

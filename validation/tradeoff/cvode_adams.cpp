@@ -97,6 +97,7 @@ bool CvodeAdams::available() { return true; }
 void CvodeAdams::restart() { implementation_->memory.reset(); }
 
 StepResult CvodeAdams::advance(const SpringSystem& system, Motion motion, double duration, const Tolerance& tolerance) {
+  if (motion.x.empty()) return {};  // all cells have been removed
   Implementation& me = *implementation_;
   me.system = &system;
   if (!me.memory) me.begin(system, motion, tolerance);

@@ -300,5 +300,20 @@ TEST(MembraneShape, TellsACellThatIsFlatOrTurnedOver) {
   EXPECT_FALSE(ok({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}));      // crosses itself
 }
 
+// A whole that moves by as much everywhere feels no force: the blocks of each vertex of a piece add up to zero.
+TEST(Membranes, HaveAConstantMatrixThatDoesNotResistAMovedWhole) {
+  for_each_sheet([](const Mesh& mesh, Model model) {
+    const MembraneBody body(mesh, sheet_material(2e3, 0.3, model));
+    body.term->for_each_constant_tangent([](ForceTerm::Nodes nodes, std::span<const Matrix3d> blocks) {
+      for (std::size_t a = 0; a < nodes.size(); ++a) {
+        Matrix3d sum = Matrix3d::Zero();
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+          sum += blocks[std::max(a, b) * (std::max(a, b) + 1) / 2 + std::min(a, b)];
+        EXPECT_LE(sum.norm(), 1e-13 * blocks[a * (a + 1) / 2 + a].norm());
+      }
+    });
+  });
+}
+
 }  // namespace
 }  // namespace dartboard::membranes_test

@@ -128,5 +128,23 @@ TEST(TouchingCells, AreToldByTheNumbersOfTheFile) {
   EXPECT_NE(to_string(touching, {}).find("(points 2, 3; edge 2-3)"), std::string::npos) << to_string(touching, {});
 }
 
+// Three are named, of more the first three; points and edges only where there are some.
+TEST(TouchingCells, AreNamedInWordsUpToThree) {
+  TouchingCells touching;
+  touching.edges = {{0, 1}, {1, 2}, {2, 3}};
+  EXPECT_EQ(to_string(touching, {}).find("cells touch at 3 edges without sharing a face (edges 0-1, 1-2, 2-3); each"),
+            0u)
+      << to_string(touching, {});
+  touching.edges.push_back({3, 4});
+  EXPECT_EQ(
+      to_string(touching, {}).find("cells touch at 4 edges without sharing a face (edges 0-1, 1-2, 2-3, ...); each"),
+      0u)
+      << to_string(touching, {});
+  TouchingCells at_point;
+  at_point.points = {7};
+  EXPECT_EQ(to_string(at_point, {}).find("cells touch at 1 point without sharing a face (point 7); each"), 0u)
+      << to_string(at_point, {});
+}
+
 }  // namespace
 }  // namespace dartboard::touching_test

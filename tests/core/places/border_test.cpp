@@ -41,5 +41,12 @@ TEST(Border, OfAPlaneIsMeasuredAcrossItWhateverTheLengthOfItsNormal) {
   }
 }
 
+// A place far away is known no better than its own coordinates are, wherever the plane is given.
+TEST(Border, OfAPlaneHasTheRoundingOfThePlaceToo) {
+  EXPECT_TRUE(is_in_front({1e9, -2e-6, 0}, {0, 0, 0}, {0, 1, 0}, 0.0));
+  EXPECT_TRUE(is_in_front({0, -2e-6, 0}, {1e9, 0, 0}, {0, 1, 0}, 0.0));
+  EXPECT_FALSE(is_in_front({1, -2e-6, 0}, {0, 0, 0}, {0, 1, 0}, 0.0));
+}
+
 }  // namespace
 }  // namespace dartboard::border_test

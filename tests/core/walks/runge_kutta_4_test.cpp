@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/mechanics/add_cell_springs.h"
 #include "core/walks/cell_arrays.h"
 #include "core/walks/dart_coverage.h"
 #include "tests/support/meshes_for_tests.h"
@@ -187,10 +188,11 @@ TEST(RungeKutta4, MayTakeBodiesOfAnySizeInTurn) {
 
 // Such a body would move without these forces: a walk computes no force but that of springs along edges.
 TEST(RungeKutta4, RefusesABodyWithForcesThatItDoesNotKnow) {
-  const auto refused = [](Mesh mesh, const Material& material, auto map) {
+  const auto refused = [](Mesh mesh, const Material& material, auto map, Diagonals diagonals = Diagonals::none) {
     Problem problem = without_losses(std::move(mesh));
     problem.material = material;
     auto body = build_body<decltype(map), every>(problem);
+    add_cell_springs(body, problem.mesh, diagonals);
     try {
       run(body, 1e-3, 1);
     } catch (const InputError&) {
@@ -204,6 +206,8 @@ TEST(RungeKutta4, RefusesABodyWithForcesThatItDoesNotKnow) {
   EXPECT_TRUE(refused(hexahedron_box(1, 1, 1, 0.1), elements, Map3()));
   EXPECT_TRUE(refused(triangle_sheet(1, 1, 0.1), elements, Map2()));
   EXPECT_TRUE(refused(quad_sheet(1, 1, 0.1), elements, Map2()));
+  EXPECT_FALSE(refused(hexahedron_box(1, 1, 1, 0.1), springs, Map3()));
+  EXPECT_TRUE(refused(hexahedron_box(1, 1, 1, 0.1), springs, Map3(), Diagonals::faces));
 }
 
 }  // namespace

@@ -10,8 +10,10 @@
 #include "reference/error_norms.h"
 #include "reference/ode_oracle.h"
 #include "tests/support/moving_box.h"
+#include "validation/recommend/pilots.h"
 #include "validation/scenes/scene_of_file.h"
 #include "validation/scenes/scene_reference.h"
+#include "validation/tradeoff/work_precision.h"
 
 namespace dartboard::frozen_motion_test {
 namespace {
@@ -126,6 +128,25 @@ TEST(FrozenMotion, SaysWhichVertexEachPartComesFrom) {
     ASSERT_EQ(event.from.size(), after.size());
     for (std::size_t k = 0; k < after.size(); ++k) EXPECT_EQ(before[event.from[k]], after[k]) << k;
     before.assign(after.begin(), after.end());
+  }
+}
+
+// The box is gone before the last checkpoints.
+TEST(FrozenMotion, EndsWithNothingWhereAllCellsAreRemoved) {
+  const TradeoffScene scene = scene_of_file(parse(changed(
+      R"({"duration": 0.02, "events": [{"at": 0.011, "remove": {"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}}}]})")));
+  ASSERT_EQ(scene.motion.events.size(), 1u);
+  EXPECT_EQ(scene.motion.events[0].network.point_count(), 0u);
+  const SceneReference reference = reference_of(scene, [] { return 0; });
+  EXPECT_EQ(reference.kind, ReferenceKind::certified);
+  EXPECT_LT(reference.floor, 1e-10);
+  EXPECT_TRUE(reference.states.back().x.empty());
+  for (const TradeoffContender& contender : tradeoff_contenders()) {
+    const RunSetting setting = contender.adaptive ? RunSetting{.tolerance = 1e-6} : RunSetting{.steps = 160};
+    const TimedRun run = run_timed(scene, *contender.make(), setting, [] { return 0; });
+    ASSERT_TRUE(run.result.ok()) << contender.name << ": " << to_string(run.result);
+    EXPECT_LT(reference::motion_errors(scene.motion, run.states, reference.states).x, 0.1) << contender.name;
+    EXPECT_EQ(differences(scene, run, run), std::vector<double>(8, 0.0)) << contender.name;
   }
 }
 
