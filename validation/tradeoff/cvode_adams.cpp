@@ -73,8 +73,8 @@ struct CvodeAdams::Implementation {
     const auto n = static_cast<sunindextype>(3 * motion.x.size());
     y.reset(N_VNew_Serial(2 * n, context.get()));
     absolute.reset(N_VNew_Serial(2 * n, context.get()));
-    std::memcpy(N_VGetArrayPointer(y.get()), motion.x.data(), static_cast<std::size_t>(n) * sizeof(double));
-    std::memcpy(N_VGetArrayPointer(y.get()) + n, motion.v.data(), static_cast<std::size_t>(n) * sizeof(double));
+    std::ranges::copy(motion.x, reinterpret_cast<Eigen::Vector3d*>(N_VGetArrayPointer(y.get())));
+    std::ranges::copy(motion.v, reinterpret_cast<Eigen::Vector3d*>(N_VGetArrayPointer(y.get()) + n));
     std::fill_n(N_VGetArrayPointer(absolute.get()), n, tolerance.position);
     std::fill_n(N_VGetArrayPointer(absolute.get()) + n, n, tolerance.velocity);
     memory.reset(CVodeCreate(CV_ADAMS, context.get()));
