@@ -86,20 +86,17 @@ std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
 }
 
 double mean_edge(const Mesh& mesh) {
-  double sum = 0.0;
-  if (mesh.cell_count() == 0) {
-    for (std::size_t k = 0; k + 1 < mesh.points.size(); ++k) sum += (mesh.points[k + 1] - mesh.points[k]).norm();
-    return sum > 0.0 ? sum / static_cast<double>(mesh.points.size() - 1) : 1.0;
-  }
-  const reference::Rebuilt edges = reference::rebuild(mesh, Material{});
-  for (const reference::Spring& edge : edges.springs) sum += edge.rest_length;
-  return sum > 0.0 ? sum / static_cast<double>(edges.springs.size()) : 1.0;
+  reference::SpringNetwork edges;
+  if (mesh.cell_count() > 0) edges.springs = reference::rebuild(mesh, Material{}).springs;
+  for (std::uint32_t k = 0; mesh.cell_count() == 0 && k + 1 < mesh.points.size(); ++k)
+    edges.springs.push_back({k, k + 1, 0.0, 0.0, (mesh.points[k + 1] - mesh.points[k]).norm()});
+  return reference::mean_rest_length(edges);
 }
 
 reference::SpringNetwork network_of(const FrozenScene& scene, const SimulatedBody& body) {
   const VertexColumns& v = body.vertices();
   reference::SpringNetwork network;
-  network.edge = mean_edge(scene.problem.mesh);
+  network.edge = scene.edge;
   if (!beyond_references(scene.file, scene.problem.mesh).empty()) {
     network.mass.assign(v.mass.begin(), v.mass.end());
   } else {

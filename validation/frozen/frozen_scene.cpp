@@ -95,8 +95,7 @@ std::vector<Moment> moments_of(const SceneFile& file) {
 /// The body on its way from change to change, to find what each of them operates on.
 class Scout {
  public:
-  explicit Scout(const FrozenScene& scene)
-      : scene_(scene), at_(scene), edge_(mean_edge(scene.problem.mesh)), done_(scene.file.events.size(), 0) {}
+  explicit Scout(const FrozenScene& scene) : scene_(scene), at_(scene), done_(scene.file.events.size(), 0) {}
 
   /// All changes before the end.
   std::vector<FrozenChange> changes() {
@@ -143,7 +142,8 @@ class Scout {
 
   StepResult advance_to(double time) {
     // as in run_timed: the velocity error that belongs to a position error
-    const Tolerance allowed{tolerance * edge_, tolerance * edge_ * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
+    const double position = tolerance * scene_.edge;
+    const Tolerance allowed{position, position * std::max(rate_ / 16, 1.0 / scene_.file.duration)};
     return integrator_.advance(at_.body().system(), at_.body().motion(), time - time_, allowed);
   }
 
@@ -152,9 +152,7 @@ class Scout {
     const double steps = std::max(1.0, std::ceil((time - time_) * rate_ / contact_phase)), h = (time - time_) / steps;
     StepResult result;
     for (double k = 0; k < steps && result.ok(); ++k) {
-      if (at_.begin_step(time_ + k * h, h)) integrator_.restart();
-      result = integrator_.step(at_.body().system(), at_.body().motion(), h);
-      if (result.ok() && at_.end_step(time_ + k * h, h)) integrator_.restart();
+      result = at_.step(integrator_, at_.body().system(), time_ + k * h, h);
     }
     return result;
   }
@@ -162,7 +160,7 @@ class Scout {
   const FrozenScene& scene_;
   FrozenBody at_;
   DormandPrince54 integrator_;
-  double edge_, rate_ = 0.0, time_ = 0.0;  // [m]; [1/s], computed on first use
+  double rate_ = 0.0, time_ = 0.0;  // [1/s], computed on first use
   std::vector<std::size_t> done_;
 };
 
@@ -193,6 +191,7 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem) {
     return !reason.empty();
   });
   scene.needs = needs_of(scene.file, problem).body;
+  scene.edge = mean_edge(problem.mesh);
   if (file.has_contact())
     scene.contact_share =
         std::max(largest_share(forecast_contacts(file, problem)), largest_share(forecast_touches(file, problem)));
@@ -236,6 +235,14 @@ bool FrozenBody::drive(double time) {
 
 void FrozenBody::look_at_contact() {
   if (contact_) contact_->system_changed(body_->system(), body_->vertices().position);
+}
+
+StepResult FrozenBody::step(Integrator& integrator, const SpringSystem& system, double time, double h) {
+  const Motion motion = body_->motion();
+  if (contact_ && contact_->begin(time, h, system, motion)) integrator.restart();
+  const StepResult result = integrator.step(system, motion, h);
+  if (contact_ && result.ok() && contact_->end(time, h, system, motion)) integrator.restart();
+  return result;
 }
 
 StableStep FrozenBody::limits() const {

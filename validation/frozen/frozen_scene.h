@@ -33,6 +33,7 @@ struct FrozenScene {
   Problem problem;
   BodyNeeds needs;
   std::vector<FrozenChange> changes;   // ascending in time; those at 0 come before the motion
+  double edge = 1.0;                   // [m] mean_edge of the mesh
   double contact_share = 0.0;          // the predicted depth of contacts, as a share of that of their laws
   std::vector<std::string> omissions;  // what is left out, and what an accurate run has chosen, in sentences
 };
@@ -57,12 +58,10 @@ class FrozenBody {
   /// The next change takes place. Integrators have to be restarted.
   void pass();
 
-  /// Contact before and after a step of h [s] from `time` (SceneContact); true where the integrator has to be
-  /// restarted. Does nothing without contact.
-  bool begin_step(double time, double h) {
-    return contact_ && contact_->begin(time, h, body_->system(), body_->motion());
-  }
-  bool end_step(double time, double h) { return contact_ && contact_->end(time, h, body_->system(), body_->motion()); }
+  /// One step of h [s] from `time`, with what contact does before and after it (SceneContact).
+  ///
+  /// pre  `system` is that of the body
+  StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h);
 
   /// The limits of the step at the present positions, with contacts as deep as predicted.
   ///

@@ -102,9 +102,7 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
       if (std::abs(h - run.h) < 0x1p-40 * run.h) h = run.h;
       const SpringSystem system = stage.system();
       for (double k = 0; k < count && run.result.ok(); ++k) {
-        if (stage.begin_step(t + k * h, h)) integrator.restart();
-        run.result = integrator.step(system, stage.motion(), h);
-        if (run.result.ok() && stage.end_step(t + k * h, h)) integrator.restart();
+        run.result = stage.step(integrator, system, t + k * h, h);
         if (++since_look < look_after) continue;
         // the clock costs as much as a step of a small scene: look at it about every millisecond
         const std::int64_t now = clock();

@@ -28,9 +28,10 @@ class SceneStage {
   PointState state() const;
   /// The next event takes place. All that was computed from the system before has to be renewed.
   void pass_event();
-  /// FrozenBody::begin_step, end_step; nothing where there is no contact.
-  bool begin_step(double time, double h) { return frozen_ && frozen_->begin_step(time, h); }
-  bool end_step(double time, double h) { return frozen_ && frozen_->end_step(time, h); }
+  /// One step of h [s] from `time`.   pre  `system` is that of the stage now
+  StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h) {
+    return frozen_ ? frozen_->step(integrator, system, time, h) : integrator.step(system, motion(), h);
+  }
   /// The limits of the step now.
   StableStep limits();
 

@@ -29,35 +29,46 @@ namespace {
   throw InputError(fmt::format("{}: {}; expected {}", path, found, expected));
 }
 
-void add(EventTargets* taken, std::span<const Dart> darts) {
-  if (taken != nullptr)
-    for (const Dart d : darts) taken->push_back(d.index);
-}
-
-/// An event that takes facets apart, and nothing else.
+/// An event that operates on the cells of some darts.
 template <class Map>
-class Dissociation : public ReadyEvent {
+class OnDarts : public ReadyEvent {
  public:
-  explicit Dissociation(BodyOnMap<Map>& on) : on_(on) {}
-  std::size_t repeat(const EventTargets& taken) override {
-    std::vector<Dart> seam;
-    for (const std::uint32_t index : taken) seam.push_back(Dart{index});
-    return dissociate(seam, nullptr);
+  explicit OnDarts(BodyOnMap<Map>& on) : on_(on) {}
+  std::size_t repeat(const EventTargets& taken) final {
+    std::vector<Dart> darts;
+    for (const std::uint32_t index : taken) darts.push_back(Dart{index});
+    return operate(darts);
   }
 
  protected:
-  std::size_t dissociate(std::span<const Dart> seam, EventTargets* taken) {
-    add(taken, seam);
-    const TopologyChange change = dissociate_all(on_.body().map, seam);
-    if (change.empty()) return 0;
-    on_.follow(change);
-    return facets_of(change);
+  virtual std::size_t operate(std::span<const Dart> darts) = 0;
+  /// The same, and they are added to `taken` unless that is null.
+  std::size_t take(std::span<const Dart> darts, EventTargets* taken) {
+    add(darts, taken);
+    return operate(darts);
   }
-  static std::size_t facets_of(const TopologyChange& change) {
-    return Map::dimension == 3 ? change.faces.size() : change.edges.size();
+  static void add(std::span<const Dart> darts, EventTargets* taken) {
+    if (taken != nullptr)
+      for (const Dart d : darts) taken->push_back(d.index);
   }
 
   BodyOnMap<Map>& on_;
+};
+
+/// An event that takes facets apart, and nothing else.
+template <class Map>
+class Dissociation : public OnDarts<Map> {
+ public:
+  using OnDarts<Map>::OnDarts;
+
+ protected:
+  using OnDarts<Map>::on_;
+  std::size_t operate(std::span<const Dart> seam) override {
+    const TopologyChange change = dissociate_all(on_.body().map, seam);
+    if (change.empty()) return 0;
+    on_.follow(change);
+    return Map::dimension == 3 ? change.faces.size() : change.edges.size();
+  }
 };
 
 // ---- dissociate
@@ -87,7 +98,7 @@ class ReadyFaces : public Dissociation<Map> {
     std::vector<Dart> live;  // a face of a removed cell is on the boundary already: nothing to separate
     for (const DartId id : found_)
       if (map.is_live(id.dart) && map.id(id.dart) == id) live.push_back(id.dart);
-    return this->dissociate(live, taken);
+    return this->take(live, taken);
   }
   std::size_t bytes() const override { return bytes_of(found_); }
 
@@ -117,7 +128,7 @@ class ReadyPlane : public Dissociation<Map> {
   ReadyPlane(BodyOnMap<Map>& on, const PlaneSelection& plane, const std::optional<CutRegion>& within)
       : Dissociation<Map>(on), plane_(plane), within_(within) {}
   std::optional<std::size_t> facets() const override { return seam().size(); }
-  std::size_t apply(EventTargets* taken) override { return this->dissociate(seam(), taken); }
+  std::size_t apply(EventTargets* taken) override { return this->take(seam(), taken); }
 
  private:
   std::vector<Dart> seam() const {
@@ -139,7 +150,7 @@ class ReadyBlade : public Dissociation<Map> {
  public:
   ReadyBlade(BodyOnMap<Map>& on, const BladeSweep& blade) : Dissociation<Map>(on), blade_(blade) {}
   std::optional<std::size_t> facets() const override { return seam().size(); }
-  std::size_t apply(EventTargets* taken) override { return this->dissociate(seam(), taken); }
+  std::size_t apply(EventTargets* taken) override { return this->take(seam(), taken); }
   std::size_t bytes() const override { return bytes_of(blade_.path); }
 
  private:
@@ -223,29 +234,22 @@ class CellChooser {
 };
 
 template <class Map>
-class ReadyRemoval : public ReadyEvent {
+class ReadyRemoval : public OnDarts<Map> {
  public:
   ReadyRemoval(BodyOnMap<Map>& on, const CellSelection& selection, const std::string& path)
-      : on_(on), chooser_(on, selection, path) {}
+      : OnDarts<Map>(on), chooser_(on, selection, path) {}
 
   std::size_t apply(EventTargets* taken) override {
     // darts and not numbers: these change when the body follows
     std::vector<Dart> darts;
     for (const std::uint32_t k : chooser_.choose()) darts.push_back(on_.body().cell_dart[k]);
-    add(taken, darts);
-    return remove(darts);
-  }
-  std::size_t repeat(const EventTargets& taken) override {
-    std::vector<Dart> darts;
-    for (const std::uint32_t index : taken) darts.push_back(Dart{index});
-    return remove(darts);
+    return this->take(darts, taken);
   }
   void state(Archive& archive) override { chooser_.state(archive); }
   std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:
-  /// The cells of these darts.
-  std::size_t remove(std::span<const Dart> darts) {
+  std::size_t operate(std::span<const Dart> darts) override {
     if (darts.empty()) return 0;
     auto& body = on_.body();
     double mass = 0.0;
@@ -262,7 +266,7 @@ class ReadyRemoval : public ReadyEvent {
     return darts.size();
   }
 
-  BodyOnMap<Map>& on_;
+  using OnDarts<Map>::on_;
   CellChooser<Map> chooser_;
 };
 
@@ -283,30 +287,23 @@ bool has_tetrahedra(const BodyOnMap<Map>& on) {
 }
 
 template <class Map>
-class ReadyRefinement : public ReadyEvent {
+class ReadyRefinement : public OnDarts<Map> {
  public:
   ReadyRefinement(BodyOnMap<Map>& on, const Refine& refine, const std::string& path)
-      : on_(on), refine_(refine), path_(path), chooser_(on, refine.cells, path + "/cells") {}
+      : OnDarts<Map>(on), refine_(refine), path_(path), chooser_(on, refine.cells, path + "/cells") {}
 
   std::size_t apply(EventTargets* taken) override {
     const auto& body = on_.body();
     std::vector<Dart> darts;
     for (const std::uint32_t k : chooser_.choose())
       if (is_tetrahedron(body.map, body.cell_dart[k])) darts.push_back(body.cell_dart[k]);
-    add(taken, darts);
-    return refine(darts);
-  }
-  std::size_t repeat(const EventTargets& taken) override {
-    std::vector<Dart> darts;
-    for (const std::uint32_t index : taken) darts.push_back(Dart{index});
-    return refine(darts);
+    return this->take(darts, taken);
   }
   void state(Archive& archive) override { chooser_.state(archive); }
   std::size_t bytes() const override { return chooser_.bytes(); }
 
  private:
-  /// The tetrahedra of these darts.
-  std::size_t refine(std::span<const Dart> darts) {
+  std::size_t operate(std::span<const Dart> darts) override {
     auto& body = on_.body();
     std::vector<DartId> chosen;
     for (const Dart d : darts) chosen.push_back(body.map.id(d));
@@ -347,7 +344,7 @@ class ReadyRefinement : public ReadyEvent {
     return longest;
   }
 
-  BodyOnMap<Map>& on_;
+  using OnDarts<Map>::on_;
   Refine refine_;
   std::string path_;
   CellChooser<Map> chooser_;
@@ -371,7 +368,7 @@ class ReadyTear : public Dissociation<Map> {
     if (!vertex) return 0;
     const Dart start = starting_face(body, *vertex, tear_.direction);
     if (start == no_dart) return 0;  // a vertex of a single cell
-    return this->dissociate(fan(body.map, start), taken);
+    return this->take(fan(body.map, start), taken);
   }
 
  private:
@@ -412,7 +409,7 @@ class ReadyStress : public Dissociation<Map> {
   }
   std::size_t apply(EventTargets* taken) override {
     const auto follow = [this, taken](const TopologyChange& change) {
-      for (const DissociatedCell& face : change.faces) add(taken, std::span(&face.kept, 1));
+      for (const DissociatedCell& face : change.faces) this->add(std::span(&face.kept, 1), taken);
       on_.follow(change);
     };
     return tear_where_stressed(on_.body(), on_.ends(), rule_, filter_, follow, stress_, on_.system().terms,
