@@ -41,7 +41,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 ROOMS = ["core", "reference", "validation", "benchmarks"]
 # not run: tests that build copies of their own, that count instructions, and those of this tool
-LEFT_OUT = r"^(SeededFaults|instructions|Mutants|OneDefinition)"
+LEFT_OUT = r"^(SeededFaults|instructions|Mutants)"
 SLOW = r"^(verbs|faults|long|lint)$"  # labels of tests outside the quick suite
 
 

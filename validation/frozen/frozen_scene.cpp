@@ -93,7 +93,7 @@ std::vector<Moment> moments_of(const SceneFile& file) {
 }  // namespace
 
 /// The body on its way from change to change, to find what each of them operates on.
-class Scout {
+class FrozenBody::Scout {
  public:
   explicit Scout(const FrozenScene& scene) : scene_(scene), at_(scene), done_(scene.file.events.size(), 0) {}
 
@@ -195,7 +195,7 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem) {
   if (file.has_contact())
     scene.contact_share =
         std::max(largest_share(forecast_contacts(file, problem)), largest_share(forecast_touches(file, problem)));
-  Scout scout(scene);
+  FrozenBody::Scout scout(scene);
   scene.changes = scout.changes();
   for (std::size_t e = 0; e < scene.file.events.size(); ++e)
     if (std::string omission = omission_of(scene.file.events[e], scout.done(e)); !omission.empty())

@@ -71,7 +71,8 @@ class FrozenBody {
   double fastest_rate() const;
 
  private:
-  friend class Scout;
+  class Scout;
+  friend FrozenScene freeze(const SceneFile& file, const Problem& problem);
   bool drive(double time);
   void look_at_contact();
 
