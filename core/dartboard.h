@@ -12,7 +12,10 @@
 //            body_contact.h                    for the force term between and within bodies ...
 //            contact_impulses.h                ... with restitution and friction around each step
 //   move     integrators.h, runge_kutta_4.h    every integrator, by name; the paper's, over its walks
-//   scene    simulation.h, scene_run.h         what the program does with a scene file
+//   measure  energy.h                          energies and momenta
+//   scene    recorded_run.h                    what the program does with a scene file ...
+//            simulation.h                      ... step by step
+//   or all   soft_body.h                       body, change, follow and move in one class
 
 #include "core/contact/body_contact.h"
 #include "core/contact/contact_impulses.h"
@@ -33,9 +36,12 @@
 #include "core/operations/remove_volume.h"
 #include "core/operations/subdivide.h"
 #include "core/operations/tear_fan.h"
-#include "core/scene/run/scene_run.h"
+#include "core/scene/output/write_vtu.h"
+#include "core/scene/recorded_run.h"
 #include "core/scene/run/simulation.h"
+#include "core/scene/soft_body.h"
 #include "core/time/integrators.h"
+#include "core/time/system/energy.h"
 #include "core/topology/check.h"
 #include "core/views/skin.h"
 #include "core/views/skin_solids_view.h"

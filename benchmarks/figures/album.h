@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "benchmarks/figures/body_picture.h"
-#include "core/scene/run/simulation.h"
+#include "core/scene/run/scene_run.h"
 
 namespace dartboard {
 
 /// The body at the start, after one and two thirds of the run, and at its end.
-class Album {
+class Album : public RunWatcher {
  public:
   Album(const Simulation& simulation, std::uint64_t steps) : steps_(steps) { take(simulation); }
 
-  void stepped(const Simulation& simulation) {
+  void stepped(const Simulation& simulation) override {
     const std::uint64_t n = simulation.steps_done();
     if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
   }

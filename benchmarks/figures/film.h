@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "benchmarks/figures/body_picture.h"
-#include "core/scene/run/simulation.h"
+#include "core/scene/run/scene_run.h"
 
 namespace dartboard {
 
@@ -21,14 +21,14 @@ struct FilmFrame {
 };
 
 /// A run as it is seen at its start and at evenly spaced times to its end; the inside of the body is not kept.
-class Film {
+class Film : public RunWatcher {
  public:
   static constexpr std::uint64_t most_frames = 120;
 
   /// `up` is the direction that is shown upwards, as in `upright`.
   Film(const Simulation& simulation, std::uint64_t steps, const Eigen::Vector3d& up);
 
-  void stepped(const Simulation& simulation);
+  void stepped(const Simulation& simulation) override;
   /// The last good state of a run that ended before its time, and none after it.
   void ended(const Simulation& simulation);
   const std::vector<FilmFrame>& frames() const { return frames_; }

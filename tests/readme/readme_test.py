@@ -27,11 +27,22 @@ def text_of(*path):
 README = text_of("README.md")
 
 
+def blocks(language, page=README):
+    return re.findall("^```%s\n(.*?)^```$" % language, page, re.M | re.S)
+
+
 def block(language, page=README):
     """The content of the one block of a language."""
-    found = re.findall("^```%s\n(.*?)^```$" % language, page, re.M | re.S)
+    found = blocks(language, page)
     assert len(found) == 1, "there are %d blocks of %s" % (len(found), language)
     return found[0]
+
+
+def programs():
+    """The programs of the pages, by name: of a problem, of a scene, and over the map."""
+    of_problem, of_scene = blocks("cpp")
+    begin = of_problem[:of_problem.index("int main() {\n") + len("int main() {\n")]
+    return {"halves": of_problem, "recorded": begin + of_scene + "}\n", "over_map": block("cpp", text_of("core", "README.md"))}
 
 
 def commands_of(page):
@@ -87,28 +98,39 @@ class Readme(unittest.TestCase):
                 self.assertIn(line, answer.stdout)
             self.assertTrue(os.path.exists(os.path.join(folder, "beam", "picture.png")))
 
-    def test_program_is_built_from_any_folder_and_cuts(self):
+    def test_programs_are_built_from_any_folder_and_do_what_they_say(self):
         with tempfile.TemporaryDirectory() as folder:
-            with open(os.path.join(folder, "cut.cpp"), "w", encoding="utf-8") as file:
-                file.write(block("cpp"))
             lines = block("cmake").replace("path/of/this/folder/build/release", BUILD)
+            found, *target = lines.splitlines()
             with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:
-                file.write("cmake_minimum_required(VERSION 3.25)\nproject(cut CXX)\n" + lines)
-            for command in (["cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Release"], ["cmake", "--build", "build"]):
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(cut CXX)\n" + found + "\n")
+                for name, text in programs().items():
+                    with open(os.path.join(folder, name + ".cpp"), "w", encoding="utf-8") as source:
+                        source.write(text)
+                    file.write(re.sub(r"\bcut\b", name, "\n".join(target)) + "\n")
+            with open(os.path.join(folder, "beam.json"), "w", encoding="utf-8") as file:
+                file.write(block("json"))
+            for command in (["cmake", "-S", ".", "-B", "build", "-DCMAKE_BUILD_TYPE=Release"], ["cmake", "--build", "build", "-j2"]):
                 answer = subprocess.run(command, cwd=folder, capture_output=True, text=True)
                 self.assertEqual(answer.returncode, 0, answer.stdout + answer.stderr)
-            answer = subprocess.run([os.path.join(folder, "build", "cut")], capture_output=True, text=True)
-            self.assertEqual(answer.returncode, 0, answer.stderr)
+            said = {}
+            for name in programs():
+                answer = subprocess.run([os.path.join(folder, "build", name)], cwd=folder, capture_output=True, text=True)
+                self.assertEqual(answer.returncode, 0, name + answer.stderr)
+                said[name] = answer.stdout
             # two triangles for each square of the grid that the plane crosses, and more where it is oblique
-            self.assertRegex(answer.stdout, r"^\d+ faces dissociated, 1 part came loose\n$")
-            self.assertGreater(int(answer.stdout.split()[0]), 2 * 6 * 6)
-
+            for name, words in (("halves", ""), ("over_map", ", 1 part came loose")):
+                self.assertRegex(said[name], r"^\d+ faces dissociated%s\n$" % words)
+                self.assertGreater(int(said[name].split()[0]), 2 * 6 * 6)
+            self.assertEqual(said["halves"].split()[0], said["over_map"].split()[0])
+            for name in ("halves.vtu", os.path.join("beam", "frames.pvd"), os.path.join("beam", "diagnostics.csv")):
+                self.assertTrue(os.path.exists(os.path.join(folder, name)), name)
 
     def test_core_is_added_to_another_project_without_the_rest(self):
         """Configured, and what the program itself needs compiled; all of core would take minutes."""
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "cut.cpp"), "w", encoding="utf-8") as file:
-                file.write(block("cpp"))
+                file.write(programs()["halves"])
             own = block("cmake").splitlines()[1:]
             added = re.search(r"`(add_subdirectory\(path/of/this/folder dartboard\))`", README)[1]
             with open(os.path.join(folder, "CMakeLists.txt"), "w", encoding="utf-8") as file:

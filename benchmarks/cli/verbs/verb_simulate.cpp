@@ -21,15 +21,10 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulate_report.h"
-#include "core/plain/counted.h"
 #include "core/plain/error.h"
-#include "core/plain/folder_claim.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/atomic_file.h"
-#include "core/scene/output/scene_output.h"
-#include "core/scene/restart/checkpoint.h"
-#include "core/scene/run/scene_run.h"
-#include "core/scene/run/scene_verdict.h"
+#include "core/scene/recorded_run.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
 #include "validation/recommend/settle_accuracy.h"
@@ -48,91 +43,34 @@ struct SimulateOptions {
   }
 };
 
+/// Draws pictures, reports progress, and ends the run on a signal.
 class Watcher : public RunWatcher {
  public:
-  /// `notes` are stored in checkpoints.
-  Watcher(const SceneFile& scene, std::string notes, SceneOutput* output, Album* album, Film* film, Progress& progress,
-          std::uint64_t steps_per_report)
-      : scene_(scene),
-        notes_(std::move(notes)),
-        output_(output),
-        album_(album),
-        film_(film),
-        progress_(progress),
-        steps_per_report_(steps_per_report) {}
-  void frame(const Frame& frame) override {
-    if (output_ != nullptr) output_->write(frame);
-  }
-  void diagnostics(const Diagnostics& diagnostics) override {
-    if (output_ != nullptr) output_->write(diagnostics);
-  }
-  void probes(const ProbeRow& row) override {
-    if (output_ != nullptr) output_->write(row);
-  }
-  void checkpoint(const Simulation& simulation, const RunProgress& progress) override {
-    if (output_ == nullptr) return;
-    Checkpoint::write(output_->folder() / checkpoint_name, scene_, simulation, progress, output_->so_far(), notes_);
-    left_after_ = simulation.steps_done();
-  }
+  Watcher(std::vector<RunWatcher*> pictures, Progress& progress, std::uint64_t steps_per_report)
+      : pictures_(std::move(pictures)), progress_(progress), steps_per_report_(steps_per_report) {}
   bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
-    if (album_ != nullptr) album_->stepped(simulation);
-    if (film_ != nullptr) film_->stepped(simulation);
+    for (RunWatcher* picture : pictures_) picture->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
       progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
   }
 
-  /// The step of the last checkpoint written.
-  const std::optional<std::uint64_t>& left_after() const { return left_after_; }
-
  private:
-  const SceneFile& scene_;
-  std::string notes_;
-  SceneOutput* output_;
-  Album* album_;
-  Film* film_;
+  std::vector<RunWatcher*> pictures_;
   Progress& progress_;
   std::uint64_t steps_per_report_;
-  std::optional<std::uint64_t> left_after_;
 };
 
-/// The input of a run: a scene, and a checkpoint if the run is continued.
-struct Start {
-  SceneFile scene;
-  std::optional<SettledAccuracy> settled;
-  std::optional<FolderClaim> claim;
-  std::optional<Checkpoint> checkpoint;
-};
-
-Start start_of(const SimulateOptions& options) {
-  Start start;
-  if (options.continued.empty()) {
-    start.scene = read_named_scene(options.scene);
-    if (options.seed) reseed(start.scene, *options.seed);
-    start.settled = settle_with_progress(start.scene, options.json);
-    return start;
-  }
-  const std::filesystem::path folder = options.continued;
-  start.claim.emplace(FolderClaim::of_ended_run(folder));
-  start.checkpoint.emplace(folder / checkpoint_name);
-  start.scene = start.checkpoint->scene();
-  if (const std::string& settled = start.checkpoint->notes(); !settled.empty())
-    start.settled = nlohmann::json::parse(settled).get<SettledAccuracy>();
-  return start;
-}
-
-/// Set a simulation to the state of the checkpoint.
-void continue_from(Checkpoint& checkpoint, Simulation& simulation, const SimulateOptions& options) {
-  const std::string done = counted(checkpoint.steps_done(), "step");
-  if (checkpoint.steps_done() >= simulation.step_count())
-    throw InputError(
-        fmt::format("{}: the run has come to its end, after {}; expected one that can go on, or a longer 'duration' in "
-                    "its scene",
-                    options.continued, done));
-  if (const auto most = options.most_steps(); most && *most <= checkpoint.steps_done())
-    throw InputError(fmt::format("{}: the run is to stop after {}, and its checkpoint is one after {}; expected more",
-                                 options.continued, counted(*most, "step"), done));
-  checkpoint.load_into(simulation);
+/// A run from its start or from a checkpoint; the choice of its step, where the scene asks for an accuracy, is in its
+/// notes.
+RecordedRun make_run(const SimulateOptions& options) {
+  if (!options.continued.empty()) return RecordedRun::continued(options.continued, options.most_steps());
+  SceneFile scene = read_named_scene(options.scene);
+  if (options.seed) reseed(scene, *options.seed);
+  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
+  return RecordedRun(std::move(scene), {.folder = options.out,
+                                        .most_steps = options.most_steps(),
+                                        .notes = settled ? json_text(nlohmann::json(*settled)) : ""});
 }
 
 /// The manifest of a continued run, with the inputs of the continuation.
@@ -162,110 +100,85 @@ nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& option
 }
 
 void simulate(const SimulateOptions& options, Outcome& outcome) {
-  Start start = start_of(options);
-  const SceneFile& scene = start.scene;
-  const std::optional<SettledAccuracy>& settled = start.settled;
-  SceneFile reseeded = scene;
-  const bool other_cells = scene.added_seed != 0 && reseed(reseeded, 1);
-  Simulation simulation(scene);
-  simulation.watch_events(true);
-  const std::vector<std::string> told = warnings_of(scene, simulation);
+  RecordedRun run = make_run(options);
+  const SceneFile& scene = run.scene();
+  const Simulation& simulation = run.simulation();
+  std::optional<SettledAccuracy> settled;
+  if (!run.notes().empty()) settled = nlohmann::json::parse(run.notes()).get<SettledAccuracy>();
   const std::string opening = opening_of(scene, simulation, step_in_words(simulation, scene));
-  const double removed_at_start = simulation.body().removed_mass();
-  const std::uint64_t steps = std::min(simulation.step_count(), options.most_steps().value_or(simulation.step_count()));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
   std::optional<Album> album;
-  if (options.picture) album.emplace(simulation, steps);
   std::optional<Film> film;
-  if (options.film) film.emplace(simulation, steps, -scene.gravity);
+  std::vector<RunWatcher*> pictures;
+  if (options.picture) pictures.push_back(&album.emplace(simulation, run.last_step()));
+  if (options.film) pictures.push_back(&film.emplace(simulation, run.last_step(), -scene.gravity));
   // the folder comes last: a wrong scene leaves nothing behind
-  std::optional<SceneOutput> output;
   nlohmann::json manifest;
-  const auto write_manifest = [&] {
-    if (output) write_whole(output->folder() / "manifest.json", json_text(manifest, 2) + "\n");
-  };
-  if (start.checkpoint) {
-    continue_from(*start.checkpoint, simulation, options);
+  if (!options.continued.empty()) {
     manifest = continued_manifest(options.continued, outcome);
-    output.emplace(std::move(*start.claim), options.continued, start.checkpoint->output(), scene.probes);
   } else if (!options.out.empty()) {
-    output.emplace(options.out, scene.probes, simulation.dimension(), !scene.forces.empty(), scene.has_contact());
     manifest = manifest_of(scene, options, outcome);
     if (settled) manifest["settled"] = *settled;
   }
+  run.open();
+  const auto write_manifest = [&] {
+    if (!run.folder().empty()) write_whole(run.folder() / "manifest.json", json_text(manifest, 2) + "\n");
+  };
   write_manifest();
 
   if (!options.json) {
     tell("{}", opening);
     std::fflush(stdout);  // before the progress, whatever stream that uses
   }
-  for (const std::string& warning : told) tell(stderr, "warning: {}\n", warning);
-  const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, steps / 100);
-  RunResult result;
-  std::optional<std::uint64_t> left_after;
+  for (const std::string& warning : run.warnings()) tell(stderr, "warning: {}\n", warning);
+  const std::uint64_t steps_per_report = std::max<std::uint64_t>(1, run.last_step() / 100);
   // for the whole process: long factorisations have a thread of their own
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
-    Progress progress("simulate", steps / steps_per_report, options.json);
+    Progress progress("simulate", run.last_step() / steps_per_report, options.json);
     // it takes seconds to minutes, during which the log would be silent
     if (simulation.body().counts().vertices >= 10'000 && make_integrator(scene.integrator)->scheme().implicit)
       progress.show("the first step, which factorises a matrix");
-    Watcher watcher(scene, settled ? json_text(nlohmann::json(*settled)) : "", output ? &*output : nullptr,
-                    album ? &*album : nullptr, film ? &*film : nullptr, progress, steps_per_report);
+    Watcher watcher(pictures, progress, steps_per_report);
     const Interrupt interrupt;
-    result = run_scene(simulation, scene.output, watcher, options.most_steps(),
-                       start.checkpoint ? &start.checkpoint->progress() : nullptr);
-    left_after = watcher.left_after();
-    if (!left_after && start.checkpoint) left_after = start.checkpoint->steps_done();
+    run.run(watcher);
   }
   SimulationReport report{.scene = scene,
                           .simulation = simulation,
-                          .result = result,
+                          .result = run.result(),
                           .settled = settled,
-                          .expected = {},
-                          .unjudged = {},
+                          .expected = run.expected(),
+                          .unjudged = run.unjudged(),
                           .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
                           .cpu_s = static_cast<double>(process_cpu_ns() - cpu) * 1e-9,
-                          .folder = output ? output->folder().string() : "",
-                          .frames = output ? output->frame_count() : 0,
+                          .folder = run.folder().string(),
+                          .frames = run.frame_count(),
                           .picture = "",
-                          .removed_at_start = removed_at_start,
-                          .told = told,
-                          .steps_before = start.checkpoint ? start.checkpoint->steps_done() : 0};
-  if (left_after && simulation.steps_done() < simulation.step_count() && !result.divergence)
-    report.continues_after = left_after;
-  if (result.interrupted)
-    report.unjudged =
-        fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
-                    counted(simulation.steps_done(), "step"), simulation.time());
-  else if (simulation.steps_done() < simulation.step_count() && !result.divergence)
-    report.unjudged = "The run was cut short: what the scene expects of its end is not judged.";
-  else if (other_cells)
-    report.unjudged = "Other cells were drawn than the scene's own: what it expects is not judged.";
-  else if (!result.divergence)
-    report.expected = compare_with_expectation(scene, simulation, result);
+                          .removed_at_start = run.removed_at_start(),
+                          .told = run.warnings(),
+                          .steps_before = run.first_step(),
+                          .continues_after = run.continues_after()};
 
-  outcome.exit_code = result.interrupted ? Interrupt::exit_code() : report.holds() ? exit_agrees : exit_disagrees;
+  outcome.exit_code = run.result().interrupted ? Interrupt::exit_code() : run.holds() ? exit_agrees : exit_disagrees;
   // pictures of an earlier part of the run stay
-  const std::string from_step = start.checkpoint ? fmt::format("_from_step_{}", start.checkpoint->steps_done()) : "";
+  const std::string from_step = run.first_step() > 0 ? fmt::format("_from_step_{}", run.first_step()) : "";
   if (album) {
     album->ended(simulation);
     const std::string name = "picture" + from_step;
-    const std::string trouble =
-        draw_bodies(upright(album->panels(), -scene.gravity), scene.name, output->folder(), name);
+    const std::string trouble = draw_bodies(upright(album->panels(), -scene.gravity), scene.name, run.folder(), name);
     report.picture = trouble.empty() ? fmt::format("{0}.png and {0}.svg drawn there.", name) : trouble;
     picture_missing(outcome, trouble);
   }
   if (film) {
     film->ended(simulation);
     const std::string name = "film" + from_step;
-    const std::string trouble = draw_film(film->frames(), scene.name, output->folder(), name);
+    const std::string trouble = draw_film(film->frames(), scene.name, run.folder(), name);
     report.picture += fmt::format("{}{}", report.picture.empty() ? "" : "\n",
                                   trouble.empty() ? fmt::format("{}.gif drawn there.", name) : trouble);
     picture_missing(outcome, trouble);
   }
-  if (output) {
-    write_whole(output->folder() / "summary.json", json_text(to_json(report), 2) + "\n");
+  if (!run.folder().empty()) {
+    write_whole(run.folder() / "summary.json", json_text(to_json(report), 2) + "\n");
     finish_manifest(manifest);
     write_manifest();
   }

@@ -15,15 +15,6 @@
 namespace dartboard {
 namespace {
 
-class AlbumWatcher : public RunWatcher {
- public:
-  explicit AlbumWatcher(Album& album) : album_(album) {}
-  void stepped(const Simulation& simulation) override { album_.stepped(simulation); }
-
- private:
-  Album& album_;
-};
-
 /// The scene, judged, and its pictures.
 std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   ShownScene shown;
@@ -32,9 +23,8 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   settle_accuracy(shown.scene, thread_cpu_ns);
   Simulation simulation(shown.scene);
   Album album(simulation, simulation.step_count());
-  AlbumWatcher watcher(album);
   const auto start = thread_cpu_ns();
-  const RunResult result = run_scene(simulation, shown.scene.output, watcher);
+  const RunResult result = run_scene(simulation, shown.scene.output, album);
   shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;
   if (result.divergence) shown.divergence = to_string(*result.divergence);
   shown.map = simulation.body().map_name();

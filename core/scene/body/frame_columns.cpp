@@ -85,6 +85,15 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
   }
 }
 
+std::vector<std::uint8_t> constraints_of(const VertexColumns& v, const std::function<bool(std::uint32_t)>& is_driven) {
+  std::vector<std::uint8_t> held(v.size(), 0);
+  for (std::size_t k = 0; k < v.held_axes.size(); ++k)
+    if (v.held_axes[k] != 0) held[k] = 3;
+  for (std::size_t k = 0; k < v.fixed.size(); ++k)
+    if (v.fixed[k]) held[k] = is_driven(v.point[k]) ? 2 : 1;
+  return held;
+}
+
 void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies) {
   const auto& x = frame.mesh.points;
   frame.contact_force.assign(x.size(), Eigen::Vector3d(0, 0, 0));

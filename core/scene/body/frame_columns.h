@@ -1,7 +1,10 @@
 #pragma once
 // The columns of a frame that follow from vertices and springs, for bodies of every kind.
 
+#include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "core/contact/body_contact.h"
 #include "core/contact/obstacle_contact.h"
@@ -27,6 +30,12 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number);
 /// cost  O(vertices + springs)
 void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& vertices, const SpringSystem& system,
                   const VertexVolumes& volumes);
+
+/// The column `held` of a frame: 0 for a free vertex, 1 for a fixed one, 2 for a fixed one that `is_driven`, which
+/// takes the number of its mesh point, 3 for one that is held along some axes.
+std::vector<std::uint8_t> constraints_of(
+    const VertexColumns& vertices,
+    const std::function<bool(std::uint32_t)>& is_driven = [](std::uint32_t) { return false; });
 
 /// Fill the columns of contact for the vertices of a body that has contact with obstacles or bodies; one may be null.
 /// pre  the frame has its points

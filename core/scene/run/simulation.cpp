@@ -469,14 +469,8 @@ ProbeRow Simulation::probes() const {
 Frame Simulation::frame(const FrameFields& fields) const {
   Frame frame = body_->frame(fields);
   frame.time = time();
-  if (fields.held) {
-    const VertexColumns& v = body_->vertices();
-    frame.held.assign(v.size(), 0);
-    for (std::size_t k = 0; k < v.held_axes.size(); ++k)
-      if (v.held_axes[k] != 0) frame.held[k] = 3;
-    for (std::size_t k = 0; k < v.fixed.size(); ++k)
-      if (v.fixed[k]) frame.held[k] = driven_.moves(v.point[k]) ? 2 : 1;
-  }
+  if (fields.held)
+    frame.held = constraints_of(body_->vertices(), [this](std::uint32_t point) { return driven_.moves(point); });
   put_in_order(frame, file_number_);
   return frame;
 }

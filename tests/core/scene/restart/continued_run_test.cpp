@@ -8,7 +8,7 @@
 #include "core/time/integrators.h"
 #include "core/time/solve/stop_request.h"
 #include "tests/support/moving_box.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::continued_run_test {
 namespace {
@@ -34,7 +34,7 @@ void expect_same_wherever_interrupted(const Json& json, bool of_elements = false
   Json recorded = recorded_scene(json);
   if (of_elements) recorded["output"]["fields"] = {"held", "stress", "displacement"};  // there are no springs
   const SceneFile scene = parse(recorded);
-  const RecordedRun one = whole(scene);
+  const RunInMemory one = whole(scene);
   for (std::uint64_t n = 1; n < one.simulation->step_count(); ++n) {
     SCOPED_TRACE("interrupted after " + std::to_string(n));
     expect_same(in_two(scene, n), one);
@@ -68,7 +68,7 @@ TEST(ContinuedRun, OfABodyOfElementsIsTheSame) {
 
 TEST(ContinuedRun, OfABodyThatIsCutTornErodedAndRefinedIsTheSame) {
   // conditions without which the following tests would prove little
-  const RecordedRun one = whole(parse(recorded_scene(with_events(moving_box(), eventful))));
+  const RunInMemory one = whole(parse(recorded_scene(with_events(moving_box(), eventful))));
   ASSERT_FALSE(one.result.divergence);
   ASSERT_GT(one.simulation->operations(), 20u);
   ASSERT_GT(one.simulation->body().removed_mass(), 0.0);
@@ -106,7 +106,7 @@ TEST(ContinuedRun, OfAProbeWhoseVertexTakesAnotherNumberIsTheSame) {
                                        R"({"sheet": {"cells": [4, 4], "spacing": 0.125}})"));
   json["output"]["probes"] = Json::parse(R"([{"name": "first", "vertex": 0}, {"name": "last", "vertex": 24}])");
   const SceneFile scene = parse(json);
-  const RecordedRun one = whole(scene);
+  const RunInMemory one = whole(scene);
   const Simulation start(scene);
   const auto before = start.body().tracked(), after = one.simulation->body().tracked();
   ASSERT_FALSE(std::ranges::equal(before, after));
@@ -183,7 +183,7 @@ bool after_some_looks() { return --looks_left < 0; }
 /// Stopped at each number of calls of the check; returns how many of the runs left a checkpoint.
 int expect_same_wherever_stopped(const Json& json) {
   const SceneFile scene = parse(recorded_scene(json));
-  const RecordedRun one = whole(scene);
+  const RunInMemory one = whole(scene);
   int continued_runs = 0;
   for (int looks = 0; looks < 60; ++looks) {
     Simulation stopped(scene);
@@ -226,7 +226,7 @@ TEST(ContinuedRun, GoesBackToTheStateThatTheWholeOneDoes) {
   json["step"] = 1.01 * Simulation(parse(json)).step_limit().stable;
   json["duration"] = 1e4 * json["step"].get<double>();
   const SceneFile scene = parse(json);
-  const RecordedRun one = whole(scene);
+  const RunInMemory one = whole(scene);
   ASSERT_TRUE(one.result.divergence);
   ASSERT_GT(one.result.divergence->taken_back, 0u);
   for (const std::uint64_t before : {1u, 2u, 7u, 40u, 100u})
@@ -267,7 +267,7 @@ TEST(ContinuedRun, ForLongerIsThatOfALongerRun) {
   longer["driven"] = Json::parse(
       R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}, "velocity": [1, 0, 0], "reverse_every": 0.002}])");
   longer["output"]["checkpoint"] = 0.003;
-  const RecordedRun whole_run = whole(parse(longer));
+  const RunInMemory whole_run = whole(parse(longer));
   for (const double duration : {0.004, 0.005}) {
     Json shorter = longer;
     shorter["duration"] = duration;
@@ -276,7 +276,7 @@ TEST(ContinuedRun, ForLongerIsThatOfALongerRun) {
     first.watch_events(true);
     Record record;
     run_scene(first, scene.output, record);
-    const RecordedRun rest = continued(parse(longer), std::move(record));
+    const RunInMemory rest = continued(parse(longer), std::move(record));
     EXPECT_EQ(rest.simulation->body().state_hash(), whole_run.simulation->body().state_hash()) << duration;
     EXPECT_EQ(rest.simulation->operations(), whole_run.simulation->operations()) << duration;
   }
@@ -286,7 +286,7 @@ TEST(ContinuedRun, FromACheckpointOfTheKeyIsTheSame) {
   Json json = recorded_scene(with_events(moving_box(), eventful));
   json["output"]["checkpoint"] = 0.003;
   const SceneFile scene = parse(json);
-  const RecordedRun one = whole(scene);
+  const RunInMemory one = whole(scene);
   for (const std::uint64_t most : {3u, 4u, 7u, 9u}) {
     Simulation first(scene);
     first.watch_events(true);

@@ -13,7 +13,7 @@
 #include "core/time/integrators.h"
 #include "core/time/system/energy.h"
 #include "tests/support/moving_box.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::applied_forces_test {
 namespace {
@@ -265,7 +265,7 @@ TEST(AppliedForces, GoOnWithTheSameBitsWhereARunIsInterrupted) {
   scene["integrator"] = "bdf2";
   scene["output"] = Json::parse(R"({"diagnostics_every": {"steps": 1}})");
   const SceneFile file = parse(scene);
-  const recorded::RecordedRun one = recorded::whole(file);
+  const recorded::RunInMemory one = recorded::whole(file);
   for (std::uint64_t n = 1; n < 10; ++n) recorded::expect_same(recorded::in_two(file, n), one);
 }
 

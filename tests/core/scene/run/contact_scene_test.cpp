@@ -15,7 +15,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::contact_scene_test {
 namespace {
@@ -212,7 +212,7 @@ TEST(ContactScene, GoesOnFromACheckpointWithTheSameBits) {
     scene["output"] = Json::parse(R"({"frames_every": 0.01, "diagnostics_every": 0.005,
                                       "fields": ["held", "contact"]})");
     const SceneFile file = parse(scene);
-    const recorded::RecordedRun whole = recorded::whole(file);
+    const recorded::RunInMemory whole = recorded::whole(file);
     EXPECT_GT(whole.result.last.contact->supplied, 0.0);
     recorded::expect_same(whole, recorded::in_two(file, 60));
   }

@@ -14,7 +14,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::membrane_scene_test {
 namespace {
@@ -244,7 +244,7 @@ TEST(MembraneScene, CarriesOnThroughEveryEventAndEveryIntegrator) {
 TEST(MembraneScene, GoesOnWithTheSameBitsAfterAnInterruption) {
   for (const Json& kind : all_kinds()) {
     const SceneFile file = parse(eventful(kind));
-    const RecordedRun one = whole(file);
+    const RunInMemory one = whole(file);
     for (const std::uint64_t n : {1, 3, 5, 8}) expect_same(in_two(file, n), one);
   }
 }

@@ -14,7 +14,7 @@
 #include "core/time/system/energy.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::springs_beside_edges_scene_test {
 namespace {
@@ -172,7 +172,7 @@ TEST(SpringsBesideEdges, GoOnWithTheSameBitsAfterAnInterruption) {
   for (Json scene : {eventful_block(), eventful_sheet("triangles", rigid), eventful_sheet("triangles", sprung),
                      eventful_sheet("quadrilaterals", sprung)}) {
     const SceneFile file = parse(scene);
-    const RecordedRun one = whole(file);
+    const RunInMemory one = whole(file);
     for (const std::uint64_t n : {1, 3, 5, 8}) expect_same(in_two(file, n), one);
   }
 }

@@ -13,7 +13,7 @@
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/system/energy.h"
 #include "tests/support/moving_box.h"
-#include "tests/support/recorded_run.h"
+#include "tests/support/run_in_memory.h"
 
 namespace dartboard::touching_bodies_test {
 namespace {
@@ -246,7 +246,7 @@ TEST(TouchingBodies, GoOnFromACheckpointWithTheSameBits) {
     scene["duration"] = 0.02;
     scene["output"] = Json::parse(R"({"frames_every": 0.01, "diagnostics_every": 0.005, "fields": ["contact"]})");
     const SceneFile file = parse(scene);
-    const recorded::RecordedRun whole = recorded::whole(file);
+    const recorded::RunInMemory whole = recorded::whole(file);
     EXPECT_GT(whole.result.last.contact->rubbed, 0.0);
     recorded::expect_same(whole, recorded::in_two(file, 30));
   }

@@ -57,14 +57,14 @@ struct Record : RunWatcher {
   std::uint64_t done_ = 0;
 };
 
-struct RecordedRun {
+struct RunInMemory {
   Record record;
   std::unique_ptr<Simulation> simulation;
   RunResult result;
 };
 
-inline RecordedRun whole(const SceneFile& scene) {
-  RecordedRun run;
+inline RunInMemory whole(const SceneFile& scene) {
+  RunInMemory run;
   run.simulation = std::make_unique<Simulation>(scene);
   run.simulation->watch_events(true);
   run.result = run_scene(*run.simulation, scene.output, run.record);
@@ -72,8 +72,8 @@ inline RecordedRun whole(const SceneFile& scene) {
 }
 
 /// The output of a run up to its checkpoint and, by a new simulation, after it.
-inline RecordedRun continued(const SceneFile& scene, Record record) {
-  RecordedRun run;
+inline RunInMemory continued(const SceneFile& scene, Record record) {
+  RunInMemory run;
   run.record = std::move(record);
   run.record.cut_back();
   run.record.interrupt_after.reset();
@@ -89,7 +89,7 @@ inline RecordedRun continued(const SceneFile& scene, Record record) {
 }
 
 /// The run interrupted after so many steps, and continued.
-inline RecordedRun in_two(const SceneFile& scene, std::uint64_t steps) {
+inline RunInMemory in_two(const SceneFile& scene, std::uint64_t steps) {
   Simulation first(scene);
   first.watch_events(true);
   Record record;
@@ -104,7 +104,7 @@ inline std::string text(const std::optional<Divergence>& divergence) {
   return divergence ? to_string(*divergence) + " back " + std::to_string(divergence->taken_back) : "none";
 }
 
-inline void expect_same(const RecordedRun& a, const RecordedRun& b) {
+inline void expect_same(const RunInMemory& a, const RunInMemory& b) {
   EXPECT_EQ(a.simulation->body().state_hash(), b.simulation->body().state_hash());
   EXPECT_EQ(a.simulation->steps_done(), b.simulation->steps_done());
   EXPECT_EQ(a.record.rows, b.record.rows);

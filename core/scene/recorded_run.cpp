@@ -1,0 +1,126 @@
+#include "core/scene/recorded_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/plain/counted.h"
+#include "core/plain/error.h"
+#include "core/scene/run/scene_warnings.h"
+
+namespace dartboard {
+namespace fs = std::filesystem;
+
+/// Writes what the run hands out, and passes it on.
+class RecordedRun::Recorder : public RunWatcher {
+ public:
+  Recorder(RecordedRun& run, RunWatcher& next) : run_(run), next_(next) {}
+
+  void frame(const Frame& frame) override {
+    if (run_.output_) run_.output_->write(frame);
+    next_.frame(frame);
+  }
+  void diagnostics(const Diagnostics& diagnostics) override {
+    if (run_.output_) run_.output_->write(diagnostics);
+    next_.diagnostics(diagnostics);
+  }
+  void probes(const ProbeRow& row) override {
+    if (run_.output_) run_.output_->write(row);
+    next_.probes(row);
+  }
+  void checkpoint(const Simulation& simulation, const RunProgress& progress) override {
+    if (run_.output_) {
+      Checkpoint::write(run_.folder() / checkpoint_name, run_.scene(), simulation, progress, run_.output_->so_far(),
+                        run_.notes());
+      run_.continues_after_ = simulation.steps_done();
+    }
+    next_.checkpoint(simulation, progress);
+  }
+  void stepped(const Simulation& simulation) override { next_.stepped(simulation); }
+  bool interrupts() override { return next_.interrupts(); }
+
+ private:
+  RecordedRun& run_;
+  RunWatcher& next_;
+};
+
+RecordedRun::RecordedRun(SceneFile scene, RecordPlan plan) : RecordedRun(std::move(scene), std::move(plan), {}, {}) {}
+
+RecordedRun::RecordedRun(SceneFile scene, RecordPlan plan, std::unique_ptr<Checkpoint> checkpoint,
+                         std::optional<FolderClaim> claim)
+    : plan_(std::move(plan)),
+      scene_(std::make_unique<SceneFile>(std::move(scene))),
+      simulation_(std::make_unique<Simulation>(*scene_)),
+      warnings_(warnings_of(*scene_, *simulation_)),
+      removed_at_start_(simulation_->body().removed_mass()),
+      checkpoint_(std::move(checkpoint)),
+      claim_(std::move(claim)) {
+  simulation_->watch_events(true);
+}
+
+RecordedRun RecordedRun::continued(const fs::path& folder, std::optional<std::uint64_t> most_steps) {
+  std::optional<FolderClaim> claim = FolderClaim::of_ended_run(folder);
+  auto checkpoint = std::make_unique<Checkpoint>(folder / checkpoint_name);
+  SceneFile scene = checkpoint->scene();
+  RecordPlan plan{folder, most_steps, checkpoint->notes()};
+  RecordedRun run(std::move(scene), std::move(plan), std::move(checkpoint), std::move(claim));
+  const std::string done = counted(run.first_step(), "step");
+  if (run.first_step() >= run.simulation().step_count())
+    throw InputError(
+        fmt::format("{}: the run has come to its end, after {}; expected one that can go on, or a longer 'duration' in "
+                    "its scene",
+                    folder.string(), done));
+  if (run.last_step() <= run.first_step())
+    throw InputError(fmt::format("{}: the run is to stop after {}, and its checkpoint is one after {}; expected more",
+                                 folder.string(), counted(*most_steps, "step"), done));
+  return run;
+}
+
+std::uint64_t RecordedRun::last_step() const {
+  return std::min(simulation_->step_count(), plan_.most_steps.value_or(simulation_->step_count()));
+}
+
+void RecordedRun::open() {
+  if (std::exchange(is_open_, true)) return;
+  if (checkpoint_) {
+    checkpoint_->load_into(*simulation_);
+    output_.emplace(std::move(*claim_), plan_.folder, checkpoint_->output(), scene_->probes);
+    continues_after_ = checkpoint_->steps_done();
+  } else if (!plan_.folder.empty()) {
+    output_.emplace(plan_.folder, scene_->probes, simulation_->dimension(), !scene_->forces.empty(),
+                    scene_->has_contact());
+  }
+}
+
+void RecordedRun::run() {
+  RunWatcher nothing;
+  run(nothing);
+}
+
+void RecordedRun::run(RunWatcher& watcher) {
+  open();
+  Recorder recorder(*this, watcher);
+  result_ = run_scene(*simulation_, scene_->output, recorder, plan_.most_steps,
+                      checkpoint_ ? &checkpoint_->progress() : nullptr);
+  judge();
+}
+
+void RecordedRun::judge() {
+  const bool is_over = simulation_->steps_done() >= simulation_->step_count();
+  if (is_over || result_.divergence) continues_after_.reset();
+  SceneFile reseeded = *scene_;
+  if (result_.interrupted)
+    unjudged_ = fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
+                            counted(simulation_->steps_done(), "step"), simulation_->time());
+  else if (!is_over && !result_.divergence)
+    unjudged_ = "The run was cut short: what the scene expects of its end is not judged.";
+  else if (scene_->added_seed != 0 && reseed(reseeded, 1))
+    unjudged_ = "Other cells were drawn than the scene's own: what it expects is not judged.";
+  else if (!result_.divergence)
+    expected_ = compare_with_expectation(*scene_, *simulation_, result_);
+}
+
+bool RecordedRun::holds() const { return !result_.divergence && std::ranges::all_of(expected_, &ExpectedRow::holds); }
+
+}  // namespace dartboard

@@ -1,0 +1,60 @@
+#include "core/scene/soft_body.h"
+
+#include "core/plain/error.h"
+#include "core/scene/body/frame_columns.h"
+#include "core/scene/body/needs.h"
+#include "core/scene/output/write_vtu.h"
+#include "core/time/integrators.h"
+
+namespace dartboard {
+namespace {
+
+std::unique_ptr<SimulatedBody> body_of(const Problem& problem) {
+  BodyNeeds needs = body_needs(problem, storage_of(problem.mesh) != Storage::links);
+  needs.rest = true;  // for the displacement in frames
+  return make_simulated_body(problem, needs);
+}
+
+}  // namespace
+
+SoftBody::SoftBody(const Problem& problem, std::string_view integrator)
+    : body_(body_of(problem)), integrator_(make_integrator(integrator)) {}
+
+SoftBody::~SoftBody() = default;
+SoftBody::SoftBody(SoftBody&&) noexcept = default;
+SoftBody& SoftBody::operator=(SoftBody&&) noexcept = default;
+
+void SoftBody::step(double h) {
+  const StepResult result = integrator_->step(body_->system(), body_->motion(), h);
+  if (!result.ok()) throw SolverError(to_string(result));
+  time_ += h;
+}
+
+std::size_t SoftBody::dissociate(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+  return apply(Dissociate{PlaneSelection{point, normal}});
+}
+
+std::size_t SoftBody::apply(const Action& action) {
+  const std::size_t made =
+      body_->make_ready({.action = action, .from = time_, .until = time_, .every = {}, .path = ""})->apply();
+  if (made > 0) restart();
+  return made;
+}
+
+const VertexColumns& SoftBody::vertices() const { return body_->vertices(); }
+Motion SoftBody::motion() { return body_->motion(); }
+SpringSystem SoftBody::system() const { return body_->system(); }
+
+Frame SoftBody::frame(const FrameFields& fields) const {
+  Frame frame = body_->frame(fields);
+  frame.time = time_;
+  if (fields.held) frame.held = constraints_of(body_->vertices());
+  put_in_order(frame, {});
+  return frame;
+}
+
+void SoftBody::write(const std::filesystem::path& file, const FrameFields& fields) const {
+  write_vtu(file, frame(fields));
+}
+
+}  // namespace dartboard
