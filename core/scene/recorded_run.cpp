@@ -108,19 +108,21 @@ void RecordedRun::run(RunWatcher& watcher) {
 
 void RecordedRun::judge() {
   const bool is_over = simulation_->steps_done() >= simulation_->step_count();
-  if (is_over || result_.divergence) continues_after_.reset();
+  if (is_over || result_.ended_early()) continues_after_.reset();
   SceneFile reseeded = *scene_;
   if (result_.interrupted)
     unjudged_ = fmt::format("Interrupted after {}, t = {:.6g} s: what the scene expects of its end is not judged.",
                             counted(simulation_->steps_done(), "step"), simulation_->time());
-  else if (!is_over && !result_.divergence)
+  else if (!is_over && !result_.ended_early())
     unjudged_ = "The run was cut short: what the scene expects of its end is not judged.";
   else if (scene_->added_seed != 0 && reseed(reseeded, 1))
     unjudged_ = "Other cells were drawn than the scene's own: what it expects is not judged.";
-  else if (!result_.divergence)
+  else if (!result_.ended_early())
     expected_ = compare_with_expectation(*scene_, *simulation_, result_);
 }
 
-bool RecordedRun::holds() const { return !result_.divergence && std::ranges::all_of(expected_, &ExpectedRow::holds); }
+bool RecordedRun::holds() const {
+  return !result_.ended_early() && std::ranges::all_of(expected_, &ExpectedRow::holds);
+}
 
 }  // namespace dartboard

@@ -52,7 +52,7 @@ class RecordedRun {
   ///
   /// throws  IoError as SceneOutput and Checkpoint::load_into
   void open();
-  /// Run to the end, until the watcher interrupts, or until the motion diverges (scene_run.h); to be called once. The
+  /// Run to the end, until the watcher interrupts, or until it ends early (scene_run.h); to be called once. The
   /// watcher receives all that is written, after it has been.
   ///
   /// throws  IoError if a file cannot be written
@@ -63,10 +63,10 @@ class RecordedRun {
 
   const RunResult& result() const { return result_; }
   /// The expectations of the scene compared with its end; empty where there is no verdict, and then `unjudged` has the
-  /// reason, unless the motion diverged or nothing is expected.
+  /// reason, unless the run ended early or nothing is expected.
   const std::vector<ExpectedRow>& expected() const { return expected_; }
   const std::string& unjudged() const { return unjudged_; }
-  /// No divergence, and no expectation that fails.
+  /// No divergence, no step that was refused, and no expectation that fails.
   bool holds() const;
   /// The step of the checkpoint that the run can be continued from.
   const std::optional<std::uint64_t>& continues_after() const { return continues_after_; }

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
@@ -39,6 +41,12 @@ inline std::string refusal(const Json& scene) {
   }
 }
 inline std::size_t cells(const Simulation& simulation) { return simulation.body().counts().cells; }
+
+/// A step; its divergence if it has one.
+inline std::optional<Divergence> divergence_of_step(Simulation& simulation) {
+  const std::optional<EarlyEnd> end = simulation.advance();
+  return end ? std::optional(std::get<Divergence>(*end)) : std::nullopt;
+}
 
 inline void run(Simulation& simulation) {
   while (simulation.steps_done() < simulation.step_count()) ASSERT_FALSE(simulation.advance());

@@ -5,7 +5,7 @@
 
 #include "core/plain/bytes.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/run/driven_vertices.h"
+#include "core/scene/timeline/driven_vertices.h"
 #include "core/time/watch/divergence.h"
 #include "tests/support/integrator_memory.h"
 

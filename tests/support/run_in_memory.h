@@ -115,6 +115,7 @@ inline void expect_same(const RunInMemory& a, const RunInMemory& b) {
   EXPECT_EQ(diagnostics_row(a.result.last), diagnostics_row(b.result.last));
   EXPECT_EQ(a.result.energy_drift, b.result.energy_drift);
   EXPECT_EQ(text(a.result.divergence), text(b.result.divergence));
+  EXPECT_EQ(a.result.refusal.has_value(), b.result.refusal.has_value());
   EXPECT_EQ(a.simulation->operations(), b.simulation->operations());
   EXPECT_EQ(a.simulation->idle_events(), b.simulation->idle_events());
   EXPECT_EQ(a.simulation->body().violation(), b.simulation->body().violation());

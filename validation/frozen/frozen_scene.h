@@ -10,9 +10,9 @@
 #include "core/scene/body/needs.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
-#include "core/scene/run/applied_forces.h"
-#include "core/scene/run/driven_vertices.h"
 #include "core/scene/run/scene_contact.h"
+#include "core/scene/timeline/applied_forces.h"
+#include "core/scene/timeline/driven_vertices.h"
 #include "core/time/method/step_limit.h"
 
 namespace dartboard {

@@ -27,6 +27,7 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   const RunResult result = run_scene(simulation, shown.scene.output, album);
   shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;
   if (result.divergence) shown.divergence = to_string(*result.divergence);
+  if (result.refusal) shown.divergence = to_string(*result.refusal);
   shown.map = simulation.body().map_name();
   shown.hash = fmt::format("{:016x}", simulation.body().state_hash());
   shown.steps = simulation.steps_done();

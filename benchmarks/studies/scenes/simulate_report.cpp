@@ -107,6 +107,7 @@ std::string to_text(const SimulationReport& r) {
   if (r.result.divergence)
     say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
         to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
+  if (r.result.refusal) say("\nThe motion {}. What was written until then is kept.\n", to_string(*r.result.refusal));
   if (!r.expected.empty()) {
     Table table(
         {{"expected", Align::left}, {"by the scene", Align::right}, {"found", Align::right}, {"holds", Align::left}});
@@ -140,7 +141,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                               {"cpu_s", r.cpu_s},
                               {"mass_drift", r.mass_drift()},
                               {"jumps", to_json(r.simulation.jumps())}};
-  const bool is_judged = !r.expected.empty() || r.result.divergence;
+  const bool is_judged = !r.expected.empty() || r.result.ended_early();
   json["holds"] = is_judged ? nlohmann::ordered_json(r.holds()) : nlohmann::ordered_json();
   json["divergence"] = nullptr;
   if (const auto& d = r.result.divergence)
@@ -152,6 +153,10 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                           {"kept_step", r.kept_step()},
                           {"kept_time", r.result.last.time},
                           {"value", number(d->value)}};
+  json["refusal"] = nullptr;
+  if (const auto& refusal = r.result.refusal)
+    json["refusal"] = {
+        {"step", refusal->step}, {"time", refusal->time}, {"why", refusal->why}, {"stable", number(refusal->stable)}};
   json["warnings"] = warnings_of(r.scene, r.simulation);
   json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();

@@ -31,7 +31,7 @@ struct SimulationReport {
   std::string picture;  // a sentence on the picture: its file, or why there is none
 
   bool holds() const {
-    return !result.divergence &&
+    return !result.ended_early() &&
            std::all_of(expected.begin(), expected.end(), [](const auto& row) { return row.holds; });
   }
   /// The step of the last state: after a divergence the one that the body was taken back to.

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/scene/body/diagnostics.h"
-#include "core/scene/run/event_jumps.h"
 #include "core/scene/survey/selection_counts.h"
+#include "core/scene/timeline/event_jumps.h"
 
 namespace dartboard {
 

@@ -7,7 +7,7 @@
 #include "core/mechanics/fracture/seam.h"
 #include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/run/event_clock.h"
+#include "core/scene/timeline/event_clock.h"
 
 namespace dartboard {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "core/time/solve/stop_request.h"
 
@@ -54,14 +55,17 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   if (simulation.step_count() == 0) result.divergence = simulation.start_failure();
   while (simulation.steps_done() < end && !result.interrupted) {
     try {
-      result.divergence = simulation.advance();
+      if (const auto early = simulation.advance()) {
+        if (const auto* divergence = std::get_if<Divergence>(&*early)) result.divergence = *divergence;
+        if (const auto* refusal = std::get_if<StepRefusal>(&*early)) result.refusal = *refusal;
+      }
     } catch (const Stopped&) {
       result.interrupted = true;
       if (simulation.undo_stopped_step()) watcher.checkpoint(simulation, progress);
       hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
       break;
     }
-    if (result.divergence) {
+    if (result.ended_early()) {
       progress.last = simulation.diagnostics();
       hand_out_what_is_kept(simulation, progress, watcher);
       break;

@@ -25,8 +25,11 @@ class RunWatcher {
 };
 
 struct RunResult {
-  std::optional<Divergence> divergence;
+  std::optional<Divergence> divergence;  // at most one of these two has a value
+  std::optional<StepRefusal> refusal;
   bool interrupted = false;
+
+  bool ended_early() const { return divergence || refusal; }
   Diagnostics first, last;  // of those handed out; after a divergence the last is of the kept state
   // largest change of the total energy in any of them, over the largest sum of kinetic and elastic energy
   double energy_drift = 0.0;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/plain/disjoint_sets.h"
-#include "core/scene/run/event_jumps.h"
+#include "core/scene/timeline/event_jumps.h"
 #include "core/time/system/energy.h"
 
 namespace dartboard {

@@ -9,55 +9,22 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/frame.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
-#include "core/scene/run/applied_forces.h"
-#include "core/scene/run/driven_vertices.h"
-#include "core/scene/run/event_clock.h"
-#include "core/scene/run/event_jumps.h"
+#include "core/scene/run/motion_watch.h"
 #include "core/scene/run/probes.h"
+#include "core/scene/run/run_end.h"
 #include "core/scene/run/scene_contact.h"
+#include "core/scene/run/step_guard.h"
 #include "core/scene/survey/bending_stiffness.h"
 #include "core/scene/survey/selection_counts.h"
+#include "core/scene/timeline/timeline.h"
 #include "core/time/method/integrator.h"
 #include "core/time/system/coordinate_precision.h"
-#include "core/time/watch/divergence.h"
-#include "core/time/watch/stable_step.h"
 
 namespace dartboard {
-
-/// The reason why a run had to stop: the motion is no longer valid, or the scene refuses its step.
-struct Divergence {
-  std::uint64_t step = 0;    // the step that failed
-  double time = 0.0;         // [s] at its end
-  std::string quantity;      // "position", "speed", "stress", or what the integrator reports
-  std::uint32_t vertex = 0;  // its number in the file of the mesh, or no_point
-  double value = 0.0;
-  bool predicted = false;        // the step is too long, and was not taken; `value` is the longest stable step
-  std::uint64_t taken_back = 0;  // number of steps that the body has gone back
-};
-/// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
-std::string to_string(const Divergence& divergence);
-
-/// A step that is too long to be stable, found before the first step or after an event.
-struct StepWarning {
-  std::uint64_t step = 0;   // found after this many steps
-  double stable = 0.0;      // [s] the longest stable step
-  std::uint64_t parts = 1;  // that each step is divided into
-  bool by_contact = false;  // contacts of the expected depth limit the step, more than the body does
-  template <class Archive>
-  void state(Archive& archive) {
-    archive(step, stable, parts, by_contact);
-  }
-};
-/// "after 12 steps: a step of 0.01 s is too long for rk4; 0.0031 s is stable"
-std::string to_string(const StepWarning& warning, double step, std::string_view integrator);
-
-/// Is every vertex certainly slower? Decided by the sum of the squares; false if a velocity is NaN.
-bool all_slower(std::span<const Eigen::Vector3d> velocity, double speed);
 
 /// Events that are due at a step boundary happen before the state there is examined: at the start in the constructor,
 /// then at the end of each step.
@@ -80,25 +47,22 @@ class Simulation {
 
   /// One step, then the events due at its end, then the velocities of driven vertices and the forces applied.
   ///
-  /// The motion has diverged when a position or velocity is not finite (integrators see to that), when a vertex moves
-  /// faster than light, when there is more energy than anything in the scene can supply (DivergenceDetector; both are
-  /// checked at least in every sixteenth step, in the first and in the last), or when a stress that an event asks for
-  /// is not finite. The body then goes back to the state kept last, which is that of the start, that after the last
-  /// event, or a later one whose energy could be explained: `taken_back` gives the number of steps. If another event of
-  /// the same step has changed the body already, or the state at the start is not valid, there is no state to go back
-  /// to. `unstable_step` decides the treatment of a step that is too long.
-  std::optional<Divergence> advance();
+  /// The motion has diverged where MotionWatch finds a fault, or a stress that an event asks for is not finite. The
+  /// body then goes back to the state kept last: `taken_back` gives the number of steps. If another event of the same
+  /// step has changed the body already, or the state at the start is not valid, there is no state to go back to. A step
+  /// that the scene refuses (StepGuard) is not taken.
+  std::optional<EarlyEnd> advance();
   /// The failure of the state at the start, which `advance` reports too: for a scene without steps.
   std::optional<Divergence> start_failure();
 
   /// The limits of the step, found at the start or after the last event: only a quick bound, if the step is stable by
   /// that bound.
-  const StableStep& stable_step() const { return limits_; }
+  const StableStep& stable_step() const { return guard_.limits(); }
   /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps use; see
   /// StableStep::limit.   cost  a close estimate: a hundred force evaluations
-  StepLimit step_limit() const;
+  StepLimit step_limit() const { return guard_.limit(*body_, integrator_->scheme()); }
   /// The first step found to be too long, and how steps are divided since.
-  const std::optional<StepWarning>& step_warning() const { return warning_; }
+  const std::optional<StepWarning>& step_warning() const { return guard_.warning(); }
   /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
   /// The other warnings before the first step: springs of zero length, denormal numbers, steps that rounding loses
@@ -120,11 +84,11 @@ class Simulation {
   int dimension() const { return dimension_; }
   /// The number of cells of springs of each kind at the start.
   const std::map<CellKind, std::size_t>& cells_of_springs() const { return cells_of_springs_; }
-  std::size_t operations() const { return operations_; }
+  std::size_t operations() const { return timeline_->operations(); }
   /// The warnings of its contacts; empty without contact.
   std::span<const ContactWarning> contact_warnings() const;
   /// The paths of the events that have been due and have never changed anything.
-  std::vector<std::string> idle_events() const;
+  std::vector<std::string> idle_events() const { return timeline_->idle_events(); }
   Diagnostics diagnostics() const;
   /// A frame with the fields that the scene asks for, or with others; its points in the order of the mesh's file.
   /// pre  displacement is asked for only if the scene does
@@ -133,8 +97,8 @@ class Simulation {
   ProbeRow probes() const;
 
   /// Measure momentum and energy before and after events from now on. This does not change the run.
-  void watch_events(bool watch) { watch_ = watch; }
-  const EventJumps& jumps() const { return jumps_; }
+  void watch_events(bool watch) { timeline_->watch_events(watch); }
+  const EventJumps& jumps() const { return timeline_->jumps(); }
   const WorkCounters& work() const { return integrator_->work(); }
   /// The memory that the parts of the run take now.
   MemoryReport memory() const;
@@ -152,62 +116,29 @@ class Simulation {
   bool undo_stopped_step() { return !within_step_ && integrator_->undo_stopped_step(); }
 
  private:
-  struct Scheduled {
-    std::unique_ptr<ReadyEvent> event;
-    EventClock clock;
-    bool dissociates;  // it dissociates and does nothing else
-    std::string path;
-    bool was_due = false;
-    std::size_t operations = 0;
-  };
-  void count_cut(const SceneEvent& event, const Mesh& mesh);
+  void count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets);
   StepResult integrate(double from, double duration);
   StepResult step_with_contact(double from, double duration);
   StepResult step_through_events();
   void state(Archive& archive);
-  void happen();
-  void happen_until(double time);
-  void apply(Scheduled& scheduled);
-  bool drive();
-  StableStep look_closely() const;
-  void look_at_step();
-  bool is_limited_by_contact() const;
-  void look_at_coordinates();
-  void look_before_run();
-  std::optional<Divergence> refused() const;
-  std::optional<Divergence> diverged() const;
-  Divergence failure(const StepResult& result);
-  std::uint64_t go_back();
-  Divergence failure(std::string quantity, std::uint32_t vertex, double value) const;
+  void examine_step();
+  void examine_coordinates();
+  void examine_before_run();
+  Divergence diverged(const Fault& fault, bool goes_back = true);
 
   double step_;
   std::uint64_t step_count_, done_ = 0, taken_back_ = 0;
-  Horizon horizon_;
   std::unique_ptr<SimulatedBody> body_;
-  DrivenVertices driven_;
-  AppliedForces forces_;
-  std::unique_ptr<SceneContact> contact_;  // null without contact
-  double expected_share_ = 0.0;            // the largest expected depth of contacts over that of their law
   std::unique_ptr<Integrator> integrator_;
-  std::vector<Scheduled> events_;
-  std::size_t operations_ = 0;
+  std::unique_ptr<Timeline> timeline_;
+  std::unique_ptr<SceneContact> contact_;  // null without contact
+  StepGuard guard_;
+  MotionWatch watch_;
   FrameFields fields_;
   bool exact_events_;
-  bool watch_ = false;
   bool within_step_ = false;  // after the first part of a step that events divide
-  EventJumps jumps_;
-  UnstableStep unstable_step_;
-  StableStep limits_;
-  std::optional<StepWarning> warning_;
   std::optional<CoordinatePrecision> coarse_;
   std::vector<StepResult> warnings_;
-  std::uint64_t parts_ = 1;  // of a step
-  bool too_long_ = false;
-  double stable_ = 0.0;        // [s] the longest stable step, if the step is too long
-  double parts_wanted_ = 1.0;  // of a step that is not divided because it would need too many
-  StepResult start_;           // the detector's result for the state before a step
-  DivergenceDetector detector_;
-  std::uint64_t watched_ = 0;  // steps that the detector has checked
   int dimension_ = 0;
   std::map<CellKind, std::size_t> cells_of_springs_;
   std::vector<std::uint32_t> file_number_;  // of each point of the mesh; empty where it is the point's own

@@ -13,31 +13,21 @@ void Simulation::save(Archive& archive) const { const_cast<Simulation*>(this)->s
 
 void Simulation::state(Archive& archive) {
   archive.part("simulation");
-  archive(done_, taken_back_, watched_, operations_, jumps_);
-  archive(limits_, warning_, coarse_, parts_, too_long_, stable_, parts_wanted_);
+  archive(done_, taken_back_, guard_, coarse_);
   archive.part("body");
   body_->state(archive);
-  archive.part("driven vertices");
-  archive(driven_, forces_);
+  timeline_->state(archive);
   if (contact_) {
     archive.part("contact");
     archive(*contact_);
   }
   archive.part("integrator");
   integrator_->state(archive);
-  archive.part("events");
-  for (Scheduled& scheduled : events_) {
-    archive(scheduled.clock, scheduled.was_due, scheduled.operations);
-    scheduled.event->state(archive);
-  }
-  archive.part("divergence detector");
-  archive(detector_);
-  bool has_start = start_.ok();
-  archive(has_start);
+  archive.part("watch over the motion");
+  archive(watch_);
   if (!archive.reads()) return;
   if (done_ > step_count_) archive.fail("there are more steps than the run has");
-  for (Scheduled& scheduled : events_) scheduled.clock.extend();
-  driven_.extend();
+  timeline_->extend();
   const VertexColumns& v = body_->vertices();
   const SpringSystem system = body_->system();
   if (v.position.size() != v.size() || v.velocity.size() != v.size() || v.inverse_mass.size() != v.size() ||
@@ -61,8 +51,7 @@ void Simulation::state(Archive& archive) {
       if (std::ranges::any_of(triangle.nodes, is_beyond)) archive.fail("a face of the boundary is at no vertex");
   }
   if (contact_) contact_->resume(v.position);
-  // an invalid state is found again by this check, which then changes nothing
-  start_ = has_start ? StepResult{} : detector_.system_changed(system, body_->motion());
+  watch_.resume(system, body_->motion());
 }
 
 }  // namespace dartboard

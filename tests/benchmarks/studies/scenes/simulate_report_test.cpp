@@ -153,6 +153,23 @@ TEST_F(SimulateReport, OfADivergenceSaysWhatIsKept) {
     "taken_back": 2, "kept_step": 1, "kept_time": 0.75})"));
 }
 
+TEST_F(SimulateReport, OfARefusedStepSaysWhyAndDoesNotHold) {
+  SimulationReport r = report();
+  r.expected.clear();
+  EXPECT_TRUE(r.holds());
+  result_.refusal = StepRefusal{4, 0.003, "a step of 0.001 s is too long for rk4", 0.0005};
+  expect_words(r,
+               "\nThe motion stopped before step 4, t = 0.003 s: a step of 0.001 s is too long for rk4; at most "
+               "0.0005 s is stable. What was written until then is kept.\n");
+  EXPECT_FALSE(r.holds());
+  const nlohmann::ordered_json json = to_json(r);
+  EXPECT_EQ(json.at("refusal"),
+            nlohmann::ordered_json::parse(
+                R"({"step": 4, "time": 0.003, "why": "a step of 0.001 s is too long for rk4", "stable": 0.0005})"));
+  EXPECT_EQ(json.at("holds"), false);
+  EXPECT_TRUE(json.at("divergence").is_null());
+}
+
 TEST_F(SimulateReport, InJsonHasEveryFigure) {
   SimulationReport r = report();
   r.folder = "out";
@@ -160,7 +177,7 @@ TEST_F(SimulateReport, InJsonHasEveryFigure) {
   result_.interrupted = true;
   nlohmann::ordered_json expected = nlohmann::ordered_json::parse(R"({"scene": "box", "map": "", "integrator": "",
     "selections": [], "steps": 3, "first": {}, "last": {}, "hash": "", "wall_s": 1.5, "cpu_s": 0.75, "mass_drift": 0.0,
-    "jumps": {}, "holds": false, "divergence": null, "warnings": [], "idle_events": [],
+    "jumps": {}, "holds": false, "divergence": null, "refusal": null, "warnings": [], "idle_events": [],
     "expected": [{"what": "vertices", "expected": "27", "actual": "28", "holds": false},
       {"what": "cells", "expected": "48", "actual": "48", "holds": true}],
     "unjudged": "cut short", "interrupted": true, "folder": "out"})");

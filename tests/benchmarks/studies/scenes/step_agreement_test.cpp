@@ -11,6 +11,7 @@
 #include "core/plain/random.h"
 #include "core/scene/run/scene_run.h"
 #include "core/time/integrators.h"
+#include "core/time/watch/stable_step.h"
 #include "tests/support/moving_box.h"
 #include "validation/recommend/settle_accuracy.h"
 #include "validation/scenes/scene_features.h"

@@ -13,7 +13,7 @@
 #include "core/scene/file/scene_pages.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/file/strict_json.h"
-#include "core/scene/run/event_clock.h"
+#include "core/scene/timeline/event_clock.h"
 
 namespace dartboard::scene_file_test {
 namespace {

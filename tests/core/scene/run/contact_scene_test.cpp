@@ -490,7 +490,7 @@ TEST(ContactScene, PutsItsObstaclesBackAfterADivergence) {
   scene["duration"] = 20;
   Simulation simulation(parse(scene));
   std::optional<Divergence> divergence;
-  while (!divergence && simulation.steps_done() < simulation.step_count()) divergence = simulation.advance();
+  while (!divergence && simulation.steps_done() < simulation.step_count()) divergence = divergence_of_step(simulation);
   ASSERT_TRUE(divergence);
   const Obstacle& floor = simulation.body().contact()->obstacles()[0];
   const Penetration found = simulation.body().contact()->penetration_in(0, {0, 0, 0});

@@ -1,6 +1,6 @@
 // Driven vertices are where the scene puts them, whatever the integrator, the springs and the events do.
 
-#include "core/scene/run/driven_vertices.h"
+#include "core/scene/timeline/driven_vertices.h"
 
 #include <gtest/gtest.h>
 
@@ -188,7 +188,7 @@ TEST(DrivenVertices, MayStretchABodyThreefoldWithoutBeingTakenForADivergence) {
     scene["step"] = 0.0001;
     Simulation simulation(parse(scene));
     while (simulation.steps_done() < simulation.step_count()) {
-      const auto divergence = simulation.advance();
+      const auto divergence = divergence_of_step(simulation);
       ASSERT_FALSE(divergence) << speed << " m/s: " << to_string(*divergence);
     }
     EXPECT_GT(simulation.diagnostics().elastic, 1000.0) << speed;  // some 10 springs of 10^5 N/m by half a metre in two
@@ -204,7 +204,7 @@ TEST(DrivenVertices, DoNotHideAnUnstableStep) {
     scene["duration"] = 1.0;
     Simulation simulation(parse(scene));
     std::optional<Divergence> divergence;
-    while (!divergence && simulation.steps_done() < 64) divergence = simulation.advance();
+    while (!divergence && simulation.steps_done() < 64) divergence = divergence_of_step(simulation);
     EXPECT_TRUE(divergence) << speed;
   }
 }

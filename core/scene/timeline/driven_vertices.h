@@ -9,7 +9,7 @@
 
 #include "core/mechanics/vertex_columns.h"
 #include "core/scene/file/scene_file.h"
-#include "core/scene/run/event_clock.h"
+#include "core/scene/timeline/event_clock.h"
 #include "core/time/system/spring_system.h"
 
 namespace dartboard {

@@ -1,6 +1,6 @@
 // Changes by an event that must not happen, measured on bodies that are changed on purpose.
 
-#include "core/scene/run/event_jumps.h"
+#include "core/scene/timeline/event_jumps.h"
 
 #include <gtest/gtest.h>
 

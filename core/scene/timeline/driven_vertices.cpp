@@ -1,4 +1,4 @@
-#include "core/scene/run/driven_vertices.h"
+#include "core/scene/timeline/driven_vertices.h"
 
 #include <fmt/format.h>
 

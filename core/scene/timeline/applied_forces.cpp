@@ -1,4 +1,4 @@
-#include "core/scene/run/applied_forces.h"
+#include "core/scene/timeline/applied_forces.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/file/step_times.h"
-#include "core/scene/run/event_clock.h"
+#include "core/scene/timeline/event_clock.h"
 
 namespace dartboard {
 namespace {

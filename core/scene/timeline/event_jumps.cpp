@@ -1,4 +1,4 @@
-#include "core/scene/run/event_jumps.h"
+#include "core/scene/timeline/event_jumps.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Forces from outside: their size, the vertices they act on, their times, and the effect of a cut on them.
 
-#include "core/scene/run/applied_forces.h"
+#include "core/scene/timeline/applied_forces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,92 @@
+#include "core/scene/timeline/timeline.h"
+
+#include <variant>
+
+namespace dartboard {
+
+Timeline::Timeline(const SceneFile& scene, const Mesh& mesh, SimulatedBody& body, Integrator& integrator, double step)
+    : body_(body),
+      integrator_(integrator),
+      step_(step),
+      driven_(scene, mesh.points, step),
+      forces_(scene, mesh, body.vertices(), step) {}
+
+std::optional<std::size_t> Timeline::schedule(const SceneEvent& event) {
+  const bool dissociates = changes_topology(event.action) && !std::holds_alternative<Remove>(event.action) &&
+                           !std::holds_alternative<Refine>(event.action);
+  events_.push_back(
+      {body_.make_ready(event), EventClock(event.from, event.until, event.every, step_), dissociates, event.path});
+  return events_.back().event->facets();
+}
+
+void Timeline::happen(std::uint64_t n) {
+  for (Scheduled& scheduled : events_) {
+    if (scheduled.clock.next() > n) continue;
+    while (scheduled.clock.next() <= n) scheduled.clock.advance();
+    apply(scheduled);
+  }
+}
+
+std::optional<double> Timeline::next_before(double end) const {
+  std::optional<double> next;
+  for (const Scheduled& scheduled : events_)
+    if (const auto time = scheduled.clock.time_between(); time && *time < end && (!next || *time < *next)) next = time;
+  return next;
+}
+
+void Timeline::happen_until(double time) {
+  for (Scheduled& scheduled : events_) {
+    const auto due = scheduled.clock.time_between();
+    if (!due || *due > time) continue;
+    scheduled.clock.advance_from_between();
+    apply(scheduled);
+  }
+}
+
+// The next event may throw: the integrator is restarted after each.
+void Timeline::apply(Scheduled& scheduled) {
+  const std::size_t made =
+      watch_ && scheduled.dissociates ? apply_watched(*scheduled.event, body_, jumps_) : scheduled.event->apply();
+  scheduled.was_due = true;
+  scheduled.operations += made;
+  operations_ += made;
+  if (made > 0) integrator_.restart();
+}
+
+bool Timeline::drive(std::uint64_t n) {
+  bool changed = driven_.apply(n, body_.vertices().point, body_.motion().v);
+  if (forces_.apply(n, body_.vertices().point, body_.pull())) changed = true;
+  if (changed) integrator_.restart();
+  return changed;
+}
+
+std::vector<std::string> Timeline::idle_events() const {
+  std::vector<std::string> paths;
+  for (const Scheduled& scheduled : events_)
+    if (scheduled.was_due && scheduled.operations == 0) paths.push_back(scheduled.path);
+  return paths;
+}
+
+MemoryReport Timeline::memory() const {
+  MemoryReport report{{Part::pull, forces_.bytes()}};
+  for (std::size_t k = 0; k < events_.size(); ++k) report.push_back({Part::event, events_[k].event->bytes(), k});
+  return report;
+}
+
+void Timeline::state(Archive& archive) {
+  archive.part("driven vertices");
+  archive(driven_, forces_);
+  archive.part("events");
+  archive(operations_, jumps_);
+  for (Scheduled& scheduled : events_) {
+    archive(scheduled.clock, scheduled.was_due, scheduled.operations);
+    scheduled.event->state(archive);
+  }
+}
+
+void Timeline::extend() {
+  for (Scheduled& scheduled : events_) scheduled.clock.extend();
+  driven_.extend();
+}
+
+}  // namespace dartboard
