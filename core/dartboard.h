@@ -11,6 +11,7 @@
 //            skin_solids_view.h                ... and what they may be inside of,
 //            body_contact.h                    for the force term between and within bodies ...
 //            contact_impulses.h                ... with restitution and friction around each step
+//   force    piece_term.h                      a force of your own, from the energy of its pieces
 //   move     integrators.h, runge_kutta_4.h    every integrator, by name; the paper's, over its walks
 //   measure  energy.h                          energies and momenta
 //   scene    recorded_run.h                    what the program does with a scene file ...
@@ -20,6 +21,7 @@
 #include "core/contact/body_contact.h"
 #include "core/contact/contact_impulses.h"
 #include "core/contact/obstacle_contact.h"
+#include "core/forces/piece_term.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/fracture/seam.h"
 #include "core/mechanics/fracture/stress.h"

@@ -1,5 +1,8 @@
 #include "core/scene/soft_body.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/plain/error.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/needs.h"
@@ -25,7 +28,7 @@ SoftBody::SoftBody(SoftBody&&) noexcept = default;
 SoftBody& SoftBody::operator=(SoftBody&&) noexcept = default;
 
 void SoftBody::step(double h) {
-  const StepResult result = integrator_->step(body_->system(), body_->motion(), h);
+  const StepResult result = integrator_->step(system(), body_->motion(), h);
   if (!result.ok()) throw SolverError(to_string(result));
   time_ += h;
 }
@@ -37,13 +40,41 @@ std::size_t SoftBody::dissociate(const Eigen::Vector3d& point, const Eigen::Vect
 std::size_t SoftBody::apply(const Action& action) {
   const std::size_t made =
       body_->make_ready({.action = action, .from = time_, .until = time_, .every = {}, .path = ""})->apply();
-  if (made > 0) restart();
+  if (made == 0) return 0;
+  for (const Added& added : added_)
+    if (added.follow) added.follow(vertices());
+  list_forces();
+  restart();
   return made;
+}
+
+void SoftBody::add(std::unique_ptr<ForceTerm> force, std::function<void(const VertexColumns&)> follow) {
+  added_.push_back({std::move(force), std::move(follow)});
+  list_forces();
+  restart();
+}
+
+void SoftBody::list_forces() {
+  if (added_.empty()) return;
+  const ForceTerms own = body_->system().terms;
+  forces_.assign(own.begin(), own.end());
+  for (const Added& added : added_) forces_.push_back(added.force.get());
+}
+
+std::optional<std::uint32_t> SoftBody::vertex_of(std::uint32_t point) const {
+  const auto& points = vertices().point;
+  const auto found = std::ranges::find(points, point);
+  if (found == points.end()) return {};
+  return static_cast<std::uint32_t>(found - points.begin());
 }
 
 const VertexColumns& SoftBody::vertices() const { return body_->vertices(); }
 Motion SoftBody::motion() { return body_->motion(); }
-SpringSystem SoftBody::system() const { return body_->system(); }
+SpringSystem SoftBody::system() const {
+  SpringSystem system = body_->system();
+  if (!added_.empty()) system.terms = forces_;
+  return system;
+}
 
 Frame SoftBody::frame(const FrameFields& fields) const {
   Frame frame = body_->frame(fields);

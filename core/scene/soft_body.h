@@ -3,10 +3,16 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <vector>
 
+#include "core/forces/force_term.h"
+#include "core/mechanics/vertex_columns.h"
 #include "core/plain/problem.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
@@ -47,6 +53,12 @@ class SoftBody {
   /// throws  InputError for an operation that the body does not admit: "/dissociate/points/0: ..."
   std::size_t apply(const Action& action);
 
+  /// Add a force of the program's own, such as a `PieceTerm` (core/forces/piece_term.h). Vertices have other numbers
+  /// after an operation: `follow` is called then.
+  void add(std::unique_ptr<ForceTerm> force, std::function<void(const VertexColumns&)> follow = {});
+  /// The vertex that came from a point of the mesh; of several parts the first. No value once it is removed.
+  std::optional<std::uint32_t> vertex_of(std::uint32_t point) const;
+
   /// Columns by vertex number: positions, velocities, masses, the point of the mesh that each vertex came from.
   const VertexColumns& vertices() const;
   /// Positions and velocities, to be changed by the program; `restart` has to follow. Valid until the next operation.
@@ -68,8 +80,16 @@ class SoftBody {
   void write(const std::filesystem::path& file, const FrameFields& fields = {.stress = true}) const;
 
  private:
+  struct Added {
+    std::unique_ptr<ForceTerm> force;
+    std::function<void(const VertexColumns&)> follow;
+  };
+  void list_forces();
+
   std::unique_ptr<SimulatedBody> body_;
   std::unique_ptr<Integrator> integrator_;
+  std::vector<Added> added_;
+  std::vector<const ForceTerm*> forces_;  // of the body, then those added; empty where none is
   double time_ = 0.0;
 };
 

@@ -42,7 +42,9 @@ def programs():
     """The programs of the pages, by name: of a problem, of a scene, and over the map."""
     of_problem, of_scene = blocks("cpp")
     begin = of_problem[:of_problem.index("int main() {\n") + len("int main() {\n")]
-    return {"halves": of_problem, "recorded": begin + of_scene + "}\n", "over_map": block("cpp", text_of("core", "README.md"))}
+    of_force = next(text for text in blocks("cpp", re.sub("^  ", "", text_of("HACKING.md"), flags=re.M)) if "int main" in text)
+    return {"halves": of_problem, "recorded": begin + of_scene + "}\n", "over_map": block("cpp", text_of("core", "README.md")),
+            "tethered": of_force}
 
 
 def commands_of(page):
@@ -123,6 +125,9 @@ class Readme(unittest.TestCase):
                 self.assertRegex(said[name], r"^\d+ faces dissociated%s\n$" % words)
                 self.assertGreater(int(said[name].split()[0]), 2 * 6 * 6)
             self.assertEqual(said["halves"].split()[0], said["over_map"].split()[0])
+            # the weight of the beam, 0.864 kg, stretches the tether of 1000 N/m by 8.5 mm, but for what still swings
+            hangs = float(re.search(r"hangs (\S+) m below", said["tethered"])[1])
+            self.assertTrue(0.004 < hangs < 0.017, hangs)
             for name in ("halves.vtu", os.path.join("beam", "frames.pvd"), os.path.join("beam", "diagnostics.csv")):
                 self.assertTrue(os.path.exists(os.path.join(folder, name)), name)
 

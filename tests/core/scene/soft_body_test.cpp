@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "core/forces/piece_term.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_problem.h"
@@ -141,6 +145,89 @@ TEST(SoftBody, ShowsWhereItHasMovedWhatHoldsItAndItsStress) {
   EXPECT_EQ(frame.von_mises_stress.size(), 27u);
   for (std::size_t k = 0; k < 27; ++k)
     EXPECT_EQ(frame.displacement[k], Eigen::Vector3d(frame.mesh.points[k] - problem.mesh.points[k])) << k;
+}
+
+/// Linear springs from vertices to where they are at the start, as stiff as their masses are large.
+struct Tethers {
+  std::vector<std::uint32_t> vertex;
+  std::vector<Eigen::Vector3d> place;
+  std::vector<double> k;
+
+  static constexpr bool is_internal = false;
+  std::string_view name() const { return "tethers"; }
+  std::size_t size() const { return vertex.size(); }
+  ForceTerm::Nodes nodes(std::size_t piece) const { return {&vertex[piece], 1}; }
+  double energy(std::size_t piece, std::span<const Eigen::Vector3d> x) const {
+    return 0.5 * k[piece] * (x[0] - place[piece]).squaredNorm();
+  }
+  void add_forces(std::size_t piece, std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> force) const {
+    force[0] -= k[piece] * (x[0] - place[piece]);
+  }
+  void add_tangent(std::size_t piece, std::span<const Eigen::Vector3d>, std::span<Eigen::Matrix3d> blocks) const {
+    blocks[0] += k[piece] * Eigen::Matrix3d::Identity();
+  }
+  double stiffness(std::size_t piece) const { return k[piece]; }
+};
+Tethers tethers_of(const VertexColumns& v, double omega) {
+  Tethers tethers;
+  for (std::uint32_t k = 0; k < v.size(); ++k) {
+    tethers.vertex.push_back(k);
+    tethers.place.push_back(v.position[k]);
+    tethers.k.push_back(omega * omega * v.mass[k]);
+  }
+  return tethers;
+}
+
+class SoftBodyOnTethers : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SoftBodyOnTethers, SwingsAsAWhole) {
+  // all vertices with one frequency: no spring of the body is ever stretched
+  Problem problem = box_problem();
+  problem.material.damping = problem.material.viscosity = 0.0;
+  problem.surroundings.gravity.setZero();
+  for (Eigen::Vector3d& v : problem.initial_velocity) v = {0.25, 0, 0};
+  SoftBody body(problem, GetParam());
+  const Eigen::Vector3d start = body.vertices().position[5];
+  const double omega = 2.0;
+  body.add(std::make_unique<PieceTerm<Tethers>>(tethers_of(body.vertices(), omega)));
+  const auto energy = [&] { return total_energy(body.system(), body.vertices().position, body.vertices().velocity); };
+  const double before = energy();
+  for (int n = 0; n < 100; ++n) body.step(0.01);
+  // of order 2 at least: an error of (omega h)^2 / 12 of the phase, and less than twice that of the place
+  const Eigen::Vector3d moved = body.vertices().position[5] - start;
+  EXPECT_NEAR(moved.x(), 0.25 / omega * std::sin(omega * 1.0), 0.25 / omega * 4e-4 / 6);
+  EXPECT_NEAR(moved.y(), 0.0, 1e-14);
+  EXPECT_NEAR(energy(), before, 4e-4 * before);
+}
+INSTANTIATE_TEST_SUITE_P(Methods, SoftBodyOnTethers,
+                         testing::Values("verlet", "rk4", "implicit-midpoint", "energy-momentum"),
+                         [](const auto& param) { return "Number" + std::to_string(param.index); });
+
+TEST(SoftBody, LetsAnAddedForceFollowEachOperation) {
+  SoftBody body(box_problem());
+  std::size_t calls = 0, vertices = 0;
+  auto tethers = std::make_unique<PieceTerm<Tethers>>(tethers_of(body.vertices(), 1.0));
+  PieceTerm<Tethers>& term = *tethers;
+  body.add(std::move(tethers), [&](const VertexColumns& v) {
+    ++calls;
+    vertices = v.size();
+    term.pieces() = tethers_of(v, 1.0);
+  });
+  ASSERT_EQ(body.dissociate({0.125, 0, 0}, {1, 0, 0}), 8u);
+  EXPECT_EQ(calls, 1u);
+  EXPECT_EQ(vertices, 27u + 9u);
+  EXPECT_EQ(body.system().terms.back()->size(), 27u + 9u);
+  EXPECT_EQ(body.dissociate({0.125, 0, 0}, {1, 0, 0}), 0u);
+  EXPECT_EQ(calls, 1u);
+  EXPECT_NO_THROW(body.step(0.001));
+}
+
+TEST(SoftBody, FindsTheVertexOfAPointUntilItIsRemoved) {
+  SoftBody body(box_problem());
+  for (std::uint32_t p = 0; p < 27; ++p) EXPECT_EQ(body.vertices().point[body.vertex_of(p).value()], p);
+  EXPECT_EQ(body.vertex_of(27), std::nullopt);
+  ASSERT_EQ(body.apply(Remove{BoxSelection{{-1, -1, -1}, {0.125, 1, 1}}}), 24u);
+  EXPECT_EQ(body.vertex_of(0), std::nullopt);
 }
 
 class SoftBodyFile : public FolderTest {};
