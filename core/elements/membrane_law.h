@@ -113,5 +113,8 @@ class MembraneLaw {
   std::variant<StVenantKirchhoffSheet, CorotationalSheet> law_;
   double modulus_;
 };
+inline SurfaceGradient discrete_stress(const MembraneLaw& law, const SurfaceGradient& f, const SurfaceGradient& d) {
+  return law.discrete_stress(f, d);
+}
 
 }  // namespace dartboard
