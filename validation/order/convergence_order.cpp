@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plain/error.h"
+#include "validation/scenes/scene_stage.h"
 
 namespace dartboard {
 namespace {
@@ -46,7 +46,7 @@ std::string_view name(Regime regime) {
 }
 
 OrderStage order_stage(OrderCase which) {
-  PreparedScene scene = prepare(order_scene(which));
+  TradeoffScene scene = tradeoff_scene({}, order_scene(which));
   // in extended precision throughout, so that the floor is low enough for three halvings of a method of order 5
   reference::CertifyOptions options;
   options.step_times_rate = 0.1;
@@ -112,7 +112,7 @@ OrderStudy study_order(const OrderStage& stage, const IntegratorEntry& entry, co
   const auto timing = stage.which == OrderCase::unaligned_cut ? EventTiming::end_of_step : EventTiming::split_step;
   const std::uint64_t most = integrator->scheme().implicit ? options.most_implicit_steps : options.most_steps;
   for (std::uint64_t steps = options.fewest_steps; steps <= most; steps *= 2) {
-    const SceneRun run = run_scene(stage.scene, *integrator, steps, timing);
+    const TimedRun run = run_timed(stage.scene, *integrator, {.steps = steps, .timing = timing}, no_clock);
     OrderPoint point;
     point.steps = steps;
     point.h_omega = run.h * stage.scene.fastest_rate;

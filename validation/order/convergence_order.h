@@ -10,6 +10,7 @@
 #include "reference/error_norms.h"
 #include "reference/ode_oracle.h"
 #include "validation/scenes/order_scenes.h"
+#include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
 
@@ -56,7 +57,7 @@ struct OrderOptions {
 /// A scene of the study with its certified reference.
 struct OrderStage {
   OrderCase which;
-  PreparedScene scene;
+  TradeoffScene scene;
   reference::CertifiedMotion certified;
 };
 OrderStage order_stage(OrderCase which);

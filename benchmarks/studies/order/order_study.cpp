@@ -39,7 +39,7 @@ OrderResults measure(const OrderPlan& plan, StudyLog& log) {
     }
     if (which == OrderCase::undamped) results.force = compare_forces_with_energy(stage.scene);
     if (which == OrderCase::aligned_cut || which == OrderCase::unaligned_cut) {
-      const PreparedScene& scene = stage.scene;
+      const TradeoffScene& scene = stage.scene;
       for (const CutJump& jump : cut_jumps(scene, *make_integrator("blanes-moan-4"), 0.5 / scene.fastest_rate))
         results.jumps.push_back(jump);
     }
