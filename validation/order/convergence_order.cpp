@@ -57,16 +57,17 @@ OrderStage order_stage(OrderCase which) {
 
 void judge(OrderStudy& study, double floor, const OrderOptions& options) {
   take_orders(study);
+  const double least_x = 10 * floor, least_v = least_x * options.velocity_floor;
   const auto in_window = [&](const OrderPoint& p) {
     return p.diagnosis.empty() && at_most(p.errors.x, options.most_error) && at_most(p.errors.v, options.most_error) &&
-           p.errors.x >= 10 * floor && p.errors.v >= 10 * floor;
+           p.errors.x >= least_x && p.errors.v >= least_v;
   };
   int run = 0;
   study.holds = false;
   const OrderPoint* last = nullptr;
   for (std::size_t k = 0; k < study.points.size(); ++k) {
     OrderPoint& p = study.points[k];
-    const bool below = p.diagnosis.empty() && (p.errors.x < 10 * floor || p.errors.v < 10 * floor);
+    const bool below = p.diagnosis.empty() && (p.errors.x < least_x || p.errors.v < least_v);
     p.regime = !p.diagnosis.empty() ? Regime::failed
                : below              ? Regime::floor
                : in_window(p)       ? Regime::pre_asymptotic

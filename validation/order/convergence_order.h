@@ -49,6 +49,8 @@ struct OrderOptions {
   double tolerance = 0.1;           // of observed orders
   int successive = 3;               // orders that must be within it
   double most_error = 1e-2;         // of x in edges, and of v: the window's upper end; its lower end is 10 floors
+  double velocity_floor = 1.0;      // of relative velocities, over that of positions in edges
+  double solved_to = 0.0;           // of the speed: what the equations of an implicit step may leave
   std::uint64_t fewest_steps = 24;  // h omega_max = 0.7
   std::uint64_t most_steps = 24 << 12;
   std::uint64_t most_implicit_steps = 24 << 10;
@@ -70,8 +72,8 @@ OrderStage order_stage(OrderCase which);
 OrderStudy study_order(const OrderStage& stage, const IntegratorEntry& entry, const OrderOptions& options = {});
 
 /// Mark the regimes of runs whose errors are known and find the first `successive` orders within the tolerance:
-/// the part of `study_order` that does not simulate. `floor` is that of the reference, in edges and relative to the
-/// largest velocity.
+/// the part of `study_order` that does not simulate. `floor` is that of the reference, in edges and,
+/// times `velocity_floor`, relative to the largest velocity.
 void judge(OrderStudy& study, double floor, const OrderOptions& options);
 
 }  // namespace dartboard

@@ -61,7 +61,8 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
 
   SceneStage stage(scene);
   TimedRun run;
-  if (setting.steps > 0) run.h = scene.duration / static_cast<double>(setting.steps);
+  const auto parts = static_cast<double>(setting.parts);
+  if (setting.steps > 0) run.h = scene.duration / static_cast<double>(setting.steps) / parts;
   integrator.restart();
   integrator.reset_work();
 
@@ -89,7 +90,7 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
     }
   };
   // the number of steps up to a time: an excess of 2^-30 of a step is rounding
-  const auto steps_to = [&run](double time) { return std::ceil(time / run.h - 0x1p-30); };
+  const auto steps_to = [](double time, double h) { return std::ceil(time / h - 0x1p-30); };
   double t = 0.0, done = 0.0;  // done: steps, where they keep their length
   const auto go_to = [&](double end) {
     if (end <= t) return;
@@ -97,10 +98,10 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
       run.result = adaptive->advance(stage.system(), stage.motion(), end - t, tolerance);
       give_up_late();
     } else if (keeps_h) {
-      const double before = std::exchange(done, std::max(done, steps_to(end)));
+      const double before = std::exchange(done, std::max(done, steps_to(end, run.h)));
       take(done - before, before * run.h, run.h);
     } else {
-      const double count = std::max(1.0, steps_to(end - t)), h = (end - t) / count;
+      const double count = parts * std::max(1.0, steps_to(end - t, parts * run.h)), h = (end - t) / count;
       // the same bits throughout a run, for methods that keep data for a step size
       take(count, t, std::abs(h - run.h) < 0x1p-40 * run.h ? run.h : h);
     }

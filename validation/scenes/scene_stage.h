@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,6 +53,7 @@ enum class EventTiming {
 struct RunSetting {
   std::uint64_t steps = 0;  // over the whole duration; steps end at events and checkpoints, so there may be more
   double tolerance = 0.0;   // [edges] per step, when steps is 0
+  std::uint64_t parts = 1;  // of each step: with twice as many, every interval has exactly twice as many steps
   EventTiming timing = EventTiming::split_step;  // end_of_step only with steps, a multiple of the checkpoints
 };
 

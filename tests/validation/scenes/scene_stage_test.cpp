@@ -66,6 +66,18 @@ TEST(RunTimed, TakesAnEventAtTheEndOfTheStepThatReachesIt) {
   EXPECT_EQ(recorder.vertices[3], scene.motion.events[0].network.point_count());
 }
 
+TEST(RunTimed, HasTwiceAsManyStepsInEachIntervalWithStepsInTwoParts) {
+  const TradeoffScene scene = box_cut_at(0.3);
+  Recorder whole, halves;
+  run_timed(scene, whole, {.steps = 8}, no_clock);
+  const TimedRun run = run_timed(scene, halves, {.steps = 8, .parts = 2}, no_clock);
+  EXPECT_EQ(run.h, 0.0625);
+  EXPECT_EQ(halves.restarts, (std::vector<std::size_t>{0, 6}));
+  ASSERT_EQ(halves.steps.size(), 2 * whole.steps.size());
+  for (std::size_t k = 0; k < halves.steps.size(); ++k)
+    EXPECT_NEAR(halves.steps[k], whole.steps[k / 2] / 2, 1e-15) << k;
+}
+
 TEST(RunTimed, KeepsTheLengthOfStepsOnlyWhereTheyEndAtCheckpoints) {
   const TradeoffScene scene = box_cut_at(0.3);
   Recorder recorder;
