@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include "benchmarks/checkout/source_folder.h"
@@ -70,20 +71,16 @@ OrderResults measure(const OrderPlan& plan, StudyLog& log) {
   return results;
 }
 
-SceneOrders observe(const TradeoffScene& scene, const OrderPlan& plan, StudyLog& log) {
-  SceneOrders found{.name = scene.name, .reference = {}};
+/// Find the reference of a scene, and the orders of the integrators.
+///
+/// throws  SolverError without a reference
+void observe(const TradeoffScene& scene, const OrderPlan& plan, StudyLog& log, SceneOrders& found) {
   for (const std::string& omission : scene.omissions) log.say(omission);
   ReferenceOptions how{.low_floor = true};
   if (plan.quick) how = {.oracle_s = 2.0, .self_converged_s = 3.0};
   log.say(fmt::format("{}: computing a reference: runs of up to {:.0f} s each", scene.name,
                       scene.beyond_references.empty() ? how.oracle_s : how.self_converged_s));
-  try {
-    found.reference = reference_of(scene, thread_cpu_ns, how);
-  } catch (const SolverError& error) {
-    found.failure = error.what();
-    log.say(found.failure);
-    return found;
-  }
+  found.reference = reference_of(scene, thread_cpu_ns, how);
   log.say(fmt::format("reference: {}; floor {:.1e} edges, {:.1f} s", found.reference.what, found.reference.floor,
                       found.reference.cpu_s));
   const auto entries = wanted(plan);
@@ -95,18 +92,27 @@ SceneOrders observe(const TradeoffScene& scene, const OrderPlan& plan, StudyLog&
     found.orders.push_back(observe_order(scene, found.reference, *entry, thread_cpu_ns, options));
     log.advance(entry->name);
   }
-  return found;
 }
 
 Report scene_order_study(const OrderPlan& plan, StudyLog& log) {
   (void)wanted(plan);
-  std::vector<TradeoffScene> scenes;
-  for (const std::string& scene : plan.scenes) {
-    scenes.push_back(find_scene(scene, source_folder() / "benchmarks" / "meshes"));
-    require_smooth(scenes.back());
-  }
   std::vector<SceneOrders> found;
-  for (const TradeoffScene& scene : scenes) found.push_back(observe(scene, plan, log));
+  std::vector<TradeoffScene> scenes(plan.scenes.size());
+  // a motion that cannot be followed leaves its scene untested
+  const auto unless_unsolved = [&](std::size_t k, const std::function<void()>& work) {
+    try {
+      if (found[k].failure.empty()) work();
+    } catch (const SolverError& error) {
+      found[k].failure = error.what();
+      log.say(found[k].failure);
+    }
+  };
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    found.push_back({.name = std::filesystem::path(plan.scenes[k]).stem().string(), .reference = {}});
+    unless_unsolved(k, [&] { scenes[k] = find_scene(plan.scenes[k], source_folder() / "benchmarks" / "meshes"); });
+    require_smooth(scenes[k]);
+  }
+  for (std::size_t k = 0; k < scenes.size(); ++k) unless_unsolved(k, [&] { observe(scenes[k], plan, log, found[k]); });
   Report report;
   report.claims = claims_of(found);
   report.tables = {{"references", "The references of the scenes", scene_reference_table(found)},
