@@ -19,7 +19,6 @@
 #include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/extreme_matrix.h"
 #include "validation/extremes/step_evidence.h"
-#include "validation/scenes/spring_scene.h"
 
 namespace dartboard {
 namespace {
@@ -40,11 +39,15 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
   problem.material.damping = problem.material.viscosity = 0.0;
   for (const Vector3d& p : problem.mesh.points)
     problem.initial_velocity.push_back({0.1 * p[1], -0.1 * p[0], 0.05 * p[2]});
-  TetBody body = build_body<TetMap, Held::by_every_dart>(problem);
+  auto body = build_body<TetMap, Held::by_every_dart>(problem);
   SpringEndsView ends;
   ends.rebuild(body);
   const auto integrator = make(which.integrator);
   SplitMix64 random(7);
+  const auto system = [&body, &ends] {
+    const VertexColumns& v = body.vertices;
+    return SpringSystem{ends.ends, body.springs, v.mass, v.inverse_mass, v.viscosity, v.fixed, {0, 0, 0}};
+  };
   const auto motion = [&body] { return Motion{body.vertices.position, body.vertices.velocity}; };
   const auto change = [&] {
     Dart d = no_dart;
@@ -62,32 +65,31 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
     for (std::uint32_t d = 0; d < body.map.capacity(); ++d)
       if (body.map.is_live(Dart{d})) ends.apply(body, adapt(body, dissociate_face(body.map, Dart{d})));
   StableStepEstimate estimate;
-  const double h = 0.3 / estimate.refresh(system_of(body, ends), body.vertices.position).upper;
+  const double h = 0.3 / estimate.refresh(system(), body.vertices.position).upper;
   DivergenceDetector detector;
-  StepResult result = detector.start(system_of(body, ends), motion(), h);
+  StepResult result = detector.start(system(), motion(), h);
   cell.refused = !result.ok();
-  const double before = total_energy(system_of(body, ends), body.vertices.position, body.vertices.velocity);
+  const double before = total_energy(system(), body.vertices.position, body.vertices.velocity);
   const auto deadline = std::chrono::steady_clock::now() + budget;
   StepEvidence evidence(which.integrator, 60);
   for (; cell.step < 60 && result.ok(); ++cell.step) {
-    evidence.before(system_of(body, ends), motion(), h);
-    result = integrator->step(system_of(body, ends), motion(), h);
-    result = result.ok() ? detector.after_step(system_of(body, ends), motion())
-                         : detector.with_witness(result, system_of(body, ends), motion());
+    evidence.before(system(), motion(), h);
+    result = integrator->step(system(), motion(), h);
+    result = result.ok() ? detector.after_step(system(), motion()) : detector.with_witness(result, system(), motion());
     if (!result.ok()) break;
     evidence.after(motion());
     change();
     if (!events.empty()) {
       integrator->restart();
       evidence.restarted();
-      result = detector.system_changed(system_of(body, ends), motion());
-      if (estimate.refresh(system_of(body, ends), body.vertices.position).upper * h > 0.9 && cell.warnings.empty())
+      result = detector.system_changed(system(), motion());
+      if (estimate.refresh(system(), body.vertices.position).upper * h > 0.9 && cell.warnings.empty())
         cell.warnings.emplace_back("UNSTABLE_DT");
     }
     if (std::chrono::steady_clock::now() > deadline)
       result = {StepCode::budget, Witness::none, 0, "steps", static_cast<double>(cell.step)};
   }
-  if (result.ok()) result = detector.check_all(system_of(body, ends), motion());
+  if (result.ok()) result = detector.check_all(system(), motion());
   cell.diagnosis = result;
   if (!result.ok()) {
     cell.outcome = ExtremeOutcome::diagnosed;
@@ -96,12 +98,12 @@ ExtremeCell run_events(const ExtremeCase& which, std::string_view events, bool a
   }
   cell.outcome = cell.warnings.empty() ? ExtremeOutcome::ok : ExtremeOutcome::degraded;
   const bool removes = events.find_first_of("rR") != std::string_view::npos;
-  const ExtremeVerdict verdict = verdict_of(EventsObservation{
-      .finite = check_finite(body.vertices.position, body.vertices.velocity).ok(),
-      .energy_before = before,
-      .energy_after = total_energy(system_of(body, ends), body.vertices.position, body.vertices.velocity),
-      .explicit_euler = which.integrator == "explicit-euler",
-      .must_live = conserves_energy(integrator->scheme()) && !removes});
+  const ExtremeVerdict verdict = verdict_of(
+      EventsObservation{.finite = check_finite(body.vertices.position, body.vertices.velocity).ok(),
+                        .energy_before = before,
+                        .energy_after = total_energy(system(), body.vertices.position, body.vertices.velocity),
+                        .explicit_euler = which.integrator == "explicit-euler",
+                        .must_live = conserves_energy(integrator->scheme()) && !removes});
   if (verdict.outcome == ExtremeOutcome::silent) {
     cell.outcome = verdict.outcome;
     cell.note = verdict.note;

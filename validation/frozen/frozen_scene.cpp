@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
@@ -179,8 +180,18 @@ std::string omission_of(const SceneEvent& event, std::size_t operations) {
 
 }  // namespace
 
-FrozenScene freeze(const SceneFile& file, const Problem& problem) {
-  FrozenScene scene{.file = file, .problem = problem, .needs = {}, .changes = {}, .omissions = {}};
+FrozenScene freeze(const SceneFile& file, const Problem& problem) { return freeze(file, problem, {}); }
+
+FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Eigen::Vector3d> initial_position) {
+  if (!initial_position.empty() && initial_position.size() != problem.mesh.points.size())
+    throw InputError(
+        fmt::format("{} initial positions for {} points", initial_position.size(), problem.mesh.points.size()));
+  FrozenScene scene{.file = file,
+                    .problem = problem,
+                    .initial_position = std::move(initial_position),
+                    .needs = {},
+                    .changes = {},
+                    .omissions = {}};
   scene.file.output = {};
   scene.file.probes.clear();
   scene.file.expect = {};
@@ -200,6 +211,11 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem) {
   for (std::size_t e = 0; e < scene.file.events.size(); ++e)
     if (std::string omission = omission_of(scene.file.events[e], scout.done(e)); !omission.empty())
       scene.omissions.push_back(std::move(omission));
+  // runs repeat what has been found, and looking up a face takes as long as a walk through the body
+  for (SceneEvent& event : scene.file.events)
+    if (auto* dissociate = std::get_if<Dissociate>(&event.action);
+        dissociate != nullptr && !depends_on_positions(event))
+      std::get<0>(dissociate->faces).clear();
   return scene;
 }
 
@@ -209,6 +225,8 @@ FrozenBody::FrozenBody(const FrozenScene& scene)
       driven_(scene.file, scene.problem.mesh.points, tick(scene.file)),
       forces_(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file)) {
   for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
+  for (std::size_t k = 0; k < body_->vertices().size() && !scene.initial_position.empty(); ++k)
+    body_->motion().x[k] = scene.initial_position[body_->vertices().point[k]];
   if (scene.file.has_contact()) {
     contact_ = std::make_unique<SceneContact>(body_->contact(), body_->body_contact(), false);
     contact_->start(body_->vertices().position, {}, {}, 0.0);

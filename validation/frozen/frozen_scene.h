@@ -29,8 +29,9 @@ struct FrozenChange {
 
 /// A scene that changes alike for every method and step.
 struct FrozenScene {
-  SceneFile file;  // with the events that take part, and without output
+  SceneFile file;  // with the events that take part, without the points of faces, and without output
   Problem problem;
+  std::vector<Eigen::Vector3d> initial_position{};  // [m] by mesh point; empty for rest
   BodyNeeds needs;
   std::vector<FrozenChange> changes;   // ascending in time; those at 0 come before the motion
   double edge = 1.0;                   // [m] mean_edge of the mesh
@@ -46,6 +47,11 @@ struct FrozenScene {
 /// throws  InputError "/events/3/...: ..." as SimulatedBody::make_ready, DrivenVertices and AppliedForces; SolverError
 ///         if the motion up to an event cannot be found
 FrozenScene freeze(const SceneFile& file, const Problem& problem);
+/// The same for a body that starts from other positions than those of its mesh, where it is at rest: [m] by mesh point,
+/// or empty. Its events look up what they refer to in the body at rest.
+///
+/// throws  also InputError for positions that are not as many as the points
+FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Eigen::Vector3d> initial_position);
 
 /// The body of a frozen scene, moved by the integrator of a run, and changed as the scene says.
 class FrozenBody {

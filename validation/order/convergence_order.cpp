@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plain/error.h"
+#include "validation/scenes/scene_stage.h"
 
 namespace dartboard {
 namespace {
@@ -46,7 +46,7 @@ std::string_view name(Regime regime) {
 }
 
 OrderStage order_stage(OrderCase which) {
-  PreparedScene scene = prepare(order_scene(which));
+  TradeoffScene scene = tradeoff_scene({}, order_scene(which));
   // in extended precision throughout, so that the floor is low enough for three halvings of a method of order 5
   reference::CertifyOptions options;
   options.step_times_rate = 0.1;
@@ -57,16 +57,17 @@ OrderStage order_stage(OrderCase which) {
 
 void judge(OrderStudy& study, double floor, const OrderOptions& options) {
   take_orders(study);
+  const double least_x = 10 * floor, least_v = least_x * options.velocity_floor;
   const auto in_window = [&](const OrderPoint& p) {
     return p.diagnosis.empty() && at_most(p.errors.x, options.most_error) && at_most(p.errors.v, options.most_error) &&
-           p.errors.x >= 10 * floor && p.errors.v >= 10 * floor;
+           p.errors.x >= least_x && p.errors.v >= least_v;
   };
   int run = 0;
   study.holds = false;
   const OrderPoint* last = nullptr;
   for (std::size_t k = 0; k < study.points.size(); ++k) {
     OrderPoint& p = study.points[k];
-    const bool below = p.diagnosis.empty() && (p.errors.x < 10 * floor || p.errors.v < 10 * floor);
+    const bool below = p.diagnosis.empty() && (p.errors.x < least_x || p.errors.v < least_v);
     p.regime = !p.diagnosis.empty() ? Regime::failed
                : below              ? Regime::floor
                : in_window(p)       ? Regime::pre_asymptotic
@@ -112,7 +113,7 @@ OrderStudy study_order(const OrderStage& stage, const IntegratorEntry& entry, co
   const auto timing = stage.which == OrderCase::unaligned_cut ? EventTiming::end_of_step : EventTiming::split_step;
   const std::uint64_t most = integrator->scheme().implicit ? options.most_implicit_steps : options.most_steps;
   for (std::uint64_t steps = options.fewest_steps; steps <= most; steps *= 2) {
-    const SceneRun run = run_scene(stage.scene, *integrator, steps, timing);
+    const TimedRun run = run_timed(stage.scene, *integrator, {.steps = steps, .timing = timing}, no_clock);
     OrderPoint point;
     point.steps = steps;
     point.h_omega = run.h * stage.scene.fastest_rate;

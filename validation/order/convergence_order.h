@@ -10,6 +10,7 @@
 #include "reference/error_norms.h"
 #include "reference/ode_oracle.h"
 #include "validation/scenes/order_scenes.h"
+#include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
 
@@ -48,6 +49,8 @@ struct OrderOptions {
   double tolerance = 0.1;           // of observed orders
   int successive = 3;               // orders that must be within it
   double most_error = 1e-2;         // of x in edges, and of v: the window's upper end; its lower end is 10 floors
+  double velocity_floor = 1.0;      // of relative velocities, over that of positions in edges
+  double solved_to = 0.0;           // of the speed: what the equations of an implicit step may leave
   std::uint64_t fewest_steps = 24;  // h omega_max = 0.7
   std::uint64_t most_steps = 24 << 12;
   std::uint64_t most_implicit_steps = 24 << 10;
@@ -56,7 +59,7 @@ struct OrderOptions {
 /// A scene of the study with its certified reference.
 struct OrderStage {
   OrderCase which;
-  PreparedScene scene;
+  TradeoffScene scene;
   reference::CertifiedMotion certified;
 };
 OrderStage order_stage(OrderCase which);
@@ -69,8 +72,8 @@ OrderStage order_stage(OrderCase which);
 OrderStudy study_order(const OrderStage& stage, const IntegratorEntry& entry, const OrderOptions& options = {});
 
 /// Mark the regimes of runs whose errors are known and find the first `successive` orders within the tolerance:
-/// the part of `study_order` that does not simulate. `floor` is that of the reference, in edges and relative to the
-/// largest velocity.
+/// the part of `study_order` that does not simulate. `floor` is that of the reference, in edges and,
+/// times `velocity_floor`, relative to the largest velocity.
 void judge(OrderStudy& study, double floor, const OrderOptions& options);
 
 }  // namespace dartboard

@@ -1,13 +1,11 @@
 #include "validation/order/cut_jump.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
-#include "core/mechanics/adapt.h"
-#include "core/operations/dissociate_all.h"
 #include "core/plain/error.h"
 #include "core/time/system/energy.h"
+#include "validation/scenes/scene_stage.h"
 
 namespace dartboard {
 namespace {
@@ -18,53 +16,51 @@ struct Sums {
   double momentum_size = 0.0, angular_size = 0.0;
 };
 
-Sums sums_of(const TetBody& body, const SpringEndsView& ends, const Eigen::Vector3d& centre) {
-  const SpringSystem system = system_of(body, ends);
-  const auto& c = body.vertices;
-  Sums sums{kinetic_energy(system, c.velocity), elastic_energy(system, c.position), gravity_energy(system, c.position),
-            linear_momentum(system, c.velocity), angular_momentum(system, c.position, c.velocity, centre)};
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    sums.momentum_size += c.mass[i] * c.velocity[i].norm();
-    sums.angular_size += c.mass[i] * (c.position[i] - centre).norm() * c.velocity[i].norm();
+Sums sums_of(SceneStage& stage, const Eigen::Vector3d& centre) {
+  const SpringSystem system = stage.system();
+  const auto [x, v] = stage.motion();
+  Sums sums{kinetic_energy(system, v), elastic_energy(system, x), gravity_energy(system, x), linear_momentum(system, v),
+            angular_momentum(system, x, v, centre)};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sums.momentum_size += system.mass[i] * v[i].norm();
+    sums.angular_size += system.mass[i] * (x[i] - centre).norm() * v[i].norm();
   }
   return sums;
 }
 
-Eigen::Vector3d centre_of(const TetBody& body) {
+Eigen::Vector3d centre_of(SceneStage& stage) {
+  const SpringSystem system = stage.system();
+  const Motion motion = stage.motion();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double mass = 0.0;
-  for (std::size_t i = 0; i < body.vertices.size(); ++i) {
-    sum += body.vertices.mass[i] * body.vertices.position[i];
-    mass += body.vertices.mass[i];
+  for (std::size_t i = 0; i < motion.x.size(); ++i) {
+    sum += system.mass[i] * motion.x[i];
+    mass += system.mass[i];
   }
   return sum / mass;
 }
 
 }  // namespace
 
-std::vector<CutJump> cut_jumps(const PreparedScene& scene, Integrator& integrator, double h) {
+std::vector<CutJump> cut_jumps(const TradeoffScene& scene, Integrator& integrator, double h) {
   std::vector<CutJump> jumps;
-  TetBody body = scene.body;
-  SpringEndsView ends;
-  ends.rebuild(body);
+  SceneStage stage(scene);
   double t = 0.0;
-  for (std::size_t k = 0; k < scene.faces.size(); ++k) {
-    const double end = scene.motion.events[k].time;
-    const double steps = std::ceil((end - t) / h);
+  for (const reference::NetworkEvent& event : scene.motion.events) {
+    const double steps = std::ceil((event.time - t) / h), step = (event.time - t) / steps;
     integrator.restart();
     for (double s = 0; s < steps; ++s) {
-      const StepResult result =
-          integrator.step(system_of(body, ends), {body.vertices.position, body.vertices.velocity}, (end - t) / steps);
+      const StepResult result = stage.step(integrator, stage.system(), t + s * step, step);
       if (!result.ok()) throw SolverError(to_string(result));
     }
-    t = end;
-    const Eigen::Vector3d centre = centre_of(body);
-    const Sums before = sums_of(body, ends, centre);
-    const std::size_t vertices = body.vertices.size();
-    ends.apply(body, adapt(body, dissociate_all(body.map, std::span<const Dart>(scene.faces[k]))));
-    const Sums after = sums_of(body, ends, centre);
+    t = event.time;
+    const Eigen::Vector3d centre = centre_of(stage);
+    const Sums before = sums_of(stage, centre);
+    const std::size_t vertices = stage.motion().x.size();
+    stage.pass_event();
+    const Sums after = sums_of(stage, centre);
     const auto energy = [](const Sums& s) { return s.kinetic + s.elastic + s.gravity; };
-    jumps.push_back({t, vertices, body.vertices.size(),
+    jumps.push_back({t, vertices, stage.motion().x.size(),
                      std::abs(energy(after) - energy(before)) / (before.kinetic + before.elastic),
                      (after.momentum - before.momentum).norm() / before.momentum_size,
                      (after.angular - before.angular).norm() / before.angular_size});

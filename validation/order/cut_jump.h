@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "validation/scenes/spring_scene.h"
+#include "core/time/method/integrator.h"
+#include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
 
@@ -15,9 +16,10 @@ struct CutJump {
   double energy = 0.0, momentum = 0.0, angular = 0.0;
 };
 
-/// Run a scene by the integrator with at most h between events, and measure at each.
+/// Run a scene by the integrator with at most h between events, and measure at each
+/// time of events.
 ///
 /// throws  SolverError if a step is not ok
-std::vector<CutJump> cut_jumps(const PreparedScene& scene, Integrator& integrator, double h);
+std::vector<CutJump> cut_jumps(const TradeoffScene& scene, Integrator& integrator, double h);
 
 }  // namespace dartboard

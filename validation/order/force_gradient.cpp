@@ -16,9 +16,11 @@
 #include "validation/order/force_gradient.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "core/time/system/accelerations.h"
+#include "validation/scenes/scene_stage.h"
 
 namespace dartboard {
 namespace {
@@ -30,15 +32,14 @@ constexpr Real u = 0x1p-53L, w = 0x1p-64L;
 
 }  // namespace
 
-ForceGradient compare_forces_with_energy(const PreparedScene& scene) {
+ForceGradient compare_forces_with_energy(const TradeoffScene& scene) {
   const reference::SpringNetwork& network = scene.motion.network;
   const std::size_t n = network.point_count();
-  SpringEndsView ends;
-  ends.rebuild(scene.body);
-  const SpringSystem system = system_of(scene.body, ends);
-  const auto& x = scene.body.vertices.position;
+  SceneStage stage(scene);
+  const SpringSystem system = stage.system();
+  const std::span<const Eigen::Vector3d> x = stage.motion().x;
   std::vector<Eigen::Vector3d> a(n);
-  accelerations(system, Terms{}, x, scene.body.vertices.velocity, a);
+  accelerations(system, Terms{}, x, stage.motion().v, a);
 
   std::vector<std::vector<const reference::Spring*>> around(n);
   for (const reference::Spring& s : network.springs) {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "validation/scenes/spring_scene.h"
+#include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
 
@@ -19,6 +19,6 @@ struct ForceGradient {
 
 /// Core's conservative forces at the start of a scene against central differences of the energy of its plain network,
 /// in extended precision. The bound is derived in the source.
-ForceGradient compare_forces_with_energy(const PreparedScene& scene);
+ForceGradient compare_forces_with_energy(const TradeoffScene& scene);
 
 }  // namespace dartboard

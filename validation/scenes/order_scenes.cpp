@@ -5,6 +5,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/random.h"
+#include "reference/spring_network.h"
 
 namespace dartboard {
 namespace {
@@ -25,7 +26,7 @@ std::string_view name(OrderCase which) {
   return "?";
 }
 
-void set_off(SpringScene& scene, double strain, double rate) {
+void set_off(TableScene& scene, double strain, double rate) {
   const auto& points = scene.problem.mesh.points;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : points) centre += p / static_cast<double>(points.size());
@@ -47,8 +48,8 @@ void set_off(SpringScene& scene, double strain, double rate) {
   }
 }
 
-SpringScene order_scene(OrderCase which) {
-  SpringScene scene{std::string(name(which)), {}, {}, {}, 1.0, 4};
+TableScene order_scene(OrderCase which) {
+  TableScene scene{.name = std::string(name(which)), .problem = {}, .checkpoints = 4};
   Problem& problem = scene.problem;
   problem.mesh = kuhn_box(3, 3, 3, 0.1, 0.2, 3);
   for (auto& p : problem.mesh.points) p -= Eigen::Vector3d(0.15, 0.15, 0.15);  // small coordinates round less
@@ -63,16 +64,15 @@ SpringScene order_scene(OrderCase which) {
   scene.duration = 16.5 / omega;
   set_off(scene, 0.15, omega / 2);
   const Eigen::Vector3d middle(0, 0, 0), normal(1, 0.25, 0);
-  if (which == OrderCase::aligned_cut) {
-    scene.events.push_back(plane_cut(0.375 * scene.duration, middle, normal));
-    scene.events.push_back(fan_tear(0.375 * scene.duration, 42));  // an interior point
-  }
-  if (which == OrderCase::unaligned_cut) scene.events.push_back(plane_cut(scene.duration * 7 / 18, middle, normal));
+  const double time = scene.duration * (which == OrderCase::aligned_cut ? 0.375 : 7.0 / 18.0);
+  if (which == OrderCase::aligned_cut || which == OrderCase::unaligned_cut) add_cut(scene, time, middle, normal);
+  if (which == OrderCase::aligned_cut)
+    scene.events.push_back({Tear{42u, Eigen::Vector3d(0, 0, 1)}, time, time, {}, "/events/1"});
   return scene;
 }
 
-SpringScene smooth_scene(Mesh mesh, const Material& material, double phase) {
-  SpringScene scene{"smooth", {}, {}, {}, 1.0, 8};
+TableScene smooth_scene(Mesh mesh, const Material& material, double phase) {
+  TableScene scene{.name = "smooth", .problem = {}};
   scene.problem.mesh = std::move(mesh);
   scene.problem.material = material;
   scene.problem.material.damping = scene.problem.material.viscosity = 0.0;

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/scenes/spring_scene.h"
+#include "validation/scenes/table_scene.h"
 
 namespace dartboard {
 
@@ -20,15 +20,16 @@ std::string_view name(OrderCase which);
 /// 1/rate. Fixed points stay.
 ///
 /// From rest, or from the rest shape, some methods of order 1 look like order 2.
-void set_off(SpringScene& scene, double strain, double rate);
+void set_off(TableScene& scene, double strain, double rate);
 
 /// A jittered box of 3 x 3 x 3 cubes under gravity, one edge of it held, for 16.5 / omega_max. Undamped, or with a
-/// damping ratio of 0.1 at omega_max. The aligned cut is a plane cut with a fan torn at an interior vertex, both at 3/8
-/// of the duration, where steps end; the unaligned one is the plane cut at 7/18, where no step ends for 24 * 2^k steps.
-SpringScene order_scene(OrderCase which);
+/// damping ratio of 0.1 at omega_max. The aligned cut is a plane cut, then a fan torn at an interior vertex, both at
+/// 3/8 of the duration, where steps end; the unaligned one is the plane cut at 7/18, where no step ends for 24 * 2^k
+/// steps.
+TableScene order_scene(OrderCase which);
 
 /// A body moving softly and smoothly, free and undamped, for `phase` / omega_max: the starting point of work-precision
 /// diagrams.
-SpringScene smooth_scene(Mesh mesh, const Material& material, double phase);
+TableScene smooth_scene(Mesh mesh, const Material& material, double phase);
 
 }  // namespace dartboard

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/random.h"
+#include "core/scene/file/scene_materials.h"
 #include "validation/cgal/delaunay_ball.h"
 #include "validation/scenes/order_scenes.h"
 
@@ -77,28 +77,12 @@ std::vector<std::uint32_t> side_of(const Mesh& mesh, const Vector3d& direction) 
   return points;
 }
 
-/// A tenth of the cells, those nearest to one of them.
-std::vector<std::uint8_t> inclusion_around(const Mesh& mesh, std::uint32_t cell) {
-  std::vector<Vector3d> centre;
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    Vector3d sum(0, 0, 0);
-    for (const std::uint32_t i : mesh.cell(c)) sum += mesh.points[i];
-    centre.push_back(sum / static_cast<double>(mesh.cell(c).size()));
-  }
-  std::vector<std::uint32_t> order(centre.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t c) { return (centre[c] - centre[cell]).squaredNorm(); });
-  std::vector<std::uint8_t> stiff(centre.size(), 0);
-  for (std::size_t k = 0; k < centre.size() / 10; ++k) stiff[order[k]] = 1;
-  return stiff;
-}
-
 }  // namespace
 
 TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const RandomSceneOptions& options) {
   Draw draw(seed, number);
   std::string what;
-  SpringScene scene{fmt::format("seed {}, scene {}", seed, number), {}, {}, {}, 1.0, 8};
+  TableScene scene{.name = fmt::format("seed {}, scene {}", seed, number), .problem = {}};
   Problem& problem = scene.problem;
   problem.mesh = draw_mesh(draw, options, what);
   problem.material = {.density = 1000.0, .stiffness = draw.logarithmic(1.0, 1e3), .damping = 0.0, .viscosity = 0.0};
@@ -109,8 +93,9 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
   } else {
     what += ", free";
   }
-  const double soft_rate = reference::fastest_rate(reference::spring_network(problem), problem.mesh.points);
-  const double edge = reference::mean_rest_length(reference::spring_network(problem));
+  const reference::SpringNetwork network = reference::spring_network(problem);
+  const double soft_rate = reference::fastest_rate(network, problem.mesh.points);
+  const double edge = reference::mean_rest_length(network);
   const double strain = draw.logarithmic(options.least_strain, options.most_strain), slowness = draw.uniform(4.0, 24.0);
   if (draw.happens(0.5)) {
     // gravity moves the body by about an edge within a slow turn
@@ -125,9 +110,9 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
   const bool cut = options.cuts && lot >= 0.35 && lot < 0.65;
   const double cut_at = draw.uniform(0.15, 0.85);
   const Vector3d normal = draw.direction();
-  std::vector<std::uint8_t> stiff;
+  Vector3d place(0, 0, 0);
   if (contrast > 1.0) {
-    stiff = inclusion_around(problem.mesh, draw.below(problem.mesh.cell_count()));
+    place = centroids(problem.mesh)[draw.below(problem.mesh.cell_count())];
     what += fmt::format(", a tenth of it {:.3g} times stiffer", contrast);
   }
   const double damped = draw.uniform(0.0, 1.0);
@@ -141,42 +126,25 @@ TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const Rando
         problem.initial_velocity[i] += spin.cross(problem.mesh.points[i]);
     what += problem.fixed.empty() ? ", spinning" : "";
   }
-  for (std::size_t c = 0; c < stiff.size(); ++c)  // stiff cells start at rest: else they would hold all of the energy
-    if (stiff[c])
-      for (const std::uint32_t i : problem.mesh.cell(c)) {
-        scene.initial_position[i] = problem.mesh.points[i];
-        problem.initial_velocity[i].setZero();
-      }
-
   double rate = soft_rate;
-  std::size_t springs = 0;
-  {
-    PreparedScene undamped = prepare(scene);
-    if (!stiff.empty()) stiffen(undamped, problem.mesh, stiff, contrast);
-    rate = undamped.fastest_rate;
-    springs = undamped.motion.network.springs.size();
+  if (contrast > 1.0) {
+    add_inclusion(scene, place, contrast);
+    rate = tradeoff_scene({}, scene).fastest_rate;
   }
-  problem.material.damping = 2.0 * ratio / rate * problem.material.stiffness;
+  set_damping(problem, 2.0 * ratio / rate);
   if (ratio > 0.0) {
     problem.material.viscosity = draw.uniform(0.0, 0.02) * ratio * rate;
     what += fmt::format(", damping ratio {:.2g}", ratio);
   }
-  const double a_spring = (ratio > 0.0 ? options.damped_work : 1.0) / static_cast<double>(springs);
+  const double a_spring = (ratio > 0.0 ? options.damped_work : 1.0) / static_cast<double>(network.springs.size());
   const double least = std::max(options.least_phase, options.least_work * a_spring);
   const double most = std::clamp(options.most_work * a_spring, least, std::max(options.most_phase, least));
   scene.duration = draw.logarithmic(least, std::max(most, 1.01 * least)) / rate;
   if (cut) {
-    scene.events.push_back(plane_cut(cut_at * scene.duration, Vector3d(0, 0, 0), normal));
+    add_cut(scene, cut_at * scene.duration, Vector3d(0, 0, 0), normal);
     what += fmt::format(", cut in two at {:.2f} of the time", cut_at);
   }
-  TradeoffScene made = tradeoff_scene(what, scene);
-  if (!stiff.empty()) {
-    stiffen(*made.body, problem.mesh, stiff, contrast);
-    made.motion = made.body->motion;
-    made.fastest_rate = made.body->fastest_rate;
-  }
-  made.what = what;
-  return made;
+  return tradeoff_scene(what, scene);
 }
 
 }  // namespace dartboard

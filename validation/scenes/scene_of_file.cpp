@@ -4,7 +4,6 @@
 
 #include "core/plain/error.h"
 #include "core/scene/file/scene_problem.h"
-#include "validation/frozen/frozen_motion.h"
 
 namespace dartboard {
 namespace {
@@ -23,27 +22,16 @@ TradeoffScene scene_of_file(const SceneFile& file) {
   const Problem problem = make_problem(file);
   if (problem.mesh.points.empty()) fail("/body", "has no points", "a body that moves");
 
-  TradeoffScene made{.name = {}, .what = {}, .motion = {}};
   try {
-    const auto frozen = std::make_shared<FrozenScene>(freeze(file, problem));
-    FrozenMotion motion = motion_of(*frozen, checkpoints);
-    made.motion = std::move(motion.motion);
-    made.fastest_rate = motion.fastest_rate;
-    made.omissions = frozen->omissions;
-    made.frozen = frozen;
+    TradeoffScene made = tradeoff_scene(freeze(file, problem), checkpoints);
+    // the stem of the file's name, as files are named after the scene
+    made.name = std::filesystem::path(file.file).stem().string();
+    return made;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.file, error.what()));
   } catch (const SolverError& error) {
     throw SolverError(fmt::format("{}: {}", file.file, error.what()));
   }
-  made.beyond_references = beyond_references(file, problem.mesh);
-  made.duration = file.duration;
-  made.edge = reference::mean_rest_length(made.motion.network);
-  if (!(made.fastest_rate > 0.0)) made.fastest_rate = 1.0 / file.duration;  // free flight only
-  // the stem of the file's name, as files are named after the scene
-  made.name = std::filesystem::path(file.file).stem().string();
-  made.what = file.about.empty() ? file.name : file.about;
-  return made;
 }
 
 TradeoffScene find_scene(std::string_view name_or_file, const std::filesystem::path& meshes) {

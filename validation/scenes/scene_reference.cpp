@@ -117,15 +117,17 @@ SceneReference reference_of(const TradeoffScene& scene, const CpuClock& clock, c
   const reference::SpringNetwork& network = scene.motion.network;
   const double evaluation_ns = oracle_spring_ns * static_cast<double>(network.springs.size()) +
                                oracle_point_ns * static_cast<double>(network.elements.size());
-  const double expected_s = 1e-9 * scene.fastest_rate * scene.duration / 0.25 * oracle_stages * evaluation_ns;
+  const double phase = options.low_floor ? 0.1 : 0.25;  // h omega_max of the coarser of two runs
+  const double expected_s = 1e-9 * scene.fastest_rate * scene.duration / phase * oracle_stages * evaluation_ns;
   if (expected_s > options.oracle_s) {
     SceneReference found = self_converged(scene, clock, options.self_converged_s);
     found.what += fmt::format(" (one run of the oracle would take about {:.0f} s)", expected_s);
     return found;
   }
   const std::int64_t start = clock();
-  reference::CertifiedMotion certified =
-      reference::certify(scene.motion, {.extrapolation = true, .all_codes = false, .gain = options.gain});
+  reference::CertifiedMotion certified = reference::certify(
+      scene.motion,
+      {.step_times_rate = phase, .extrapolation = true, .all_codes = options.low_floor, .gain = options.gain});
   SceneReference found;
   found.kind = ReferenceKind::certified;
   found.gain = certified.largest_gain();

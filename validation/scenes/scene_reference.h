@@ -31,6 +31,7 @@ struct ReferenceOptions {
   double oracle_s = 60.0;          // the longest time that one run of the oracle may be expected to take
   double self_converged_s = 20.0;  // the longest time of a self-converging run
   bool gain = true;
+  bool low_floor = false;  // in extended precision throughout, which takes three times as long
 };
 
 /// In words, the agreement behind a certified reference: two independent codes, two methods of one library, or nothing.

@@ -4,21 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/operations/dissociate_all.h"
 #include "core/plain/error.h"
 #include "core/time/watch/stable_step.h"
 
 namespace dartboard {
 
-SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
+SceneStage::SceneStage(const TradeoffScene& scene) {
   if (scene.frozen) {
     frozen_.emplace(*scene.frozen);
-    return;
-  }
-  if (scene.body) {
-    body_ = scene.body->body;
-    ends_.rebuild(*body_);
     return;
   }
   const reference::SpringNetwork& network = scene.motion.network;
@@ -33,21 +28,12 @@ SceneStage::SceneStage(const TradeoffScene& scene) : scene_(&scene) {
   columns_.gravity = network.gravity;
 }
 
-SpringSystem SceneStage::system() const {
-  if (frozen_) return frozen_->body().system();
-  if (body_) return system_of(*body_, ends_);
-  return columns_.system();
-}
+SpringSystem SceneStage::system() const { return frozen_ ? frozen_->body().system() : columns_.system(); }
 
-Motion SceneStage::motion() {
-  if (frozen_) return frozen_->body().motion();
-  if (body_) return {body_->vertices.position, body_->vertices.velocity};
-  return columns_.motion();
-}
+Motion SceneStage::motion() { return frozen_ ? frozen_->body().motion() : columns_.motion(); }
 
 PointState SceneStage::state() const {
   if (frozen_) return {frozen_->body().vertices().position, frozen_->body().vertices().velocity};
-  if (body_) return {body_->vertices.position, body_->vertices.velocity};
   return {columns_.x, columns_.v};
 }
 
@@ -55,11 +41,7 @@ StableStep SceneStage::limits() {
   return frozen_ ? frozen_->limits() : StableStepEstimate().refresh(system(), motion().x);
 }
 
-void SceneStage::pass_event() {
-  if (frozen_) return frozen_->pass();
-  const std::vector<Dart>& faces = scene_->body->faces.at(next_event_++);
-  ends_.apply(*body_, adapt(*body_, dissociate_all(body_->map, std::span<const Dart>(faces))));
-}
+void SceneStage::pass_event() { frozen_.value().pass(); }
 
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits) {
@@ -69,13 +51,18 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
     throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
   if (setting.steps == 0 && scene.has_contact())
     throw InputError(fmt::format("{}: contact requires equal steps", scene.name));
+  const bool keeps_h = setting.timing == EventTiming::end_of_step;
+  if (keeps_h && (setting.steps == 0 || setting.steps % scene.motion.checkpoints.size() != 0))
+    throw InputError(
+        fmt::format("{} steps are no multiple of {} checkpoints", setting.steps, scene.motion.checkpoints.size()));
   // the error of a velocity that belongs to one of a position in an oscillation of a sixteenth of the fastest rate: the
   // motions of these scenes are slower than the fastest they could be
   const Tolerance tolerance{setting.tolerance * scene.edge, setting.tolerance * scene.edge * scene.fastest_rate / 16};
 
   SceneStage stage(scene);
   TimedRun run;
-  if (setting.steps > 0) run.h = scene.duration / static_cast<double>(setting.steps);
+  const auto parts = static_cast<double>(setting.parts);
+  if (setting.steps > 0) run.h = scene.duration / static_cast<double>(setting.steps) / parts;
   integrator.restart();
   integrator.reset_work();
 
@@ -89,28 +76,34 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
   };
   std::uint64_t look_after = 1, since_look = 0;
   std::int64_t last_look = start;
-  double t = 0.0;
-  // an excess of 2^-30 of a step is rounding
+  const auto take = [&](double count, double from, double h) {
+    const SpringSystem system = stage.system();
+    for (double k = 0; k < count && run.result.ok(); ++k) {
+      run.result = stage.step(integrator, system, from + k * h, h);
+      if (++since_look < look_after) continue;
+      // the clock costs as much as a step of a small scene: look at it about every millisecond
+      const std::int64_t now = clock();
+      if (now - last_look < 1'000'000) look_after *= 2;
+      last_look = now;
+      since_look = 0;
+      give_up_late();
+    }
+  };
+  // the number of steps up to a time: an excess of 2^-30 of a step is rounding
+  const auto steps_to = [](double time, double h) { return std::ceil(time / h - 0x1p-30); };
+  double t = 0.0, done = 0.0;  // done: steps, where they keep their length
   const auto go_to = [&](double end) {
     if (end <= t) return;
     if (setting.steps == 0) {
       run.result = adaptive->advance(stage.system(), stage.motion(), end - t, tolerance);
       give_up_late();
+    } else if (keeps_h) {
+      const double before = std::exchange(done, std::max(done, steps_to(end, run.h)));
+      take(done - before, before * run.h, run.h);
     } else {
-      const double count = std::max(1.0, std::ceil((end - t) / run.h - 0x1p-30));
-      double h = (end - t) / count;
-      if (std::abs(h - run.h) < 0x1p-40 * run.h) h = run.h;
-      const SpringSystem system = stage.system();
-      for (double k = 0; k < count && run.result.ok(); ++k) {
-        run.result = stage.step(integrator, system, t + k * h, h);
-        if (++since_look < look_after) continue;
-        // the clock costs as much as a step of a small scene: look at it about every millisecond
-        const std::int64_t now = clock();
-        if (now - last_look < 1'000'000) look_after *= 2;
-        last_look = now;
-        since_look = 0;
-        give_up_late();
-      }
+      const double count = parts * std::max(1.0, steps_to(end - t, parts * run.h)), h = (end - t) / count;
+      // the same bits throughout a run, for methods that keep data for a step size
+      take(count, t, std::abs(h - run.h) < 0x1p-40 * run.h ? run.h : h);
     }
     t = end;
   };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,18 +37,24 @@ class SceneStage {
   StableStep limits();
 
  private:
-  const TradeoffScene* scene_;
-  std::size_t next_event_ = 0;
-  std::optional<FrozenBody> frozen_;  // one of the three
-  std::optional<TetBody> body_;
-  SpringEndsView ends_;
+  std::optional<FrozenBody> frozen_;  // one of the two
   SpringColumns columns_;
+};
+
+/// A clock that stands still, for runs that are not timed.
+inline std::int64_t no_clock() { return 0; }
+
+enum class EventTiming {
+  split_step,   // steps end at every event: the steps of an interval are equal, and at most h
+  end_of_step,  // all steps are h, and an event takes place at the end of the first step that reaches it
 };
 
 /// The steps of a run: equal ones or, for an AdaptiveIntegrator, those within a tolerance.
 struct RunSetting {
   std::uint64_t steps = 0;  // over the whole duration; steps end at events and checkpoints, so there may be more
   double tolerance = 0.0;   // [edges] per step, when steps is 0
+  std::uint64_t parts = 1;  // of each step: with twice as many, every interval has exactly twice as many steps
+  EventTiming timing = EventTiming::split_step;  // end_of_step only with steps, a multiple of the checkpoints
 };
 
 struct RunLimits {
@@ -63,10 +70,12 @@ struct TimedRun {
   std::int64_t cpu_ns = 0;
 };
 
-/// Run a scene from its start. The steps and the events are timed; the copy of the body before them is not.
+/// Run a scene from its start. The integrator is restarted there and after every event. Checkpoints show the state
+/// before an event of the same time. A run ends with the first step that is not ok. The steps and the events are timed;
+/// the making of the body before them is not.
 ///
-/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or with contact; and for a
-///         setting without steps and tolerance
+/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or with contact; for a setting
+///         without steps and tolerance; and for `end_of_step` with other numbers of steps
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits = {});
 

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <utility>
 
-#include "core/mechanics/fracture/stress.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/time/explicit/blanes_moan_4.h"
 #include "reference/closed_form.h"
+#include "validation/frozen/frozen_motion.h"
 #include "validation/scenes/order_scenes.h"
 
 namespace dartboard {
@@ -44,8 +43,8 @@ Eigen::Vector3d mean(std::span<const Eigen::Vector3d> points) {
   return sum / static_cast<double>(points.size());
 }
 
-SpringScene swing_scene(Mesh mesh) {
-  SpringScene scene{"swing", {}, {}, {}, 1.0, 8};
+TableScene swing_scene(Mesh mesh) {
+  TableScene scene{.name = "swing", .problem = {}};
   Problem& problem = scene.problem;
   problem.mesh = std::move(mesh);
   problem.material = {.density = 1000.0, .stiffness = 5.0, .damping = 0.005, .viscosity = 0.5};
@@ -62,119 +61,48 @@ SpringScene swing_scene(Mesh mesh) {
   return scene;
 }
 
-/// The vertex whose fan has faces and whose principal stress is largest after `t` seconds.
-std::uint32_t most_stressed_point(const SpringScene& scene, double t) {
-  PreparedScene prepared = prepare(scene);
-  TetBody& body = prepared.body;
-  SpringEndsView ends;
-  ends.rebuild(body);
-  BlanesMoan4 integrator;
-  const auto steps = static_cast<int>(std::ceil(t * prepared.fastest_rate / 0.5));
-  for (int k = 0; k < steps; ++k) {
-    const StepResult result =
-        integrator.step(system_of(body, ends), {body.vertices.position, body.vertices.velocity}, t / steps);
-    if (!result.ok()) throw SolverError(to_string(result));
-  }
-  std::vector<Eigen::Matrix3d> stress;
-  VolumeRoom room;
-  vertex_stresses(ends.ends, body.springs, vertex_volumes(body, {}, room), body.vertices.position, stress);
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t k = 0; k < stress.size(); ++k) order.emplace_back(-principal_stress(stress[k]).value, k);
-  std::sort(order.begin(), order.end());
-  for (const auto& [value, k] : order) {
-    const std::uint32_t point = body.vertices.point[k];
-    const auto tear = fan_tear(t, point);
-    if (!tear.faces(prepared.body).empty()) return point;
-  }
-  throw InputError("no vertex of the body has a fan");
-}
-
-/// The tenth of the cells that lie nearest to the middle of the body.
-std::vector<std::uint8_t> inclusion(const Mesh& mesh) {
-  const Eigen::Vector3d centre = mean(mesh.points);
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
-    Eigen::Vector3d sum(0, 0, 0);
-    for (const std::uint32_t i : mesh.cell(c)) sum += mesh.points[i] / static_cast<double>(mesh.cell(c).size());
-    order.emplace_back((sum - centre).squaredNorm(), c);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::uint8_t> stiff(mesh.cell_count(), 0);
-  for (std::size_t k = 0; k < mesh.cell_count() / 10; ++k) stiff[order[k].second] = 1;
-  return stiff;
-}
-
 }  // namespace
 
 std::span<const TradeoffEntry> tradeoff_scenes() { return table; }
 
-void stiffen(PreparedScene& scene, const Mesh& mesh, std::span<const std::uint8_t> stiff, double factor) {
-  if (!scene.motion.events.empty()) throw InputError("a body is stiffened only where nothing happens to it");
-  if (stiff.size() != mesh.cell_count())
-    throw InputError(fmt::format("{} flags for {} cells", stiff.size(), mesh.cell_count()));
-  TetBody& body = scene.body;
-  body.edge_share.assign(body.map.slot_count<1>(), 1.0);
-  body.map.for_each_dart([&](Dart d) {
-    if (stiff[body.cell(body.map, d)]) body.edge_share[TetMap::slot<1>(d)] = factor;
-  });
-  for (std::size_t k = 0; k < body.springs.size(); ++k)
-    body.springs.set(k, body.spring_of(Edge{body.edge_dart[k]}, body.springs[k].rest_length));
-
-  std::vector<std::uint32_t> vertex(mesh.points.size());
-  for (std::uint32_t k = 0; k < body.vertices.size(); ++k) vertex[body.vertices.point[k]] = k;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> cells;  // by edge: stiffness in units of the material's
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const auto nodes = mesh.cell(c);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j)
-        cells[std::minmax(vertex[nodes[i]], vertex[nodes[j]])] += stiff[c] ? factor : 1.0;
-  }
-  for (reference::Spring& s : scene.motion.network.springs) {
-    const double count = cells.at(std::minmax(s.a, s.b));
-    s.stiffness = count * body.material.stiffness;
-    s.damping = count * body.material.damping;
-  }
-  scene.fastest_rate = reference::fastest_rate(scene.motion.network, scene.motion.start.x);
+TradeoffScene tradeoff_scene(FrozenScene frozen, std::size_t checkpoints) {
+  const SceneFile& file = frozen.file;
+  FrozenMotion motion = motion_of(frozen, checkpoints);
+  TradeoffScene made{
+      .name = file.name, .what = file.about.empty() ? file.name : file.about, .motion = std::move(motion.motion)};
+  made.beyond_references = beyond_references(file, frozen.problem.mesh);
+  made.duration = file.duration;
+  made.fastest_rate = motion.fastest_rate;
+  if (!(made.fastest_rate > 0.0)) made.fastest_rate = 1.0 / file.duration;  // free flight only
+  made.edge = frozen.edge;
+  made.omissions = frozen.omissions;
+  made.frozen = std::make_shared<FrozenScene>(std::move(frozen));
+  return made;
 }
 
-TradeoffScene tradeoff_scene(std::string what, const SpringScene& scene) {
-  TradeoffScene made{.name = scene.name, .what = std::move(what), .body = prepare(scene), .motion = {}};
-  made.motion = made.body->motion;
-  made.duration = scene.duration;
-  made.fastest_rate = made.body->fastest_rate;
-  made.edge = reference::mean_rest_length(made.motion.network);
-  return made;
+TradeoffScene tradeoff_scene(std::string what, const TableScene& scene) {
+  SceneFile file{};
+  file.file = file.name = scene.name;
+  file.about = std::move(what);
+  file.material = scene.problem.material;
+  file.gravity = scene.problem.surroundings.gravity;
+  file.duration = scene.duration;
+  file.events = scene.events;
+  return tradeoff_scene(freeze(file, scene.problem, scene.initial_position), scene.checkpoints);
 }
 
 TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const StiffSceneOptions& options) {
-  const std::vector<std::uint8_t> stiff = inclusion(mesh);
-  SpringScene scene = smooth_scene(std::move(mesh), soft, options.phase);
+  TableScene scene = smooth_scene(std::move(mesh), soft, options.phase);
   scene.checkpoints = options.checkpoints;
-  // the inclusion starts at rest: stretched like the other cells, it would hold almost all of the energy
-  Problem& problem = scene.problem;
-  for (std::uint32_t c = 0; c < stiff.size(); ++c)
-    if (stiff[c])
-      for (const std::uint32_t i : problem.mesh.cell(c)) {
-        scene.initial_position[i] = problem.mesh.points[i];
-        problem.initial_velocity[i].setZero();
-      }
-  const Mesh cells = problem.mesh;
-  if (options.damped) {
-    // c = beta k, zeta = beta omega / 2
-    PreparedScene undamped = prepare(scene);
-    stiffen(undamped, cells, stiff, factor);
-    problem.material.damping = 2.0 / undamped.fastest_rate * problem.material.stiffness;
-  }
-  TradeoffScene made = tradeoff_scene(std::move(what), scene);
-  stiffen(*made.body, cells, stiff, factor);
-  made.motion = made.body->motion;
-  made.fastest_rate = made.body->fastest_rate;
-  return made;
+  add_inclusion(scene, mean(scene.problem.mesh.points), factor);
+  // c = beta k, zeta = beta omega / 2
+  if (options.damped) set_damping(scene.problem, 2.0 / tradeoff_scene({}, scene).fastest_rate);
+  return tradeoff_scene(std::move(what), scene);
 }
 
 TradeoffScene chain_scene(int count, double phase, std::size_t checkpoints) {
   constexpr double stiffness = 50.0, mass = 0.01, spacing = 0.1;
-  TradeoffScene made{.name = "chain", .what = "", .body = {}, .motion = {}};
+  TradeoffScene made{.name = "chain", .what = "", .motion = {}};
   reference::SpringNetwork& network = made.motion.network;
   const auto points = static_cast<std::size_t>(count) + 2;
   network.mass.assign(points, mass);
@@ -234,24 +162,17 @@ TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::
   const auto made = [&]() -> TradeoffScene {
     if (name == "chain") return chain_scene(24, smooth_phase);
     if (name == "swing") return tradeoff_scene(what, swing_scene(liver()));
-    if (name == "large") {
-      TradeoffScene scene = tradeoff_scene(what, smooth_scene(kuhn_box(26, 26, 26, 0.01, 0.2, 1), soft, 64.0));
-      return scene;
-    }
+    if (name == "large") return tradeoff_scene(what, smooth_scene(kuhn_box(26, 26, 26, 0.01, 0.2, 1), soft, 64.0));
     if (name.starts_with("stiff"))
       return stiff_scene(what, liver(), name.starts_with("stiff-1e4") ? 1e4 : 1e6,
                          {.damped = name.ends_with("damped")});
-    SpringScene scene = smooth_scene(liver(), soft, smooth_phase);
+    TableScene scene = smooth_scene(liver(), soft, smooth_phase);
     const double half = 0.5 * scene.duration;
-    if (name == "cut")
-      scene.events.push_back(plane_cut(half, mean(scene.problem.mesh.points), Eigen::Vector3d(1, 0.25, 0)));
-    if (name == "tear") scene.events.push_back(fan_tear(half, most_stressed_point(scene, half)));
-    TradeoffScene result = tradeoff_scene(what, scene);
+    if (name == "cut") add_cut(scene, half, mean(scene.problem.mesh.points), Eigen::Vector3d(1, 0.25, 0));
     if (name == "tear")
-      result.omissions.emplace_back(
-          "The fan is torn at a given time, at the vertex whose stress is largest then: all runs tear alike, and the "
-          "time of an event that depends on the state is not studied.");
-    return result;
+      scene.events.push_back(
+          {TearWhereStressed{std::numeric_limits<double>::min(), {}, 1}, half, half, {}, "/events/0"});
+    return tradeoff_scene(what, scene);
   }();
   TradeoffScene scene = made;
   scene.name = name;

@@ -4,24 +4,23 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "reference/ode_codes.h"
 #include "validation/frozen/frozen_scene.h"
-#include "validation/scenes/spring_scene.h"
+#include "validation/scenes/table_scene.h"
 
 namespace dartboard {
 
-/// A scene that is ready to be run many times: a scene file, a body of the table on its map, or point masses and
-/// springs alone. A scene file cannot state the closed form of a scene of the table.
+/// A scene that is ready to be run many times: a frozen scene, of a file or of the table, or point masses and springs
+/// alone.
 struct TradeoffScene {
   std::string name, what;
-  std::shared_ptr<const FrozenScene> frozen{};                // of a scene file (scene_of_file.h)
-  std::optional<PreparedScene> body{};                        // without both, motion.network moves
-  reference::NetworkMotion motion;                            // for references; that of the body where there is one
+  std::shared_ptr<const FrozenScene> frozen{};                // without one, motion.network moves
+  reference::NetworkMotion motion;                            // for references
   std::string beyond_references{};                            // "membranes": `motion` has only the masses of these
   std::function<std::vector<PointState>()> closed_form = {};  // the exact states at the checkpoints, where known
   double duration = 1.0;                                      // [s]
@@ -45,8 +44,12 @@ std::span<const TradeoffEntry> tradeoff_scenes();
 /// throws  InputError for a name that is not in the table, naming those that are; IoError if the mesh cannot be read
 TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::path& meshes);
 
-/// A scene of a body that is not in the table.
-TradeoffScene tradeoff_scene(std::string what, const SpringScene& scene);
+/// The motion of a frozen scene, with its file's name and its sentence about the scene.
+TradeoffScene tradeoff_scene(FrozenScene frozen, std::size_t checkpoints);
+/// The same for a scene made by a program.
+///
+/// throws  as freeze
+TradeoffScene tradeoff_scene(std::string what, const TableScene& scene);
 
 /// `count` equal masses on a line between two walls, moving along it in several modes at once; the motion is linear and
 /// known exactly.
@@ -61,12 +64,5 @@ struct StiffSceneOptions {
 };
 /// A body in soft motion. The tenth of its cells nearest to the middle is stiffer by a factor and starts at rest.
 TradeoffScene stiff_scene(std::string what, Mesh mesh, double factor, const StiffSceneOptions& options);
-
-/// Multiply what some cells contribute to the stiffness and damping of their edges, in the body and in its network.
-///
-/// The network's numbers come from the cells of the mesh, the body's from its own sum over the darts around an edge.
-/// pre     the scene has no events, and `stiff` has one entry per cell of the mesh
-/// throws  InputError otherwise
-void stiffen(PreparedScene& scene, const Mesh& mesh, std::span<const std::uint8_t> stiff, double factor);
 
 }  // namespace dartboard

@@ -7,10 +7,12 @@
 #include "core/operations/dissociate_all.h"
 #include "core/operations/tear_fan.h"
 #include "core/plain/random.h"
-#include "validation/scenes/spring_scene.h"
+#include "core/views/spring_ends.h"
 
 namespace dartboard {
 namespace {
+
+using TetBody = MassSpringBody<TetMap, Held::by_every_dart>;
 
 SpringColumns columns_of(const TetBody& body, double stretch) {
   SpringEndsView ends;

@@ -72,6 +72,8 @@ char mark(Regime regime) {
   return '?';
 }
 
+}  // namespace
+
 std::string orders_text(const OrderStudy& study, double OrderPoint::*order) {
   std::string text;
   for (const OrderPoint& p : study.points) {
@@ -82,7 +84,10 @@ std::string orders_text(const OrderStudy& study, double OrderPoint::*order) {
   return text;
 }
 
-}  // namespace
+std::string steps_text(const OrderStudy& study) {
+  if (study.points.empty()) return "-";
+  return fmt::format("{:.2g} .. {:.2g}", study.points.front().h_omega, study.points.back().h_omega);
+}
 
 std::string references_heading(const OrderResults& results) {
   return by_independent_codes(results) ? "by independent codes" : "by two methods of one library";
@@ -174,9 +179,7 @@ Table order_table(const OrderResults& results) {
                {"p in v"},
                {"holds"}});
   for (const OrderStudy& s : results.studies) {
-    const std::string steps =
-        s.points.empty() ? "-" : fmt::format("{:.2g} .. {:.2g}", s.points.front().h_omega, s.points.back().h_omega);
-    table.add_row({s.integrator, std::string(name(s.which)), fmt::format("{}", s.theory), steps,
+    table.add_row({s.integrator, std::string(name(s.which)), fmt::format("{}", s.theory), steps_text(s),
                    orders_text(s, &OrderPoint::p_x), orders_text(s, &OrderPoint::p_v),
                    s.holds ? "yes" : "NO: " + s.reason});
   }
@@ -209,31 +212,33 @@ Table discrete_table(const OrderResults& results) {
   return table;
 }
 
+nlohmann::ordered_json to_json(const OrderStudy& study, std::string_view scene) {
+  nlohmann::ordered_json json{{"integrator", study.integrator}, {"scene", scene},           {"theory", study.theory},
+                              {"holds", study.holds},           {"p_x", number(study.p_x)}, {"p_v", number(study.p_v)}};
+  if (!study.reason.empty()) json["reason"] = study.reason;
+  for (const OrderPoint& p : study.points) {
+    nlohmann::ordered_json point{{"steps", p.steps}, {"h_omega", p.h_omega}, {"regime", name(p.regime)}};
+    if (p.diagnosis.empty()) {
+      point["error_x"] = number(p.errors.x);
+      point["error_v"] = number(p.errors.v);
+      point["error_energy"] = number(p.errors.energy);
+      point["error_momentum"] = number(p.errors.momentum);
+      point["error_angular"] = number(p.errors.angular);
+    } else {
+      point["diagnosis"] = p.diagnosis;
+    }
+    if (p.has_order) {
+      point["p_x"] = number(p.p_x);
+      point["p_v"] = number(p.p_v);
+    }
+    json["points"].push_back(point);
+  }
+  return json;
+}
+
 nlohmann::ordered_json to_json(const OrderResults& results, const std::vector<Claim>& claims) {
   nlohmann::ordered_json json{{"holds", exit_code(claims) == 0}, {"claims", nlohmann::json(claims)}};
-  for (const OrderStudy& s : results.studies) {
-    nlohmann::ordered_json study{{"integrator", s.integrator}, {"scene", name(s.which)}, {"theory", s.theory},
-                                 {"holds", s.holds},           {"p_x", number(s.p_x)},   {"p_v", number(s.p_v)}};
-    if (!s.reason.empty()) study["reason"] = s.reason;
-    for (const OrderPoint& p : s.points) {
-      nlohmann::ordered_json point{{"steps", p.steps}, {"h_omega", p.h_omega}, {"regime", name(p.regime)}};
-      if (p.diagnosis.empty()) {
-        point["error_x"] = number(p.errors.x);
-        point["error_v"] = number(p.errors.v);
-        point["error_energy"] = number(p.errors.energy);
-        point["error_momentum"] = number(p.errors.momentum);
-        point["error_angular"] = number(p.errors.angular);
-      } else {
-        point["diagnosis"] = p.diagnosis;
-      }
-      if (p.has_order) {
-        point["p_x"] = number(p.p_x);
-        point["p_v"] = number(p.p_v);
-      }
-      study["points"].push_back(point);
-    }
-    json["orders"].push_back(study);
-  }
+  for (const OrderStudy& s : results.studies) json["orders"].push_back(to_json(s, name(s.which)));
   for (const OrderReference& stage : results.references) {
     const reference::CertifiedMotion& c = stage.certified;
     nlohmann::ordered_json oracle{{"scene", name(stage.which)},       {"accepted", c.accepted},

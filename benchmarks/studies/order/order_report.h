@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "benchmarks/harness/claim.h"
@@ -38,10 +39,17 @@ std::vector<Claim> claims_of(const OrderResults& results);
 /// Says on whose agreement the references are based: "by independent codes".
 std::string references_heading(const OrderResults& results);
 
+/// The observed orders in x or in v, halving by halving, each with the mark of its regime.
+std::string orders_text(const OrderStudy& study, double OrderPoint::*order);
+/// "0.7 .. 0.02": h omega of the longest and of the shortest steps; "-" without runs.
+std::string steps_text(const OrderStudy& study);
+
 Table order_table(const OrderResults& results);
 Table oracle_table(const OrderResults& results);
 Table discrete_table(const OrderResults& results);
 
+/// The orders and errors of each run; `scene` is its name.
+nlohmann::ordered_json to_json(const OrderStudy& study, std::string_view scene);
 nlohmann::ordered_json to_json(const OrderResults& results, const std::vector<Claim>& claims);
 
 }  // namespace dartboard

@@ -1,5 +1,6 @@
 #pragma once
-// `dartboard validate order`: do the integrators have the orders they claim, and are their maps the exact ones?
+// `dartboard validate order`: do the integrators have the orders they claim, also on a user's scenes, and are their
+// maps the exact ones?
 
 #include <string>
 #include <vector>
@@ -12,9 +13,13 @@ namespace dartboard {
 struct OrderPlan {
   std::vector<std::string> integrators{};  // empty: all
   bool quick = false;                      // fewer halvings and steps, a wider window of errors
+  std::vector<std::string> scenes{};       // scene files, or names of the study; empty: the study's own question
 };
 
-/// throws  InputError for an unknown integrator
+/// With scenes, the orders that integrators show on these; else on the study's own, compared with the exact maps, and
+/// what goes with it.
+///
+/// throws  InputError for an unknown integrator, for a scene with contact, and as find_scene
 Report order_study(const OrderPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

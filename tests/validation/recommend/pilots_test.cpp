@@ -150,7 +150,7 @@ TEST(WholeSteps, AreAtMostAsLongAsAskedAndAsManyInEveryInterval) {
 
 // Masses 1 and 3 and a fixed one of 0: edges of 2.
 TEST(Differences, AreMassWeightedInEdgesAtTheCheckpointsThatBothReached) {
-  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  TradeoffScene scene{.name = "", .what = "", .motion = {}};
   scene.motion.network.mass = {1.0, 3.0};
   scene.motion.checkpoints = {1.0, 2.0};
   scene.edge = 2.0;
@@ -166,7 +166,7 @@ TEST(Differences, AreMassWeightedInEdgesAtTheCheckpointsThatBothReached) {
 }
 
 TEST(DistanceFromStart, IsThatOfTheFarthestPointInEdges) {
-  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  TradeoffScene scene{.name = "", .what = "", .motion = {}};
   scene.motion.start = {{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
   scene.edge = 2.0;
   TimedRun run;
@@ -276,7 +276,7 @@ TEST(PilotLonger, SeesTheWholeOfAShortRunThoughTheTimeIsUp) {
 }
 
 TEST(PilotCheckpoints, AreAQuarterOrUpToTheOneAfterTheFirstEvent) {
-  TradeoffScene scene{.name = "", .what = "", .body = {}, .motion = {}};
+  TradeoffScene scene{.name = "", .what = "", .motion = {}};
   for (int c = 1; c <= 16; ++c) scene.motion.checkpoints.push_back(c);
   EXPECT_EQ(pilot_checkpoints(scene), 4u);
   scene.motion.events.push_back({2.5, {}, {}});

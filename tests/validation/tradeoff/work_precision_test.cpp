@@ -8,7 +8,6 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
-#include "validation/scenes/order_scenes.h"
 #include "validation/tradeoff/cvode_adams.h"
 
 namespace dartboard::work_precision_test {
@@ -167,47 +166,6 @@ TEST(RunTimed, APrefixEndsAtItsCheckpoint) {
   ASSERT_EQ(part.states.size(), 2u);
   EXPECT_EQ(part.states[1].x, whole.states[1].x);
   EXPECT_EQ(part.work.steps, 32u);
-}
-
-TEST(RunTimed, ABodyIsCutAsRunSceneDoes) {
-  const PreparedScene prepared = prepare(order_scene(OrderCase::aligned_cut));
-  const TradeoffScene scene = tradeoff_scene("", order_scene(OrderCase::aligned_cut));
-  const auto one = make_integrator("blanes-moan-4"), two = make_integrator("blanes-moan-4");
-  const SceneRun expected = run_scene(prepared, *one, 32);
-  const TimedRun run = run_timed(scene, *two, {.steps = 32}, ticking());
-  ASSERT_EQ(run.states.size(), expected.states.size());
-  for (std::size_t c = 0; c < run.states.size(); ++c) {
-    EXPECT_EQ(run.states[c].x, expected.states[c].x);
-    EXPECT_EQ(run.states[c].v, expected.states[c].v);
-  }
-}
-
-TEST(Stiffen, BodyAndNetworkGetTheSameSprings) {
-  SpringScene plain = order_scene(OrderCase::damped);
-  PreparedScene scene = prepare(plain);
-  const double before = scene.fastest_rate;
-  std::vector<std::uint8_t> stiff(plain.problem.mesh.cell_count(), 0);
-  for (std::size_t c = 0; c < stiff.size(); c += 10) stiff[c] = 1;
-  stiffen(scene, plain.problem.mesh, stiff, 1e4);
-  EXPECT_GT(scene.fastest_rate, 10.0 * before);
-  SpringEndsView ends;
-  ends.rebuild(scene.body);
-  ASSERT_EQ(ends.ends.size(), scene.motion.network.springs.size());
-  std::size_t found = 0;
-  for (const reference::Spring& s : scene.motion.network.springs)
-    for (std::size_t k = 0; k < ends.ends.size(); ++k)
-      if (std::minmax(ends.ends[k][0], ends.ends[k][1]) == std::minmax(s.a, s.b)) {
-        ++found;
-        // whole multiples below 2^53 of the material's: exact in any order
-        EXPECT_EQ(scene.body.springs[k].stiffness, s.stiffness);
-        EXPECT_EQ(scene.body.springs[k].damping, s.damping);
-      }
-  EXPECT_EQ(found, ends.ends.size());
-}
-
-TEST(Stiffen, ABodyThatIsCutIsRefused) {
-  PreparedScene scene = prepare(order_scene(OrderCase::aligned_cut));
-  EXPECT_THROW(stiffen(scene, {}, {}, 2.0), InputError);
 }
 
 TEST(TradeoffScenes, AnUnknownNameIsAnsweredWithTheKnownOnes) {
