@@ -78,7 +78,8 @@ class FrozenBody {
 
  private:
   class Scout;
-  friend FrozenScene freeze(const SceneFile& file, const Problem& problem);
+  friend FrozenScene freeze(const SceneFile& file, const Problem& problem,
+                            std::vector<Eigen::Vector3d> initial_position);
   bool drive(double time);
   void look_at_contact();
 
