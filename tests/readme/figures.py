@@ -21,6 +21,7 @@ FORETOLD = "results/2026-11-23-epyc-foretold/samples.jsonl"
 OPERATED = ["results/2026-11-23-epyc-element-operations/samples.jsonl", "results/2026-11-23-epyc-element-operations-real/samples.jsonl"]
 MODELS = "results/2026-11-23-epyc-models/"
 EXTREMES = RUN + "reproduce/extremes/"
+VERDICTS = "results/2026-11-26-xeon-verdicts/samples.jsonl"
 JUDGES = "results/2026-11-23-epyc-judges/judges.json"
 ELEMENTS = "results/2026-11-23-epyc-elements/samples.jsonl"
 MESH = "benchmarks/meshes/liver564.mesh"
@@ -375,6 +376,11 @@ FIGURES = [
      [FORETOLD], lambda: (str(len(lines(FORETOLD))), str(len(foretold())),
                           *("%.0f" % f(a["actual_s"] / a["pilot_s"] for a in foretold()) for f in (min, max)),
                           *("%.2f" % (100 * f(a["seen_part"] for a in foretold())) for f in (min, max)))),
+    (RESULTS, "Of {} scenes without contact {} met the error that was asked for, and no cost was predicted more than {} % wrong", [VERDICTS],
+     lambda: (str(len(lines(VERDICTS))), str(sum(a["met"] for a in lines(VERDICTS))),
+              "%.1f" % (100 * max(abs(a["predicted_cost"] / a["actual_cost"] - 1) for a in lines(VERDICTS)) + 0.05))),
+    (RESULTS, "that comes to rest cost {} times what the cheapest method takes.", [VERDICTS],
+     lambda: ("%.0f" % max(a["actual_cost"] / a["best_cost"] for a in lines(VERDICTS)),)),
     (RESULTS, "All {} errors were met, and all {} times as printed were within 15 % ({} without a miss show {} %;", [FORETOLD],
      lambda: (str(len([a for a in foretold() if a["told"] and a["actual_error"] <= a["error"]])),
               str(len([a for a in foretold() if abs(a["printed_s"] / a["actual_s"] - 1) <= 0.15])), str(len(foretold())),
