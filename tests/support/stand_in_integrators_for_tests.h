@@ -1,10 +1,13 @@
 #pragma once
 // Integrators with a known error, made from a real one and with its scheme.
 
+#include <Eigen/Core>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "core/time/integrators.h"
+#include "core/time/system/accelerations.h"
 
 namespace dartboard {
 
@@ -20,6 +23,25 @@ class LongerSteps : public Integrator {
 
  private:
   std::unique_ptr<Integrator> real_ = make_integrator(of);
+};
+
+/// Verlet with all forces, damping too, at the velocity of the start of the step: of order 1 where there is damping.
+class LaggedVerlet : public Integrator {
+ public:
+  const Scheme& scheme() const override {
+    static const Scheme scheme = make_integrator("verlet")->scheme();
+    return scheme;
+  }
+  StepResult step(const SpringSystem& system, Motion motion, double h) override {
+    std::vector<Eigen::Vector3d> a(motion.x.size());
+    for (std::size_t i = 0; i < a.size(); ++i) motion.x[i] += 0.5 * h * motion.v[i];
+    accelerations(system, terms_of(system), motion.x, motion.v, a);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      motion.v[i] += h * a[i];
+      motion.x[i] += 0.5 * h * motion.v[i];
+    }
+    return {};
+  }
 };
 
 template <class T>

@@ -66,10 +66,10 @@ class Red(unittest.TestCase):
 
     def test_of_a_build_is_a_line_for_each_place(self):
         log = ("FAILED: x.o\n../../core/a.cpp:3:7: error: 'y' was not declared\n../../core/a.cpp:3:9: error: again\n"
-               "/tmp/b.h:5:1: fatal error: c.h: No such file\n")
+               "/elsewhere/b.h:5:1: fatal error: c.h: No such file\n")
         self.assertEqual(red.of_build(log, "./dartboard test"),
                          ["RED build  core/a.cpp:3: 'y' was not declared  (again: ./dartboard test)",
-                          "RED build  /tmp/b.h:5: c.h: No such file  (again: ./dartboard test)"])
+                          "RED build  /elsewhere/b.h:5: c.h: No such file  (again: ./dartboard test)"])
 
     def test_of_a_link_that_failed_says_what_is_missing(self):
         self.assertIn("undefined reference to `sew'", red.of_build("ld: a.o: undefined reference to `sew'\n", "again")[0])

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/plain/error.h"
-#include "core/time/system/accelerations.h"
+#include "tests/support/stand_in_integrators_for_tests.h"
 #include "validation/order/cut_jump.h"
 #include "validation/order/discrete_exact.h"
 #include "validation/order/force_gradient.h"
@@ -152,31 +152,8 @@ TEST(ConvergenceOrder, IsOneAcrossACutWithinAStep) {
   }
 }
 
-// Verlet with all forces, damping too, at the velocity of the start of the step.
-class LaggedVerlet : public Integrator {
- public:
-  const Scheme& scheme() const override {
-    static const Scheme scheme = make_integrator("verlet")->scheme();
-    return scheme;
-  }
-  StepResult step(const SpringSystem& system, Motion motion, double h) override {
-    std::vector<Eigen::Vector3d> a(motion.x.size());
-    for (std::size_t i = 0; i < a.size(); ++i) motion.x[i] += 0.5 * h * motion.v[i];
-    accelerations(system, terms_of(system), motion.x, motion.v, a);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      motion.v[i] += h * a[i];
-      motion.x[i] += 0.5 * h * motion.v[i];
-    }
-    return {};
-  }
-};
-template <class T>
-IntegratorEntry entry_of(std::string_view name) {
-  return {name, []() -> std::unique_ptr<Integrator> { return std::make_unique<T>(); }};
-}
-
 TEST(ConvergenceOrder, TellsDampingThatLagsFromDampingThatDoesNot) {
-  const IntegratorEntry lagged = entry_of<LaggedVerlet>("lagged-verlet");
+  const IntegratorEntry lagged = stand_in<LaggedVerlet>("lagged-verlet");
   EXPECT_TRUE(study_order(stage(OrderCase::undamped), lagged).holds);
   const OrderStudy study = study_order(stage(OrderCase::damped), lagged, {.most_steps = 24 << 8});
   EXPECT_FALSE(study.holds);
@@ -191,7 +168,7 @@ class Failing : public LaggedVerlet {
 };
 
 TEST(ConvergenceOrder, KeepsTheDiagnosisOfARunThatFails) {
-  const OrderStudy study = study_order(stage(OrderCase::undamped), entry_of<Failing>("failing"), {.most_steps = 48});
+  const OrderStudy study = study_order(stage(OrderCase::undamped), stand_in<Failing>("failing"), {.most_steps = 48});
   EXPECT_FALSE(study.holds);
   ASSERT_EQ(study.points.size(), 2u);
   EXPECT_EQ(study.points[0].regime, Regime::failed);
@@ -218,9 +195,9 @@ class SlightlyFast : public LaggedVerlet {
 };
 
 TEST(DiscreteExact, NoticesACoefficientThatIsWrongInItsTwelfthDigit) {
-  EXPECT_LE(compare_with_discrete_map(entry_of<LaggedVerlet>("verlet"), 0.0, 10000).deviation, 1e-10);
+  EXPECT_LE(compare_with_discrete_map(stand_in<LaggedVerlet>("verlet"), 0.0, 10000).deviation, 1e-10);
   // the phase of 2500 radians is off by 2.5e-9, of an amplitude of 0.35
-  EXPECT_GT(compare_with_discrete_map(entry_of<SlightlyFast>("fast"), 0.0, 10000).deviation, 1e-10);
+  EXPECT_GT(compare_with_discrete_map(stand_in<SlightlyFast>("fast"), 0.0, 10000).deviation, 1e-10);
 }
 
 TEST(ForceGradient, IsMinusTheForce) {

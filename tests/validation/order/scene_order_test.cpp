@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/plain/error.h"
-#include "core/time/system/accelerations.h"
 #include "tests/support/moving_box.h"
+#include "tests/support/stand_in_integrators_for_tests.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard::scene_order_test {
@@ -176,29 +176,10 @@ const Kind kinds[] = {
 INSTANTIATE_TEST_SUITE_P(Kinds, OrderOnScene, ::testing::ValuesIn(kinds),
                          [](const auto& kind) { return std::to_string(kind.index); });
 
-// Verlet with all forces, damping too, at the velocity of the start of the step: of order 1 where there is damping.
-class Lagging : public Integrator {
- public:
-  const Scheme& scheme() const override {
-    static const Scheme scheme = make_integrator("verlet")->scheme();
-    return scheme;
-  }
-  StepResult step(const SpringSystem& system, Motion motion, double h) override {
-    std::vector<Eigen::Vector3d> a(motion.x.size());
-    for (std::size_t i = 0; i < a.size(); ++i) motion.x[i] += 0.5 * h * motion.v[i];
-    accelerations(system, terms_of(system), motion.x, motion.v, a);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      motion.v[i] += h * a[i];
-      motion.x[i] += 0.5 * h * motion.v[i];
-    }
-    return {};
-  }
-};
-
 TEST(SceneOrder, IsMissedByAnIntegratorThatIsOfALowerOrderThanItPromises) {
   const TradeoffScene scene = scene_with("{}");
   const SceneReference reference = reference_of(scene, no_clock);
-  const IntegratorEntry lagging{"lagging", []() -> std::unique_ptr<Integrator> { return std::make_unique<Lagging>(); }};
+  const IntegratorEntry lagging = stand_in<LaggedVerlet>("lagging");
   const SceneOrder found = observe_order(scene, reference, lagging, no_clock);
   EXPECT_EQ(found.answer, OrderAnswer::missed);
   EXPECT_TRUE(found.study.reason.starts_with("order 1.0")) << found.study.reason;
