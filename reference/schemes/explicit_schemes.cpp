@@ -62,6 +62,7 @@ SpringNetwork elastic_part(SpringNetwork network) {
 }
 SpringNetwork dissipative_part(SpringNetwork network) {
   network.gravity.setZero();
+  network.pull.clear();
   std::erase_if(network.elements, [](const ElasticPoint& point) { return point.damping_time == 0; });
   for (ElasticPoint& point : network.elements) point.is_elastic = false;
   for (Spring& s : network.springs) s.stiffness = 0.0;

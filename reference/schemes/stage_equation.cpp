@@ -14,6 +14,12 @@ namespace {
 using Vector = Vector3<Extended>;
 constexpr Extended smallest = std::numeric_limits<double>::denorm_min();
 
+/// [m/s^2] Gravity, and what pulls at point i.
+Vector fall_of(const SpringNetwork& network, std::size_t i) {
+  const Vector gravity = network.gravity.cast<Extended>();
+  return network.pull.empty() ? gravity : Vector(gravity + network.pull[i].cast<Extended>());
+}
+
 }  // namespace
 
 void StageEquation::add_elements(const std::vector<Vector>& w, StageForces& result) const {
@@ -67,13 +73,12 @@ StageForces StageEquation::forces(const std::vector<Vector>& w) const {
   add_elements(w, result);
   for (std::size_t i = 0; i < n; ++i) {
     const Extended mass = network.mass[i];
-    result.sizes[i] =
-        result.sizes[i] / mass + std::abs(network.viscosity) * top_speed + largest_of(network.gravity.cast<Extended>());
+    const Vector fall = fall_of(network, i);
+    result.sizes[i] = result.sizes[i] / mass + std::abs(network.viscosity) * top_speed + largest_of(fall);
     if (network.fixed[i])
       result.acceleration[i].setZero();
     else
-      result.acceleration[i] =
-          result.acceleration[i] / mass - network.viscosity * w[i] + network.gravity.cast<Extended>();
+      result.acceleration[i] = result.acceleration[i] / mass - network.viscosity * w[i] + fall;
   }
   return result;
 }
@@ -148,7 +153,7 @@ StageEquation::Change StageEquation::potential_change(const std::vector<Vector>&
   for (std::size_t i = 0; i < network.point_count(); ++i) {
     if (network.fixed[i]) continue;
     const Vector move = to[i] - from[i], sum = to[i] + from[i];
-    const Vector fall = tau * network.gravity.cast<Extended>();
+    const Vector fall = tau * fall_of(network, i);
     const Vector slope = sum / 2 - vh[i] - fall + tau * network.viscosity / 2 * sum;
     add(network.mass[i] * slope.dot(move));
   }

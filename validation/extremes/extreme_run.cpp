@@ -146,7 +146,7 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   StepResult result = detector.start(body.system(), body.motion(), setup.h);
   cell.refused = !result.ok();
   const double deadline = reference::thread_cpu_seconds() + budget;
-  StepEvidence evidence(which.integrator, setup.steps, setup.body.solid.get());
+  StepEvidence evidence(which.integrator, setup.steps, elements_of(setup.body));
   for (; cell.step < setup.steps && result.ok(); ++cell.step) {
     if (setup.halfway && cell.step == setup.steps / 2) {
       setup.halfway(body);

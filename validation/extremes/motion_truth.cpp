@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double step_times_rate = 0.25, most_steps = 1200;
-
 struct Truth {
   std::vector<Vector3d> x, v;  // of the start
   double duration = -1.0, rate = 0.0;
@@ -34,32 +32,26 @@ struct Truth {
 
 Truth find_truth(const SpringColumns& start, double duration) {
   Truth truth{start.x, start.v, duration, 0.0, start.springs, start.mass, start.solid, std::nullopt};
-  const auto network = network_of(start.system(), start.solid.get());
+  const auto network = network_of(start.system(), elements_of(start));
   if (!network || !(duration > 0.0)) return truth;
   truth.rate = reference::fastest_rate(*network, start.x);
-  if (!(duration * truth.rate / step_times_rate <= most_steps)) return truth;
+  if (!(duration * truth.rate / truth_step_times_rate <= most_truth_steps)) return truth;
   reference::NetworkMotion motion{*network, {start.x, start.v}, {}, {duration}};
-  reference::CodeRun run = reference::run_odeint_fehlberg(motion, step_times_rate);
+  reference::CodeRun run = reference::run_odeint_fehlberg(motion, truth_step_times_rate);
   if (run.failure.empty() && !run.states.empty()) truth.end = std::move(run.states.front());
   return truth;
 }
 
 }  // namespace
 
-std::optional<MotionDistance> distance_from_truth(const SpringColumns& start, const SpringColumns& end,
-                                                  double duration) {
-  // all integrators of a row of the matrix run the same motion, one after the other
-  thread_local Truth truth;
-  if (!truth.is_of(start, duration)) truth = find_truth(start, duration);
-  if (!truth.end) return {};
+MotionDistance distance_between(std::span<const long double> truth, const PointState& start, const PointState& end,
+                                double slow) {
   const std::size_t n = start.x.size();
-  const double slow = truth.rate > 0.0 ? 1.0 / truth.rate : duration;
-  const auto far = [&](std::size_t i, const SpringColumns& from, double of_velocity) {
+  const auto far = [&](std::size_t i, const PointState& from, double of_velocity) {
     long double x = 0, v = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto axis = static_cast<Eigen::Index>(c);
-      const long double dx = (*truth.end)[3 * i + c] - from.x[i][axis],
-                        dv = (*truth.end)[3 * (n + i) + c] - from.v[i][axis];
+      const long double dx = truth[3 * i + c] - from.x[i][axis], dv = truth[3 * (n + i) + c] - from.v[i][axis];
       x += dx * dx;
       v += dv * dv;
     }
@@ -72,6 +64,16 @@ std::optional<MotionDistance> distance_from_truth(const SpringColumns& start, co
     result.moved = max_or_nan(result.moved, far(i, start, slow));
   }
   return result;
+}
+
+std::optional<MotionDistance> distance_from_truth(const SpringColumns& start, const SpringColumns& end,
+                                                  double duration) {
+  // all integrators of a row of the matrix run the same motion, one after the other
+  thread_local Truth truth;
+  if (!truth.is_of(start, duration)) truth = find_truth(start, duration);
+  if (!truth.end) return {};
+  return distance_between(*truth.end, {start.x, start.v}, {end.x, end.v},
+                          truth.rate > 0.0 ? 1.0 / truth.rate : duration);
 }
 
 }  // namespace dartboard

@@ -8,12 +8,13 @@
 
 namespace dartboard {
 
-std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, const ElasticSolid* solid) {
-  if (!system.pull.empty() || (!system.terms.empty() && solid == nullptr)) return {};
+std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, KnownElements elements) {
+  if (!system.held_axes.empty() || (!system.terms.empty() && elements == nullptr)) return {};
   const std::size_t n = system.vertex_count();
   reference::SpringNetwork network;
   network.gravity = system.gravity;
-  if (solid != nullptr) network.elements = solid->points();
+  network.pull.assign(system.pull.begin(), system.pull.end());
+  if (elements != nullptr) network.elements = *elements;
   bool known = false;
   for (std::size_t i = 0; i < n; ++i) {
     const bool fixed = system.fixed[i] != 0;
@@ -37,11 +38,11 @@ std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, c
   return network;
 }
 
-StepEvidence::StepEvidence(std::string_view integrator, std::uint64_t steps, const ElasticSolid* solid,
-                           std::uint64_t most)
+StepEvidence::StepEvidence(std::string_view integrator, std::uint64_t steps, KnownElements elements, JudgedSteps judged)
     : scheme_(integrator),
-      solid_(solid),
-      stride_(std::max<std::uint64_t>(reference::is_costly_to_judge(integrator) ? 5 : 1, steps / most)) {}
+      elements_(elements),
+      first_(judged.first),
+      stride_(std::max<std::uint64_t>(reference::is_costly_to_judge(integrator) ? 5 : 1, steps / judged.most)) {}
 
 void StepEvidence::restarted() {
   changed_ = true;
@@ -52,11 +53,11 @@ void StepEvidence::before(const SpringSystem& system, Motion motion, double h) {
   const double start = reference::thread_cpu_seconds();
   if (changed_) {
     judge_.reset();
-    if (const auto network = network_of(system, solid_))
+    if (const auto network = network_of(system, elements_))
       judge_ = std::make_unique<reference::StepJudge>(scheme_, *network);
     changed_ = false;
   }
-  asks_ = judge_ != nullptr && (count_ < 8 || count_ % stride_ == 0);
+  asks_ = judge_ != nullptr && (count_ < first_ || count_ % stride_ == 0);
   if (judge_ != nullptr) {
     step_.h = h;
     step_.before.x.assign(motion.x.begin(), motion.x.end());

@@ -9,26 +9,39 @@
 
 #include "core/time/system/spring_system.h"
 #include "reference/schemes/step_judge.h"
-#include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
 
-/// The system, whose other terms are those of `solid`, as a network of the witnesses; nothing if they do not support
-/// it: viscosities that are not in proportion to masses, forces from outside, terms unknown to them, free vertices
+/// The elements of a system; null where the witnesses do not know its force terms.
+using KnownElements = const std::vector<reference::ElasticPoint>*;
+
+/// The system, whose force terms are those of `elements`, as a network of the witnesses; nothing if they do not support
+/// it: viscosities that are not in proportion to masses, axes that are held, terms unknown to them, free vertices
 /// without mass, numbers that are not finite.
-std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, const ElasticSolid* solid = nullptr);
+std::optional<reference::SpringNetwork> network_of(const SpringSystem& system, KnownElements elements = nullptr);
+
+/// The steps of a run that are judged.
+struct JudgedSteps {
+  std::uint64_t first = 8;   // all of the first ones
+  std::uint64_t most = 200;  // of the others about so many
+};
 
 /// Judges the steps of a run: the first ones, and a sample of all others.
 class StepEvidence {
  public:
-  /// for a run of so many steps, of which about `most` are judged; of springs, and of a solid that outlives this
-  StepEvidence(std::string_view integrator, std::uint64_t steps, const ElasticSolid* solid = nullptr,
-               std::uint64_t most = 200);
+  /// For a run of so many steps.   pre  the elements outlive this
+  StepEvidence(std::string_view integrator, std::uint64_t steps, KnownElements elements = nullptr,
+               JudgedSteps judged = {});
 
   /// To be called before and after every step; `restarted` after a restart of the integrator or a change of the system.
   void before(const SpringSystem& system, Motion motion, double h);
   void after(Motion motion);
   void restarted();
+  /// The same where the elements are other ones than before.
+  void changed_to(KnownElements elements) {
+    elements_ = elements;
+    restarted();
+  }
 
   std::uint64_t judged() const { return judged_; }
   /// The number of these steps at which a wrong one would have been seen.
@@ -41,8 +54,8 @@ class StepEvidence {
 
  private:
   std::string scheme_;
-  const ElasticSolid* solid_;
-  std::uint64_t stride_, count_ = 0, judged_ = 0, seeing_ = 0, worst_step_ = 0;
+  KnownElements elements_;
+  std::uint64_t first_, stride_, count_ = 0, judged_ = 0, seeing_ = 0, worst_step_ = 0;
   bool asks_ = false;  // the present step is judged
   bool changed_ = true;
   double worst_ = 0.0, seconds_ = 0.0;

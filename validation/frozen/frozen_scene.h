@@ -68,6 +68,8 @@ class FrozenBody {
   ///
   /// pre  `system` is that of the body
   StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h);
+  /// [J] Work that moving obstacles have done on the body since the last call.
+  double new_contact_work() { return contact_ ? contact_->new_work() : 0.0; }
 
   /// The limits of the step at the present positions, with contacts as deep as predicted.
   ///

@@ -9,6 +9,7 @@
 #include "core/plain/cell_materials.h"
 #include "core/plain/mesh.h"
 #include "reference/elements/elastic_point.h"
+#include "validation/scenes/spring_columns.h"
 
 namespace dartboard {
 
@@ -40,5 +41,10 @@ class ElasticSolid {
   std::unique_ptr<ForceTerm> term_;
   std::vector<reference::ElasticPoint> points_;
 };
+
+/// The elements of a body as the witnesses know them; null without elements.
+inline const std::vector<reference::ElasticPoint>* elements_of(const SpringColumns& body) {
+  return body.solid == nullptr ? nullptr : &body.solid->points();
+}
 
 }  // namespace dartboard

@@ -33,6 +33,8 @@ class SceneStage {
   StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h) {
     return frozen_ ? frozen_->step(integrator, system, time, h) : integrator.step(system, motion(), h);
   }
+  /// [J] Work that moving obstacles have done on the body since the last call.
+  double new_contact_work() { return frozen_ ? frozen_->new_contact_work() : 0.0; }
   /// The limits of the step now.
   StableStep limits();
 

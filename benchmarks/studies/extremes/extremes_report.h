@@ -18,14 +18,14 @@ namespace dartboard {
 
 /// Parts of studies that were not requested are empty.
 struct ExtremesResults {
-  std::vector<nlohmann::ordered_json> cells;  // as child processes deliver them
-  std::vector<StabilityLimit> limits;
-  std::vector<MeshBody> meshes;  // the bodies on which the limits on meshes are based
-  std::vector<StabilityMap> maps;
-  std::vector<AmplificationPoint> amplification;
-  std::vector<RoundingGrowth> rounding;
-  std::vector<TinySteps> tiny;
-  std::vector<Detection> detections;
+  std::vector<nlohmann::ordered_json> cells{};  // as child processes deliver them
+  std::vector<StabilityLimit> limits{};
+  std::vector<MeshBody> meshes{};  // the bodies on which the limits on meshes are based
+  std::vector<StabilityMap> maps{};
+  std::vector<AmplificationPoint> amplification{};
+  std::vector<RoundingGrowth> rounding{};
+  std::vector<TinySteps> tiny{};
+  std::vector<Detection> detections{};
 };
 
 nlohmann::ordered_json to_json(const ExtremeCell& cell);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -17,17 +18,24 @@
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/extremes/extremes_figures.h"
 #include "benchmarks/studies/extremes/extremes_report.h"
+#include "benchmarks/studies/extremes/scene_extremes_report.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/cgal/delaunay_ball.h"
+#include "validation/extremes/scene_extremes.h"
+#include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr unsigned hang_seconds = 20;  // of one run
+constexpr unsigned hang_seconds = 20, scene_hang_seconds = 120;  // of one run
+
+TradeoffScene scene_named(const std::string& scene) {
+  return find_scene(scene, source_folder() / "benchmarks" / "meshes");
+}
 
 // Studies measured in addition to the matrix, and requested by name as its axes are.
 constexpr std::array studies{
@@ -38,19 +46,28 @@ constexpr std::array studies{
     ExtremeAxis{"rounding", "energy over 10^7 steps, motion in tiny steps"},
 };
 
-/// Runs all cases of an axis in child processes: after one that ended the process, the next goes on behind it.
-void run_axis(std::string_view axis, std::span<const ExtremeCase> cases, bool quick, const std::string& folder,
-              StudyLog& log, std::vector<Json>& all) {
+/// The runs of an axis, or of one scene.
+std::vector<ExtremeCase> cases_of(const ExtremesPlan& plan) {
+  if (plan.scenes.empty()) return extreme_cases(plan.axis, plan.quick);
+  return scene_extreme_cases(std::make_shared<const TradeoffScene>(scene_named(plan.scenes.front())), plan.quick);
+}
+
+/// Makes all runs of an axis or a scene in child processes: after one that ended the process, the next goes on behind
+/// it.
+void run_all(const ExtremesPlan& plan, std::span<const ExtremeCase> cases, StudyLog& log, std::vector<Json>& all) {
   std::size_t ended = 0;
   const auto end = [&](Json cell) {
     all.push_back(std::move(cell));
     ++ended;
-    log.sample(all.back(), "extremes.jsonl", folder);
-    log.advance(axis);
+    log.sample(all.back(), "extremes.jsonl", plan.folder);
+    log.advance(plan.scenes.empty() ? plan.axis : all.back().at("integrator").get<std::string>());
   };
   while (ended < cases.size()) {
-    std::vector<std::string> arguments{"extremes", "--axis", std::string(axis), "--child-from", std::to_string(ended)};
-    if (quick) arguments.emplace_back("--quick");
+    std::vector<std::string> arguments{"extremes"};
+    for (const std::string& scene : plan.scenes) arguments.push_back(scene);
+    if (plan.scenes.empty()) arguments.insert(arguments.end(), {"--axis", plan.axis});
+    arguments.insert(arguments.end(), {"--child-from", std::to_string(ended)});
+    if (plan.quick) arguments.emplace_back("--quick");
     std::string why = "the process ended";
     try {
       run_self(arguments, [&end](std::string_view line) {
@@ -77,12 +94,12 @@ std::vector<Picture> pictures_of(const ExtremesResults& results) {
 
 }  // namespace
 
-void run_extremes_child(std::string_view axis, bool quick, std::size_t from) {
-  const std::vector<ExtremeCase> cases = extreme_cases(axis, quick);
+void run_extremes_child(const ExtremesPlan& plan, std::size_t from) {
+  const std::vector<ExtremeCase> cases = cases_of(plan);
   for (std::size_t k = from; k < cases.size(); ++k) {
     tell("{}\n", k);
     std::fflush(stdout);
-    ::alarm(hang_seconds);  // ends the process: a hang is a crash
+    ::alarm(plan.scenes.empty() ? hang_seconds : scene_hang_seconds);  // ends the process: a hang is a crash
     tell("{}\n", json_text(to_json(cases[k].run())));
     std::fflush(stdout);
   }
@@ -149,9 +166,47 @@ ExtremesResults measure(const ExtremesPlan& plan, StudyLog& log) {
   }
   if (runs == 0) return results;
   log.begin("extremes: runs of the matrix", runs);
-  for (const auto& [axis, cases] : matrix) run_axis(axis, cases, quick, plan.folder, log, results.cells);
+  ExtremesPlan one = plan;
+  for (const auto& [axis, cases] : matrix) {
+    one.axis = axis;
+    run_all(one, cases, log, results.cells);
+  }
   made("matrix");
   return results;
+}
+
+/// The lines of a report that are shown first: the runs that may not be.
+std::string opening_of(const ExtremesResults& results) {
+  std::string lines;
+  for (const auto& cells : {forbidden_cells(results), nameless_cells(results)})
+    for (const Json& cell : cells) lines += json_text(cell) + "\n";
+  return lines;
+}
+
+Report scene_extremes_study(const ExtremesPlan& plan, StudyLog& log) {
+  std::vector<SceneCells> found;
+  ExtremesResults all;
+  for (const std::string& name : plan.scenes) {
+    ExtremesPlan one = plan;
+    one.scenes = {name};
+    SceneCells scene{.name = std::filesystem::path(name).stem().string(), .beyond_references = {}};
+    try {
+      const auto ready = std::make_shared<const TradeoffScene>(scene_named(name));
+      for (const std::string& omission : ready->omissions) log.say(omission);
+      scene.beyond_references = ready->beyond_references;
+      const std::vector<ExtremeCase> cases = scene_extreme_cases(ready, plan.quick);
+      log.begin("extremes of " + scene.name, cases.size());
+      run_all(one, cases, log, scene.cells);
+    } catch (const SolverError& error) {  // the motion up to an event cannot be found
+      scene.failure = error.what();
+      log.say(scene.failure);
+    }
+    all.cells.insert(all.cells.end(), scene.cells.begin(), scene.cells.end());
+    found.push_back(std::move(scene));
+  }
+  Report report{.opening = opening_of(all), .tables = tables_of(found), .claims = claims_of(found)};
+  report.numbers = {{"claims", nlohmann::json(report.claims)}, {"runs", all.cells}};
+  return report;
 }
 
 }  // namespace
@@ -164,14 +219,16 @@ std::string known_extremes() {
 }
 
 Report extremes_study(const ExtremesPlan& plan, StudyLog& log) {
+  if (!plan.scenes.empty()) return scene_extremes_study(plan, log);
   const auto is_asked_for = [&plan](const ExtremeAxis& axis) { return axis.name == plan.axis; };
   if (!plan.axis.empty() && std::ranges::none_of(studies, is_asked_for) &&
       std::ranges::none_of(extreme_axes(), is_asked_for))
     throw InputError(fmt::format("there is no axis '{}'; there are {}", plan.axis, known_extremes()));
   const ExtremesResults results = measure(plan, log);
-  Report report{.claims = claims_of(results), .pictures = pictures_of(results), .numbers = to_json(results)};
-  for (const auto& cells : {forbidden_cells(results), nameless_cells(results)})
-    for (const Json& cell : cells) report.opening += json_text(cell) + "\n";
+  Report report{.opening = opening_of(results),
+                .claims = claims_of(results),
+                .pictures = pictures_of(results),
+                .numbers = to_json(results)};
   Json rest = report.numbers;
   rest.erase("matrix");  // it is in extremes.jsonl
   report.data_files = {{"measurements.json", std::move(rest)}};

@@ -44,7 +44,7 @@ Trial draw(SplitMix64& random) {
 }
 
 StepEvidence judged(std::string_view name, Integrator& integrator, Trial trial, std::uint64_t steps) {
-  StepEvidence evidence(name, steps, trial.body.solid.get());
+  StepEvidence evidence(name, steps, elements_of(trial.body));
   for (std::uint64_t k = 0; k < steps; ++k) {
     evidence.before(trial.body.system(), trial.body.motion(), trial.h);
     // an unstable step leaves the range of doubles sooner or later; the steps before are judged
@@ -215,15 +215,50 @@ TEST(StepEvidence, JudgesTheFirstStepsAndASampleOfTheOthers) {
   EXPECT_EQ(judged("ros2", *make_integrator("ros2"), trial, 60).judged(), 8u + 10);
 }
 
-TEST(StepEvidence, KnowsNoForcesThatItIsNotToldOf) {
+TEST(StepEvidence, SupportsNoForceTermWithoutItsElements) {
   const SpringColumns body = elastic_body("tetrahedra", {.young = 100.0, .poisson = 0.3, .model = Model::stvk});
-  EXPECT_TRUE(network_of(body.system(), body.solid.get()).has_value());
+  EXPECT_TRUE(network_of(body.system(), elements_of(body)).has_value());
   EXPECT_FALSE(network_of(body.system()).has_value());
-  const SpringColumns box = moving_body("box");
-  SpringSystem pulled = box.system();
-  const std::vector<Eigen::Vector3d> pull(pulled.vertex_count(), Eigen::Vector3d(1, 0, 0));
-  pulled.pull = pull;
-  EXPECT_FALSE(network_of(pulled).has_value());
+  SpringColumns held = moving_body("box");
+  held.held_axes.assign(held.x.size(), HeldAxes{1});
+  EXPECT_FALSE(network_of(held.system()).has_value());
+}
+
+// Every witness includes what pulls at vertices, and notices a pull that is a millionth off.
+TEST(StepEvidence, IncludesForcesFromOutside) {
+  const SpringColumns body = moving_body("box");
+  const double omega = highest_frequency(body), h = 0.3 / omega;
+  std::vector<Eigen::Vector3d> pull(body.x.size(), Eigen::Vector3d(0, 0, 0));
+  for (std::size_t i = 0; i < pull.size(); i += 3) pull[i] = {0.02 * omega * omega, 0, -0.01 * omega * omega};
+  for (const IntegratorEntry& entry : integrators())
+    for (const bool is_right : {true, false}) {
+      std::vector<Eigen::Vector3d> acting = pull;
+      if (!is_right)
+        for (Eigen::Vector3d& p : acting) p *= 1 + 1e-6;
+      SpringColumns moved = body;
+      const auto integrator = entry.make();
+      StepEvidence evidence(entry.name, 4);
+      for (int k = 0; k < 4; ++k) {
+        SpringSystem system = moved.system(), in_truth = system;
+        system.pull = acting;
+        in_truth.pull = pull;
+        evidence.before(in_truth, moved.motion(), h);
+        ASSERT_TRUE(integrator->step(system, moved.motion(), h).ok()) << entry.name;
+        evidence.after(moved.motion());
+      }
+      EXPECT_GT(evidence.judged(), 0u) << entry.name;
+      EXPECT_EQ(evidence.worst() <= 1.0, is_right) << entry.name << " " << evidence.worst();
+    }
+}
+
+// Damping leaves next to nothing of a velocity in one step: its digits are those of what there was.
+TEST(StepEvidence, CallsAStepRightThatDecaysToNothing) {
+  SpringColumns body = moving_body("box");
+  const double h = 1e3 / highest_frequency(body);
+  for (std::size_t i = 0; i < body.mass.size(); ++i) body.viscosity[i] = 250 / h * body.mass[i];
+  body.gravity = {0, 0, -9.81};
+  const Trial trial{body, h};
+  EXPECT_LE(judged("symplectic-euler", *make_integrator("symplectic-euler"), trial, 1).worst(), 1.0);
 }
 
 // After an event the memory of a method is of no use, to the judge as to the method.
