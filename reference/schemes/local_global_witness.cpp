@@ -80,14 +80,19 @@ class LocalGlobalWitness {
     }
   }
 
-  // [m, m/s] The effect of a correction too many or too few: the sizes of the inverse's entries times the residuals
-  // allowed. (With springs the inverse has no negative entry, as no off-diagonal entry of the matrix is positive.)
+  // [m, m/s] The effect of a correction too many or too few, and of the rounding in all of them: the sizes of the
+  // inverse's entries times the residuals allowed. (With springs the inverse has no negative entry, as no off-diagonal
+  // entry of the matrix is positive.)
   std::array<Extended, 2> tolerated(const std::vector<Extended>& y) const {
-    const StageEquation stage = equation(y);
-    const std::vector<Extended> allowed = stage.allowed(stage.vh, stage.forces(stage.vh));
+    StageEquation stage = equation(y);
+    const StageForces at = stage.forces(stage.vh);
+    const std::vector<Extended> allowed = stage.allowed(stage.vh, at);
+    stage.tolerance = 0;
+    const std::vector<Extended> rounding = stage.allowed(stage.vh, at);
     DenseColumn residual = DenseColumn::Zero(static_cast<Eigen::Index>(allowed.size()));
     for (std::size_t i = 0; i < allowed.size(); ++i)
-      if (!network_.fixed[i]) residual[static_cast<Eigen::Index>(i)] = network_.mass[i] * allowed[i];
+      if (!network_.fixed[i])
+        residual[static_cast<Eigen::Index>(i)] = network_.mass[i] * (allowed[i] + corrections * rounding[i]);
     if (residual.size() == 0) return {0, 0};
     const DenseMatrix inverse = factor_.solve(DenseMatrix::Identity(residual.size(), residual.size()));
     const Extended change = DenseColumn(inverse.cwiseAbs() * residual).maxCoeff();

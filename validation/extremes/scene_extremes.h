@@ -20,8 +20,9 @@ struct SceneStep {
 /// takes about half of them.
 std::vector<SceneStep> extreme_steps_of(const TradeoffScene& scene, bool quick);
 
-/// One hundred steps of every integrator for each of these, one after the other. The changes of the scene take place at
-/// equal intervals among the steps, whatever their times, so that steps of every length run through all of them.
+/// One hundred steps of every integrator that the scene can have, for each of these, one after the other. The changes
+/// of the scene take place at equal intervals among the steps, whatever their times, so that steps of every length run
+/// through all of them.
 ///
 /// A run is judged as one of the matrix, with other bounds for its energy: what gravity, forces, driven vertices and
 /// obstacles can supply in its time is added to what it starts with. Where the witnesses do not support a part of the
