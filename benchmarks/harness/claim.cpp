@@ -60,7 +60,7 @@ bool is_number(const Figure& figure) {
 }
 
 /// `worse` and `better` say whether that end of the interval keeps the bound.
-Met told_by(const Figure& figure, bool worse, bool better) {
+Met met_by(const Figure& figure, bool worse, bool better) {
   if (!is_number(figure)) return Met::no;
   if (!figure.interval.reached) return Met::open;
   return worse ? Met::yes : better ? Met::open : Met::no;
@@ -69,11 +69,11 @@ Met told_by(const Figure& figure, bool worse, bool better) {
 }  // namespace
 
 Met at_most(const Figure& figure, double bound) {
-  return told_by(figure, figure.interval.high <= bound, figure.interval.low <= bound);
+  return met_by(figure, figure.interval.high <= bound, figure.interval.low <= bound);
 }
 
 Met at_least(const Figure& figure, double bound) {
-  return told_by(figure, figure.interval.low >= bound, figure.interval.high >= bound);
+  return met_by(figure, figure.interval.low >= bound, figure.interval.high >= bound);
 }
 
 void judge(Claim& claim, Met met) {

@@ -11,14 +11,17 @@
 #include <memory>
 #include <string_view>
 
+#include "core/elements/spring_pieces.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
+#include "core/time/integrators.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
 #include "core/views/element_nodes_view.h"
+#include "core/views/spring_ends.h"
 
 using namespace dartboard;
 
@@ -51,6 +54,58 @@ struct Elements {
     for (int k = 0; k < 100; ++k) term->add_forces({body.vertices.position}, body.vertices.force);
     return body.vertices.force.front() != body.vertices.force.back();
   }
+};
+
+/// The edges of tetrahedra as springs, in the columns of a system or as pieces of one of its force terms.
+class Springs {
+ public:
+  enum class As { columns, pieces };
+
+  Springs(const Mesh& mesh, As as) : body_(build_body<TetMap, Held::by_every_dart>(problem_of(mesh))) {
+    view_.rebuild(body_);
+    const VertexColumns& v = body_.vertices;
+    system_ = {view_.ends, body_.springs, v.mass, v.inverse_mass, v.viscosity, v.fixed, {0, 0, -9.81}};
+    if (as == As::columns) return;
+    system_.ends = {};
+    system_.springs = {};
+    system_.terms = terms_;
+  }
+
+  std::size_t steps(const char* integrator, int count, double h) {
+    const auto method = make_integrator(integrator);
+    for (int k = 0; k < count; ++k)
+      if (!method->step(system_, {body_.vertices.position, body_.vertices.velocity}, h).ok()) return 0;
+    return count;
+  }
+
+ private:
+  /// As core/elements/spring_pieces.h asks for them.
+  struct Edges {
+    const MassSpringBody<TetMap, Held::by_every_dart>& body;
+    const SpringEndsView& view;
+    static std::string_view name() { return "springs"; }
+    std::size_t size() const { return view.ends.size(); }
+    ForceTerm::Nodes nodes(std::size_t k) const { return view.ends[k]; }
+    template <class F>
+    void for_each(std::size_t k, const F& f) const {
+      const Spring spring = body.springs[k];
+      f(PieceSpring{0, 1, spring.rest_length, spring.stiffness});
+    }
+  };
+  static Problem problem_of(const Mesh& mesh) {
+    Problem problem;
+    problem.mesh = mesh;
+    problem.material = {.density = 1000.0, .stiffness = 3e4, .damping = 0.0, .viscosity = 0.0};
+    for (std::uint32_t k = 0; k < mesh.points.size(); ++k)
+      if (mesh.points[k].x() == 0.0) problem.fixed.push_back(k);
+    return problem;
+  }
+
+  MassSpringBody<TetMap, Held::by_every_dart> body_;
+  SpringEndsView view_;
+  SpringPieces<Edges> pieces_{Edges{body_, view_}};
+  std::array<const ForceTerm*, 1> terms_{&pieces_};
+  SpringSystem system_;
 };
 
 struct Body {
@@ -90,7 +145,11 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 12> sections{{
+constexpr std::array<Section, 16> sections{{
+    {"backward-euler-springs",
+     [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
+    {"backward-euler-springs-as-pieces",
+     [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("backward-euler", 40, 1e-2); }},
     {"build-general", [](Body& b) { return build_map<Map3>(b.mesh).map.dart_count(); }},
     {"build-tetrahedral", [](Body& b) { return build_map<TetMap>(b.mesh).map.dart_count(); }},
     {"dissociate-general", [](Body& b) { return dissociate(b.general); }},
@@ -101,6 +160,8 @@ constexpr std::array<Section, 12> sections{{
     {"forces-neo-hookean", [](Body& b) { return Elements(b.mesh, Model::neo_hookean).hundred_forces(); }},
     {"full-check-general", [](Body& b) { return full_check(b.general); }},
     {"full-check-tetrahedral", [](Body& b) { return full_check(b.tetrahedral); }},
+    {"rk4-springs", [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3); }},
+    {"rk4-springs-as-pieces", [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("rk4", 200, 1e-3); }},
     {"vertex-orbits-general", [](Body& b) { return vertex_orbits(b.general); }},
     {"vertex-orbits-tetrahedral", [](Body& b) { return vertex_orbits(b.tetrahedral); }},
 }};

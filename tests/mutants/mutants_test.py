@@ -21,7 +21,7 @@ try:
 except ImportError:
     sites = None
 
-SOURCE = """// a, b and c are told apart
+SOURCE = """// a, b and c differ
 struct Pair {
   int first = 1, second = 2;
 };

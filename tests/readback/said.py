@@ -63,7 +63,7 @@ class Said(unittest.TestCase):
             self.assertEqual(run.printed["mass_drift"], abs(start - three - seven) / start)
         self.assertNotEqual(ten - three - seven, 0)
 
-    def test_the_mass_unaccounted_for_is_told_where_something_was_removed(self):
+    def test_the_mass_unaccounted_for_is_reported_where_something_was_removed(self):
         ten, three, seven = (sum([0.1] * n) for n in (10, 3, 7))
         said = self.print_(self.tenths(0.002)).stdout
         self.assertIn("mass unaccounted for after removals: %.2e of the mass" % abs((ten - three - seven) / ten), said)

@@ -26,7 +26,7 @@ class LyingTwin final : public MapTwin {
  public:
   LyingTwin(std::unique_ptr<MapTwin> honest, Lies lies) : honest_(std::move(honest)), lies_(std::move(lies)) {}
 
-  std::string who() const override { return "liar"; }
+  std::string library() const override { return "liar"; }
   int dimension() const override { return honest_->dimension(); }
   std::size_t dart_count() const override {
     return lies_.dart_count ? lies_.dart_count(honest_->dart_count()) : honest_->dart_count();

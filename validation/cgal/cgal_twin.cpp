@@ -139,7 +139,7 @@ class CgalGmapTwin final : public CgalTwin<CGAL::Generalized_map<N, Items>> {
           map_.basic_link_alpha(handle_[list.darts[k].index], handle_[list.alphas[k][i].index], i);
   }
 
-  std::string who() const override { return "CGAL g-map"; }
+  std::string library() const override { return "CGAL g-map"; }
   std::size_t dart_count() const override { return map_.number_of_darts(); }
   bool is_live(Dart d) const override { return Base::has(d); }
   std::vector<Dart> darts() const override {
@@ -240,7 +240,7 @@ class CgalCmapTwin final : public CgalTwin<CGAL::Combinatorial_map<N, Items>> {
     }
   }
 
-  std::string who() const override { return "CGAL c-map"; }
+  std::string library() const override { return "CGAL c-map"; }
   bool is_positive(Dart d) const { return Base::has(d); }
   std::size_t dart_count() const override { return 2 * map_.number_of_darts(); }
   bool is_live(Dart d) const override { return d.index < across_.size() && across_[d.index] != no_dart; }

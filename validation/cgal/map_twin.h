@@ -46,7 +46,7 @@ using SplitCounts = std::array<long, 3>;
 class MapTwin {
  public:
   virtual ~MapTwin() = default;
-  virtual std::string who() const = 0;  // "CGAL g-map"
+  virtual std::string library() const = 0;  // "CGAL g-map"
   virtual int dimension() const = 0;
 
   // ---- darts and walks

@@ -20,7 +20,7 @@ class BentBar {
 
   /// `bent`: the displacements [m] under a traction of 1 Pa; the tip is where they are largest.
   BentBar(const ClampedBar& bar, std::unique_ptr<SimulatedBody> body, const Eigen::VectorXd& bent);
-  /// Bent about as much, along a parabola: for callers who need times only.
+  /// Bent about as much, along a parabola: where only times are needed.
   BentBar(const ClampedBar& bar, std::unique_ptr<SimulatedBody> body);
 
   /// Back to the bent state, at rest.

@@ -64,8 +64,8 @@ void Lockstep::vanish(Dart d) {
 }
 
 Disagreement Lockstep::differ(std::string what, std::string ours, const MapTwin& twin, std::string theirs) const {
-  return {0, "", std::move(what), fmt::format("{} says {}", twins_[0]->who(), ours),
-          fmt::format("{} says {}", twin.who(), theirs)};
+  return {0, "", std::move(what), fmt::format("{} says {}", twins_[0]->library(), ours),
+          fmt::format("{} says {}", twin.library(), theirs)};
 }
 
 std::optional<Disagreement> Lockstep::apply(Operation& operation) {

@@ -74,7 +74,7 @@ class CoreTwin final : public MapTwin {
     for (std::uint32_t k = 0; k < map_.capacity(); ++k) name_dart({k}, {k});
   }
 
-  std::string who() const override {
+  std::string library() const override {
     return fmt::format("{}{}", Map::tetrahedral ? "TetMap" : "Map", Map::tetrahedral ? "" : std::to_string(n));
   }
   int dimension() const override { return n; }
@@ -349,7 +349,7 @@ TopologyComparison compare_topology(const Mesh& mesh) {
   std::vector<const MapTwin*> pointers;
   for (const auto& twin : twins) {
     pointers.push_back(twin.get());
-    result.carriers.push_back(twin->who());
+    result.carriers.push_back(twin->library());
   }
   result.rows = compare_twins(pointers);
 

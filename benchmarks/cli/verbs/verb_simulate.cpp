@@ -155,7 +155,7 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
                           .frames = run.frame_count(),
                           .picture = "",
                           .removed_at_start = run.removed_at_start(),
-                          .told = run.warnings(),
+                          .warned = run.warnings(),
                           .steps_before = run.first_step(),
                           .continues_after = run.continues_after()};
 

@@ -32,7 +32,7 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
   for (const bool implicit : {false, true}) {
     double worst = 0.0;
     std::size_t count = 0;
-    std::string who;
+    std::string worst_run;
     for (const Json& cell : results.cells) {
       const auto name = cell.at("integrator").get<std::string>();
       // explicit Euler is stable nowhere and amplifies rounding as everything else
@@ -43,16 +43,16 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
       const double error = found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();
       if (error < worst) continue;  // NaN is not less
       worst = max_or_nan(worst, error);
-      who = fmt::format("{}, {} at D = {}", name, cell.at("scene").get<std::string>(),
-                        cell.at("value").get<std::string>());
+      worst_run = fmt::format("{}, {} at D = {}", name, cell.at("scene").get<std::string>(),
+                              cell.at("value").get<std::string>());
     }
     if (count == 0) continue;
-    claims.push_back(claim(
-        implicit ? "offset-implicit" : "offset-explicit",
-        fmt::format("{} methods at D edge lengths from the origin against the same run there",
-                    implicit ? "implicit" : "explicit"),
-        fmt::format("<= {:g} eps D", target), fmt::format("{:.3g} eps D", worst), worst <= target,
-        fmt::format("{} runs of 100 steps{}; worst: {}", count, implicit ? "" : ", explicit Euler left out", who)));
+    claims.push_back(claim(implicit ? "offset-implicit" : "offset-explicit",
+                           fmt::format("{} methods at D edge lengths from the origin against the same run there",
+                                       implicit ? "implicit" : "explicit"),
+                           fmt::format("<= {:g} eps D", target), fmt::format("{:.3g} eps D", worst), worst <= target,
+                           fmt::format("{} runs of 100 steps{}; worst: {}", count,
+                                       implicit ? "" : ", explicit Euler left out", worst_run)));
   }
 }
 

@@ -153,18 +153,18 @@ std::vector<Claim> claims_of(const JudgesResults& results) {
   if (results.slack.empty()) return claims;
   const double worst = worst_of(results);
   double most = 0.0;
-  std::string who;
+  std::string loosest;
   for (const SchemeSlack& slack : results.slack)
     if (const double factor = 1 / slack.worst; !(factor <= most)) {
       most = factor;
-      who = slack.integrator;
+      loosest = slack.integrator;
     }
   const bool tight = worst <= 1.0 && most <= most_slack;
   Claim claim{.id = "scheme-bounds-are-tight",
               .text = "steps of sound integrators are within their bounds, and the bounds within 100 times that",
               .paper_value = fmt::format("<= 1; <= {:g}", most_slack),
               .measured = fmt::format("{:.2g}; {:.3g}", worst, most),
-              .bound_or_interval = fmt::format("loosest: {}", who)};
+              .bound_or_interval = fmt::format("loosest: {}", loosest)};
   claim.verdict = tight ? Verdict::holds : Verdict::falls_short;
   claims.push_back(std::move(claim));
   return claims;

@@ -47,9 +47,9 @@ nlohmann::ordered_json json_of(const ClampedBar& bar, const ModelAdvice& advice)
                     {"integrator", pick->method.integrator},
                     {"step", pick->h},
                     {"measured_error", pick->errors.motion},
-                    {"foretold_error", advice.trials.back().predicted_error},
+                    {"predicted_error", advice.trials.back().predicted_error},
                     {"cost", pick->rough_cost()},
-                    {"foretold_cost", advice.trials.back().predicted_cost}};
+                    {"predicted_cost", advice.trials.back().predicted_cost}};
   else
     json["why_not"] = advice.why_not;
   json["tried"] = advice.trials.size();

@@ -25,7 +25,7 @@ const BarTruth& ModelsResults::truth(double poisson) const {
   return *at;
 }
 
-double ModelsResults::told(const ModelPoint& point, Asked asked) const {
+double ModelsResults::known_error(const ModelPoint& point, Asked asked) const {
   return std::max({exact, error_of(point.measured.errors, asked), error_of(truth(point.timed.poisson).unsure, asked)});
 }
 
@@ -45,7 +45,7 @@ bool belongs(const ModelPoint& point, std::string_view family) {
 const ModelPoint* ModelsResults::cheapest(Asked asked, double poisson, double error, std::string_view family) const {
   const ModelPoint* best = nullptr;
   for (const ModelPoint& p : points)
-    if (p.timed.poisson == poisson && belongs(p, family) && told(p, asked) <= error &&
+    if (p.timed.poisson == poisson && belongs(p, family) && known_error(p, asked) <= error &&
         (best == nullptr || p.cost.median < best->cost.median))
       best = &p;
   return best;
@@ -65,10 +65,10 @@ double cost_for(const ModelsResults& results, const std::string& model, Asked as
   const ModelPoint* coarser = nullptr;
   for (const ModelPoint& p : results.points) {
     if (p.timed.poisson != poisson || p.timed.model != model) continue;
-    const double here = results.told(p, asked);
+    const double here = results.known_error(p, asked);
     if (here <= error) least = std::min(least, p.cost.median);
-    if (coarser != nullptr && here <= error && error < results.told(*coarser, asked)) {
-      const double before = results.told(*coarser, asked);
+    if (coarser != nullptr && here <= error && error < results.known_error(*coarser, asked)) {
+      const double before = results.known_error(*coarser, asked);
       const double part = std::log(before / error) / std::log(before / here);
       least = std::min(least, coarser->cost.median * std::pow(p.cost.median / coarser->cost.median, part));
     }
@@ -83,7 +83,7 @@ std::vector<Reign> reigns(const ModelsResults& results, Asked asked, double pois
   std::vector<std::string> models;
   for (const ModelPoint& p : results.points) {
     if (p.timed.poisson != poisson) continue;
-    errors.push_back(results.told(p, asked));
+    errors.push_back(results.known_error(p, asked));
     if (std::ranges::find(models, p.timed.model) == models.end()) models.push_back(p.timed.model);
   }
   std::vector<Reign> found;

@@ -36,7 +36,7 @@ struct ModelsResults {
   double sure = 0.02;                    // how far tip and frequencies of the reference may be off
   static constexpr double exact = 1e-6;  // smaller errors count as this one
   /// The error of a point as far as it is known: its own, or that of the reference if this is larger.
-  double told(const ModelPoint& point, Asked asked) const;
+  double known_error(const ModelPoint& point, Asked asked) const;
   /// The cheapest point with at most that error, of a family ("springs", "hexahedra", empty for all) and a ratio; null
   /// if there is none.
   const ModelPoint* cheapest(Asked asked, double poisson, double error, std::string_view family = {}) const;

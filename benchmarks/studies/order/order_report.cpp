@@ -115,18 +115,19 @@ std::vector<Claim> claims_of(const OrderResults& results) {
            results.references.empty() ? Verdict::not_tested : verdict(accepted && farthest <= accepted_of_each)});
 
   double deviation = 0.0;
-  std::string who;
+  std::string farthest_method;
   for (const DiscreteExact& d : results.discrete)
     if (!(d.deviation <= deviation) && !std::isnan(deviation)) {
       deviation = d.deviation;
-      who = d.integrator;
+      farthest_method = d.integrator;
     }
   Claim discrete{.id = "discrete-exact",
                  .text = "integrators are the powers of their amplification on an oscillator",
                  .paper_value = fmt::format("<= {:.0e}", discrete_gate),
                  .measured = fmt::format("{:.1e}", deviation)};
   if (!results.discrete.empty())
-    discrete.bound_or_interval = fmt::format("after {} steps, the farthest: {}", results.discrete[0].steps, who);
+    discrete.bound_or_interval =
+        fmt::format("after {} steps, the farthest: {}", results.discrete[0].steps, farthest_method);
   for (const std::string& none : results.no_discrete)
     discrete.reason += fmt::format("{}{} states no amplification", discrete.reason.empty() ? "" : "; ", none);
   for (const DiscreteExact& d : results.discrete)

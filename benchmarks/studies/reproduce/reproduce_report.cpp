@@ -241,8 +241,8 @@ Table timing_table(const ReproduceResults& results) {
 }
 
 std::string timing_note(const ReproduceResults& r, const Problem& problem) {
-  const auto& walks_told = {"coverage", "coverage-every", "lists", "lists-every", "arrays", "graph"};
-  if (!std::ranges::all_of(walks_told, [&](const char* id) { return r.timed(id); }))
+  const auto& walks_compared = {"coverage", "coverage-every", "lists", "lists-every", "arrays", "graph"};
+  if (!std::ranges::all_of(walks_compared, [&](const char* id) { return r.timed(id); }))
     return "Some contenders failed a gate and were not timed.";
   const auto springs = static_cast<double>(
       std::find_if(r.counts.begin(), r.counts.end(), [](const auto& c) { return c.what == "edges"; })->ours);

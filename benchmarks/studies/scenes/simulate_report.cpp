@@ -103,7 +103,7 @@ std::string to_text(const SimulationReport& r) {
         drift_text(jumps.stiffness), drift_text(jumps.momentum), drift_text(jumps.energy));
   say("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   for (const std::string& warning : warnings_of(r.scene, r.simulation))
-    if (std::ranges::find(r.told, warning) == r.told.end()) say("warning: {}\n", warning);
+    if (std::ranges::find(r.warned, warning) == r.warned.end()) say("warning: {}\n", warning);
   if (r.result.divergence)
     say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
         to_string(*r.result.divergence), r.kept_step(), r.result.last.time);

@@ -44,7 +44,7 @@ struct SimulationReport {
     return mass_unaccounted_for(result.first.mass + removed_at_start, body.removed_mass(), body.mass());
   }
   double removed_at_start = 0.0;
-  std::vector<std::string> told{};                 // the warnings printed before the first step
+  std::vector<std::string> warned{};               // the warnings printed before the first step
   std::uint64_t steps_before = 0;                  // for a continued run: the steps that its times do not count
   std::optional<std::uint64_t> continues_after{};  // the step of the checkpoint left by a run that is not over
 };

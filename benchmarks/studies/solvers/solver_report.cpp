@@ -66,18 +66,18 @@ void claim_accuracy(const SolverResults& results, std::vector<Claim>& claims) {
 void claim_indefinite(const SolverResults& results, std::vector<Claim>& claims) {
   if (results.indefinite.empty()) return;
   std::size_t passed = 0;
-  std::string who;
+  std::string worst_case;
   for (const IndefiniteCell& c : results.indefinite)
     if (!c.diagnosed()) {
       ++passed;
-      who = fmt::format("{} at h omega {:g}", c.path, c.h_omega);
+      worst_case = fmt::format("{} at h omega {:g}", c.path, c.h_omega);
     }
   claims.push_back({.id = "indefinite-diagnosed",
                     .text = "indefinite matrices, by a dense eigenvalue, that pass as solved",
                     .paper_value = "0",
                     .measured = fmt::format("{} of {}", passed, results.indefinite.size()),
                     .verdict = verdict(passed == 0),
-                    .reason = who});
+                    .reason = worst_case});
 }
 
 void claim_edits(const SolverResults& results, std::vector<Claim>& claims) {

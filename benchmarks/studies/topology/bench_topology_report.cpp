@@ -49,8 +49,8 @@ struct Row {
 
 Row row_of(const TopologyFigures& r, const Target& t, const std::string& figure, const std::string& body) {
   const std::string group = body + ":" + figure;
-  const auto show = [&](const char* who) {
-    const auto ns = r.ns(group, who);
+  const auto show = [&](const char* contender) {
+    const auto ns = r.ns(group, contender);
     return ns ? fmt::format("{:.3g}", ns->median / t.ns_per_unit) : std::string("-");
   };
   Row row;
@@ -77,8 +77,9 @@ Row row_of(const TopologyFigures& r, const Target& t, const std::string& figure,
 }
 
 /// Why a claim has no verdict.
-std::string reason_not_timed(const TopologyFigures& r, const char* who) {
-  return r.all_bodies ? fmt::format("the {} do not find the same", who) : "a body was left out: run it without --only";
+std::string reason_not_timed(const TopologyFigures& r, const char* contender) {
+  return r.all_bodies ? fmt::format("the {} do not find the same", contender)
+                      : "a body was left out: run it without --only";
 }
 
 constexpr double memory_bound = 64.0, cut_bound = 1.5, scattered_bound = 3.0;

@@ -21,10 +21,10 @@ struct TopologyFigures {
   std::map<std::string, double> units;                 // by "BODY:FIGURE:CONTENDER"
 
   /// Processor time per unit [ns], its interval over processes; nothing if it was not timed.
-  std::optional<Figure> ns(const std::string& group, const std::string& who) const {
-    const auto unit = units.find(group + ":" + who);
+  std::optional<Figure> ns(const std::string& group, const std::string& contender) const {
+    const auto unit = units.find(group + ":" + contender);
     if (unit == units.end()) return std::nullopt;
-    Figure f = cpu_figure(samples.at(group), who);
+    Figure f = cpu_figure(samples.at(group), contender);
     for (double* value : {&f.median, &f.interval.low, &f.interval.high}) *value /= unit->second;
     return f;
   }

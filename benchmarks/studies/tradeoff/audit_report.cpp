@@ -30,7 +30,7 @@ bool within_margin(double ratio) { return std::abs(ratio - 1.0) <= cost_margin; 
 /// The pairs that count in claims. A long motion without a pick counts: it should have had a prediction.
 std::vector<AuditedPair> those_that_count(AuditKind kind, std::vector<AuditedPair> pairs) {
   if (kind == AuditKind::long_motions)
-    std::erase_if(pairs, [](const AuditedPair& p) { return !p.followed || (has_pick(p) && !p.foretold()); });
+    std::erase_if(pairs, [](const AuditedPair& p) { return !p.followed || (has_pick(p) && !p.is_long_prediction()); });
   return pairs;
 }
 
@@ -48,18 +48,18 @@ Claim claim_on_part(std::string id, std::string text, const std::vector<AuditedP
 }
 
 Claim claim_on_predictions(const std::vector<AuditedPair>& pairs) {
-  const auto foretold = static_cast<std::size_t>(
-      std::ranges::count_if(pairs, [](const AuditedPair& p) { return has_pick(p) && p.foretold(); }));
-  Claim claim{.id = "foretold-pairs",
+  const auto long_ones = static_cast<std::size_t>(
+      std::ranges::count_if(pairs, [](const AuditedPair& p) { return has_pick(p) && p.is_long_prediction(); }));
+  Claim claim{.id = "long-pairs",
               .text = "runs that cost 20 times their pilots, which take at most 2 s or a tenth of them",
               .paper_value = fmt::format(">= {}", pairs_asked),
-              .measured = fmt::format("{} of {} pairs", foretold, pairs.size())};
+              .measured = fmt::format("{} of {} pairs", long_ones, pairs.size())};
   if (const auto left = std::ranges::count(pairs, false, &AuditedPair::followed); left > 0)
     claim.measured += fmt::format("; {} too long to follow", left);
   if (pairs.size() < pairs_asked)
     claim.reason = "fewer pairs were drawn";
   else
-    claim.verdict = foretold >= pairs_asked ? Verdict::holds : Verdict::falls_short;
+    claim.verdict = long_ones >= pairs_asked ? Verdict::holds : Verdict::falls_short;
   return claim;
 }
 
@@ -110,7 +110,7 @@ Claim claim_on_pilots(const std::vector<AuditedPair>& pairs) {
 
 }  // namespace
 
-bool AuditedPair::foretold() const {
+bool AuditedPair::is_long_prediction() const {
   return audit.actual_s >= times_pilots * audit.pilot_s &&
          audit.pilot_s <= std::max(pilots_s, pilots_part * audit.actual_s);
 }
@@ -121,17 +121,17 @@ std::vector<Claim> audit_claims(AuditKind kind, const std::vector<AuditedPair>& 
   std::vector<Claim> claims;
   if (is_long) claims.push_back(claim_on_predictions(pairs));
   claims.push_back(claim_on_part(
-      is_long ? "foretold-error" : "recommend-error", "the setting recommended meets the requested error", counted,
+      is_long ? "long-error" : "recommend-error", "the setting recommended meets the requested error", counted,
       &AuditedPair::is_resolved, [](const AuditedPair& p) { return has_pick(p) && p.audit.met(); }));
   if (!is_long)
     claims.push_back(claim_on_part("recommend-evaluations", "predicted force evaluations within 15 % of those counted",
                                    counted, has_pick,
                                    [](const AuditedPair& p) { return within_margin(p.count_ratio()); }));
   claims.push_back(claim_on_part(
-      is_long ? "foretold-seconds" : "recommend-time",
+      is_long ? "long-seconds" : "recommend-time",
       fmt::format("{} within 15 % of those measured", is_long ? "seconds as printed" : "predicted seconds"), counted,
       has_pick, [kind](const AuditedPair& p) { return within_margin(p.time_ratio(kind)); }));
-  claims.push_back(claim_on_regret(is_long ? "foretold-regret" : "recommend-regret", counted));
+  claims.push_back(claim_on_regret(is_long ? "long-regret" : "recommend-regret", counted));
   if (!is_long) claims.push_back(claim_on_pilots(counted));
   return claims;
 }
@@ -145,7 +145,7 @@ std::string met_in_words(AuditKind kind, const AuditedPair& p) {
   if (!std::isfinite(p.floor)) return "not judged: followed for its cost only";
   if (!p.is_resolved()) return "not judged: below the resolution of the reference";
   if (!p.audit.met()) return "NO";
-  return is_long && !p.foretold() ? "yes, but not counted" : "yes";
+  return is_long && !p.is_long_prediction() ? "yes, but not counted" : "yes";
 }
 
 /// A row, each cell with its heading.
@@ -228,8 +228,8 @@ nlohmann::json json_of(const AuditedPair& p) {
           {"tolerance", p.setting.tolerance},
           {"seen_part", number(p.seen_part)},
           {"warned", p.warned},
-          {"foretold", p.foretold()},
-          {"told", p.is_resolved()},
+          {"long_prediction", p.is_long_prediction()},
+          {"resolved", p.is_resolved()},
           {"actual_error", number(a.actual_error)},
           {"predicted_error", number(a.predicted_error)},
           {"actual_evaluations", number(a.actual_evaluations)},

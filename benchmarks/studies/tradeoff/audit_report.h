@@ -31,7 +31,7 @@ struct AuditedPair {
   /// Can the reference resolve whether the error was met?
   bool is_resolved() const { return audit.error >= floor; }
   /// Is it a prediction: does the run cost 20 times the pilots, and have they kept to 2 s or a tenth of it?
-  bool foretold() const;
+  bool is_long_prediction() const;
   double count_ratio() const { return audit.predicted_evaluations / audit.actual_evaluations; }
   double pilot_part() const { return audit.pilot_s / audit.actual_s; }
   /// Predicted over measured seconds: for long motions the predicted ones as they were printed.

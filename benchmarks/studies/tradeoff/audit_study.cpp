@@ -125,7 +125,7 @@ Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, StudyLog& log
   }
   const double cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - start);
   report.facts["cpu_s"] = cpu_s;
-  const std::string name = is_long ? "foretold" : "audit";
+  const std::string name = is_long ? "long" : "audit";
   report.tables = {
       {"scenes", "The scenes", audited_scenes_table(kind, pairs)},
       {name, is_long ? "Recommendations for long motions and what happened" : "Recommendations and what happened",

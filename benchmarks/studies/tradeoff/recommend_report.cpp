@@ -181,12 +181,12 @@ Table followed_table(const std::vector<FollowedPick>& picks) {
                {"predicted/actual", Align::right},
                {"best of the sweep"},
                {"regret", Align::right}});
-  for (const auto& [pick, a, told] : picks)
-    table.add_row({fmt::format("{:.0e}", a.error), pick, told ? fmt::format("{:.2e}", a.actual_error) : "-",
+  for (const auto& [pick, a, is_resolved] : picks)
+    table.add_row({fmt::format("{:.0e}", a.error), pick, is_resolved ? fmt::format("{:.2e}", a.actual_error) : "-",
                    fmt::format("{:.2e}", a.predicted_error),
-                   !told     ? "not judged: below the resolution of the reference"
-                   : a.met() ? "yes"
-                             : "NO",
+                   !is_resolved ? "not judged: below the resolution of the reference"
+                   : a.met()    ? "yes"
+                                : "NO",
                    fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),
                    a.best.empty() ? "-" : a.best,
                    std::isfinite(a.best_cost) ? fmt::format("{:.2f}", a.regret()) : "-"});

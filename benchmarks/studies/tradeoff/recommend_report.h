@@ -24,9 +24,9 @@ std::string text_of(const Recommendation& recommendation, bool realtime, double 
 struct FollowedPick {
   std::string contender;
   Audit audit;
-  bool told = true;  // can the reference resolve whether the error was met?
+  bool is_resolved = true;  // can the reference resolve whether the error was met?
 
-  bool misses() const { return told && !audit.met(); }
+  bool misses() const { return is_resolved && !audit.met(); }
 };
 
 /// The predictions compared with the outcome.

@@ -16,21 +16,21 @@
 
 namespace dartboard::detail {
 
-inline void require_at_least(const char* who, const char* what, int value, int least) {
-  if (value < least) throw InputError(fmt::format("{}: {} = {}, expected at least {}", who, what, value, least));
+inline void require_at_least(const char* generator, const char* what, int value, int least) {
+  if (value < least) throw InputError(fmt::format("{}: {} = {}, expected at least {}", generator, what, value, least));
 }
 
-inline void require_spacing(const char* who, double spacing) {
+inline void require_spacing(const char* generator, double spacing) {
   if (!(spacing > 0.0 && std::isfinite(spacing)))
-    throw InputError(fmt::format("{}: spacing = {}, expected a finite number > 0", who, spacing));
+    throw InputError(fmt::format("{}: spacing = {}, expected a finite number > 0", generator, spacing));
 }
 
 /// Require that so many cells fit into a map; the node numbers of such a mesh fit into 32 bits too.
-inline void require_room(const char* who, CellKind kind, double count) {
+inline void require_room(const char* generator, CellKind kind, double count) {
   CountsByKind cells{};
   cells[static_cast<std::size_t>(kind)] = count;
   if (const std::string beyond = beyond_a_map(cells); !beyond.empty())
-    throw InputError(fmt::format("{}: {}", who, beyond));
+    throw InputError(fmt::format("{}: {}", generator, beyond));
 }
 
 template <class... Nodes>

@@ -38,11 +38,11 @@ struct Box {
 };
 
 /// Check the numbers of a box and add its points, moved by `origin`.
-Box add_box(Mesh& mesh, const char* who, std::array<int, 3> n, double spacing, const Eigen::Vector3d& origin,
+Box add_box(Mesh& mesh, const char* generator, std::array<int, 3> n, double spacing, const Eigen::Vector3d& origin,
             CellKind kind, double cells_per_cube) {
-  for (const int cubes : n) require_at_least(who, "cubes along an axis", cubes, 1);
-  require_spacing(who, spacing);
-  require_room(who, kind, cells_per_cube * n[0] * n[1] * n[2]);
+  for (const int cubes : n) require_at_least(generator, "cubes along an axis", cubes, 1);
+  require_spacing(generator, spacing);
+  require_room(generator, kind, cells_per_cube * n[0] * n[1] * n[2]);
   const Box box{static_cast<std::uint32_t>(n[0]), static_cast<std::uint32_t>(n[1]), static_cast<std::uint32_t>(n[2])};
   for (std::uint32_t z = 0; z <= box.nz; ++z)
     for (std::uint32_t y = 0; y <= box.ny; ++y)
@@ -96,12 +96,12 @@ void jitter_points(Mesh& mesh, const std::vector<bool>& movable, double reach, s
 
 /// `add_cube(x, y, z, corners)` adds six tetrahedra.
 template <class AddCube>
-Mesh tetrahedron_box(const char* who, std::array<int, 3> n, double spacing, double jitter, std::uint64_t seed,
+Mesh tetrahedron_box(const char* generator, std::array<int, 3> n, double spacing, double jitter, std::uint64_t seed,
                      AddCube&& add_cube) {
   Mesh mesh;
-  const Box box = add_box(mesh, who, n, spacing, Eigen::Vector3d::Zero(), CellKind::tetrahedron, 6);
+  const Box box = add_box(mesh, generator, n, spacing, Eigen::Vector3d::Zero(), CellKind::tetrahedron, 6);
   if (!(jitter >= 0.0 && std::isfinite(jitter * spacing)))
-    throw InputError(fmt::format("{}: jitter = {}, expected a finite number >= 0", who, jitter));
+    throw InputError(fmt::format("{}: jitter = {}, expected a finite number >= 0", generator, jitter));
   box.for_each_cube([&](auto x, auto y, auto z, const Corners& corner) { add_cube(mesh, x, y, z, corner); });
   if (jitter > 0.0) {
     std::vector<bool> inside(mesh.points.size());

@@ -16,11 +16,11 @@ namespace {
 
 /// Check the numbers of a sheet, add its points, and call f(a, b, c, d) with the corners of each square.
 template <class F>
-void add_sheet(Mesh& mesh, const char* who, int nx, int ny, double spacing, F&& f) {
-  require_at_least(who, "nx", nx, 1);
-  require_at_least(who, "ny", ny, 1);
-  require_spacing(who, spacing);
-  require_room(who, CellKind::triangle, 2.0 * nx * ny);
+void add_sheet(Mesh& mesh, const char* generator, int nx, int ny, double spacing, F&& f) {
+  require_at_least(generator, "nx", nx, 1);
+  require_at_least(generator, "ny", ny, 1);
+  require_spacing(generator, spacing);
+  require_room(generator, CellKind::triangle, 2.0 * nx * ny);
   for (int y = 0; y <= ny; ++y)
     for (int x = 0; x <= nx; ++x) mesh.points.emplace_back(spacing * x, spacing * y, 0.0);
   const auto at = [nx](int x, int y) {
@@ -43,10 +43,10 @@ void add_closed_quads(Mesh& mesh, int nu, int nv, Seam seam) {
       add(mesh, CellKind::quadrilateral, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
 }
 
-void require_closed(const char* who, int nu, int nv) {
-  require_at_least(who, "nu", nu, 3);
-  require_at_least(who, "nv", nv, 3);
-  require_room(who, CellKind::quadrilateral, 1.0 * nu * nv);
+void require_closed(const char* generator, int nu, int nv) {
+  require_at_least(generator, "nu", nu, 3);
+  require_at_least(generator, "nv", nv, 3);
+  require_room(generator, CellKind::quadrilateral, 1.0 * nu * nv);
 }
 
 }  // namespace

@@ -72,11 +72,11 @@ void Checkpoint::write(const fs::path& file, const SceneFile& scene, const Simul
                 .mesh_hash = hash_of_mesh(scene)};
   RunProgress run = progress;
   OutputSoFar written = output;
-  std::string told = notes;
+  std::string in_it = notes;
   std::uint64_t steps = simulation.steps_done();
   Archive archive;
   archive.part("scene");
-  archive(origin, told, steps);
+  archive(origin, in_it, steps);
   archive.part("run");
   archive(run, written);
   simulation.save(archive);

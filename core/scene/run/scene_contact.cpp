@@ -81,7 +81,7 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
 SceneContact::SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes)
     : obstacles_(obstacles), bodies_(bodies), impulses_(obstacles, bodies), undoes_(undoes) {}
 
-bool SceneContact::has_told(ContactWarning::Kind kind, bool of_bodies) const {
+bool SceneContact::has_warned(ContactWarning::Kind kind, bool of_bodies) const {
   return std::ranges::any_of(warnings_,
                              [=](const ContactWarning& w) { return w.kind == kind && w.of_bodies == of_bodies; });
 }
@@ -153,13 +153,13 @@ bool SceneContact::begin(double time, double h, const SpringSystem& system, Moti
 bool SceneContact::end(double time, double h, const SpringSystem& system, Motion motion) {
   const bool changed = impulses_.end(time, h, system.inverse_mass, held_in(system), motion.x, motion.v);
   if (obstacles_ != nullptr) {
-    if (!has_told(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
-    if (!has_told(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
+    if (!has_warned(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
+    if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
   }
   if (bodies_ != nullptr) {
     look_for_lost(time + h, motion.x);
     look_for_depth_of_bodies(time + h, motion.x);
-    if (!has_told(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
+    if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
   }
   return changed;
 }
@@ -228,7 +228,7 @@ ContactWarning SceneContact::inside_body(ContactWarning::Kind kind, double time,
 
 void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_told(Kind::out_of_reach, true)) return;
+  if (has_warned(Kind::out_of_reach, true)) return;
   const auto lost = bodies_->find_lost(x);
   if (lost.empty()) return;
   warnings_.push_back(inside_body(Kind::out_of_reach, time, lost.front()));
@@ -238,12 +238,12 @@ void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
 /// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_told(Kind::too_deep, true)) return;
+  if (has_warned(Kind::too_deep, true)) return;
   double most = 1.0;
   std::optional<ContactWarning> worst;
   // the search for samples out of reach has found them already
   for (const BodyTouch& touch :
-       has_told(Kind::out_of_reach, true) ? bodies_->touching({x}) : bodies_->found_touching()) {
+       has_warned(Kind::out_of_reach, true) ? bodies_->touching({x}) : bodies_->found_touching()) {
     const double allowed = bodies_->laws()[touch.law].depth;
     if (!(touch.depth > most * allowed)) continue;
     most = touch.depth / allowed;
@@ -276,8 +276,8 @@ void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<con
 }
 
 double SceneContact::new_work() {
-  const double work = impulses_.losses().supplied - work_told_;
-  work_told_ = impulses_.losses().supplied;
+  const double work = impulses_.losses().supplied - work_reported_;
+  work_reported_ = impulses_.losses().supplied;
   return work;
 }
 

@@ -89,11 +89,11 @@ class SceneContact {
 
   template <class Archive>
   void state(Archive& archive) {
-    archive(impulses_, warnings_, work_told_, least_altitude_);
+    archive(impulses_, warnings_, work_reported_, least_altitude_);
   }
 
  private:
-  bool has_told(ContactWarning::Kind kind, bool of_bodies = false) const;
+  bool has_warned(ContactWarning::Kind kind, bool of_bodies = false) const;
   void look_for_depth(double time, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
   void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);
@@ -109,7 +109,7 @@ class SceneContact {
   bool undoes_;
   std::vector<Eigen::Vector3d> kept_v_;
   std::vector<ContactWarning> warnings_;
-  double work_told_ = 0.0;       // [J]
+  double work_reported_ = 0.0;   // [J]
   double least_altitude_ = 0.0;  // [m] of the tetrahedra along the boundary, as the system last changed
 };
 

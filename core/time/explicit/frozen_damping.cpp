@@ -86,8 +86,7 @@ void FrozenDamping::prepare_flow(const SpringSystem& system, const Terms& terms,
     impulse_[s] = both == 0.0 ? 0.0 : one_minus_exp_of_minus(system.springs[s].damping * both * h) / both;
   }
   remains_.resize(terms.viscosity ? system.vertex_count() : 0);
-  for (std::size_t i = 0; i < remains_.size(); ++i)
-    remains_[i] = exp_of_minus(system.viscosity[i] * mobility_[i] * h);
+  for (std::size_t i = 0; i < remains_.size(); ++i) remains_[i] = exp_of_minus(system.viscosity[i] * mobility_[i] * h);
 }
 
 // The exact flow of one spring: a function of its number. It holds copies for the reason given in `apply`.

@@ -362,15 +362,15 @@ TEST(BodyContact, TellsWhatGoesOnInwards) {
     EXPECT_TRUE(two.contact->find_lost(two.x).empty());
   }
   double last = 0.0;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (int k = 0; k < 30; ++k) {
     move(-0.01);
     const auto lost = two.contact->find_lost(two.x);
-    told += lost.size();
+    reported += lost.size();
     for (const BodyTouch& t : lost) last = std::max(last, t.depth);
   }
-  EXPECT_GE(told, 4u);  // the vertices and middles of the tip, each once
-  EXPECT_LE(told, 8u);
+  EXPECT_GE(reported, 4u);  // the vertices and middles of the tip, each once
+  EXPECT_LE(reported, 8u);
   EXPECT_GT(last, 0.08);
 }
 

@@ -67,8 +67,8 @@ TEST(AlphasOfAMesh, AreRefusedWhereThreeCellsShareAFacet) {
 
 TEST(GoldenRun, CountsTheCellsOfTheUnitCubeAndOfItsPieces) {
   for (const auto& twin : both_oracles(alphas_of(kuhn_grid(1, 1, 1, 1.0)))) {
-    EXPECT_EQ(twin->dart_count(), 144u) << twin->who();
-    EXPECT_EQ(twin->count_cells(), (Counts{8, 19, 18, 6, 1})) << twin->who();
+    EXPECT_EQ(twin->dart_count(), 144u) << twin->library();
+    EXPECT_EQ(twin->count_cells(), (Counts{8, 19, 18, 6, 1})) << twin->library();
     SplitCounts sum{};
     int faces = 0;
     for (const Dart d : twin->darts()) {
@@ -76,11 +76,11 @@ TEST(GoldenRun, CountsTheCellsOfTheUnitCubeAndOfItsPieces) {
       const SplitCounts split = twin->dissociate(d);
       ++faces;
       for (std::size_t i = 0; i < 3; ++i) sum[i] += split[i];
-      EXPECT_EQ(twin->violation(), "") << twin->who();
+      EXPECT_EQ(twin->violation(), "") << twin->library();
     }
     EXPECT_EQ(faces, 6);
-    EXPECT_EQ(sum, (SplitCounts{16, 17, 6})) << twin->who();
-    EXPECT_EQ(twin->count_cells(), (Counts{24, 36, 24, 6, 6})) << twin->who();
+    EXPECT_EQ(sum, (SplitCounts{16, 17, 6})) << twin->library();
+    EXPECT_EQ(twin->count_cells(), (Counts{24, 36, 24, 6, 6})) << twin->library();
   }
 }
 
@@ -209,7 +209,7 @@ TEST(CgalTwins, KeepASolidValidWhenAVolumeIsRemoved) {
     EXPECT_FALSE(twin->is_live(Dart{24}));
     twin->add(CellKind::tetrahedron, Dart{144});
     // less the two outer faces of one and the edge between them, more a tetrahedron of its own
-    EXPECT_EQ(twin->count_cells(), (Counts{8 + 4, 19 - 1 + 6, 18 - 2 + 4, 6, 2})) << twin->who();
+    EXPECT_EQ(twin->count_cells(), (Counts{8 + 4, 19 - 1 + 6, 18 - 2 + 4, 6, 2})) << twin->library();
   }
 }
 
@@ -220,8 +220,8 @@ TEST(CgalTwins, AreIsomorphicToTheirOwnAlphasAndToNoOthers) {
     const auto dart =
         std::find_if(before.darts.begin(), before.darts.end(), [&](Dart d) { return twin->alpha(3, d) != d; });
     twin->unsew(3, *dart);
-    EXPECT_FALSE(are_isomorphic(*twin, before)) << twin->who();
-    EXPECT_TRUE(are_isomorphic(*twin, twin->alphas())) << twin->who();
+    EXPECT_FALSE(are_isomorphic(*twin, before)) << twin->library();
+    EXPECT_TRUE(are_isomorphic(*twin, twin->alphas())) << twin->library();
   }
 }
 
@@ -233,7 +233,7 @@ TEST(CgalTwins, AreComparedInEveryComponent) {
   for (const auto& twin : both_oracles(alphas_of(mesh))) {
     const AlphaList before = twin->alphas();
     twin->sew(3, Dart{24}, Dart{31});
-    EXPECT_FALSE(are_isomorphic(*twin, before)) << twin->who();
+    EXPECT_FALSE(are_isomorphic(*twin, before)) << twin->library();
   }
 }
 

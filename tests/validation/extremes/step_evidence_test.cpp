@@ -265,7 +265,7 @@ TEST(StepEvidence, CallsAStepRightThatDecaysToNothing) {
 TEST(StepEvidence, StartsAnewWhereTheIntegratorDoes) {
   SpringColumns body = moving_body("chain");
   const double h = 0.3 / highest_frequency(body);
-  const auto worst = [&](bool told) {
+  const auto worst = [&](bool restarts) {
     SpringColumns b = body;
     const auto bdf2 = make_integrator("bdf2");
     StepEvidence evidence("bdf2", 6);
@@ -273,7 +273,7 @@ TEST(StepEvidence, StartsAnewWhereTheIntegratorDoes) {
       if (k == 3) {
         bdf2->restart();
         b.springs[0].stiffness *= 2;
-        if (told) evidence.restarted();
+        if (restarts) evidence.restarted();
       }
       evidence.before(b.system(), b.motion(), h);
       EXPECT_TRUE(bdf2->step(b.system(), b.motion(), h).ok());

@@ -34,7 +34,7 @@ Candidate piloted(Candidate c, double cheapest_s, RecommendOptions options = {},
 }
 
 /// The seconds that its first pilot predicts for the whole run.
-double foretold(const Candidate& c) {
+double predicted(const Candidate& c) {
   const Candidate pruned = piloted(c, 1e-30);
   const auto at = pruned.pruned.find("it takes ");
   EXPECT_NE(at, std::string::npos) << pruned.pruned;
@@ -46,7 +46,7 @@ double foretold(const Candidate& c) {
 TEST(PilotPrefix, GivesAMethodUpWhoseCoarsestRunIsTooDear) {
   for (const bool implicit : {false, true}) {
     const Candidate c = candidate(implicit ? "backward-euler" : "verlet", implicit);
-    const double seconds = foretold(c), most = implicit ? 4.0 : 1.5;
+    const double seconds = predicted(c), most = implicit ? 4.0 : 1.5;
     ASSERT_GT(seconds, 0.0);
     EXPECT_TRUE(piloted(c, seconds / (0.9 * most)).usable()) << piloted(c, seconds / (0.9 * most)).pruned;
     const Candidate given_up = piloted(c, seconds / (1.1 * most));

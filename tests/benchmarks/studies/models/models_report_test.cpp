@@ -165,8 +165,8 @@ TEST(ModelsReport, BetweenTwoMeshesCostIsAPowerOfError) {
   EXPECT_NEAR(cost_for(r, "springs", Asked::tip, 0.25, std::sqrt(0.30 * 0.09)), std::sqrt(one * ten), 1e-9);
   EXPECT_EQ(cost_for(r, "springs", Asked::tip, 0.25, 0.5), one);
   EXPECT_EQ(cost_for(r, "springs", Asked::tip, 0.25, 0.0899), never);
-  EXPECT_EQ(r.told(r.points[0], Asked::confined), 0.2);
-  EXPECT_EQ(r.told(r.points[5], Asked::confined), 1e-6);
+  EXPECT_EQ(r.known_error(r.points[0], Asked::confined), 0.2);
+  EXPECT_EQ(r.known_error(r.points[5], Asked::confined), 1e-6);
 }
 
 TEST(ModelsReport, NamesTheCrossing) {

@@ -24,9 +24,9 @@ constexpr double units = 1e6;  // in each run, so that a picosecond per unit is 
 
 void set_times(TopologyFigures& f, const std::string& group, const std::vector<std::pair<std::string, double>>& ns) {
   std::vector<std::pair<std::string, double>> totals;
-  for (const auto& [who, each] : ns) {
-    totals.emplace_back(who, units * each);
-    f.units[group + ":" + who] = units;
+  for (const auto& [contender, each] : ns) {
+    totals.emplace_back(contender, units * each);
+    f.units[group + ":" + contender] = units;
   }
   f.samples[group] = timed_samples(totals);
 }

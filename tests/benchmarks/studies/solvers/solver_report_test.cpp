@@ -147,16 +147,16 @@ TEST(SolverClaims, FallShortOfTheLawBeyondAQuarterOnEitherSide) {
 
 // The measurement lies between 990 and 1010, so 1245 may be 23.3 or 25.8 % too high.
 TEST(SolverClaims, DoNotJudgeTheLawWhereWhatEnclosesTheCrossoverDoesNotTell) {
-  const auto untold_with = [](const std::function<void(Crossover&)>& spoil) {
+  const auto undecided_with = [](const std::function<void(Crossover&)>& spoil) {
     SolverResults r = good_results();
     spoil(r.crossovers[0]);
     return ids_of(claims_of(r), Verdict::undecided);
   };
-  EXPECT_EQ(untold_with([](Crossover& c) { c.predicted_phase = 1235.0; }), Ids{});
-  EXPECT_EQ(untold_with([](Crossover& c) { c.predicted_phase = 1245.0; }), Ids{"break-even-law"});
-  EXPECT_EQ(untold_with([](Crossover& c) { c.predicted_phase = 755.0; }), Ids{"break-even-law"});
-  EXPECT_EQ(untold_with([](Crossover& c) { c.costs.pop_back(); }), Ids{"break-even-law"});
-  EXPECT_EQ(untold_with([](Crossover& c) { c.costs.clear(); }), Ids{"break-even-law"});
+  EXPECT_EQ(undecided_with([](Crossover& c) { c.predicted_phase = 1235.0; }), Ids{});
+  EXPECT_EQ(undecided_with([](Crossover& c) { c.predicted_phase = 1245.0; }), Ids{"break-even-law"});
+  EXPECT_EQ(undecided_with([](Crossover& c) { c.predicted_phase = 755.0; }), Ids{"break-even-law"});
+  EXPECT_EQ(undecided_with([](Crossover& c) { c.costs.pop_back(); }), Ids{"break-even-law"});
+  EXPECT_EQ(undecided_with([](Crossover& c) { c.costs.clear(); }), Ids{"break-even-law"});
   const auto claims = claims_of(good_results());
   EXPECT_TRUE(find_claim(claims, "break-even-law").bound_or_interval.starts_with("512: [+9, +11] %"));
 }
@@ -186,15 +186,15 @@ TEST(SolverClaims, AreNotDecidedByMedians) {
     spoil(r);
     return find_claim(claims_of(r), id).verdict;
   };
-  const auto untold = Verdict::undecided;
+  const auto open = Verdict::undecided;
   EXPECT_EQ(verdict_with([](auto& r) { r.updates[0] = uneven(update(512, 4.0), "follows, AMD", 2.0); }, "update-512"),
-            untold);
+            open);
   EXPECT_EQ(verdict_with([](auto& r) { r.updates[0] = uneven(update(512, 5.1), "follows, AMD", 0.5); }, "update-512"),
-            untold);
+            open);
   EXPECT_EQ(verdict_with([](auto& r) { r.steps[0] = uneven(step(0.8), "conjugate gradients", 2.0); }, "implicit-step"),
-            untold);
+            open);
   EXPECT_EQ(verdict_with([](auto& r) { r.steps[0] = uneven(step(1.0), "conjugate gradients", 0.5); }, "implicit-step"),
-            untold);
+            open);
 }
 
 TEST(SolverClaims, FallShortOfTheLawWhenNoCrossoverIsFound) {

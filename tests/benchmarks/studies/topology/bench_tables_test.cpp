@@ -25,9 +25,9 @@ std::string steady(double ratio, std::size_t processes = 7) {
 void set_times(TopologyFigures& f, const std::string& group,
                const std::vector<std::tuple<std::string, double, double>>& ns_and_units) {
   std::vector<std::pair<std::string, double>> totals;
-  for (const auto& [who, ns, units] : ns_and_units) {
-    totals.emplace_back(who, ns * units);
-    f.units[group + ":" + who] = units;
+  for (const auto& [contender, ns, units] : ns_and_units) {
+    totals.emplace_back(contender, ns * units);
+    f.units[group + ":" + contender] = units;
   }
   f.samples[group] = timed_samples(totals);
 }

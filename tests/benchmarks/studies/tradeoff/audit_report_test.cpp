@@ -53,7 +53,7 @@ std::vector<Verdict> verdicts(const std::vector<AuditedPair>& pairs, AuditKind k
   return all;
 }
 
-constexpr Verdict yes = Verdict::holds, no = Verdict::falls_short, untold = Verdict::not_tested,
+constexpr Verdict yes = Verdict::holds, no = Verdict::falls_short, untested = Verdict::not_tested,
                   open = Verdict::undecided;
 
 TEST(AuditClaims, HoldWhenEverythingIsAsPromised) {
@@ -86,7 +86,7 @@ TEST(AuditClaims, GoByTheSharesThatCouldBeWhatTheyShow) {
 TEST(AuditClaims, ANumberThatIsNoneIsAMiss) {
   std::vector<AuditedPair> pairs(4, good_pair());
   for (AuditedPair& p : pairs) p.audit.actual_error = p.audit.predicted_s = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(verdicts(pairs), (std::vector{no, open, no, untold, yes}));
+  EXPECT_EQ(verdicts(pairs), (std::vector{no, open, no, untested, yes}));
 }
 
 TEST(AuditClaims, NoRecommendationIsAMiss) {
@@ -131,13 +131,13 @@ TEST(AuditClaims, APickThatMissesItsErrorIsNotCheap) {
   EXPECT_EQ(regret.verdict, no);
   EXPECT_EQ(regret.measured, "1.400, 11 pairs; 9 left out, whose error was missed or cannot be resolved");
   pairs.resize(9);
-  EXPECT_EQ(audit_claims(scenes, pairs)[3].verdict, untold);
+  EXPECT_EQ(audit_claims(scenes, pairs)[3].verdict, untested);
 }
 
 TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
   std::vector<AuditedPair> pairs(3, good_pair());
   for (AuditedPair& p : pairs) p.audit.actual_s = 1.0;
-  EXPECT_EQ(verdicts(pairs)[4], untold);
+  EXPECT_EQ(verdicts(pairs)[4], untested);
   pairs[1].audit.actual_s = 5.5;
   pairs[1].audit.pilot_s = 1.2;  // 22 %
   pairs[2].audit.actual_s = 6.0;
@@ -147,25 +147,25 @@ TEST(AuditClaims, OnlyLongRunsTellOfThePilots) {
 
 // ---- long motions
 
-TEST(AuditedPair, IsForetoldIfItsRunCostsTwentyTimesItsPilots) {
+TEST(AuditedPair, IsLongIfItsRunCostsTwentyTimesItsPilots) {
   AuditedPair p = good_prediction();
   p.audit.pilot_s = 0.1;
-  EXPECT_TRUE(p.foretold());
+  EXPECT_TRUE(p.is_long_prediction());
   p.audit.pilot_s = 0.101;
-  EXPECT_FALSE(p.foretold());
+  EXPECT_FALSE(p.is_long_prediction());
 }
 
 // Above 2 s pilots may take a tenth of the run, and here take a twentieth: never more than the first rule allows.
-TEST(AuditedPair, IsForetoldByPilotsOfTwoSecondsOrATenthOfTheRun) {
+TEST(AuditedPair, IsLongByPilotsOfTwoSecondsOrATenthOfTheRun) {
   AuditedPair p = good_prediction();
   p.audit.actual_s = 100.0;
   p.audit.pilot_s = 4.9;
-  EXPECT_TRUE(p.foretold());
+  EXPECT_TRUE(p.is_long_prediction());
   p.audit.pilot_s = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(p.foretold());
+  EXPECT_FALSE(p.is_long_prediction());
 }
 
-TEST(AuditClaims, OfLongMotionsHoldWhenEverythingIsAsForetold) {
+TEST(AuditClaims, OfLongMotionsHoldWhenEverythingIsAsPredicted) {
   EXPECT_EQ(verdicts(std::vector(72, good_prediction()), long_motions), (std::vector{yes, yes, yes, yes}));
   EXPECT_EQ(verdicts(std::vector(71, good_prediction()), long_motions), (std::vector{yes, open, open, yes}));
 }
@@ -174,7 +174,7 @@ TEST(AuditClaims, OfLongMotionsFallShortOfFortyPairsThatAreNoPredictions) {
   std::vector<AuditedPair> pairs(40, good_prediction());
   pairs[7].audit.pilot_s = 0.2;
   EXPECT_EQ(verdicts(pairs, long_motions)[0], no);
-  EXPECT_EQ(verdicts(std::vector(10, good_prediction()), long_motions)[0], untold);
+  EXPECT_EQ(verdicts(std::vector(10, good_prediction()), long_motions)[0], untested);
 }
 
 TEST(AuditClaims, OfLongMotionsGoByHowManyMissTheirErrorAndTheirSeconds) {
@@ -286,8 +286,8 @@ TEST(AuditSample, HoldsEveryFigureOfAPair) {
   p.audit.best_cost = 320.0;
   EXPECT_EQ(json_of(p), nlohmann::json::parse(R"({"scene": "a scene", "what": "a soft box", "vertices": 27,
     "springs": 98, "omega_phase": 350.0, "reference": "certified", "floor": 1e-12, "error": 1e-4, "pick": "rk4",
-    "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "seen_part": 0.0125, "warned": false, "foretold": true,
-    "told": true, "actual_error": 5e-5, "predicted_error": 6e-5, "actual_evaluations": 400.0,
+    "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "seen_part": 0.0125, "warned": false, "long_prediction": true,
+    "resolved": true, "actual_error": 5e-5, "predicted_error": 6e-5, "actual_evaluations": 400.0,
     "predicted_evaluations": 410.0, "actual_cost": 440.0, "predicted_cost": 420.0, "actual_s": 2.0,
     "predicted_s": 100.0, "printed_s": 1.9, "pilot_s": 0.05, "swept": true, "best": "verlet", "best_cost": 320.0})"));
 }

@@ -139,7 +139,7 @@ TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
   EXPECT_EQ(text.find("It is stable up to"), std::string::npos) << text;
 }
 
-TEST(RecommendText, SaysHowMuchOfTheMotionIsForetold) {
+TEST(RecommendText, SaysHowMuchOfTheMotionIsPredicted) {
   Recommendation r = recommendation();
   r.candidates[0].seen_part = 0.0125;
   EXPECT_NE(text_of(r, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is predicted.\n"),

@@ -37,7 +37,7 @@ void expect_place(const SceneFile& scene, const ExpectedPlace& place, const Vect
   EXPECT_LE((derived - place.position).norm(), place.within)
       << scene.name << ", " << scene.probes[place.probe].name << (place.of_part ? ", part" : "") << ": derived "
       << derived.transpose() << ", expected " << place.position.transpose();
-  EXPECT_FALSE(place.why.empty()) << scene.name << ": the reader is not told where the place comes from";
+  EXPECT_FALSE(place.why.empty()) << scene.name << ": the source of the place is missing";
 }
 
 /// The position after a time, from x with v, under gravity and viscosity alone: v' = g - c v.

@@ -288,10 +288,10 @@ TEST(MembraneScene, IsPlannedToTheByteAndSaysThatNothingResistsBending) {
       }
       EXPECT_EQ(elements, fmt::format("{} membranes: rest shape, corners", problem.mesh.cell_count()));
       EXPECT_TRUE(plan.unplanned.empty()) << name(plan.unplanned.front().part);
-      const bool told = std::ranges::any_of(plan.left_out, [](const auto& left_out) {
+      const bool is_named = std::ranges::any_of(plan.left_out, [](const auto& left_out) {
         return left_out.what == "stiffness against bending, which membranes do not have";
       });
-      EXPECT_EQ(told, !json.contains("bending"));
+      EXPECT_EQ(is_named, !json.contains("bending"));
     }
 }
 
