@@ -10,8 +10,8 @@
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
-#include "core/scene/file/scene_check.h"
-#include "core/scene/file/scene_keys.h"
+#include "core/scene/file/keys/scene_check.h"
+#include "core/scene/file/keys/scene_keys.h"
 
 namespace dartboard {
 namespace {

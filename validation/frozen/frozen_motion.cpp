@@ -80,8 +80,7 @@ std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
   if (file.has_elements() && mesh.dimension() == 2) return "membranes";
   const auto known = [](CellKind kind) { return kind == CellKind::tetrahedron || kind == CellKind::hexahedron; };
   if (file.has_elements() && !std::ranges::all_of(mesh.kinds, known)) return "elements of these cells";
-  for (const SceneEvent& event : file.events)
-    if (std::holds_alternative<Refine>(event.action)) return "refinement";
+  if (has<Refine>(file.events)) return "refinement";
   return {};
 }
 

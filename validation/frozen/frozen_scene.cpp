@@ -10,6 +10,7 @@
 
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
+#include "core/scene/file/selections/overloads.h"
 #include "core/scene/file/step_times.h"
 #include "core/time/explicit/dormand_prince_54.h"
 #include "core/time/watch/stable_step.h"
@@ -36,10 +37,12 @@ bool depends_on_positions(const CellSelection& cells) {
 }
 
 bool depends_on_positions(const SceneEvent& event) {
-  if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) return dissociate->faces.index() != 0;
-  if (const auto* remove = std::get_if<Remove>(&event.action)) return depends_on_positions(remove->cells);
-  if (const auto* refine = std::get_if<Refine>(&event.action)) return depends_on_positions(refine->cells);
-  return !std::holds_alternative<Release>(event.action);
+  return std::visit(Overloads{[](const Dissociate& cut) { return !std::holds_alternative<FacetPoints>(cut.faces); },
+                              [](const Remove& remove) { return depends_on_positions(remove.cells); },
+                              [](const Refine& refine) { return depends_on_positions(refine.cells); },
+                              [](const Tear&) { return true; }, [](const TearWhereStressed&) { return true; },
+                              [](const Release&) { return false; }},
+                    event.action);
 }
 
 /// The unit of the times of drives and forces, so short that they are exact; elsewhere the unit is the step.

@@ -10,10 +10,12 @@
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/statistics.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/scene/file/selections/overloads.h"
 #include "core/scene/run/simulation.h"
 #include "core/time/integrators.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/energy.h"
+#include "core/time/watch/stable_step.h"
 
 namespace dartboard {
 namespace {
@@ -195,11 +197,6 @@ void measure_output(UnitCosts& costs, const SceneFile& scene, const Problem& pro
 }
 
 void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& problem, const ScenePlan& plan) {
-  const auto some = [&scene](auto&& test) { return std::ranges::any_of(scene.events, test); };
-  const auto is = [&some](auto* of) {
-    return some(
-        [&](const SceneEvent& e) { return std::holds_alternative<std::remove_pointer_t<decltype(of)>>(e.action); });
-  };
   const PlaneSelection far{{1e9, 0, 0}, {1, 0, 0}}, middle{{0.25, 0, 0}, {1, 0, 0}};
   const auto fresh = [&] { return Standard(problem, plan.needs.body); };
   const auto timed = [](ReadyEvent& event, std::size_t& operations) {
@@ -229,7 +226,7 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
   };
   Standard s = fresh();
   const double cells = over(plan.counts.cells, s.counts.cells);
-  const bool removes = is(static_cast<Remove*>(nullptr)), refines = is(static_cast<Refine*>(nullptr));
+  const bool removes = has<Remove>(scene.events), refines = has<Refine>(scene.events);
   if (removes || refines) {
     const double here = choosing(Remove{SphereSelection{{1e9, 0, 0}, 0.0}});
     costs.by_place = cells * here;
@@ -244,12 +241,12 @@ void measure_events(UnitCosts& costs, const SceneFile& scene, const Problem& pro
       costs.refine = each(refine, 10, 0.0);
     }
   }
-  if (is(static_cast<Dissociate*>(nullptr))) {
+  if (has<Dissociate>(scene.events)) {
     const double here = choosing(Dissociate{far});
     costs.across = cells * here;
     costs.dissociate = each(Dissociate{middle}, 1, here);
   }
-  if (is(static_cast<Tear*>(nullptr))) {
+  if (has<Tear>(scene.events)) {
     const auto near = [&](double x) { return Tear{Eigen::Vector3d(x, 0.3, 0.3), Eigen::Vector3d(1, 0, 0)}; };
     std::size_t operations = 0;
     double sum = 0.0;
@@ -312,13 +309,16 @@ double event_ns(const SceneEvent& event, const EventForecast& f, const UnitCosts
   const auto choosing = [&](const CellSelection& cells) {
     return times * mean.cells * (std::holds_alternative<RandomSelection>(cells) ? c.by_lot : c.by_place);
   };
-  if (const auto* remove = std::get_if<Remove>(&event.action)) return choosing(remove->cells) + f.operations * c.remove;
-  if (const auto* refine = std::get_if<Refine>(&event.action)) return choosing(refine->cells) + f.operations * c.refine;
-  if (const auto* dissociate = std::get_if<Dissociate>(&event.action))
-    return (dissociate->faces.index() != 0 ? times * mean.cells * c.across : 0.0) + f.operations * c.dissociate;
-  if (std::holds_alternative<Tear>(event.action)) return times * c.tear;
-  if (std::holds_alternative<Release>(event.action)) return 0.0;  // one pass over the vertices, once
-  return times * mean.springs * c.stress;
+  return std::visit(Overloads{[&](const Dissociate& cut) {
+                                const bool by_place = !std::holds_alternative<FacetPoints>(cut.faces);
+                                return (by_place ? times * mean.cells * c.across : 0.0) + f.operations * c.dissociate;
+                              },
+                              [&](const Remove& remove) { return choosing(remove.cells) + f.operations * c.remove; },
+                              [&](const Tear&) { return times * c.tear; },
+                              [&](const TearWhereStressed&) { return times * mean.springs * c.stress; },
+                              [&](const Refine& refine) { return choosing(refine.cells) + f.operations * c.refine; },
+                              [](const Release&) { return 0.0; }},  // one pass over the vertices, once
+                    event.action);
 }
 
 // The first state, those that are due, and the last.

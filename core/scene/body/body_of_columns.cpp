@@ -11,9 +11,9 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/bytes.h"
 #include "core/plain/error.h"
+#include "core/scene/body/events/ready.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
-#include "core/scene/body/release.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
@@ -217,9 +217,14 @@ SpringSystem BodyOfColumns::system() const {
 }
 
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
-  if (const auto* release = std::get_if<Release>(&event.action))
-    return std::make_unique<ReadyRelease>(vertices_, *release, event.path + "/release");
-  throw InputError(event.path + ": the body was built for a scene whose events leave the topology as it is");
+  return std::visit(
+      [&]<class Kind>(const Kind& action) -> std::unique_ptr<ReadyEvent> {
+        if constexpr (Kind::changes_topology)
+          throw InputError(event.path + ": the body was built for a scene whose events leave the topology as it is");
+        else
+          return ready(vertices_, action, event.action_path());
+      },
+      event.action);
 }
 
 double BodyOfColumns::mass() const {

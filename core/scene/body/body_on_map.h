@@ -18,10 +18,11 @@
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
 #include "core/plain/bytes.h"
+#include "core/scene/body/events/changing_body.h"
+#include "core/scene/body/events/ready.h"
 #include "core/scene/body/face_origins.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
-#include "core/scene/body/scene_events.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
 #include "core/views/component_labels.h"
@@ -34,9 +35,9 @@
 namespace dartboard {
 
 template <class Map>
-class BodyOnMap final : public SimulatedBody {
+class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
  public:
-  using Body = MassSpringBody<Map, Held::by_every_dart>;
+  using typename ChangingBody<Map>::Body;
   static constexpr int n = Map::dimension;
 
   BodyOnMap(const Problem& problem, const BodyNeeds& needs)
@@ -88,16 +89,16 @@ class BodyOnMap final : public SimulatedBody {
     fit_columns();
   }
 
-  // ---- for events
+  // ---- ChangingBody
 
-  Body& body() { return body_; }
-  const Body& body() const { return body_; }
-  std::span<const SpringEnds> ends() const { return ends_.ends; }
-  std::span<const std::uint32_t> mesh_cell() const { return mesh_cell_; }
-  CornerRows corners() const { return {nodes_.nodes, solids_.nodes}; }
+  Body& body() override { return body_; }
+  const Body& body() const override { return body_; }
+  std::span<const SpringEnds> ends() const override { return ends_.ends; }
+  std::span<const std::uint32_t> mesh_cell() const override { return mesh_cell_; }
+  CornerRows corners() const override { return {nodes_.nodes, solids_.nodes}; }
+  ForceTerms terms() const override { return terms_; }
 
-  /// Let embeddings and views follow a change of the map.
-  void follow(const TopologyChange& change) {
+  void follow(const TopologyChange& change) override {
     const ChangedEmbeddings changed = adapt(body_, change);
     for (const auto [from, to] : changed.moved_vertices)
       for (std::uint32_t& vertex : tracked_) vertex = vertex == to ? no_vertex : vertex == from ? to : vertex;
@@ -113,23 +114,24 @@ class BodyOnMap final : public SimulatedBody {
     follow_skin(changed);
     components_.apply(body_, change, changed);
   }
-  /// The same for a subdivision of tetrahedra.
-  void follow(const Subdivision& subdivision, double bracing) requires(n == 3) {
-    face_origins_.follow(body_, subdivision);
-    const ChangedEmbeddings changed = adapt(body_, subdivision, bracing);
-    mesh_cell_.resize(changed.cell_count);
-    const auto cell_of = [this](const Subdivision::Child& child) { return body_.cell(body_.map, child.darts[0]); };
-    for (const auto& child : subdivision.children) {  // the first child of a parent keeps its number
-      const auto first = child.parent * static_cast<std::size_t>(subdivision.cell_vertices);
-      mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
+  void follow(const Subdivision& subdivision, double bracing) override {
+    if constexpr (n == 3) {
+      face_origins_.follow(body_, subdivision);
+      const ChangedEmbeddings changed = adapt(body_, subdivision, bracing);
+      mesh_cell_.resize(changed.cell_count);
+      const auto cell_of = [this](const Subdivision::Child& child) { return body_.cell(body_.map, child.darts[0]); };
+      for (const auto& child : subdivision.children) {  // the first child of a parent keeps its number
+        const auto first = child.parent * static_cast<std::size_t>(subdivision.cell_vertices);
+        mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
+      }
+      ends_.apply(body_, changed);
+      nodes_.apply(body_, changed);
+      solids_.apply(body_, changed);
+      follow_skin(changed);
+      components_.apply(body_, {}, changed);
     }
-    ends_.apply(body_, changed);
-    nodes_.apply(body_, changed);
-    solids_.apply(body_, changed);
-    follow_skin(changed);
-    components_.apply(body_, {}, changed);
   }
-  void count_removed(double mass) { removed_mass_ += mass; }
+  void count_removed(double mass) override { removed_mass_ += mass; }
 
   // ---- SimulatedBody
 
@@ -161,7 +163,10 @@ class BodyOnMap final : public SimulatedBody {
   BodyContact* body_contact() override { return body_contact_.get(); }
   using SimulatedBody::body_contact;
   using SimulatedBody::contact;
-  std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override { return make_event_ready(*this, event); }
+  std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override {
+    ChangingBody<Map>& on = *this;
+    return std::visit([&](const auto& action) { return ready(on, action, event.action_path()); }, event.action);
+  }
 
   double mass() const override {
     double sum = 0.0;

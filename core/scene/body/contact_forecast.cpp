@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 
 namespace dartboard {
 namespace {

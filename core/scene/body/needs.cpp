@@ -33,10 +33,6 @@ BodyNeeds body_needs(const Problem& problem, bool topology_changes) {
 }
 
 Needs needs_of(const SceneFile& scene, const Problem& problem) {
-  const auto some = [&scene]<class Kind>(const Kind*) {
-    return std::ranges::any_of(scene.events,
-                               [](const SceneEvent& event) { return std::holds_alternative<Kind>(event.action); });
-  };
   BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
   body.diagonals = scene.diagonals;
   body.bending = scene.bending;
@@ -54,8 +50,8 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
           .cell_damping = std::ranges::any_of(problem.cell_materials().all(),
                                               [](const Material& m) { return m.damping_time != 0.0; }),
           .solver = make_integrator(scene.integrator)->scheme().implicit,
-          .refinement = some(static_cast<const Refine*>(nullptr)),
-          .stress_watch = some(static_cast<const TearWhereStressed*>(nullptr))};
+          .refinement = has<Refine>(scene.events),
+          .stress_watch = has<TearWhereStressed>(scene.events)};
 }
 
 }  // namespace dartboard

@@ -7,9 +7,9 @@
 #include <functional>
 #include <set>
 
-#include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
+#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {
@@ -37,9 +37,7 @@ struct Found {
 };
 
 void require_found(const SceneFile& scene, const Found& found, bool any, const std::string& path) {
-  const auto fail = [&](const std::string& what, const std::string& expected) {
-    throw InputError(fmt::format("{}: {}: {}; expected {}", scene.file, path, what, expected));
-  };
+  const auto fail = [&](const std::string& what, const std::string& expected) { scene.fail(path, what, expected); };
   if (found.kinds.empty() && found.others.empty())
     fail("names a mark of cells, and no mesh file of the scene has any", "a selection by place");
   if (found.kinds.empty())
@@ -76,15 +74,13 @@ std::vector<std::uint32_t> cells_with(const SceneFile& scene, const TagSelection
 }
 
 void resolve_tags(SceneFile& scene) {
-  const auto resolve = [&scene](CellSelection& selection, const std::string& path) {
+  const auto resolve = [&scene](const std::string& path, CellSelection& selection) {
     if (const auto* tag = std::get_if<TagSelection>(&selection))
       selection = IdSelection{cells_with(scene, *tag, path + "/tag")};
   };
-  for (SceneRegion& region : scene.regions) resolve(region.cells, region.path + "/cells");
-  for (SceneEvent& event : scene.events) {
-    if (auto* remove = std::get_if<Remove>(&event.action)) resolve(remove->cells, event.path + "/remove");
-    if (auto* refine = std::get_if<Refine>(&event.action)) resolve(refine->cells, event.path + "/refine/cells");
-  }
+  for (SceneRegion& region : scene.regions) resolve(region.path + "/cells", region.cells);
+  const auto leave = [](const std::string&, const auto&) {};  // tags mark cells
+  for (SceneEvent& event : scene.events) for_each_choice(event, Overloads{resolve, leave});
 }
 
 }  // namespace dartboard

@@ -12,6 +12,7 @@
 #include "core/meshes/touching.h"
 #include "core/plain/error.h"
 #include "core/scene/file/cell_tags.h"
+#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {
@@ -32,18 +33,15 @@ void visit_points(SceneFile& scene, const Visit& visit) {
   for (SceneForce& force : scene.forces) visit_ids(force.vertices, force.path, visit);
   for (Probe& probe : scene.probes)
     if (auto* point = std::get_if<std::uint32_t>(&probe.vertex)) visit(*point, probe.path + "/vertex");
-  for (SceneEvent& event : scene.events) {
-    if (auto* tear = std::get_if<Tear>(&event.action)) {
-      if (auto* point = std::get_if<std::uint32_t>(&tear->vertex)) visit(*point, event.path + "/tear/vertex");
-    } else if (auto* release = std::get_if<Release>(&event.action)) {
-      visit_ids(release->vertices, event.path + "/release", visit);
-    } else if (auto* dissociate = std::get_if<Dissociate>(&event.action)) {
-      auto* faces = std::get_if<0>(&dissociate->faces);
-      for (std::size_t k = 0; faces != nullptr && k < faces->size(); ++k)
-        for (std::size_t j = 0; j < (*faces)[k].size(); ++j)
-          visit((*faces)[k][j], fmt::format("{}/dissociate/points/{}/{}", event.path, k, j));
-    }
-  }
+  const Overloads visit_choice{
+      [&visit](const std::string& path, std::uint32_t& point) { visit(point, path); },
+      [&visit](const std::string& path, VertexSelection& vertices) { visit_ids(vertices, path, visit); },
+      [&visit](const std::string& path, FacetPoints& facets) {
+        for (std::size_t k = 0; k < facets.size(); ++k)
+          for (std::size_t j = 0; j < facets[k].size(); ++j) visit(facets[k][j], fmt::format("{}/{}/{}", path, k, j));
+      },
+      [](const std::string&, const CellSelection&) {}};
+  for (SceneEvent& event : scene.events) for_each_choice(event, visit_choice);
 }
 
 /// The points of a mesh that one point of its file became: itself, and those split off it.
@@ -102,9 +100,7 @@ class Places {
 
 void renumber(SceneFile& scene, const std::vector<std::uint32_t>& place) {
   visit_points(scene, [&](std::uint32_t& point, const std::string& path) {
-    const auto fail = [&](const std::string& expected) {
-      throw InputError(fmt::format("{}: {}: is {}; expected {}", scene.file, path, point, expected));
-    };
+    const auto fail = [&](const std::string& expected) { scene.fail(path, fmt::format("is {}", point), expected); };
     if (point >= place.size()) fail(fmt::format("a point of the mesh, less than {}", place.size()));
     if (place[point] == LoadedMesh::dropped) fail("a point that belongs to a cell: this one of the mesh does not");
     point = place[point];
@@ -118,12 +114,13 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   for (HeldSelection& held : scene.fixed) all_of(held.vertices);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
   for (SceneForce& force : scene.forces) all_of(force.vertices);
-  for (SceneEvent& event : scene.events) {
-    if (auto* release = std::get_if<Release>(&event.action)) all_of(release->vertices);
-    if (auto* dissociate = std::get_if<Dissociate>(&event.action))
-      if (auto* faces = std::get_if<0>(&dissociate->faces))
-        for (auto& points : *faces) places.find_face(points);
-  }
+  const Overloads name_in_choice{[&all_of](const std::string&, VertexSelection& vertices) { all_of(vertices); },
+                                 [&places](const std::string&, FacetPoints& facets) {
+                                   for (auto& points : facets) places.find_face(points);
+                                 },
+                                 [](const std::string&, const CellSelection&) {},
+                                 [](const std::string&, std::uint32_t) {}};
+  for (SceneEvent& event : scene.events) for_each_choice(event, name_in_choice);
 }
 
 std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
@@ -165,10 +162,8 @@ std::optional<std::pair<LoadedMesh, TouchingCells>> read_or_nothing(const BodySo
 /// A number does not say which body it counts in; a place is unambiguous.
 void require_no_point_numbers(SceneFile& scene) {
   visit_points(scene, [&scene](std::uint32_t& point, const std::string& path) {
-    throw InputError(
-        fmt::format("{}: {}: is {} together with /bodies; expected a place, because numbers are ambiguous "
-                    "with several bodies",
-                    scene.file, path, point));
+    scene.fail(path, fmt::format("is {} together with /bodies", point),
+               "a place, because numbers are ambiguous with several bodies");
   });
 }
 

@@ -17,8 +17,9 @@
 #include "core/contact/obstacle.h"
 #include "core/plain/diagonals.h"
 #include "core/plain/material.h"
+#include "core/scene/file/actions/action.h"
 #include "core/scene/file/frame_fields.h"
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 
 namespace dartboard {
 
@@ -134,49 +135,6 @@ struct SceneTouch {
   std::string path;  // of the key that gives it: "/contact/bodies", "/contact/pairs/3"
 };
 
-// ---- events
-
-struct Dissociate {
-  // by the points around each; on a plane; or where a blade sweeps
-  std::variant<std::vector<std::vector<std::uint32_t>>, PlaneSelection, BladeSweep> faces;
-  std::optional<CutRegion> within{};  // of the faces on a plane, only those with their centre there are cut
-};
-struct Remove {
-  CellSelection cells;
-};
-struct Tear {
-  std::variant<std::uint32_t, Eigen::Vector3d> vertex;  // a point of the mesh; or the one nearest to a place
-  Eigen::Vector3d direction;
-};
-struct TearWhereStressed {
-  double threshold;                    // [Pa]
-  std::optional<PlaneSelection> seam;  // through the body at rest
-  std::optional<std::size_t> most_per_step;
-};
-struct Refine {
-  CellSelection cells;
-  bool at_centre;  // false: in the longest edge
-  double bracing;
-};
-
-/// Vertices held still are released.
-struct Release {
-  VertexSelection vertices;  // by rest position
-};
-
-using Action = std::variant<Dissociate, Remove, Tear, TearWhereStressed, Refine, Release>;
-bool changes_topology(const Action& action);
-/// "dissociate": the key that names the action of an event.
-std::string_view key_of(const Action& action);
-
-/// An action and the steps at which it happens: an event that is due at n happens after n steps.
-struct SceneEvent {
-  Action action;
-  double from, until;           // [s]; equal for an event that happens once
-  std::optional<double> every;  // [s]; no value: at every step
-  std::string path;             // "/events/3"
-};
-
 /// The treatment of a step that is too long to be stable.
 enum class UnstableStep { warn, refuse, substep };
 
@@ -254,6 +212,7 @@ struct SceneFile {
   std::uint64_t added_seed = 0;  // by `reseed`
 
   bool has_elements() const;  // in any tissue
+  bool has_springs() const;   // in any tissue, or diagonals
   bool holds_axes() const;    // for some vertices some axes, but not all three
   bool has_contact() const { return !obstacles.empty() || !touches.empty(); }
   /// The key of springs or bending that no edge stands for, which references do not support; empty without them.
@@ -270,6 +229,9 @@ struct SceneFile {
     bool names_model;
   };
   std::vector<Tissue> tissues() const;
+
+  /// throws  InputError "FILE: PATH: found; expected ..."
+  [[noreturn]] void fail(std::string_view path, std::string_view found, std::string_view expected) const;
 };
 
 /// A scene from a text; `name` stands for the file in errors, and paths are relative to `folder`.

@@ -10,19 +10,13 @@
 #include <vector>
 
 #include "core/places/border.h"
-#include "core/plain/error.h"
 #include "core/plain/young.h"
 #include "core/scene/file/cell_tags.h"
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 #include "core/scene/file/springs_beside_edges.h"
 
 namespace dartboard {
 namespace {
-
-[[noreturn]] void fail(const SceneFile& scene, const std::string& path, std::string_view found,
-                       std::string_view expected) {
-  throw InputError(fmt::format("{}: {}: {}; expected {}", scene.file, path, found, expected));
-}
 
 /// The numbers of the cells of a region, at rest.
 std::vector<std::uint32_t> cells_of(const SceneFile& scene, const SceneRegion& region, const Mesh& mesh) {
@@ -33,14 +27,13 @@ std::vector<std::uint32_t> cells_of(const SceneFile& scene, const SceneRegion& r
   } else if (const auto* by_id = std::get_if<IdSelection>(&region.cells)) {
     for (std::size_t k = 0; k < by_id->ids.size(); ++k)
       if (by_id->ids[k] >= mesh.cell_count())
-        fail(scene, fmt::format("{}/ids/{}", path, k), fmt::format("is {}", by_id->ids[k]),
-             fmt::format("a cell of the mesh, less than {}", mesh.cell_count()));
+        scene.fail(fmt::format("{}/ids/{}", path, k), fmt::format("is {}", by_id->ids[k]),
+                   fmt::format("a cell of the mesh, less than {}", mesh.cell_count()));
     cells = by_id->ids;
   } else {
     cells = cells_in(region.cells, centroids(mesh), border_thickness(mesh.points));
   }
-  if (cells.empty())
-    fail(scene, path, "selects no cell of the body", "a region that some cells have their centroid in");
+  if (cells.empty()) scene.fail(path, "selects no cell of the body", "a region that some cells have their centroid in");
   return cells;
 }
 
@@ -48,18 +41,19 @@ std::vector<std::uint32_t> cells_of(const SceneFile& scene, const SceneRegion& r
 void require_elements(const SceneFile& scene, const Mesh& mesh, const std::string& path, const Material& material) {
   if (mesh.dimension() != 2) return;
   if (material.model == Model::neo_hookean)
-    fail(scene, path + "/model", fmt::format("is \"{}\", and the body is a surface", name(material.model)),
-         fmt::format("\"{}\", \"{}\" or \"{}\"", name(Model::stvk), name(Model::corotational), name(Model::springs)));
+    scene.fail(
+        path + "/model", fmt::format("is \"{}\", and the body is a surface", name(material.model)),
+        fmt::format("\"{}\", \"{}\" or \"{}\"", name(Model::stvk), name(Model::corotational), name(Model::springs)));
   if (material.damping_time > 0.0)
-    fail(scene, path + "/damping", "is a ratio at a frequency, and the body is a surface",
-         "no such key: only 'viscosity' damps membranes");
+    scene.fail(path + "/damping", "is a ratio at a frequency, and the body is a surface",
+               "no such key: only 'viscosity' damps membranes");
 }
 
 /// The mean stiffness of the edges of some cells that follows from a Young's modulus.
 double stiffness_of_young(const SceneFile& scene, const Mesh& mesh, const SceneFile::Tissue& tissue,
                           std::span<const std::uint32_t> cells) {
   const auto wrong = [&](std::string_view found, std::string_view expected) {
-    fail(scene, tissue.path + "/young", fmt::format("is {} Pa, and {}", tissue.material.young, found), expected);
+    scene.fail(tissue.path + "/young", fmt::format("is {} Pa, and {}", tissue.material.young, found), expected);
   };
   for (const std::uint32_t c : cells)
     if (first_loose_cell(mesh, {&c, 1}) && diagonals_of(mesh.kinds[c], scene.diagonals).empty())
@@ -98,8 +92,8 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
   const std::size_t count = problem.mesh.cell_count();
   std::vector<SceneFile::Tissue> tissues = scene.tissues();
   if (tissues.size() > most_materials)
-    fail(scene, tissues[most_materials].path, fmt::format("is the last of {} materials", tissues.size()),
-         fmt::format("at most {}", most_materials));
+    scene.fail(tissues[most_materials].path, fmt::format("is the last of {} materials", tissues.size()),
+               fmt::format("at most {}", most_materials));
   std::vector<std::size_t> tissue_of(count, 0);
   std::size_t next = 1;
   const auto bodies = scene.bodies();

@@ -49,10 +49,10 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
   for (const SceneEvent& event : scene.events) {
     const auto* release = std::get_if<Release>(&event.action);
     if (release == nullptr) continue;
-    for (const std::uint32_t p : select_points(release->vertices, points, event.path + "/release"))
+    for (const std::uint32_t p : select_points(release->vertices, points, event.action_path()))
       if (std::ranges::find(driven, p) != driven.end())
-        throw InputError(fmt::format("{}/release: selects point {}, which /driven moves; expected fixed ones alone",
-                                     event.path, number_in_file(scene, p)));
+        throw InputError(fmt::format("{}: selects point {}, which /driven moves; expected fixed ones alone",
+                                     event.action_path(), number_in_file(scene, p)));
   }
 }
 

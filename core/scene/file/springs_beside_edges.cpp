@@ -10,7 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
 
 namespace dartboard {
@@ -18,11 +17,6 @@ namespace {
 
 // Triangles with a larger angle at rest are not meant to be flat; rounding to the digits of a file tilts them by less.
 constexpr double largest_tilt = 1e-6;
-
-[[noreturn]] void fail(const SceneFile& scene, std::string_view path, std::string_view found,
-                       std::string_view expected) {
-  throw InputError(fmt::format("{}: {}: {}; expected {}", scene.file, path, found, expected));
-}
 
 void require_diagonals(const SceneFile& scene, const Problem& problem) {
   const CellMaterials materials = problem.cell_materials();
@@ -34,10 +28,10 @@ void require_diagonals(const SceneFile& scene, const Problem& problem) {
   }
   const std::string found = fmt::format("is \"{}\"", name(scene.diagonals));
   if (!springs)
-    fail(scene, "/diagonals", found + ", and all cells are made of elements", "cells of springs, or no such key");
-  fail(scene, "/diagonals", found + ", and no cell has such diagonals",
-       scene.diagonals == Diagonals::volumes ? "hexahedra, or no such key"
-                                             : "hexahedra, prisms, pyramids or quadrilaterals, or no such key");
+    scene.fail("/diagonals", found + ", and all cells are made of elements", "cells of springs, or no such key");
+  scene.fail("/diagonals", found + ", and no cell has such diagonals",
+             scene.diagonals == Diagonals::volumes ? "hexahedra, or no such key"
+                                                   : "hexahedra, prisms, pyramids or quadrilaterals, or no such key");
 }
 
 void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
@@ -46,8 +40,8 @@ void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3d> away_from;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     if (mesh.kinds[c] != CellKind::triangle)
-      fail(scene, "/bending/rigidity", fmt::format("{}, and cell {} is a {}", found, c, name(mesh.kinds[c])),
-           "triangles, or 'second_neighbours' in its place");
+      scene.fail("/bending/rigidity", fmt::format("{}, and cell {} is a {}", found, c, name(mesh.kinds[c])),
+                 "triangles, or 'second_neighbours' in its place");
     const auto nodes = mesh.cell(c);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = nodes[k], b = nodes[(k + 1) % 3], corner = nodes[(k + 2) % 3];
@@ -57,10 +51,10 @@ void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
       const auto [at, is_first] = away_from.try_emplace(std::minmax(a, b), away);
       const double tilt = (at->second + away).norm();
       if (!is_first && !(tilt <= largest_tilt))
-        fail(scene, "/bending/rigidity",
-             fmt::format("{}, and the surface is bent by {:.3g} at the edge of points {} and {} at rest", found, tilt,
-                         number_in_file(scene, at->first.first), number_in_file(scene, at->first.second)),
-             "a flat sheet");
+        scene.fail("/bending/rigidity",
+                   fmt::format("{}, and the surface is bent by {:.3g} at the edge of points {} and {} at rest", found,
+                               tilt, number_in_file(scene, at->first.first), number_in_file(scene, at->first.second)),
+                   "a flat sheet");
     }
   }
 }
@@ -71,7 +65,7 @@ void require_springs_beside_edges(const SceneFile& scene, const Problem& problem
   if (scene.diagonals != Diagonals::none) require_diagonals(scene, problem);
   if (!scene.bending.any()) return;
   if (problem.mesh.dimension() != 2)
-    fail(scene, "/bending", "cannot be combined with a solid, whose cells do not bend at edges", "a surface");
+    scene.fail("/bending", "cannot be combined with a solid, whose cells do not bend at edges", "a surface");
   if (scene.bending.rigidity > 0.0) require_flat_triangles(scene, problem.mesh);
 }
 

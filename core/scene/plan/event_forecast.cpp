@@ -7,6 +7,7 @@
 #include "core/mechanics/fracture/seam.h"
 #include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
+#include "core/scene/file/selections/overloads.h"
 #include "core/scene/timeline/event_clock.h"
 
 namespace dartboard {
@@ -83,20 +84,23 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
       f.operations = std::min(repeats(cells) ? times * each : each, most);
       f.with_operations = each > 0.0 ? std::min(times, std::ceil(f.operations / each)) : 0.0;
     };
-    if (const auto* remove = std::get_if<Remove>(&event.action)) {
-      of_cells(remove->cells, left);
-      left -= f.operations;
-    } else if (const auto* refine = std::get_if<Refine>(&event.action)) {
-      of_cells(refine->cells, static_cast<double>(counts.cells) * times);
-    } else if (const auto* dissociate = std::get_if<Dissociate>(&event.action)) {
-      f.operations = facets_of(*dissociate, mesh, counts);
-      f.with_operations = f.operations > 0.0 ? std::min(times, 1.0) : 0.0;
-    } else if (std::holds_alternative<Tear>(event.action)) {
-      f.operations = f.with_operations = times;
-    } else if (const auto* release = std::get_if<Release>(&event.action)) {
-      f.operations = static_cast<double>(select_points(release->vertices, mesh.points, event.path).size());
-      f.with_operations = std::min(times, 1.0);
-    }
+    std::visit(
+        Overloads{[&](const Dissociate& dissociate) {
+                    f.operations = facets_of(dissociate, mesh, counts);
+                    f.with_operations = f.operations > 0.0 ? std::min(times, 1.0) : 0.0;
+                  },
+                  [&](const Remove& remove) {
+                    of_cells(remove.cells, left);
+                    left -= f.operations;
+                  },
+                  [&](const Tear&) { f.operations = f.with_operations = times; },
+                  [](const TearWhereStressed&) {},  // the motion decides
+                  [&](const Refine& refine) { of_cells(refine.cells, static_cast<double>(counts.cells) * times); },
+                  [&](const Release& release) {
+                    f.operations = static_cast<double>(select_points(release.vertices, mesh.points, event.path).size());
+                    f.with_operations = std::min(times, 1.0);
+                  }},
+        event.action);
     forecasts.push_back(f);
   }
   return forecasts;

@@ -7,7 +7,7 @@
 #include "core/plain/counted.h"
 #include "core/plain/material.h"
 #include "core/scene/body/diagnostics.h"
-#include "core/scene/file/scene_keys.h"
+#include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
@@ -314,7 +314,7 @@ class Planner {
     std::string what = fmt::format("{}, {} times", key_of(e.action), f.times);
     what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
                                                                 : fmt::format(", some {:.0f} operations", f.operations);
-    add(Part::event, std::move(what), fmt::format("{}/{}", e.path, key_of(e.action)));
+    add(Part::event, std::move(what), e.action_path());
     plan_.items.back().event = k;
   }
 

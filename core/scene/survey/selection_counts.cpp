@@ -9,6 +9,7 @@
 
 #include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
+#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {
@@ -83,13 +84,11 @@ std::vector<SelectionCount> count_selections(const SceneFile& scene, const Mesh&
   for (const SceneDrive& drive : scene.driven) counter.vertices(drive.path, drive.vertices);
   for (const SceneForce& force : scene.forces) counter.vertices(force.path, force.vertices);
   for (const SceneRegion& region : scene.regions) counter.cells(region.path + "/cells", region.cells);
-  for (const SceneEvent& event : scene.events) {
-    if (const auto* remove = std::get_if<Remove>(&event.action)) counter.cells(event.path + "/remove", remove->cells);
-    if (const auto* refine = std::get_if<Refine>(&event.action))
-      counter.cells(event.path + "/refine/cells", refine->cells);
-    if (const auto* release = std::get_if<Release>(&event.action))
-      counter.vertices(event.path + "/release", release->vertices);
-  }
+  const Overloads count_choice{
+      [&counter](const std::string& path, const CellSelection& cells) { counter.cells(path, cells); },
+      [&counter](const std::string& path, const VertexSelection& vertices) { counter.vertices(path, vertices); },
+      [](const std::string&, const auto&) {}};  // numbers select what they name
+  for (const SceneEvent& event : scene.events) for_each_choice(event, count_choice);
   return counter.counts;
 }
 

@@ -1,7 +1,5 @@
 #include "core/scene/timeline/timeline.h"
 
-#include <variant>
-
 namespace dartboard {
 
 Timeline::Timeline(const SceneFile& scene, const Mesh& mesh, SimulatedBody& body, Integrator& integrator, double step)
@@ -12,10 +10,8 @@ Timeline::Timeline(const SceneFile& scene, const Mesh& mesh, SimulatedBody& body
       forces_(scene, mesh, body.vertices(), step) {}
 
 std::optional<std::size_t> Timeline::schedule(const SceneEvent& event) {
-  const bool dissociates = changes_topology(event.action) && !std::holds_alternative<Remove>(event.action) &&
-                           !std::holds_alternative<Refine>(event.action);
-  events_.push_back(
-      {body_.make_ready(event), EventClock(event.from, event.until, event.every, step_), dissociates, event.path});
+  events_.push_back({body_.make_ready(event), EventClock(event.from, event.until, event.every, step_),
+                     dissociates(event.action), event.path});
   return events_.back().event->facets();
 }
 

@@ -1,4 +1,4 @@
-#include "core/scene/body/release.h"
+#include "core/scene/body/events/ready.h"
 
 #include <gtest/gtest.h>
 

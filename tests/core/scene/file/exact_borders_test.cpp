@@ -17,7 +17,7 @@
 #include "core/places/border.h"
 #include "core/plain/random.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 #include "core/topology/cells.h"
 #include "reference/exact_sides.h"
 

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "core/plain/error.h"
-#include "core/scene/file/scene_check.h"
-#include "core/scene/file/scene_keys.h"
-#include "core/scene/file/scene_pages.h"
+#include "core/scene/file/keys/scene_check.h"
+#include "core/scene/file/keys/scene_keys.h"
+#include "core/scene/file/keys/scene_pages.h"
+#include "core/scene/file/keys/strict_json.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/file/strict_json.h"
 #include "core/scene/timeline/event_clock.h"
 
 namespace dartboard::scene_file_test {

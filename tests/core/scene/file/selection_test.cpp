@@ -1,4 +1,4 @@
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 
 #include <gtest/gtest.h>
 

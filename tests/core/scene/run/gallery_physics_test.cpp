@@ -12,7 +12,7 @@
 
 #include "benchmarks/checkout/source_folder.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/file/selection.h"
+#include "core/scene/file/selections/selection.h"
 #include "core/scene/run/simulation.h"
 #include "tests/support/bodies/corner_body.h"
 

@@ -1,4 +1,4 @@
-#include "core/scene/file/strict_json.h"
+#include "core/scene/file/keys/strict_json.h"
 
 #include <fmt/format.h>
 

@@ -107,7 +107,8 @@ std::span<const SceneKey> scene_keys();
 /// The integrator of a scene that gives a step and does not name an integrator.
 inline constexpr const char* standard_integrator = "rk4";
 
-/// A rule about several keys of a shape.
+/// A rule about which keys of one object are given together. Rules that need values, or keys of other objects, are rows
+/// of core/scene/file/scene_rules.cpp.
 struct SceneRule {
   // excludes: the first key excludes the others; needs_object: if the first is given, the others are objects
   enum Kind { exactly_one, at_most_one, excludes, needs_object } kind;

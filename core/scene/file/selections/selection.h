@@ -13,59 +13,97 @@
 
 namespace dartboard {
 
+class SceneValue;
+
+// ---- kinds: each has its key, and is read from a value that has been checked against the table of keys
+
 /// Points or cells of the mesh, by number.
 struct IdSelection {
+  static constexpr std::string_view key = "ids";
+  static IdSelection read(const SceneValue& value);
+
   std::vector<std::uint32_t> ids;
 };
 /// A box with faces across the axes, surface included.
 struct BoxSelection {
+  static constexpr std::string_view key = "box";
+  static BoxSelection read(const SceneValue& value);
+
   Eigen::Vector3d min, max;
 };
 /// A plane and the side that its normal points to.
 struct PlaneSelection {
+  static constexpr std::string_view key = "plane";
+  static PlaneSelection read(const SceneValue& value);
+
   Eigen::Vector3d point, normal;
 };
 /// A ball, surface included.
 struct SphereSelection {
+  static constexpr std::string_view key = "sphere";
+  static SphereSelection read(const SceneValue& value);
+
   Eigen::Vector3d centre;
   double radius;
 };
 /// A prism without ends: a polygon extended along a direction.
 struct PolygonSelection {
+  static constexpr std::string_view key = "polygon";
+  static PolygonSelection read(const SceneValue& value, const Eigen::Vector3d& along);
+
   Eigen::Vector3d along;                 // a unit vector
   std::vector<Eigen::Vector3d> corners;  // in turn; three at least
 };
 /// The legs of a path, each as deep as `depth`.
 struct BladeSweep {
+  static constexpr std::string_view key = "blade";
+  static BladeSweep read(const SceneValue& value);
+
   std::vector<Eigen::Vector3d> path;
   Eigen::Vector3d depth;
 };
 /// All that is near a path, or near the area that a blade sweeps along it.
 struct AroundSelection {
+  static constexpr std::string_view key = "around";
+  static AroundSelection read(const SceneValue& value);
+
   BladeSweep sweep;
   double distance;
 };
 /// Cells that a mesh file marks: those with this value, or the value of this name, of the tags of that name.
 struct TagSelection {
+  static constexpr std::string_view key = "tag";
+  static TagSelection read(const SceneValue& value);
+
   std::string tag;  // empty where the file has one kind of tag
   std::variant<std::int32_t, std::string> value;
 };
 /// `count` of the cells, drawn without replacement.
 struct RandomSelection {
+  static constexpr std::string_view key = "random";
+  static RandomSelection read(const SceneValue& value);
+
   std::uint32_t count;
   std::uint64_t seed;
 };
 
+// ---- what a key of a scene may be
+
 /// The region that limits a cut.
 using CutRegion = std::variant<BoxSelection, SphereSelection, AroundSelection, PolygonSelection>;
 using VertexSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection>;
+using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
+                                   RandomSelection, TagSelection>;
 /// Vertices that are held: still, or along some axes.
 struct HeldSelection {
+  static HeldSelection read(const SceneValue& value);
+
   VertexSelection vertices;
   HeldAxes axes = all_axes;
 };
-using CellSelection = std::variant<IdSelection, BoxSelection, PlaneSelection, SphereSelection, AroundSelection,
-                                   RandomSelection, TagSelection>;
+
+VertexSelection read_vertices(const SceneValue& value);
+CellSelection read_cells(const SceneValue& value);
 
 /// Is a place in a region, whose border is `thickness` thick (core/places/border.h) and belongs to it?
 bool contains(const BoxSelection& box, const Eigen::Vector3d& x, double thickness);

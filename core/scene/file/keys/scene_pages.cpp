@@ -1,4 +1,4 @@
-#include "core/scene/file/scene_pages.h"
+#include "core/scene/file/keys/scene_pages.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/scene/file/scene_keys.h"
+#include "core/scene/file/keys/scene_keys.h"
 
 namespace dartboard {
 namespace {
@@ -131,7 +131,7 @@ std::string scene_reference() {
       "# The keys of a scene file\n\nStrict JSON (RFC 8259), no comments. An unknown key, a key given twice, a value "
       "of "
       "another type or outside its range is an error that names its path. Made from the table in "
-      "`core/scene/file/scene_keys.cpp` by `dartboard scene --keys`.\n";
+      "`core/scene/file/keys/scene_keys.cpp` by `dartboard scene --keys`.\n";
   for (const ShapeHelp& shape : scene_shapes()) {
     page += fmt::format("\n## {}\n\n{}\n", shape.name, shape.help);
     for (const SceneRule& rule : scene_rules())

@@ -1,4 +1,4 @@
-#include "core/scene/file/scene_keys.h"
+#include "core/scene/file/keys/scene_keys.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/file/scene_keys.h"
+#include "core/scene/file/keys/scene_keys.h"
 
 namespace dartboard {
 

@@ -1,4 +1,4 @@
-#include "core/scene/file/scene_check.h"
+#include "core/scene/file/keys/scene_check.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/plain/error.h"
-#include "core/scene/file/strict_json.h"
+#include "core/scene/file/keys/strict_json.h"
 
 namespace dartboard {
 namespace {
