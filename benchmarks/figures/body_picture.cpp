@@ -10,7 +10,7 @@
 #include <set>
 
 #include "benchmarks/figures/gnuplot.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 namespace {

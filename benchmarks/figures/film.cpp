@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "benchmarks/figures/gnuplot.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "benchmarks/harness/processes.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

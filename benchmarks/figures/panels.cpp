@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "benchmarks/figures/gnuplot.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "benchmarks/figures/gnuplot.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

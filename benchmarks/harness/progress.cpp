@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "benchmarks/harness/clock.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 namespace {

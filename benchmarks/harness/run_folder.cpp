@@ -9,8 +9,8 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

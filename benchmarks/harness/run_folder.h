@@ -11,7 +11,7 @@
 
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/table.h"
-#include "core/plain/folder_claim.h"
+#include "core/base/folder_claim.h"
 
 namespace dartboard {
 

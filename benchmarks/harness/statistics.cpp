@@ -6,8 +6,8 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
+#include "core/base/median.h"
 #include "core/plain/error.h"
-#include "core/plain/median.h"
 
 namespace dartboard {
 namespace {

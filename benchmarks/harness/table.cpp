@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 

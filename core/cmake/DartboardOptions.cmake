@@ -104,8 +104,8 @@ endfunction()
 # the instruction counts, would depend on their neighbours.
 #
 # A library of the sources in a folder, not of those below it. SEES lists the folders that its files may include, besides
-# core/plain, which all may; tests/program/includes_test.cpp checks that, and that each folder listed is added before it,
-# so that there is no circle.
+# core/plain, which all may, and core/base, which all but the witnesses of reference may; tests/program/includes_test.cpp
+# checks that, and that each folder listed is added before it, so that there is no circle.
 function(dartboard_folder path)
   cmake_parse_arguments(ARG "NOT_PRECOMPILED;LIGHT;TOGETHER" "" "SEES;LINK;APART" ${ARGN})
   dartboard_sees(${path} ${ARG_SEES})
@@ -113,6 +113,9 @@ function(dartboard_folder path)
   set_property(GLOBAL APPEND PROPERTY dartboard_targets ${target})
   if(NOT path STREQUAL core/plain)
     list(APPEND ARG_SEES core/plain)
+  endif()
+  if(NOT path MATCHES "^(core/plain|core/base|reference.*)$")
+    list(APPEND ARG_SEES core/base)
   endif()
   dartboard_libraries(libraries ${ARG_SEES})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${path}/*.cpp)

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/base/bytes.h"
 #include "core/contact/nearest_on_triangle.h"
 #include "core/forces/compensated_sum.h"
-#include "core/plain/bytes.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

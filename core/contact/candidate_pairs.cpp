@@ -7,7 +7,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

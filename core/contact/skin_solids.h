@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 
 namespace dartboard {
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "core/plain/disjoint_sets.h"
-#include "core/plain/median.h"
+#include "core/base/disjoint_sets.h"
+#include "core/base/median.h"
 
 namespace dartboard {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "core/plain/counted.h"
-#include "core/plain/disjoint_sets.h"
+#include "core/base/counted.h"
+#include "core/base/disjoint_sets.h"
 
 namespace dartboard {
 namespace {

@@ -34,7 +34,7 @@ inline constexpr std::size_t most_diagonals = 16;
 /// The weights make springs an elastic solid of this modulus and of Poisson's ratio 1/4 (a surface: 1/3): exactly, in
 /// cubes, in prisms as high as the sides of their equal-sided triangles are long, in squares; for pyramids in the mean
 /// of the six that fill a cube. The weights add up to 6 (3), so it holds for cells of any shape in the mean over all
-/// directions, as it does for tetrahedra (core/plain/young.h).
+/// directions, as it does for tetrahedra (core/base/young.h).
 /// source  sum of weight n n n n over the directions n, compared with the elasticity tensor; cubes of side a then have
 ///         .1 E a along edges and .2 E a across faces, or .2 E a and .3 E a through the volume, or the mean of both
 std::span<const CornerSpring> edges_beside(CellKind kind, Diagonals diagonals);

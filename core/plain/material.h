@@ -19,7 +19,7 @@ constexpr std::string_view name(Model model) { return model_names[static_cast<st
 /// A homogeneous mass/spring material (section 4.1). Every cell contributes `stiffness` and `damping` to each of its
 /// edges, so springs of shared edges add up like springs in parallel. With a Young's modulus, a cell of volume V (area,
 /// length) contributes young V / l^2 to its edge of rest length l instead; `stiffness` is then the mean of that over
-/// the edges of all cells (core/plain/young.h), and damping is in proportion.
+/// the edges of all cells (core/base/young.h), and damping is in proportion.
 ///
 /// With a model other than springs the cells are elements of an elastic solid of this Young's modulus and Poisson's
 /// ratio (core/elements/elastic_laws.h): there are no springs, and damping is by viscosity and by `damping_time`

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/plain/counted.h"
+#include "core/base/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/run/scene_warnings.h"
 

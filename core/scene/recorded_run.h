@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plain/folder_claim.h"
+#include "core/base/folder_claim.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/restart/checkpoint.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 #include "core/topology/sew.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 
 namespace dartboard {
 namespace {

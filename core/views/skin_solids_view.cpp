@@ -41,18 +41,18 @@ void sort_out(std::vector<std::uint32_t>& numbers) {
 }  // namespace
 
 template <class Body>
-void SkinSolidsView::rebuild(const Body& body, const GroupOfCell& group) {
+void SkinSolidsView::rebuild(const Body& body) {
   solids_.clear();
   if constexpr (Body::dimension == 3) {
     solids_.resize(body.vertices.size(), body.face_dart.size(), body.cell_dart.size());
     if (body.vertices.rest.empty()) return;
     for (std::uint32_t k = 0; k < body.face_dart.size(); ++k) add_face(body, k);
-    for (std::uint32_t k = 0; k < body.cell_dart.size(); ++k) add_cell(body, k, group);
+    for (std::uint32_t k = 0; k < body.cell_dart.size(); ++k) add_cell(body, k);
   }
 }
 
 template <class Body>
-void SkinSolidsView::apply(const Body& body, const ChangedEmbeddings& changed, const GroupOfCell& group) {
+void SkinSolidsView::apply(const Body& body, const ChangedEmbeddings& changed) {
   if constexpr (Body::dimension == 3) {
     if (body.vertices.rest.empty()) {
       solids_.resize(changed.vertex_count, changed.face_count, changed.cell_count);
@@ -86,7 +86,7 @@ void SkinSolidsView::apply(const Body& body, const ChangedEmbeddings& changed, c
       if (k < solids_.face_count()) solids_.erase_face(k);
     solids_.resize(changed.vertex_count, changed.face_count, changed.cell_count);
     for (const std::uint32_t k : faces_) add_face(body, k);
-    for (const std::uint32_t k : cells_) add_cell(body, k, group);
+    for (const std::uint32_t k : cells_) add_cell(body, k);
   }
 }
 
@@ -113,7 +113,7 @@ void SkinSolidsView::add_face(const Body& body, std::uint32_t number) {
 }
 
 template <class Body>
-void SkinSolidsView::add_cell(const Body& body, std::uint32_t number, const GroupOfCell& group) {
+void SkinSolidsView::add_cell(const Body& body, std::uint32_t number) {
   around_.clear();
   Mark seen(body.map);
   bool along_boundary = false;
@@ -139,7 +139,7 @@ void SkinSolidsView::add_cell(const Body& body, std::uint32_t number, const Grou
   if (!along_boundary) return;
 
   const auto& rest = body.vertices.rest;
-  SkinTetrahedron tetrahedron{.nodes = {}, .cell = number, .group = group ? group(number) : 0};
+  SkinTetrahedron tetrahedron{.nodes = {}, .cell = number, .group = group_ ? group_(number) : 0};
   for (const Face& face : around_) {
     if (has_node(face, top)) continue;
     for (std::uint32_t k = 1; k + 1 < face.count; ++k, ++tetrahedron.part) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/contact/skin_solids.h"
@@ -22,16 +23,19 @@ class SkinSolidsView {
   /// The body of a scene that a cell belongs to, by the cell's number; empty: all belong to one.
   using GroupOfCell = std::function<std::uint32_t(std::uint32_t)>;
 
+  SkinSolidsView() = default;
+  explicit SkinSolidsView(GroupOfCell group) : group_(std::move(group)) {}
+
   /// cost    O(cells)
   template <class Body>
-  void rebuild(const Body& body, const GroupOfCell& group = {});
+  void rebuild(const Body& body);
 
   /// Follow what `adapt` reports; gives what `rebuild` would.
   ///
   /// cost    O(changed cells, and the cells around changed vertices and around the corners of changed faces), whatever
   ///         the size of the body
   template <class Body>
-  void apply(const Body& body, const ChangedEmbeddings& changed, const GroupOfCell& group = {});
+  void apply(const Body& body, const ChangedEmbeddings& changed);
 
   const SkinSolids& solids() const { return solids_; }
   friend bool operator==(const SkinSolidsView& a, const SkinSolidsView& b) { return a.solids_ == b.solids_; }
@@ -52,8 +56,9 @@ class SkinSolidsView {
   template <class Body>
   void add_face(const Body& body, std::uint32_t number);
   template <class Body>
-  void add_cell(const Body& body, std::uint32_t number, const GroupOfCell& group);
+  void add_cell(const Body& body, std::uint32_t number);
 
+  GroupOfCell group_;
   SkinSolids solids_;
 
   // scratch, kept between calls
@@ -61,10 +66,9 @@ class SkinSolidsView {
   std::vector<Face> around_;
 };
 
-#define DARTBOARD_SKIN_SOLIDS(prefix, Map)                                                                           \
-  prefix template void SkinSolidsView::rebuild(const MassSpringBody<Map, Held::by_every_dart>&, const GroupOfCell&); \
-  prefix template void SkinSolidsView::apply(const MassSpringBody<Map, Held::by_every_dart>&,                        \
-                                             const ChangedEmbeddings&, const GroupOfCell&);
+#define DARTBOARD_SKIN_SOLIDS(prefix, Map)                                                       \
+  prefix template void SkinSolidsView::rebuild(const MassSpringBody<Map, Held::by_every_dart>&); \
+  prefix template void SkinSolidsView::apply(const MassSpringBody<Map, Held::by_every_dart>&, const ChangedEmbeddings&);
 DARTBOARD_SKIN_SOLIDS(extern, Map2)
 DARTBOARD_SKIN_SOLIDS(extern, Map3)
 DARTBOARD_SKIN_SOLIDS(extern, TetMap)

@@ -14,7 +14,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PAGE = os.path.join(ROOT, "HACKING.md")
 BEGIN, END = "```mermaid\n", "```\n"
 PURPOSE = {
-    "core/plain": "mesh, material, problem", "core/places": "sides of borders", "core/meshes": "files and generators",
+    "core/plain": "mesh, material, problem", "core/base": "archives, escapes, limits", "core/places": "sides of borders", "core/meshes": "files and generators",
     "core/topology": "darts, orbits, cells", "core/operations": "dissociate, remove, subdivide", "core/forces": "springs, interface of forces",
     "core/elements": "elastic solids, membranes", "core/contact": "obstacles, bodies", "core/mechanics": "embeddings, stress, tearing",
     "core/walks": "the paper's loops", "core/views": "arrays that follow changes", "core/time": "integrators, solvers, stable steps",
@@ -46,6 +46,8 @@ def arrows_of(lines):
         seen.discard(box)
         if box != "core/plain":
             seen.add("core/plain")
+        if box not in ("core/plain", "core/base", "reference"):
+            seen.add("core/base")
     for box in sorted({other for seen in sees.values() for other in seen} - set(sees)):
         sees[box] = set()
     return sees

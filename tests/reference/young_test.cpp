@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
+#include "core/base/young.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/plain/young.h"
 #include "core/walks/cell_arrays.h"
 #include "reference/cgal/cgal_body.h"
 #include "reference/rebuild.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/timeline/driven_vertices.h"
 #include "core/time/watch/divergence.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/scene/output/write_vtu.h"
 #include "core/scene/run/scene_run.h"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/young.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/plain/young.h"
 #include "core/time/system/energy.h"
 #include "reference/elements/quadratic_solid.h"
 #include "validation/statics/linearised.h"

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/overloads.h"
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
-#include "core/scene/file/selections/overloads.h"
 #include "core/scene/file/step_times.h"
 #include "core/time/explicit/dormand_prince_54.h"
 #include "core/time/watch/stable_step.h"

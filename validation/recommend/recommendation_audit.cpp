@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/median.h"
 #include "core/plain/error.h"
-#include "core/plain/median.h"
 
 namespace dartboard {
 namespace {

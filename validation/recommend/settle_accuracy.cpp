@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/plain/counted.h"
+#include "core/base/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/file/step_times.h"
 #include "core/time/integrators.h"

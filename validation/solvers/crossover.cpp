@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/median.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/plain/median.h"
 #include "core/time/integrators.h"
 #include "reference/error_norms.h"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <sstream>
 
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/plain/median.h"
+#include "core/base/median.h"
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 #include "core/time/integrators.h"

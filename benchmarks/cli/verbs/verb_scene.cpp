@@ -10,7 +10,7 @@
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulation_json.h"
-#include "core/plain/counted.h"
+#include "core/base/counted.h"
 #include "core/scene/file/keys/scene_pages.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/run/body_in_words.h"

@@ -9,9 +9,9 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/conservation/conservation_report.h"
+#include "core/base/escape.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 #include "validation/conservation/refinement_conservation.h"
 
 namespace dartboard {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 

@@ -7,7 +7,7 @@
 #include "benchmarks/figures/album.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/scenes/gallery_report.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "validation/recommend/settle_accuracy.h"

@@ -9,8 +9,8 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/statistics.h"
+#include "core/base/overloads.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/scene/file/selections/overloads.h"
 #include "core/scene/run/simulation.h"
 #include "core/time/integrators.h"
 #include "core/time/system/accelerations.h"

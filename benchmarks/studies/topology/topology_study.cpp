@@ -7,8 +7,8 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/topology/topology_verdict.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

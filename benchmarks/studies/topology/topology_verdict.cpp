@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 

@@ -12,8 +12,8 @@
 #include "benchmarks/studies/tradeoff/tradeoff_report.h"
 #include "benchmarks/studies/tradeoff/tradeoff_tables.h"
 #include "benchmarks/studies/tradeoff/work_precision_plot.h"
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {

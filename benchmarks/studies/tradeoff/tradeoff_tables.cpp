@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 namespace dartboard {
 namespace {

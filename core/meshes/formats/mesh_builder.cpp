@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/cell_limits.h"
+#include "core/base/counted.h"
 #include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
-#include "core/plain/cell_limits.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {

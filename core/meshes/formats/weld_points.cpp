@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/counted.h"
+#include "core/base/disjoint_sets.h"
 #include "core/meshes/formats/near_points.h"
-#include "core/plain/counted.h"
-#include "core/plain/disjoint_sets.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

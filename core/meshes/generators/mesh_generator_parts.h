@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 #include "core/plain/error.h"
 #include "core/plain/mesh.h"
 

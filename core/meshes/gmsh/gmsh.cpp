@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "core/base/counted.h"
 #include "core/meshes/gmsh/gmsh_reader.h"
 #include "core/meshes/text/letter_case.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {

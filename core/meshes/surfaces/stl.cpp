@@ -3,11 +3,11 @@
 #include <array>
 #include <map>
 
+#include "core/base/counted.h"
 #include "core/meshes/bytes/file_numbers.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/letter_case.h"
 #include "core/meshes/text/text_scanner.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {

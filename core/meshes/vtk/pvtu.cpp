@@ -4,12 +4,12 @@
 #include <set>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/meshes/text/file_text.h"
 #include "core/meshes/text/text_scanner.h"
 #include "core/meshes/vtk/join_pieces.h"
 #include "core/meshes/vtk/vtk_formats.h"
 #include "core/meshes/vtk/vtk_xml.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;

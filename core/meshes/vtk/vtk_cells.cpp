@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "core/base/counted.h"
 #include "core/meshes/text/text_scanner.h"
-#include "core/plain/counted.h"
 
 namespace dartboard {
 namespace {

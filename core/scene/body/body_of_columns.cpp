@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/bytes.h"
 #include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/fracture/stress.h"
-#include "core/plain/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/events/ready.h"
 #include "core/scene/body/frame_columns.h"
@@ -120,8 +120,8 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     samples_ = skin.samples();
     if (!needs.obstacles.empty()) contact_ = make_contact(needs.obstacles, samples_);
     if (!needs.touches.empty()) {
-      SkinSolidsView solids;
-      solids.rebuild(body, [&needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, cell); });
+      SkinSolidsView solids([&needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, cell); });
+      solids.rebuild(body);
       skin_solids_ = solids.solids();
       body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches);
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/bytes.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
 #include "core/elements/membranes.h"
@@ -17,7 +18,6 @@
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
-#include "core/plain/bytes.h"
 #include "core/scene/body/events/changing_body.h"
 #include "core/scene/body/events/ready.h"
 #include "core/scene/body/face_origins.h"
@@ -41,19 +41,20 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   static constexpr int n = Map::dimension;
 
   BodyOnMap(const Problem& problem, const BodyNeeds& needs)
-      : body_(build_body<Map, Held::by_every_dart>(problem)), bends_(needs.bending.rigidity) {
+      : body_(build_body<Map, Held::by_every_dart>(problem)),
+        holds_{needs.bending.rigidity > 0.0, needs.bending.second_neighbours > 0.0, needs.contact(),
+               !needs.touches.empty()},
+        bends_(needs.bending.rigidity),
+        first_cell_(needs.first_cell) {
     add_cell_springs(body_, problem.mesh, needs.diagonals);
-    ends_.rebuild(body_);
-    components_.rebuild(body_);
     for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
     // only walks use the column of forces; integrators over arrays keep their own
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
-    if (needs.rest) body_.vertices.keep_rest();
+    // bending and contact need rest positions, also where no displacement is shown
+    if (needs.rest || holds_.any()) body_.vertices.keep_rest();
     if (needs.pull) body_.vertices.pull.assign(body_.vertices.size(), Eigen::Vector3d(0, 0, 0));
-    nodes_.rebuild(body_);
-    solids_.rebuild(body_);
-    triangles_.rebuild(body_);
+    for_each_view([this](auto& view) { view.rebuild(body_); });
     if (!body_.cell_shape.empty())
       elements_ = make_tetrahedra(body_.cell_materials(), {nodes_.nodes, body_.cell_shape, body_.cell_mass});
     if (!body_.cell_solid.empty()) elements_ = make_solids(body_.cell_materials(), {solids_.nodes, body_.cell_solid});
@@ -64,25 +65,15 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     add_term(elements_);
     if (!body_.cell_springs.empty()) cell_springs_ = make_cell_springs({solids_.nodes, body_.cell_springs});
     add_term(cell_springs_);
-    if constexpr (n == 2) {
-      if (needs.bending.rigidity > 0.0) bending_ = make_bending(bends_.rows);
-      if (needs.bending.second_neighbours > 0.0)
-        bending_ = make_second_neighbours(neighbours_.rows, needs.bending.second_neighbours);
-      bends_across_edges_ = needs.bending.rigidity > 0.0;
-      rebuild_bending();
-    }
+    if (n == 2 && holds_.bends) bending_ = make_bending(bends_.rows);
+    if (n == 2 && holds_.neighbours)
+      bending_ = make_second_neighbours(neighbours_.rows, needs.bending.second_neighbours);
     add_term(bending_);
-    if (needs.contact()) {
-      if (body_.vertices.rest.empty()) body_.vertices.keep_rest();
-      skin_.rebuild(body_);
-    }
     if (!needs.obstacles.empty()) {
       contact_ = make_contact(needs.obstacles, skin_.samples());
       terms_.push_back(contact_.get());
     }
     if (!needs.touches.empty()) {
-      first_cell_ = needs.first_cell;
-      skin_solids_.rebuild(body_, body_of_cell_number());
       body_contact_ = std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches);
       terms_.push_back(body_contact_.get());
     }
@@ -106,13 +97,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       mesh_cell_[to] = mesh_cell_[from];
       mesh_cell_.pop_back();
     }
-    ends_.apply(body_, changed);
-    nodes_.apply(body_, changed);
-    solids_.apply(body_, changed);
-    triangles_.apply(body_, changed);
-    if constexpr (n == 2) follow_bending(changed);
-    follow_skin(changed);
-    components_.apply(body_, change, changed);
+    follow(change, changed);
   }
   void follow(const Subdivision& subdivision, double bracing) override {
     if constexpr (n == 3) {
@@ -124,11 +109,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         const auto first = child.parent * static_cast<std::size_t>(subdivision.cell_vertices);
         mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
       }
-      ends_.apply(body_, changed);
-      nodes_.apply(body_, changed);
-      solids_.apply(body_, changed);
-      follow_skin(changed);
-      components_.apply(body_, {}, changed);
+      follow({}, changed);
     }
   }
   void count_removed(double mass) override { removed_mass_ += mass; }
@@ -232,12 +213,9 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::string violation() const override { return check(body_.map); }
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
-    archive(body_, ends_, nodes_, solids_, triangles_, components_, mesh_cell_, removed_mass_);
-    archive(face_origins_);
-    if (bending_) archive(bends_, neighbours_);
-    if (contact_ || body_contact_) archive(skin_);
+    archive(body_, mesh_cell_, removed_mass_, face_origins_);
+    for_each_view([&archive](auto& view) { archive(view); });
     if (contact_) archive(*contact_);
-    if (body_contact_) archive(skin_solids_);
   }
 
   MemoryReport memory() const override {
@@ -309,23 +287,28 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   void add_term(const std::unique_ptr<ForceTerm>& term) {
     if (term) terms_.push_back(term.get());
   }
-  void rebuild_bending() {
-    if (!bending_) return;
-    // a body that shows no displacement has rest positions for this purpose only
-    if (body_.vertices.rest.empty()) body_.vertices.keep_rest();
-    bends_across_edges_ ? bends_.rebuild(body_) : neighbours_.rebuild(body_);
+  /// Calls f(view) for each view that the body holds.
+  template <class F>
+  void for_each_view(const F& f) {
+    f(ends_);
+    f(nodes_);
+    f(solids_);
+    f(triangles_);
+    if constexpr (n == 2) {
+      if (holds_.bends) f(bends_);
+      if (holds_.neighbours) f(neighbours_);
+    }
+    if (holds_.skin) f(skin_);
+    if (holds_.skin_solids) f(skin_solids_);
+    f(components_);
   }
-  void follow_skin(const ChangedEmbeddings& changed) {
-    if (contact_ || body_contact_) skin_.apply(body_, changed);
-    if (body_contact_) skin_solids_.apply(body_, changed, body_of_cell_number());
-  }
-  void follow_bending(const ChangedEmbeddings& changed) {
-    if (!bending_) return;
-    bends_across_edges_ ? bends_.apply(body_, changed) : neighbours_.apply(body_, changed);
-  }
-
-  SkinSolidsView::GroupOfCell body_of_cell_number() const {
-    return [this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); };
+  void follow(const TopologyChange& change, const ChangedEmbeddings& changed) {
+    for_each_view([&](auto& view) {
+      if constexpr (std::is_same_v<decltype(view), ComponentLabels&>)
+        view.apply(body_, change, changed);
+      else
+        view.apply(body_, changed);
+    });
   }
 
   /// All marks of the map are idle between operations; each is taken once to read its length. The last one taken is a
@@ -341,7 +324,14 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     return bytes;
   }
 
+  /// The views that only some scenes need.
+  struct OptionalViews {
+    bool bends, neighbours, skin, skin_solids;
+    bool any() const { return bends || neighbours || skin; }
+  };
+
   Body body_;
+  OptionalViews holds_;
   SpringEndsView ends_;
   TetrahedronNodesView nodes_{Map::tetrahedral};  // of springs, or of elements that are all tetrahedra
   SolidNodesView solids_{!Map::tetrahedral};      // or of cells of any kind
@@ -350,12 +340,12 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::unique_ptr<ForceTerm> cell_springs_;       // null without diagonals
   BendingView bends_;                             // of a surface, one of the two where it resists bending
   SecondNeighboursView neighbours_;
-  bool bends_across_edges_ = false;  // the first of them
   std::unique_ptr<ForceTerm> bending_;
   Skin skin_;  // the samples of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
-  SkinSolidsView skin_solids_;           // what its parts can be inside of, where some touch
   std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
+  // what its parts can be inside of, where some touch
+  SkinSolidsView skin_solids_{[this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); }};
   std::unique_ptr<BodyContact> body_contact_;
   std::vector<const ForceTerm*> terms_;  // those that are present
   ComponentLabels components_;

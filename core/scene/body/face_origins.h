@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/bytes.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/operations/subdivide.h"
-#include "core/plain/bytes.h"
 
 namespace dartboard {
 

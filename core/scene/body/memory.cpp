@@ -1,7 +1,7 @@
 #include "core/scene/body/memory.h"
 
+#include "core/base/bytes.h"
 #include "core/mechanics/vertex_columns.h"
-#include "core/plain/bytes.h"
 
 namespace dartboard {
 

@@ -10,7 +10,7 @@ namespace dartboard {
 struct VertexColumns;
 
 /// Bytes are those of the elements of every container that lives as long as the run: its size times that of an element
-/// (core/plain/bytes.h), and the numbers of a factor. Objects of fixed size are not counted, nor what containers and
+/// (core/base/bytes.h), and the numbers of a factor. Objects of fixed size are not counted, nor what containers and
 /// libraries set aside beyond that. It is the memory at the start, before the first operation, after a step that had
 /// something to solve.
 enum class Part {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/archive.h"
 #include "core/contact/body_contact.h"
 #include "core/contact/obstacle_contact.h"
 #include "core/mechanics/vertex_columns.h"
-#include "core/plain/archive.h"
 #include "core/plain/problem.h"
 #include "core/plain/random.h"
 #include "core/scene/body/diagnostics.h"

@@ -7,9 +7,9 @@
 #include <functional>
 #include <set>
 
+#include "core/base/overloads.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {

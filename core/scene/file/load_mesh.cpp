@@ -9,10 +9,10 @@
 #include <span>
 #include <utility>
 
+#include "core/base/overloads.h"
 #include "core/meshes/touching.h"
 #include "core/plain/error.h"
 #include "core/scene/file/cell_tags.h"
-#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/read_parts.h"
 

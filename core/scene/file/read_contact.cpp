@@ -3,9 +3,9 @@
 #include <array>
 #include <map>
 
+#include "core/base/overloads.h"
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/read_parts.h"
-#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {

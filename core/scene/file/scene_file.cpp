@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/overloads.h"
 #include "core/plain/error.h"
 #include "core/scene/file/keys/scene_check.h"
 #include "core/scene/file/keys/scene_value.h"
@@ -13,7 +14,6 @@
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/read_parts.h"
 #include "core/scene/file/scene_rules.h"
-#include "core/scene/file/selections/overloads.h"
 #include "core/scene/file/step_times.h"
 
 namespace dartboard {

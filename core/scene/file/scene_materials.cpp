@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/young.h"
 #include "core/places/border.h"
-#include "core/plain/young.h"
 #include "core/scene/file/cell_tags.h"
 #include "core/scene/file/selections/selection.h"
 #include "core/scene/file/springs_beside_edges.h"

@@ -20,7 +20,7 @@ Model model_of(const SceneFile::Tissue& tissue, int dimension);
 
 /// Give the cells of a problem's mesh their materials: that of a region, else of the body, else of the scene. Materials
 /// without a cell are left out, and if one is left the body is homogeneous. For springs with a Young's modulus the mean
-/// stiffness is taken over their cells (core/plain/young.h).
+/// stiffness is taken over their cells (core/base/young.h).
 ///
 /// units   first_cell: of each body, the number of its first cell
 /// throws  InputError "FILE: /regions/0/cells: ..." for a region without a cell, for a model that surfaces do not have,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plain/folder_claim.h"
+#include "core/base/folder_claim.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/frame.h"
 #include "core/scene/output/write_pvd.h"

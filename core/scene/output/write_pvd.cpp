@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <string_view>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 #include "core/scene/output/atomic_file.h"
 
 namespace dartboard {

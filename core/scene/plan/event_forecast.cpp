@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/overloads.h"
 #include "core/mechanics/fracture/seam.h"
 #include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/selections/overloads.h"
 #include "core/scene/timeline/event_clock.h"
 
 namespace dartboard {

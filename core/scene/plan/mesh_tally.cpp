@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "core/plain/disjoint_sets.h"
+#include "core/base/disjoint_sets.h"
 
 namespace dartboard {
 namespace {

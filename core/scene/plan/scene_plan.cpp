@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/plain/counted.h"
+#include "core/base/counted.h"
 #include "core/plain/material.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
@@ -29,7 +29,7 @@ bool is_default(Shape shape, std::string_view key, const nlohmann::json& value) 
   return false;
 }
 
-std::string told(std::string_view path, Shape shape, std::string_view key, const nlohmann::json& value) {
+std::string setting_in_words(std::string_view path, Shape shape, std::string_view key, const nlohmann::json& value) {
   return fmt::format("{}: {}{}", path, value.is_string() ? value.get<std::string>() : value.dump(),
                      is_default(shape, key, value) ? " (the default)" : "");
 }
@@ -133,7 +133,7 @@ class Planner {
     add(Part::vertices, "mass, 1/mass, position, velocity and mesh point by vertex", source_of(scene_));
     const bool on_map = plan_.needs.body.topology_changes;
     const std::string viscosity =
-        told("/material/viscosity", Shape::material, "viscosity", problem_.material.viscosity);
+        setting_in_words("/material/viscosity", Shape::material, "viscosity", problem_.material.viscosity);
     if (plan_.needs.body.viscosity)
       add(Part::viscosity, "drag by vertex, and its term in the force loop", viscosity);
     else if (on_map)
@@ -196,9 +196,9 @@ class Planner {
           source_of(scene_) + "; " + elasticity());
     }
     springs_beside_edges();
-    const std::string damping = materials.is_one()
-                                    ? told("/material/damping", Shape::material, "damping", materials[0].damping)
-                                    : materials_in_words();
+    const std::string damping =
+        materials.is_one() ? setting_in_words("/material/damping", Shape::material, "damping", materials[0].damping)
+                           : materials_in_words();
     if (plan_.needs.damping)
       add(Part::damping, "by spring, and its term of the force loop or sweep over the springs", damping);
     else if (materials.has_springs())
@@ -209,7 +209,8 @@ class Planner {
     else if (elements)
       leave_out("damping of elements, its term or sweep", damped_elements());
     const Eigen::Vector3d& g = scene_.gravity;
-    const std::string gravity = told("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
+    const std::string gravity =
+        setting_in_words("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
     if (plan_.needs.body.pull)
       add(Part::pull, "by vertex, its share of the external forces; added together with gravity",
           fmt::format("/forces: {}", scene_.forces.size()));
@@ -230,7 +231,7 @@ class Planner {
         if (materials[c].model == Model::springs)
           springs += diagonals_of(problem_.mesh.kinds[c], scene_.diagonals).size();
       add(Part::cell_springs, fmt::format("{} springs within {} cells: rest lengths, corners", springs, n.cells),
-          told("/diagonals", Shape::scene, "diagonals", std::string(name(scene_.diagonals))));
+          setting_in_words("/diagonals", Shape::scene, "diagonals", std::string(name(scene_.diagonals))));
     }
     if (scene_.bending.rigidity > 0.0)
       add(Part::bending, fmt::format("{} edges: four vertices and their coefficients", n.edges),
@@ -300,8 +301,8 @@ class Planner {
 
   void watch() {
     constexpr const char* choices[] = {"warn", "refuse", "substep"};
-    const std::string unstable =
-        told("/unstable_step", Shape::scene, "unstable_step", choices[static_cast<std::size_t>(scene_.unstable_step)]);
+    const std::string unstable = setting_in_words("/unstable_step", Shape::scene, "unstable_step",
+                                                  choices[static_cast<std::size_t>(scene_.unstable_step)]);
     add(Part::detector, "the last good state, to go back to", "always: no run goes on without sense");
     add(Part::speed_check, "no vertex is faster than light, in every sixteenth step",
         "always: no run goes on without sense");
@@ -339,10 +340,11 @@ class Planner {
     if (!problem_.materials.empty()) return materials_in_words();
     const Material& material = problem_.material;
     if (material.model != Model::springs)
-      return told("/material/young", Shape::material, "young", material.young) + ", " +
-             told("poisson", Shape::material, "poisson", material.poisson) + "; " + model_in_words();
-    return material.young > 0.0 ? told("/material/young", Shape::material, "young", material.young)
-                                : told("/material/stiffness", Shape::material, "stiffness", material.stiffness);
+      return setting_in_words("/material/young", Shape::material, "young", material.young) + ", " +
+             setting_in_words("poisson", Shape::material, "poisson", material.poisson) + "; " + model_in_words();
+    return material.young > 0.0
+               ? setting_in_words("/material/young", Shape::material, "young", material.young)
+               : setting_in_words("/material/stiffness", Shape::material, "stiffness", material.stiffness);
   }
 
   /// "/material: springs; /regions/0/material: neo-hookean"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/scene_run.h"

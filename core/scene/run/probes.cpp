@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 
 namespace dartboard {
 namespace {

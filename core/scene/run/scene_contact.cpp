@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/plain/bytes.h"
-#include "core/plain/counted.h"
+#include "core/base/bytes.h"
+#include "core/base/counted.h"
 #include "core/scene/run/body_in_words.h"
 
 namespace dartboard {

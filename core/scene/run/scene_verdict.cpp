@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plain/disjoint_sets.h"
+#include "core/base/disjoint_sets.h"
 #include "core/scene/timeline/event_jumps.h"
 #include "core/time/system/energy.h"
 

@@ -7,8 +7,8 @@
 #include <new>
 #include <tuple>
 
+#include "core/base/counted.h"
 #include "core/mechanics/fracture/stress.h"
-#include "core/plain/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/frame_columns.h"

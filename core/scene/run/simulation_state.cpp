@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/scene/run/simulation.h"
 
 // The state of a simulation in a checkpoint. Left out is what its constructor finds in the scene: the step, the

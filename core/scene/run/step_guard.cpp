@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plain/counted.h"
+#include "core/base/counted.h"
 #include "core/scene/body/contact_forecast.h"
 #include "core/time/watch/stable_step.h"
 

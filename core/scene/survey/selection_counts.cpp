@@ -7,9 +7,9 @@
 #include <span>
 #include <variant>
 
+#include "core/base/overloads.h"
 #include "core/places/border.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/timeline/event_clock.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/step_times.h"

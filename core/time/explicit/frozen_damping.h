@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/base/bytes.h"
 #include "core/forces/one_minus_exp.h"
-#include "core/plain/bytes.h"
 #include "core/time/system/accelerations.h"
 
 namespace dartboard {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/time/method/scheme.h"
 #include "core/time/system/spring_system.h"
 
@@ -97,7 +97,7 @@ class Integrator {
   /// returns  false where what was kept is lost
   virtual bool undo_stopped_step() { return true; }
 
-  /// Memory that it keeps between steps, in bytes (core/plain/bytes.h); 0 before the first step.
+  /// Memory that it keeps between steps, in bytes (core/base/bytes.h); 0 before the first step.
   virtual std::size_t bytes() const { return 0; }
   /// The share of `bytes` that matrices, a factor and the workspace of its solutions take.
   virtual std::size_t solver_bytes() const { return 0; }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/time/method/integrator.h"
 #include "core/time/system/accelerations.h"
 

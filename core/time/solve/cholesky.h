@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/time/solve/step_matrix.h"
 #include "core/time/system/node_matrix.h"
 

@@ -2,7 +2,7 @@
 #include <memory>
 #include <new>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/time/solve/cholesky_implementation.h"
 
 // The factor written into a checkpoint, or read from one. CHOLMOD's objects are plain arrays, whose lengths its header

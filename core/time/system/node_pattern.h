@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/time/system/spring_system.h"
 
 namespace dartboard {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/time/method/integrator.h"
 
 namespace dartboard {

@@ -56,7 +56,7 @@ class AlphaTable {
   std::size_t bytes() const { return 4 * (alphas_.capacity() + generation_.capacity() + free_.capacity()); }
   /// Equal for equal tables, dead slots and their order included.
   std::uint64_t hash() const;
-  /// Writes or reads what a checkpoint holds (core/plain/archive.h).
+  /// Writes or reads what a checkpoint holds (core/base/archive.h).
   template <class Archive>
   void state(Archive& archive) {
     archive(alphas_, generation_, free_, births_);

@@ -1,6 +1,6 @@
 #include "core/topology/storage/tet_table.h"
 
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 #include "core/topology/storage/hash.h"
 #include "core/topology/storage/room.h"
 

@@ -62,7 +62,7 @@ class TetTable {
 
   std::size_t bytes() const { return 4 * (opposite_.capacity() + generation_.capacity() + free_.capacity()); }
   std::uint64_t hash() const;
-  /// Writes or reads what a checkpoint holds (core/plain/archive.h).
+  /// Writes or reads what a checkpoint holds (core/base/archive.h).
   template <class Archive>
   void state(Archive& archive) {
     archive(opposite_, generation_, free_, births_);

@@ -9,7 +9,7 @@
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/table.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 #include "tests/hostile/hostile_names.h"
 #include "tests/support/folder_for_tests.h"
 

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/archive.h"
 #include "core/contact/contact_impulses.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/plain/archive.h"
 #include "core/plain/random.h"
 #include "tests/support/bodies/touching_bodies_for_tests.h"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "tests/support/bodies/touching_vertices_for_tests.h"
 
 namespace dartboard::contact_friction_test {

@@ -1,6 +1,6 @@
 // Springs of a Young's modulus: the stiffness of each edge, equal pull of different meshes of a body, effects of a cut.
 
-#include "core/plain/young.h"
+#include "core/base/young.h"
 
 #include <gtest/gtest.h>
 

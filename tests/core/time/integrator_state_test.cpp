@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 #include "core/time/implicit/one_stage.h"
 #include "core/time/integrators.h"
 #include "core/time/solve/stop_request.h"

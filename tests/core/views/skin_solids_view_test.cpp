@@ -10,10 +10,10 @@
 #include <map>
 #include <set>
 
+#include "core/base/archive.h"
 #include "core/contact/body_contact.h"
 #include "core/mechanics/refine.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/plain/archive.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/skin.h"
 #include "tests/support/meshes_for_tests.h"
@@ -178,14 +178,13 @@ TYPED_TEST(SkinSolidsOf, ABodyAreInTheGroupsOfTheirCells) {
   auto body = at_rest<TypeParam>(kuhn_grid(2, 1, 1, 0.5));
   std::vector<std::uint32_t> group;
   for (std::uint32_t c = 0; c < body.cell_dart.size(); ++c) group.push_back(c / 6);
-  const auto group_of = [&group](std::uint32_t c) { return group[c]; };
-  SkinSolidsView view;
-  view.rebuild(body, group_of);
+  SkinSolidsView view([&group](std::uint32_t c) { return group[c]; });
+  view.rebuild(body);
   SplitMix64 random(2);
   while (body.cell_dart.size() > 1) {
     const ChangedEmbeddings changed = adapt(body, remove_something(body.map, random));
     for (const auto [from, to] : changed.moved_cells) group[to] = group[from];
-    view.apply(body, changed, group_of);
+    view.apply(body, changed);
     for (const SkinTetrahedron& t : view.solids().tetrahedra()) {
       EXPECT_EQ(t.group, group[t.cell]);
       if (body.cell_dart.size() == 1) {

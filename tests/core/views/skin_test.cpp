@@ -9,10 +9,10 @@
 #include <map>
 #include <set>
 
+#include "core/base/archive.h"
 #include "core/contact/obstacle_contact.h"
 #include "core/mechanics/refine.h"
 #include "core/meshes/generators/mesh_generators.h"
-#include "core/plain/archive.h"
 #include "core/views/boundary_surface.h"
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"

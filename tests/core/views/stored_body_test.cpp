@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/archive.h"
 #include "core/mechanics/refine.h"
-#include "core/plain/archive.h"
 #include "core/topology/check.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/component_labels.h"

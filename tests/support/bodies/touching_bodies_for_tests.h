@@ -46,8 +46,8 @@ MeshSkin skin_of_mesh(const Mesh& mesh, std::uint32_t cells_of_first) {
   const auto& point = body.vertices.point;
   Skin samples;
   samples.rebuild(body);
-  SkinSolidsView solids;
-  solids.rebuild(body, [=](std::uint32_t cell) { return cell < cells_of_first ? 0u : 1u; });
+  SkinSolidsView solids([=](std::uint32_t cell) { return cell < cells_of_first ? 0u : 1u; });
+  solids.rebuild(body);
   MeshSkin skin;
   skin.samples = samples.samples();
   for (SkinSample& s : skin.samples)

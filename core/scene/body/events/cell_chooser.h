@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/archive.h"
+#include "core/base/bytes.h"
 #include "core/places/border.h"
-#include "core/plain/archive.h"
-#include "core/plain/bytes.h"
 #include "core/plain/random.h"
 #include "core/scene/body/events/on_darts.h"
 

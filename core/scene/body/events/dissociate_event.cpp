@@ -4,11 +4,11 @@
 #include <array>
 #include <optional>
 
+#include "core/base/bytes.h"
+#include "core/base/overloads.h"
 #include "core/places/border.h"
-#include "core/plain/bytes.h"
 #include "core/scene/body/events/on_darts.h"
 #include "core/scene/body/events/ready.h"
-#include "core/scene/file/selections/overloads.h"
 
 namespace dartboard {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 
 namespace dartboard {
 

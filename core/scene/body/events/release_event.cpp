@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/plain/bytes.h"
+#include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/events/ready.h"
 

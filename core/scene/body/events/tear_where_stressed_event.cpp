@@ -1,7 +1,7 @@
 #include <vector>
 
+#include "core/base/bytes.h"
 #include "core/mechanics/fracture/tearing.h"
-#include "core/plain/bytes.h"
 #include "core/scene/body/events/on_darts.h"
 #include "core/scene/body/events/ready.h"
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 #include "tests/support/tables_for_tests.h"
 
 namespace dartboard::gallery_report_test {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/studies/tradeoff/tradeoff_json.h"
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 #include "tests/support/tables_for_tests.h"
 
 namespace dartboard::tradeoff_tables_test {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/base/escape.h"
 #include "core/plain/error.h"
-#include "core/plain/escape.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/probes.h"
 #include "core/scene/run/scene_run.h"

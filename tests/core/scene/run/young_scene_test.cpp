@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "core/base/young.h"
 #include "core/plain/error.h"
-#include "core/plain/young.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"

@@ -1,4 +1,4 @@
-#include "core/plain/folder_claim.h"
+#include "core/base/folder_claim.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-#include "core/plain/disjoint_sets.h"
+#include "core/base/disjoint_sets.h"
 
 #include <gtest/gtest.h>
 

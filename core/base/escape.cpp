@@ -1,4 +1,4 @@
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/plain/archive.h"
+#include "core/base/archive.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Each function is read back by a reader of its language, or removes all that the language acts on.
 
-#include "core/plain/escape.h"
+#include "core/base/escape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The ends of the 32-bit numbers, without a map that is as large.
 
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/plain/cell_limits.h"
+#include "core/base/cell_limits.h"
 
 #include <fmt/format.h>
 

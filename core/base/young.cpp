@@ -1,4 +1,4 @@
-#include "core/plain/young.h"
+#include "core/base/young.h"
 
 #include <fmt/format.h>
 

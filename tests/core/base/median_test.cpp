@@ -1,4 +1,4 @@
-#include "core/plain/median.h"
+#include "core/base/median.h"
 
 #include <gtest/gtest.h>
 
