@@ -9,7 +9,7 @@
 namespace dartboard {
 namespace {
 
-// Of the tetrahedra of a solid.
+// Only the tetrahedra of a solid are subdivided; other cells stay as they are.
 
 template <class Map>
 bool is_tetrahedron(const Map& map, Dart d) {
