@@ -79,7 +79,7 @@ std::vector<NamedTable> tables_of(const std::vector<SceneCells>& scenes) {
       for (const std::string& step : steps) row.push_back(outcomes[{integrator, step}]);
       table.add_row(std::move(row));
     }
-    tables.push_back({.name = "extremes of " + scene.name,
+    tables.push_back({.name = scene.name,
                       .heading = fmt::format("{} in 100 steps, by integrator and step", scene.name),
                       .table = std::move(table),
                       .note = "OK: every step is its scheme's, and the end is that of the true motion; SCHEME: every "
