@@ -1,107 +1,28 @@
 #include "benchmarks/paper/paper_claims.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-
-#include "core/plain/error.h"
+#include <utility>
 
 namespace dartboard {
 
-std::span<const PaperClaim> paper_claims() {
-  static const std::array<PaperClaim, 35> table{{
-      {"real-time", "efficiently implemented, a map leaves simulation and interaction in real time: frames at 60 Hz",
-       "abstract", ">= 1856 tetrahedra", About::times},
-      {"graphs-ambiguous", "two bodies that are topologically different can have the same adjacency graph", "1",
-       "possible"},
-      {"non-manifold-refused", "the non-manifold objects of Fig. 2 cannot be represented", "1", "impossible"},
-      {"quasi-manifold", "an object that is no manifold, Fig. 3, is a quasi-manifold that can be computed", "1",
-       "valid"},
-      {"class-closed", "operations cannot leave the class of objects in which a face joins at most two volumes", "1, 2",
-       "never"},
-      {"combinatorial-export", "a generalized map can be exported to a combinatorial map of half the size", "2",
-       "known method"},
-      {"map-valid", "the body's map satisfies the three conditions of a 3-g-map", "2.1", "valid"},
-      {"dart-table", "the map of Fig. 5 has the links of its table and the cells that the text names", "2.1",
-       "30 links, 3 cells"},
-      {"free-boundary", "closed objects have no fixed points; those of alpha_n are the boundary of an open one", "2.1",
-       "6 per face"},
-      {"cells-partition", "the i-cells partition the darts, for each i", "2.1", "each dart in 1 cell per i"},
-      {"held-either-way", "an embedding may be held by one dart of its orbit or by all: the results are the same",
-       "2.2", "the same"},
-      {"orbits-separate", "a vertex or an edge comes apart exactly when two unsewn darts no longer share its orbit",
-       "3.2", "exactly then"},
-      {"removal-shares", "isolating a volume before it is deleted guarantees that mass and stiffness are shared", "3.2",
-       "shared"},
-      {"removal-frees", "the faces around a removed volume become 3-free", "3.2", "all, no other"},
-      {"other-cells", "the model can easily be extended to other volume elements", "4.1", "any shape"},
-      {"mass-sum", "the masses of the vertices, eq. (1), sum up to the masses of the tetrahedra", "4.3", "equal"},
-      {"stiffness-sum", "the stiffness of the edges is what their tetrahedra contribute, 6 k each", "4.3", "equal"},
-      {"mass-split", "a vertex that comes apart shares its mass: m = m1 + m2 (Fig. 8)", "4.3", "m1 + m2"},
-      {"stiffness-split", "an edge that comes apart shares its stiffness: k = k1 + k2 (Fig. 8)", "4.3", "k1 + k2"},
-      {"viscosity-split", "ambient viscosity is proportional to the mass, after a dissociation too", "4.3",
-       "proportional"},
-      {"rest-shape", "masses are computed on the rest shape and not after deformation", "4.3", "rest shape"},
-      {"state-duplicated", "the parts of a vertex have its position and velocity, and embeddings of their own", "4.3",
-       "duplicated"},
-      {"body-size", "the body has 564 nodes, 2850 springs and 1856 tetrahedra", "5.1", "564 / 2850 / 1856"},
-      {"dart-count", "its map has 44544 darts, 24 per tetrahedron", "5.1", "44544"},
-      {"one-face-seldom", "the dissociation of one face seldom takes a vertex apart", "5.1", "seldom"},
-      {"fan-separates", "dissociating all the faces of a fan takes its vertex apart (Fig. 10)", "5.1", "always"},
-      {"fan-ends", "a fan ends where its first dart is reached or the surface is met", "5.1", "either"},
-      {"coverage-darts", "a coverage checks every dart, whatever cells it is after", "5.1", "proportional to darts"},
-      {"coverage-slower", "full dart coverage costs more than the adjacency graph", "5.1", "6 (12 ms / 2 ms)",
-       About::times},
-      {"lists-faster", "lists of embeddings cost less than full dart coverage", "5.2", "0.67 (8 ms / 12 ms)",
-       About::times},
-      {"sews-translated", "sewing and unsewing cannot be translated into changes of an indexed structure", "5.2",
-       "not possible", About::programs,
-       "an operation reports which cells it split or removed, and arrays that follow these need no more"},
-      {"arrays-overhead", "cell arrays cost at most 10 % more than the adjacency graph", "5.2", "<= 1.10",
-       About::times},
-      {"paper-ladder", "coverage : lists : arrays : graph cost 6 : 4 : 1 : 1", "5", "6 : 4 : 1 : 1", About::times,
-       "contiguous arrays have gained more from processors since 2010 than walks through links, each of "
-       "which waits for the one before"},
-      {"rebuild-negligible", "rebuilding the arrays is negligible compared with the topological changes", "5.2",
-       "negligible", About::times, "rebuilding covers every dart, while a removal has come down to microseconds"},
-      {"connectivity-marks", "connectivity is lost when a walk along all alphas leaves darts without a mark",
-       "conclusion", "exactly then"},
-  }};
-  return table;
-}
-
-namespace {
-
-const PaperClaim& row_of(std::string_view id) {
-  const auto all = paper_claims();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const PaperClaim& c) { return c.id == id; });
-  if (found == all.end()) throw InputError(fmt::format("no claim is called '{}'", id));
-  return *found;
-}
-
-}  // namespace
-
-Claim claim_of(std::string_view id) {
-  const PaperClaim& row = row_of(id);
-  return {.id = row.id,
-          .text = row.text,
-          .section = row.section,
-          .paper_value = row.paper_value,
+Claim claim_of(PaperClaimId id) {
+  const PaperClaim& row = id.row();
+  return {.id = std::string(row.id),
+          .text = std::string(row.text),
+          .section = std::string(row.section),
+          .paper_value = std::string(row.paper_value),
           .expected = row.does_not_carry_over.empty() ? Verdict::holds : Verdict::does_not_carry_over};
 }
 
-bool is_impossibility(std::string_view id) { return row_of(id).about == About::programs; }
+bool is_impossibility(PaperClaimId id) { return id.row().about == About::programs; }
 
-Claim answered(std::string_view id, Met met, std::string measured, std::string bound_or_interval) {
-  const PaperClaim& row = row_of(id);
+Claim answered(PaperClaimId id, Met met, std::string measured, std::string bound_or_interval) {
   Claim claim = claim_of(id);
   claim.measured = std::move(measured);
   claim.bound_or_interval = std::move(bound_or_interval);
   judge(claim, met);
-  if (claim.verdict == Verdict::falls_short && row.about != About::bodies) {
+  if (claim.verdict == Verdict::falls_short && id.row().about != About::bodies) {
     claim.verdict = Verdict::does_not_carry_over;
-    claim.reason = row.does_not_carry_over;
+    claim.reason = id.row().does_not_carry_over;
   }
   return claim;
 }

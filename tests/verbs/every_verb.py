@@ -48,7 +48,8 @@ RUNS = {
                   (["cantilever", "--error", "0.5", "--against", "truth"], AGREES),
                   (["--audit", "--quick", "--json", "--out", "OUT"], MAY_BE_SLOW),
                   (["--audit", "--long", "--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
-    "extremes": [(["--axis", axis, "--quick", "--json", "--out", "OUT"], AGREES) for axis in ("absolute", "detection", "events")],
+    "extremes": [(["--axis", axis, "--quick", "--json", "--out", "OUT"], AGREES) for axis in ("absolute", "detection", "events")]
+    + [(["chain_hanging", "bar_of_elements", "--quick", "--json", "--out", "OUT"], AGREES)],
     "explain": [(["sheet_cut"], AGREES), (["sheet_cut", "--measure", "--json"], AGREES)],
     "explain-dt": [(["sheet_cut"], AGREES), (["sheet_cut", "--json"], AGREES)],
     "gallery": [(["--json", "--out", "OUT"], AGREES)],

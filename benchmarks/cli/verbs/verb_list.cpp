@@ -46,8 +46,8 @@ std::vector<Entry> entries_of(std::string_view kind) {
     for (const IntegratorEntry& i : integrators())
       entries.push_back({std::string(i.name), std::string(i.make()->scheme().what)});
   if (kind == "claims")
-    for (const PaperClaim& c : paper_claims())
-      entries.push_back({c.id, fmt::format("(section {}) {}", c.section, c.text)});
+    for (const PaperClaim& c : paper_claims)
+      entries.push_back({std::string(c.id), fmt::format("(section {}) {}", c.section, c.text)});
   return entries;
 }
 

@@ -38,7 +38,7 @@ std::vector<Mesh> bodies_of_all_sizes(const Mesh& paper) {
 
 }  // namespace
 
-Claim tried_out(std::string_view id, const ClaimAnswer& tried, std::string where) {
+Claim tried_out(PaperClaimId id, const ClaimAnswer& tried, std::string where) {
   const bool is_met = tried.holds != is_impossibility(id);
   return answered(id, is_met ? Met::yes : Met::no, tried.measured, std::move(where));
 }

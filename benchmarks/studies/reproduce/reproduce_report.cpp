@@ -65,7 +65,7 @@ std::vector<Claim> answer_body(const MassSpringBody<Map3, Held::by_every_dart>& 
 
 std::vector<Claim> answer_topology(const std::vector<CountAgreement>& counts, const Problem& problem) {
   std::vector<Claim> claims;
-  const auto answer = [&](std::string_view id, const ClaimAnswer& a) {
+  const auto answer = [&](PaperClaimId id, const ClaimAnswer& a) {
     claims.push_back(answered(id, met(a.holds), a.measured, "exact"));
   };
   answer("graphs-ambiguous", try_same_graph_twice(problem.mesh));
@@ -92,9 +92,9 @@ std::vector<Claim> answer_time(const ReproduceResults& r) {
   std::vector<Claim> claims;
   const std::vector<std::string> walks{"coverage-every", "coverage", "lists", "lists-every", "arrays", "graph"};
   if (!std::ranges::all_of(walks, [&](const std::string& id) { return r.timed(id); })) {
-    for (const PaperClaim& row : paper_claims()) {
+    for (const PaperClaim& row : paper_claims) {
       if (row.about != About::times || row.id == "rebuild-negligible" || row.id == "real-time") continue;
-      claims.push_back(claim_of(row.id));
+      claims.push_back(claim_of(row));
       claims.back().reason = "a contender failed a gate and was not timed";
     }
     return claims;
@@ -270,7 +270,7 @@ std::string timing_note(const ReproduceResults& r, const Problem& problem) {
 
 std::vector<Claim> in_order_of_paper(std::vector<Claim> claims) {
   const auto place = [](const Claim& claim) {
-    return std::ranges::find(paper_claims(), claim.id, &PaperClaim::id) - paper_claims().begin();
+    return std::ranges::find(paper_claims, claim.id, &PaperClaim::id) - paper_claims.begin();
   };
   std::ranges::stable_sort(claims, {}, place);
   return claims;

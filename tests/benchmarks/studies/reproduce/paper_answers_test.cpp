@@ -44,7 +44,7 @@ TEST(PaperAnswers, AreGivenToAllSentencesInTheOrderOfThePaper) {
   results.quick = true;
   results.counts = {{"darts", 44544, 44544}, {"vertices", 564, 564}, {"edges", 2850, 2850}, {"volumes", 1856, 1856}};
   std::vector<std::string> asked, answered;
-  for (const PaperClaim& row : paper_claims()) asked.push_back(row.id);
+  for (const PaperClaim& row : paper_claims) asked.emplace_back(row.id);
   for (const Claim& claim : answer_claims(results, problem)) answered.push_back(claim.id);
   EXPECT_EQ(answered, asked);
 }
