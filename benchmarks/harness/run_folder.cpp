@@ -22,7 +22,7 @@ void check_finite(const nlohmann::json& value, const std::string& pointer) {
   if (value.is_number_float() && !std::isfinite(value.get<double>()))
     throw InputError(fmt::format("{}: {} is not finite, JSON cannot hold it", pointer, value.get<double>()));
   if (!value.is_structured()) return;
-  for (const auto& [key, part] : value.items()) check_finite(part, pointer + "/" + key);
+  for (const auto& [key, part] : value.items()) check_finite(part, fmt::format("{}/{}", pointer, key));
 }
 
 std::string dump(const nlohmann::json& value, int indent) {

@@ -295,7 +295,7 @@ std::vector<SceneStep> extreme_steps_of(const TradeoffScene& scene, bool quick) 
   return steps;
 }
 
-std::vector<ExtremeCase> scene_extreme_cases(std::shared_ptr<const TradeoffScene> scene, bool quick) {
+std::vector<ExtremeCase> scene_extreme_cases(const std::shared_ptr<const TradeoffScene>& scene, bool quick) {
   std::vector<ExtremeCase> cases;
   const auto truth = std::make_shared<SceneTruth>(*scene);
   for (const SceneStep& step : extreme_steps_of(*scene, quick))
@@ -316,8 +316,10 @@ std::optional<reference::NetworkMotion> motion_in_steps(const TradeoffScene& sce
   const std::size_t changes = scene.motion.events.size();
   if (!scene.beyond_references.empty() || changes >= steps) return {};
   reference::NetworkMotion motion = scene.motion;
-  for (std::size_t k = 0; k < changes; ++k)
-    motion.events[k].time = h * static_cast<double>(steps * (k + 1) / (changes + 1));
+  for (std::size_t k = 0; k < changes; ++k) {
+    const std::uint64_t after = steps * (k + 1) / (changes + 1);
+    motion.events[k].time = h * static_cast<double>(after);
+  }
   motion.checkpoints = {h * static_cast<double>(steps)};
   return motion;
 }

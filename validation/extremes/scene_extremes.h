@@ -27,7 +27,7 @@ std::vector<SceneStep> extreme_steps_of(const TradeoffScene& scene, bool quick);
 /// A run is judged as one of the matrix, with other bounds for its energy: what gravity, forces, driven vertices and
 /// obstacles can supply in its time is added to what it starts with. Where the witnesses do not support a part of the
 /// scene, or would take too long, only the energy and the detector's agreement with it are left.
-std::vector<ExtremeCase> scene_extreme_cases(std::shared_ptr<const TradeoffScene> scene, bool quick);
+std::vector<ExtremeCase> scene_extreme_cases(const std::shared_ptr<const TradeoffScene>& scene, bool quick);
 
 /// The motion of a scene, its changes at these equal intervals among steps of h [s].
 ///

@@ -42,7 +42,7 @@ Claim claim_of(const SceneCells& scene) {
 }
 
 std::string in_words(const Json& cell) {
-  const auto outcome = cell.at("outcome").get<std::string>();
+  auto outcome = cell.at("outcome").get<std::string>();
   if (outcome != to_string(ExtremeOutcome::diagnosed)) return outcome;
   if (cell.contains("refused")) return "refused";
   return fmt::format("{} at {}", cell.value("code", outcome), cell.at("step").get<std::uint64_t>());

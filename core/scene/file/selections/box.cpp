@@ -11,7 +11,7 @@
 namespace dartboard {
 
 BoxSelection BoxSelection::read(const SceneValue& value) {
-  const BoxSelection box{value.get<Eigen::Vector3d>("min"), value.get<Eigen::Vector3d>("max")};
+  BoxSelection box{value.get<Eigen::Vector3d>("min"), value.get<Eigen::Vector3d>("max")};
   for (int k = 0; k < 3; ++k)
     if (box.min[k] > box.max[k])
       value.fail(fmt::format("has a min[{}] of {} and a max[{}] of {}", k, box.min[k], k, box.max[k]),
