@@ -126,7 +126,8 @@ Json to_json(const ExtremeCell& cell) {
     if (cell.diagnosis.witness != Witness::none)
       json[cell.diagnosis.witness == Witness::vertex ? "vertex" : "edge"] = cell.diagnosis.number;
     json["quantity"] = cell.diagnosis.quantity;
-    json["found"] = fmt::format("{:.6g}", cell.diagnosis.value);
+    const double value = cell.diagnosis.value;
+    json["found"] = std::isnan(value) ? "not a number" : std::isinf(value) ? "infinite" : fmt::format("{:.6g}", value);
     if (!names_a_quantity(cell.diagnosis)) json["nameless"] = true;
   }
   if (!cell.warnings.empty()) json["warnings"] = cell.warnings;

@@ -43,6 +43,12 @@ Claim claim_of(const SceneCells& scene) {
 
 std::string in_words(const Json& cell) {
   auto outcome = cell.at("outcome").get<std::string>();
+  if (outcome == to_string(ExtremeOutcome::degraded)) {
+    const Json& by = cell.at("judged_by");
+    return fmt::format("{}, warned", to_string(by == to_string(JudgedBy::motion)   ? ExtremeOutcome::ok
+                                               : by == to_string(JudgedBy::scheme) ? ExtremeOutcome::scheme
+                                                                                   : ExtremeOutcome::survived));
+  }
   if (outcome != to_string(ExtremeOutcome::diagnosed)) return outcome;
   if (cell.contains("refused")) return "refused";
   return fmt::format("{} at {}", cell.value("code", outcome), cell.at("step").get<std::uint64_t>());
@@ -83,8 +89,8 @@ std::vector<NamedTable> tables_of(const std::vector<SceneCells>& scenes) {
                       .heading = fmt::format("{} in 100 steps, by integrator and step", scene.name),
                       .table = std::move(table),
                       .note = "OK: every step is its scheme's, and the end is that of the true motion; SCHEME: every "
-                              "step is its scheme's; SURVIVED: finite, within the energy there is; DEGRADED: not "
-                              "wrong, with a warning before; a code: stopped there with that diagnosis"});
+                              "step is its scheme's; SURVIVED: finite, within the energy there is; warned: before the "
+                              "run; a code: stopped at that step with that diagnosis"});
   }
   return tables;
 }

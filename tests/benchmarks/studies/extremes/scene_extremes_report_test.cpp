@@ -32,6 +32,16 @@ TEST(SceneExtremesReport, HasARowForEachIntegratorAndAColumnForEachStep) {
   EXPECT_EQ(tables[0].table.rows(), (Rows{{"verlet", "OK", "UNSTABLE_DT at 12"}, {"rk4", "SCHEME", "refused"}}));
 }
 
+TEST(SceneExtremesReport, SaysOfRunsWithAWarningHowTheyAreJudged) {
+  for (const auto& [by, words] :
+       {std::pair{"motion", "OK, warned"}, {"scheme", "SCHEME, warned"}, {"survival", "SURVIVED, warned"}}) {
+    SceneCells scene = two_by_two();
+    scene.cells[0]["outcome"] = "DEGRADED";
+    scene.cells[0]["judged_by"] = by;
+    EXPECT_EQ(tables_of({scene}).at(0).table.rows().at(0).at(1), words);
+  }
+}
+
 TEST(SceneExtremesReport, HoldsWhereEveryRunIsJudged) {
   const Claim claim = claims_of({two_by_two()}).at(0);
   EXPECT_EQ(claim.verdict, Verdict::holds);
