@@ -244,7 +244,8 @@ TEST(ExtremesClaimsInWords, SayWhatIsAskedWhatWasMeasuredAndWhatItRestsOn) {
     r.cells.push_back(to_json(c));
   const auto claims = claims_of(r);
   expect_words(claims, "no-silent-run", "0", "1", "4 runs");
-  expect_words(claims, "diagnoses-name-a-quantity", "0", "1", "1 diagnoses; mass box 1e3 with verlet: energy nan");
+  expect_words(claims, "diagnoses-name-a-quantity", "0", "1",
+               "1 diagnoses; mass box 1e3 with verlet: energy not a number");
   expect_words(claims, "offset-explicit", "<= 30 eps D", "5.5 eps D",
                "1 runs of 100 steps, explicit Euler left out; worst: rk4, box at D = 1e3");
   expect_words(claims, "offset-implicit", "<= 30 eps D", "6.5 eps D",
