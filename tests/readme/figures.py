@@ -22,6 +22,7 @@ OPERATED = ["results/2026-11-23-epyc-element-operations/samples.jsonl", "results
 MODELS = "results/2026-11-23-epyc-models/"
 EXTREMES = RUN + "reproduce/extremes/"
 VERDICTS = "results/2026-11-26-xeon-verdicts/samples.jsonl"
+TRADES = "results/2026-11-26-xeon-tradeoffs/samples.jsonl"
 SCENES = "results/2026-11-26-xeon-scene-extremes/extremes.jsonl"
 JUDGES = "results/2026-11-23-epyc-judges/judges.json"
 ELEMENTS = "results/2026-11-23-epyc-elements/samples.jsonl"
@@ -235,6 +236,10 @@ def seen():
     return count("seen") / (count("called_right") - count("no_difference"))
 
 
+def cheapest(error):
+    return [w["integrator"] for a in lines(TRADES) for w in a["winners"] if w["error"] == error and w["integrator"]]
+
+
 def judged_by(evidence):
     return sum(a["judged_by"] == evidence for a in lines(SCENES))
 
@@ -390,6 +395,8 @@ FIGURES = [
     (RESULTS, "scheme, {} are stopped or refused with a diagnosis. {} are judged by no more", [SCENES],
      lambda: (str(judged_by("diagnosis")), str(judged_by("survival")))),
     (RESULTS, "{} of the 25 scenes of the gallery", [SCENES], lambda: (str(len({a["scene"] for a in lines(SCENES)})),)),
+    (RESULTS, "Of {} scenes {} have a cheapest method for an error of 1e-3, by {} different integrators", [TRADES],
+     lambda: (str(len(lines(TRADES))), str(len(cheapest(1e-3))), str(len(set(cheapest(1e-3)))))),
     (RESULTS, "that comes to rest cost {} times what the cheapest method takes.", [VERDICTS],
      lambda: ("%.0f" % max(a["actual_cost"] / a["best_cost"] for a in lines(VERDICTS)),)),
     (RESULTS, "All {} errors were met, and all {} times as printed were within 15 % ({} without a miss show {} %;", [FORETOLD],

@@ -86,11 +86,6 @@ class SceneTruth {
   PointState start_;
 };
 
-/// Can the integrator move the scene? Between bodies energy-momentum is refused (core/scene/file).
-bool supports(const TradeoffScene& scene, std::string_view integrator) {
-  return !scene.frozen || scene.frozen->file.touches.empty() || integrator != "energy-momentum";
-}
-
 /// A run on its way.
 class SceneTrial {
  public:
@@ -112,7 +107,6 @@ class SceneTrial {
     cell_.refused = !result.ok();
     energy_before_ = energy_now();
     add_supply();
-    is_known_ = true;
     take_up_elements();
     const double deadline = reference::thread_cpu_seconds() + most_seconds;
     while (cell_.step < steps_in_all && result.ok()) {
@@ -300,7 +294,7 @@ std::vector<ExtremeCase> scene_extreme_cases(const std::shared_ptr<const Tradeof
   const auto truth = std::make_shared<SceneTruth>(*scene);
   for (const SceneStep& step : extreme_steps_of(*scene, quick))
     for (const IntegratorEntry& entry : integrators()) {
-      if (!supports(*scene, entry.name)) continue;
+      if (!takes(*scene, entry.name)) continue;
       ExtremeCase which{"scene", scene->name, std::string(entry.name), step.value, {}};
       which.make_run = [which, scene, truth, h = step.h](const MakeIntegrator& make) {
         ExtremeCell cell{which.axis, which.scene, which.integrator, which.value, ExtremeOutcome::ok, {}, 0, {}, ""};

@@ -63,6 +63,10 @@ TableScene swing_scene(Mesh mesh) {
 
 }  // namespace
 
+bool takes(const TradeoffScene& scene, std::string_view integrator) {
+  return !scene.frozen || scene.frozen->file.touches.empty() || integrator != "energy-momentum";
+}
+
 std::span<const TradeoffEntry> tradeoff_scenes() { return table; }
 
 TradeoffScene tradeoff_scene(FrozenScene frozen, std::size_t checkpoints) {

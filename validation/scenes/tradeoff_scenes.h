@@ -31,6 +31,9 @@ struct TradeoffScene {
   bool has_contact() const { return frozen && frozen->file.has_contact(); }
 };
 
+/// Can the integrator move the scene? Contact between bodies has kinks, through which energy-momentum has no forces.
+bool takes(const TradeoffScene& scene, std::string_view integrator);
+
 struct TradeoffEntry {
   std::string_view name;
   std::string_view what;

@@ -144,8 +144,12 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
       result.omissions.push_back(fmt::format("{}: contact requires equal steps", contender.name));
       continue;
     }
-    auto& points = by_contender[which];
     const auto scheme = contender.make()->scheme();
+    if (!takes(scene, scheme.name)) {
+      result.omissions.push_back(fmt::format("{}: contact between bodies has kinks", contender.name));
+      continue;
+    }
+    auto& points = by_contender[which];
     const double first =
         scheme.implicit ? options.largest_implicit : 2.2 * std::clamp(scheme.imaginary_limit, 1.0, 20.0);
     RunSetting setting{.steps = checkpoints};

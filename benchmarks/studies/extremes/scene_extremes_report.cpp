@@ -21,8 +21,8 @@ Claim claim_of(const SceneCells& scene) {
               .text = fmt::format("no run of {} is wrong without a word, or ends the process", scene.name),
               .paper_value = "0"};
   std::ranges::replace(claim.id, ' ', '-');
-  if (!scene.failure.empty()) {
-    claim.reason = scene.failure;
+  if (!scene.failure.empty() || scene.cells.empty()) {
+    claim.reason = scene.failure.empty() ? "no run: the scene has neither a step nor a rate of change" : scene.failure;
     return claim;
   }
   const std::vector<Json> forbidden = forbidden_cells({.cells = scene.cells});

@@ -8,6 +8,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "tests/support/ticking_clock_for_tests.h"
+#include "validation/scenes/scene_of_file.h"
 #include "validation/tradeoff/cvode_adams.h"
 
 namespace dartboard::work_precision_test {
@@ -263,6 +264,23 @@ TEST(WorkPrecisionStudy, GivesARunUpThatTakesHalfAsLongAgainAsAllowed) {
   EXPECT_EQ(study.points[0].code, to_string(StepCode::budget));
   ASSERT_EQ(study.omissions.size(), scene.omissions.size() + 1);
   EXPECT_TRUE(study.omissions.back().starts_with("rk4: nothing below h omega_max = ")) << study.omissions.back();
+}
+
+TEST(WorkPrecisionStudy, LeavesOutAMethodThatTheSceneCannotHave) {
+  const SceneFile file = parse_scene(R"({"name": "stack", "bodies": [
+      {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}},
+      {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}, "translate": [0, 0, 0.11]}],
+      "material": {"density": 1000, "stiffness": 1000}, "step": 1e-3, "duration": 0.01,
+      "contact": {"pressure": 1e4, "depth": 0.01, "bodies": "others"}})",
+                                     "stack.json", {});
+  const TradeoffScene scene = scene_of_file(file);
+  SceneReference reference;
+  reference.states.assign(scene.motion.checkpoints.size(), scene.motion.start);
+  const WorkPrecision study = work_precision(scene, reference, only("energy-momentum"), ticking(), once());
+  EXPECT_TRUE(study.points.empty());
+  ASSERT_FALSE(study.omissions.empty());
+  EXPECT_EQ(study.omissions.back(), "energy-momentum: contact between bodies has kinks");
+  EXPECT_TRUE(takes(scene, "rk4"));
 }
 
 /// Refuses every step.

@@ -66,6 +66,11 @@ TEST(SceneExtremesReport, IsUndecidedWhereRunsOnlySurvived) {
             "1 runs are judged by their survival alone: no witness supports membranes");
 }
 
+TEST(SceneExtremesReport, HoldsNothingWithoutARun) {
+  EXPECT_EQ(claims_of(std::vector{SceneCells{.name = "bar", .beyond_references = {}}}).at(0).verdict,
+            Verdict::not_tested);
+}
+
 TEST(SceneExtremesReport, SaysWhyASceneWasNotRun) {
   const Claim claim = claims_of({{.name = "bar", .beyond_references = {}, .failure = "no motion"}}).at(0);
   EXPECT_EQ(claim.verdict, Verdict::not_tested);
