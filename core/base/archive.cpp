@@ -30,6 +30,10 @@ void Archive::value(bool& flag) {
   flag = byte == 1;
 }
 
+void Archive::require_below(std::uint8_t index, std::size_t count) const {
+  if (index >= count) fail(fmt::format("the number of a kind is {}; expected less than {}", index, count));
+}
+
 std::size_t Archive::size(std::size_t count, std::size_t element) {
   std::uint64_t stored = count;
   bytes(&stored, sizeof stored);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace dartboard {
@@ -68,6 +69,18 @@ class Archive {
     }
     if (is_there) value(*maybe);
   }
+  template <class... T>
+  void value(std::variant<T...>& one_of) {
+    auto index = static_cast<std::uint8_t>(one_of.index());
+    value(index);
+    if (reads_) {
+      require_below(index, sizeof...(T));
+      std::uint8_t k = 0;
+      ((k++ == index ? (void)one_of.template emplace<T>() : (void)0), ...);
+    }
+    std::visit([this](auto& alternative) { value(alternative); }, one_of);
+  }
+  void value(std::monostate&) {}
   template <class T>
   void value(std::vector<T>& column) {
     static_assert(!std::is_same_v<T, bool>, "a column of bits has no address");
@@ -91,6 +104,7 @@ class Archive {
     else
       one.state(*this);
   }
+  void require_below(std::uint8_t index, std::size_t count) const;
   /// The number of elements of a column, each of at least so many bytes.
   std::size_t size(std::size_t count, std::size_t element);
 

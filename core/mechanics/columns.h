@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace dartboard {
@@ -15,26 +17,35 @@ enum class Adapts {
   proportional,  // to a recomputed value
 };
 
-/// One column of `Owner`.
-template <class Owner, class T>
+/// One column of `Owner`: a vector, or a variant that holds one of several or nothing.
+template <class Owner, class Column>
 struct EmbeddedColumn {
   std::string_view name;
-  std::vector<T> Owner::*values;
+  Column Owner::*values;
   Adapts adapts;
 };
-template <class Owner, class T>
-EmbeddedColumn(const char*, std::vector<T> Owner::*, Adapts) -> EmbeddedColumn<Owner, T>;
+template <class Owner, class Column>
+EmbeddedColumn(const char*, Column Owner::*, Adapts) -> EmbeddedColumn<Owner, Column>;
 
-/// Visit the columns in a table: visit(column, its row). A column that is empty has been left out.
+/// Visit the columns in a table: visit(vector, its row). A column that is empty has been left out.
 template <class Owner, class Table, class Visit>
 void for_each_column(Owner& owner, const Table& table, Visit&& visit) {
-  std::apply([&](const auto&... row) { (visit(owner.*(row.values), row), ...); }, table);
+  const auto visit_rows = [&visit](auto& column, const auto& row) {
+    const auto visit_if_any = [&]<class Rows>(Rows& rows) {
+      if constexpr (!std::is_same_v<const Rows, const std::monostate>) visit(rows, row);
+    };
+    if constexpr (requires { column.index(); })
+      std::visit(visit_if_any, column);
+    else
+      visit(column, row);
+  };
+  std::apply([&](const auto&... row) { (visit_rows(owner.*(row.values), row), ...); }, table);
 }
 
 /// Write or read every column in a table.
 template <class Archive, class Owner, class Table>
 void columns_state(Archive& archive, Owner& owner, const Table& table) {
-  for_each_column(owner, table, [&archive](auto& column, const auto&) { archive(column); });
+  std::apply([&](const auto&... row) { archive(owner.*(row.values)...); }, table);
 }
 
 /// Append a part of element k: duplicated columns are copied, recomputed ones are left for the caller to fill.
@@ -68,9 +79,16 @@ void add_element(Owner& owner, const Table& table, std::size_t size) {
 /// Copy the elements with these numbers to the end of another owner's columns.
 template <class Owner, class Table, class Numbers>
 void copy_elements(const Owner& from, Owner& to, const Table& table, const Numbers& numbers) {
-  for_each_column(from, table, [&](const auto& column, const auto& row) {
+  for_each_column(from, table, [&]<class Rows>(const Rows& column, const auto& row) {
     if (column.empty()) return;
-    for (const auto k : numbers) (to.*(row.values)).push_back(column[k]);
+    const auto append = [&](Rows& target) {
+      for (const auto k : numbers) target.push_back(column[k]);
+    };
+    auto& target = to.*(row.values);
+    if constexpr (requires { target.index(); })
+      append(std::holds_alternative<Rows>(target) ? std::get<Rows>(target) : target.template emplace<Rows>());
+    else
+      append(target);
   });
 }
 

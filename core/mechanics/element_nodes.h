@@ -45,15 +45,16 @@ void find_nodes(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint3
 /// and so do surfaces of triangles and quadrilaterals.
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const TetrahedronNodes&) {
-  return body.cell_shape.size();
+  return shapes_of<RestShape>(body.elements).size();
 }
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const SolidNodes&) {
-  return std::max({body.cell_solid.size(), body.cell_membrane.size(), body.cell_springs.size()});
+  return std::max({shapes_of<SolidShape>(body.elements).size(), shapes_of<MembraneShape>(body.elements).size(),
+                   body.cell_springs.size()});
 }
 template <class Map>
 std::size_t element_count(const MassSpringBody<Map, Held::by_every_dart>& body, const TriangleNodes&) {
-  return body.cell_triangle.size();
+  return shapes_of<PlaneInverse>(body.elements).size();
 }
 
 }  // namespace dartboard

@@ -108,8 +108,8 @@ void add_solids(MassSpringBody<Map, Held::by_every_dart>& body, const Mesh& mesh
     find_nodes(body, c, nodes);
     std::vector<Eigen::Vector3d> x;
     for (std::size_t k = 0; k < nodes.count; ++k) x.push_back(body.vertices.position[nodes.at[k]]);
-    body.cell_solid.push_back(solid_shape_of(mesh.kinds[c], x));
-    const SolidShape& shape = body.cell_solid.back();
+    const SolidShape shape = solid_shape_of(mesh.kinds[c], x);
+    add_shape(body.elements, shape);
     for (std::size_t q = 0; q < gauss_points(shape.kind); ++q)
       if (!(shape.volume[q] > 0.0 && shape.inverse[q].allFinite()))
         throw InputError(
@@ -131,9 +131,9 @@ void add_membranes(MassSpringBody<Map2, Held::by_every_dart>& body, const Mesh& 
         throw InputError(
             fmt::format("cell {}, a {}, is flat or turned over at one of its corners", c, name(mesh.kinds[c])));
     if (all_triangles)
-      body.cell_triangle.push_back(shape[0]);
+      add_shape(body.elements, shape[0]);
     else
-      body.cell_membrane.push_back(shape);
+      add_shape(body.elements, shape);
   }
 }
 
@@ -201,8 +201,9 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
       const auto corners = corners_from(map, body.cell_dart[c]);
       const auto place = [&](std::size_t k) { return mesh.points[point_of(corners[k])]; };
-      body.cell_shape.push_back(rest_shape_of(place(0), place(1), place(2), place(3)));
-      if (!body.cell_shape.back().allFinite())
+      const RestShape shape = rest_shape_of(place(0), place(1), place(2), place(3));
+      add_shape(body.elements, shape);
+      if (!shape.allFinite())
         throw InputError(fmt::format("cell {} is too flat: the gradients of its shape are not finite", c));
     }
   }

@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "core/elements/cell_springs.h"
-#include "core/elements/membranes.h"
-#include "core/elements/solids.h"
-#include "core/elements/tetrahedra.h"
+#include "core/elements/element_shapes.h"
 #include "core/forces/springs.h"
 #include "core/mechanics/columns.h"
 #include "core/mechanics/embedding.h"
@@ -40,12 +38,8 @@ struct MassSpringBody {
   // 1 where the face of that dart, walked along alpha_0 alpha_1 from it, runs clockwise seen from outside the cell at
   // rest
   std::vector<std::uint8_t> cell_inside_out;
-  // The rest shapes of elements by cell, with the corners of `find_nodes`; one of four columns: for a solid of
-  // tetrahedra or of any cells, for a surface of triangles or of any faces; all are empty with springs.
-  std::vector<RestShape> cell_shape;
-  std::vector<SolidShape> cell_solid;
-  std::vector<PlaneInverse> cell_triangle;
-  std::vector<MembraneShape> cell_membrane;
+  ElementShapes
+      elements;  // which elements its cells are, if any, and their rest shapes with the corners of `find_nodes`
   // By cell: the springs on its diagonals; empty where no cell has any.
   std::vector<CellSprings> cell_springs;
   // By cell: the number of its material in `materials`; both are empty in a body of one material.
@@ -60,10 +54,7 @@ struct MassSpringBody {
     return std::tuple{EmbeddedColumn{"cell mass", &B::cell_mass, Adapts::recomputed},
                       EmbeddedColumn{"node share", &B::node_share, Adapts::recomputed},
                       EmbeddedColumn{"inside out", &B::cell_inside_out, Adapts::duplicated},
-                      EmbeddedColumn{"rest shape", &B::cell_shape, Adapts::duplicated},
-                      EmbeddedColumn{"shape of a solid", &B::cell_solid, Adapts::duplicated},
-                      EmbeddedColumn{"shape of a triangle", &B::cell_triangle, Adapts::duplicated},
-                      EmbeddedColumn{"shape of a membrane", &B::cell_membrane, Adapts::duplicated},
+                      EmbeddedColumn{"rest shape", &B::elements, Adapts::duplicated},
                       EmbeddedColumn{"springs within", &B::cell_springs, Adapts::duplicated},
                       EmbeddedColumn{"material", &B::cell_material, Adapts::duplicated}};
   }

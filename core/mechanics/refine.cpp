@@ -104,7 +104,7 @@ class Refinement {
   /// `find_nodes` reads off its darts, of tetrahedra alone or among cells of other kinds.
   Corners local_corners(std::size_t lowest, bool inside_out) const {
     const auto& alpha = tet_darts.alpha;
-    if (body_.cell_solid.empty())
+    if (!is_of<SolidShape>(body_.elements))
       return {tet_darts.node[lowest], tet_darts.node[alpha[0][lowest]], tet_darts.node[alpha[0][alpha[1][lowest]]],
               tet_darts.node[alpha[0][alpha[1][alpha[2][lowest]]]]};
     // around a face, clockwise seen from outside, and up to the tip
@@ -149,8 +149,10 @@ class Refinement {
         const auto at = std::find(parent.darts.begin(), parent.darts.end(), body_.cell_dart[parent_cell]);
         turned_ = (at - parent.darts.begin()) % 2 != 0;
         parent_corners_ = local_corners(static_cast<std::size_t>(at - parent.darts.begin()), was_inside_out_);
-        if (!body_.cell_shape.empty()) parent_shape_ = body_.cell_shape[parent_cell];
-        if (!body_.cell_solid.empty()) parent_solid_ = body_.cell_solid[parent_cell];
+        if (const auto* shape = std::get_if<std::vector<RestShape>>(&body_.elements))
+          parent_shape_ = (*shape)[parent_cell];
+        if (const auto* shape = std::get_if<std::vector<SolidShape>>(&body_.elements))
+          parent_solid_ = (*shape)[parent_cell];
       } else {
         number = static_cast<std::uint32_t>(body_.cell_mass.size());
         add_element(body_, Body<Map>::embedded_in_cells(), number);
@@ -166,10 +168,11 @@ class Refinement {
       const bool inside_out = was_inside_out_ != (odd != turned_);
       body_.cell_inside_out[number] = inside_out;
       const Corners corners = local_corners(static_cast<std::size_t>(lowest - child.darts.begin()), inside_out);
-      if (!body_.cell_shape.empty())
-        body_.cell_shape[number] = shape_of_child(child, corners, parent_shape_, parent_corners_);
-      if (!body_.cell_solid.empty()) {  // one Gauss point, whose inverse Jacobian is that shape
-        SolidShape& solid = body_.cell_solid[number] = parent_solid_;
+      if (auto* shape = std::get_if<std::vector<RestShape>>(&body_.elements))
+        (*shape)[number] = shape_of_child(child, corners, parent_shape_, parent_corners_);
+      if (auto* shape = std::get_if<std::vector<SolidShape>>(&body_.elements)) {
+        // one Gauss point, whose inverse Jacobian is that shape
+        SolidShape& solid = (*shape)[number] = parent_solid_;
         solid.inverse[0] = shape_of_child(child, corners, parent_solid_.inverse[0], parent_corners_);
         solid.volume[0] = parent_solid_.volume[0] / count();
       }

@@ -23,8 +23,7 @@ class RungeKutta4 {
  public:
   template <class Walk, class Body>
   void step(const Walk& walk, Body& body, double h) {
-    if (!body.cell_shape.empty() || !body.cell_solid.empty() || !body.cell_triangle.empty() ||
-        !body.cell_membrane.empty() || !body.cell_springs.empty())
+    if (has_elements(body.elements) || !body.cell_springs.empty())
       throw InputError(
           "RungeKutta4 supports only springs along edges, and the body has other forces; expected an "
           "integrator of core/time over its system");

@@ -74,7 +74,8 @@ class Operated {
   void operate(ElementOperations& found, const ElementOperationsPlan& plan) {
     const auto follow = [&](const TopologyChange& change) {
       view_.apply(body_, adapt(body_, change));
-      if (plan.meddles) plan.meddles(found.operations(), body_.vertices.position, body_.cell_shape);
+      if (plan.meddles)
+        plan.meddles(found.operations(), body_.vertices.position, std::get<std::vector<RestShape>>(body_.elements));
     };
     const std::uint32_t what = random_.below(8);
     if (what < 7) {
@@ -142,14 +143,15 @@ class Operated {
     if constexpr (tetrahedra)
       return CellKind::tetrahedron;
     else
-      return body_.cell_solid[c].kind;
+      return shapes_of<SolidShape>(body_.elements)[c].kind;
   }
 
   static std::unique_ptr<ForceTerm> term_of(const Body& body, const ElementNodesView<Nodes>& view) {
     if constexpr (tetrahedra)
-      return make_tetrahedra(body.cell_materials(), {view.nodes, body.cell_shape, body.cell_mass});
+      return make_tetrahedra(body.cell_materials(),
+                             {view.nodes, std::get<std::vector<RestShape>>(body.elements), body.cell_mass});
     else
-      return make_solids(body.cell_materials(), {view.nodes, body.cell_solid});
+      return make_solids(body.cell_materials(), {view.nodes, std::get<std::vector<SolidShape>>(body.elements)});
   }
 
   /// The elements of a body whose shapes at rest are computed here, from places at rest.
@@ -189,7 +191,7 @@ class Operated {
       return static_cast<double>(reference::tetrahedron_energy(problem_.material, rest, now));
     } else {
       const std::vector<Nodes> nodes{view_.nodes[c]};
-      const std::vector<SolidShape> shape{body_.cell_solid[c]};
+      const std::vector<SolidShape> shape{shapes_of<SolidShape>(body_.elements)[c]};
       return make_solids(problem_.material, {nodes, shape})->energy(body_.vertices.position);
     }
   }

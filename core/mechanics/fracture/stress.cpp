@@ -63,8 +63,9 @@ void add_membranes(const MassSpringBody<Map2, Held::by_every_dart>& body, std::u
     find_nodes(body, c, nodes);
     boost::container::small_vector<Eigen::Vector3d, 4> x;
     for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(body.vertices.position[nodes.at[a]]);
-    const PlaneInverse* const shape =
-        body.cell_membrane.empty() ? &body.cell_triangle[c] : body.cell_membrane[c].data();
+    const PlaneInverse* const shape = is_of<PlaneInverse>(body.elements)
+                                          ? &shapes_of<PlaneInverse>(body.elements)[c]
+                                          : shapes_of<MembraneShape>(body.elements)[c].data();
     add_lower(sum,
               membrane_virial(body.cell_materials()[c], {shape, membrane_points(nodes.count)}, {x.data(), x.size()}));
   }
@@ -74,18 +75,19 @@ template <class Map>
 void add_elements(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k, Eigen::Matrix3d& sum) {
   for (const std::uint32_t c : cells_around(body, k)) {
     const auto& position = body.vertices.position;
-    if (body.cell_solid.empty()) {
+    if (is_of<RestShape>(body.elements)) {
       TetrahedronNodes nodes;
       find_nodes(body, c, nodes);
       add_lower(sum,
-                tetrahedron_virial(body.cell_materials()[c], body.cell_mass[c], body.cell_shape[c],
+                tetrahedron_virial(body.cell_materials()[c], body.cell_mass[c], shapes_of<RestShape>(body.elements)[c],
                                    {position[nodes[0]], position[nodes[1]], position[nodes[2]], position[nodes[3]]}));
     } else {
       SolidNodes nodes;
       find_nodes(body, c, nodes);
       boost::container::small_vector<Eigen::Vector3d, 8> x;
       for (std::size_t a = 0; a < nodes.count; ++a) x.push_back(position[nodes.at[a]]);
-      add_lower(sum, solid_virial(body.cell_materials()[c], body.cell_solid[c], {x.data(), x.size()}));
+      add_lower(sum,
+                solid_virial(body.cell_materials()[c], shapes_of<SolidShape>(body.elements)[c], {x.data(), x.size()}));
     }
   }
 }
@@ -175,10 +177,12 @@ Eigen::Matrix3d vertex_stress(const MassSpringBody<Map, Held::by_every_dart>& bo
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& [edge, other_end] : around)
     add_lower(sum, spring_virial(body.springs[edge], v.position[other_end] - v.position[k]));
-  if constexpr (Map::dimension == 3)
-    if (!body.cell_shape.empty() || !body.cell_solid.empty()) add_elements(body, k, sum);
-  if constexpr (Map::dimension == 2)
-    if (!body.cell_triangle.empty() || !body.cell_membrane.empty()) add_membranes(body, k, sum);
+  if (has_elements(body.elements)) {
+    if constexpr (Map::dimension == 3)
+      add_elements(body, k, sum);
+    else
+      add_membranes(body, k, sum);
+  }
   if (!body.cell_springs.empty()) add_cell_springs(body, k, sum);
   const double at_rest = body.materials.empty() ? v.mass[k] / body.material.density : body.volume_of(Vertex{v.dart[k]});
   double now = at_rest + sum(0, 2);

@@ -145,10 +145,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   nodes_ = nodes_of(TetrahedronNodesView());
   solid_nodes_ = nodes_of(SolidNodesView());
   triangle_nodes_ = nodes_of(TriangleNodesView());
-  shape_ = std::move(body.cell_shape);
-  solid_shape_ = std::move(body.cell_solid);
-  triangle_shape_ = std::move(body.cell_triangle);
-  membrane_shape_ = std::move(body.cell_membrane);
+  shapes_ = std::move(body.elements);
   if (body.cell_materials().has_springs()) {
     springs_ = std::move(body.springs);
     ends_ = std::move(ends.ends);
@@ -159,11 +156,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   materials_ = std::move(body.materials);
   cell_material_ = std::move(body.cell_material);
   const CellMaterials materials(material_, materials_, cell_material_);
-  if (!shape_.empty()) elements_ = make_tetrahedra(materials, {nodes_, shape_, cell_mass_});
-  if (!solid_shape_.empty()) elements_ = make_solids(materials, {solid_nodes_, solid_shape_});
-  if (!triangle_shape_.empty())
-    elements_ = make_membranes(materials, TriangleColumns{triangle_nodes_, triangle_shape_});
-  if (!membrane_shape_.empty()) elements_ = make_membranes(materials, MembraneColumns{solid_nodes_, membrane_shape_});
+  elements_ = make_elements(materials, shapes_, {nodes_, solid_nodes_, triangle_nodes_}, cell_mass_);
   springs_within_ = std::move(body.cell_springs);
   if (!springs_within_.empty()) cell_springs_ = make_cell_springs({solid_nodes_, springs_within_});
   for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get()})
@@ -173,27 +166,28 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   // columns that grew by doubling give back unused memory
   for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-  fit(vertices_.dart, springs_, ends_, nodes_, shape_, solid_nodes_, solid_shape_, springs_within_);
-  fit(triangle_nodes_, triangle_shape_, membrane_shape_);
+  fit(vertices_.dart, springs_, ends_, nodes_, solid_nodes_, springs_within_, triangle_nodes_);
+  with_shapes(shapes_, fit);
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
   fit(cell_material_, volume_);
 }
 
 MemoryReport BodyOfColumns::memory() const {
-  const bool of_elements = !solid_shape_.empty() || !membrane_shape_.empty();
-  MemoryReport report{{Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
-                      {Part::viscosity, bytes_of(vertices_.viscosity)},
-                      {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
-                      {Part::rest, bytes_of(vertices_.rest)},
-                      {Part::pull, bytes_of(vertices_.pull)},
-                      {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
-                      {Part::damping, springs_.damping_bytes()},
-                      {Part::elements, bytes_of(nodes_, shape_, solid_shape_) +
-                                           bytes_of(triangle_nodes_, triangle_shape_, membrane_shape_) +
-                                           (of_elements ? bytes_of(solid_nodes_) : 0)},
-                      {Part::output_cells, bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_,
-                                                    facet_first_, facet_node_) +
-                                               bytes_of(cell_material_, volume_)}};
+  const bool of_elements = use_any_cells(shapes_);
+  std::size_t shapes = 0;
+  with_shapes(shapes_, [&shapes](const auto& rows) { shapes = bytes_of(rows); });
+  MemoryReport report{
+      {Part::vertices, bytes_of_vertices(vertices_) + bytes_of(vertices_.dart)},
+      {Part::viscosity, bytes_of(vertices_.viscosity)},
+      {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
+      {Part::rest, bytes_of(vertices_.rest)},
+      {Part::pull, bytes_of(vertices_.pull)},
+      {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
+      {Part::damping, springs_.damping_bytes()},
+      {Part::elements, shapes + bytes_of(nodes_, triangle_nodes_) + (of_elements ? bytes_of(solid_nodes_) : 0)},
+      {Part::output_cells,
+       bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_) +
+           bytes_of(cell_material_, volume_)}};
   if (cell_springs_)
     report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
   if (bending_) report.push_back({Part::bending, bytes_of(bends_, neighbours_)});

@@ -7,7 +7,7 @@
 
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
-#include "core/elements/membranes.h"
+#include "core/elements/element_shapes.h"
 #include "core/plain/mesh.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/views/element_nodes_view.h"
@@ -66,14 +66,12 @@ class BodyOfColumns final : public SimulatedBody {
   VertexColumns vertices_;  // without darts and forces; viscosity, fixed and rest positions only where needed
   Springs springs_;
   std::vector<SpringEnds> ends_;
-  std::vector<TetrahedronNodes> nodes_;  // of a body of elements, which has springs only where some cells are
-  std::vector<RestShape> shape_;
-  std::vector<SolidNodes> solid_nodes_;  // or where not all cells are tetrahedra
-  std::vector<SolidShape> solid_shape_;
-  std::vector<TriangleNodes> triangle_nodes_;  // of a surface of elements, all triangles
-  std::vector<PlaneInverse> triangle_shape_;
-  std::vector<MembraneShape> membrane_shape_;  // or of any cells, with solid_nodes_
-  std::unique_ptr<ForceTerm> elements_;        // null where all are springs
+  // the elements of a body that has any, which has springs only where some cells are; one column of corners is filled
+  ElementShapes shapes_;
+  std::vector<TetrahedronNodes> nodes_;
+  std::vector<SolidNodes> solid_nodes_;
+  std::vector<TriangleNodes> triangle_nodes_;
+  std::unique_ptr<ForceTerm> elements_;  // null where all are springs
   std::vector<CellSprings> springs_within_;
   std::vector<BendingEdge> bends_;  // of a surface, one of the two where it resists bending
   std::vector<SecondNeighbours> neighbours_;

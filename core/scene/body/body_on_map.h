@@ -9,9 +9,7 @@
 #include "core/base/bytes.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
-#include "core/elements/membranes.h"
-#include "core/elements/solids.h"
-#include "core/elements/tetrahedra.h"
+#include "core/elements/element_shapes.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/cell_nodes.h"
@@ -55,13 +53,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     if (needs.rest || holds_.any()) body_.vertices.keep_rest();
     if (needs.pull) body_.vertices.pull.assign(body_.vertices.size(), Eigen::Vector3d(0, 0, 0));
     for_each_view([this](auto& view) { view.rebuild(body_); });
-    if (!body_.cell_shape.empty())
-      elements_ = make_tetrahedra(body_.cell_materials(), {nodes_.nodes, body_.cell_shape, body_.cell_mass});
-    if (!body_.cell_solid.empty()) elements_ = make_solids(body_.cell_materials(), {solids_.nodes, body_.cell_solid});
-    if (!body_.cell_triangle.empty())
-      elements_ = make_membranes(body_.cell_materials(), TriangleColumns{triangles_.nodes, body_.cell_triangle});
-    if (!body_.cell_membrane.empty())
-      elements_ = make_membranes(body_.cell_materials(), MembraneColumns{solids_.nodes, body_.cell_membrane});
+    elements_ = make_elements(body_.cell_materials(), body_.elements, {nodes_.nodes, solids_.nodes, triangles_.nodes},
+                              body_.cell_mass);
     add_term(elements_);
     if (!body_.cell_springs.empty()) cell_springs_ = make_cell_springs({solids_.nodes, body_.cell_springs});
     add_term(cell_springs_);
@@ -225,7 +218,9 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     const std::size_t slots = Map::tetrahedral ? map.capacity() / 24 : map.capacity();
     const std::size_t dead = slots - (Map::tetrahedral ? map.dart_count() / 24 : map.dart_count());
     const std::size_t alphas = Map::tetrahedral ? map.template slot_count<2>() : slots * (n + 1);
-    const bool of_elements = !body_.cell_solid.empty() || !body_.cell_membrane.empty();
+    const bool of_elements = use_any_cells(body_.elements);
+    std::size_t shapes = 0;
+    with_shapes(body_.elements, [&shapes](const auto& rows) { shapes = bytes_of(rows); });
     MemoryReport report{
         {Part::map, sizeof(std::uint32_t) * (alphas + slots + dead)},
         {Part::marks, mark_bytes()},
@@ -244,9 +239,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         {Part::pull, bytes_of(v.pull)},
         {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
         {Part::damping, body_.springs.damping_bytes()},
-        {Part::elements, bytes_of(body_.cell_shape, body_.cell_solid) +
-                             bytes_of(body_.cell_triangle, triangles_.nodes, body_.cell_membrane) +
-                             (elements_ ? bytes_of(nodes_.nodes) : 0) + (of_elements ? bytes_of(solids_.nodes) : 0)}};
+        {Part::elements, shapes + bytes_of(triangles_.nodes) + (elements_ ? bytes_of(nodes_.nodes) : 0) +
+                             (of_elements ? bytes_of(solids_.nodes) : 0)}};
     if (cell_springs_)
       report.push_back(
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});

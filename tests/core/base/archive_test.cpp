@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/plain/error.h"
@@ -132,6 +133,25 @@ TEST(Archive, HoldsALengthAgainstWhatIsLeftBeforeItAsksForMemory) {
                         archive(column);
                       }),
             "");
+}
+
+TEST(Archive, HoldsWhichKindOfSeveralThereIs) {
+  using OneOf = std::variant<std::monostate, std::vector<double>, Inner>;
+  for (const OneOf& value : {OneOf(), OneOf(std::vector<double>{1.5, 2.5}), OneOf(Inner{15, true})}) {
+    Archive out;
+    OneOf from = value, read = Inner{1, false};
+    out(from);
+    Archive in(out.written(), "file");
+    in(read);
+    in.require_end();
+    ASSERT_EQ(read.index(), value.index());
+  }
+  EXPECT_EQ(complaint("\x03",
+                      [](Archive& archive) {
+                        OneOf read;
+                        archive(read);
+                      }),
+            "file: is damaged: the number of a kind is 3; expected less than 3");
 }
 
 TEST(Archive, RefusesAnotherPartThanTheOneThatShouldFollow) {

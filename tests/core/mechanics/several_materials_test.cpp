@@ -134,7 +134,8 @@ TEST(SeveralMaterials, FollowRandomOperationsUntilNothingIsLeft) {
 std::vector<Vector3d> element_forces(const AdaptedBody<TetMap>& body, std::size_t points) {
   TetrahedronNodesView view;
   view.rebuild(body);
-  const auto term = make_tetrahedra(body.cell_materials(), {view.nodes, body.cell_shape, body.cell_mass});
+  const auto term =
+      make_tetrahedra(body.cell_materials(), {view.nodes, shapes_of<RestShape>(body.elements), body.cell_mass});
   std::vector<Vector3d> force(body.vertices.size(), Vector3d::Zero()), sum(points, Vector3d::Zero());
   term->add_forces({body.vertices.position}, force);
   for (std::size_t k = 0; k < force.size(); ++k) sum[body.vertices.point[k]] += force[k];
@@ -145,7 +146,7 @@ std::vector<Vector3d> element_forces(const AdaptedBody<TetMap>& body, std::size_
 TEST(SeveralMaterials, PullByTheLawOfEachCell) {
   const Problem problem = of_several(box(), {rubber, bone, soft});
   auto body = build_body<TetMap, Held::by_every_dart>(problem);
-  ASSERT_EQ(body.cell_shape.size(), problem.mesh.cell_count());
+  ASSERT_EQ(shapes_of<RestShape>(body.elements).size(), problem.mesh.cell_count());
   SplitMix64 random(3);
   std::vector<Vector3d> place = problem.mesh.points;
   for (Vector3d& x : place)
@@ -208,7 +209,7 @@ TEST(SeveralMaterials, HaveStressesOverVolumesAndNotOverMasses) {
   std::vector<Eigen::Matrix3d> all;
   TetrahedronNodesView view;
   view.rebuild(b);
-  const auto term = make_tetrahedra(b.cell_materials(), {view.nodes, b.cell_shape, b.cell_mass});
+  const auto term = make_tetrahedra(b.cell_materials(), {view.nodes, shapes_of<RestShape>(b.elements), b.cell_mass});
   const ForceTerm* terms[] = {term.get()};
   vertex_stresses({}, {}, vertex_volumes(b, {}, room), b.vertices.position, all, terms);
   for (std::uint32_t k = 0; k < b.vertices.size(); ++k)

@@ -48,7 +48,7 @@ struct Elements {
   explicit Elements(const Mesh& mesh, Model model = Model::neo_hookean)
       : body(build_body<Map, Held::by_every_dart>(problem_of(mesh, model))), rest_of_point(mesh.points) {
     view.rebuild(body);
-    term = make_tetrahedra(body.material, {view.nodes, body.cell_shape, body.cell_mass});
+    term = make_tetrahedra(body.material, {view.nodes, shapes_of<RestShape>(body.elements), body.cell_mass});
     SplitMix64 random(5);
     for (Vector3d& x : body.vertices.position)
       for (double& c : x) c += 0.02 * random.next_signed();
@@ -75,10 +75,10 @@ TYPED_TEST_SUITE(ElementsOn, Maps);
 // The rest shape of each cell is that of its corners in the mesh, after any operations.
 template <class Map>
 void expect_shapes_of_the_mesh(const Elements<Map>& e) {
-  for (std::uint32_t c = 0; c < e.body.cell_shape.size(); ++c) {
+  for (std::uint32_t c = 0; c < shapes_of<RestShape>(e.body.elements).size(); ++c) {
     std::array<Vector3d, 4> x;
     for (std::size_t k = 0; k < 4; ++k) x[k] = e.rest_of_point[e.body.vertices.point[e.view.nodes[c][k]]];
-    EXPECT_EQ(e.body.cell_shape[c], rest_shape_of(x[0], x[1], x[2], x[3])) << c;
+    EXPECT_EQ(shapes_of<RestShape>(e.body.elements)[c], rest_shape_of(x[0], x[1], x[2], x[3])) << c;
   }
 }
 
@@ -183,7 +183,7 @@ TYPED_TEST(ElementsOn, TakeTheirShapesAlongWhenAPartIsSplitOff) {
   const auto energy_of = [](const AdaptedBody<TypeParam>& body) {
     TetrahedronNodesView view;
     view.rebuild(body);
-    return make_tetrahedra(body.material, {view.nodes, body.cell_shape, body.cell_mass})
+    return make_tetrahedra(body.material, {view.nodes, shapes_of<RestShape>(body.elements), body.cell_mass})
         ->energy(body.vertices.position);
   };
   EXPECT_NEAR(energy_of(rest) + energy_of(split.part), whole, 1e-14 * whole);
@@ -261,7 +261,7 @@ struct SolidElements {
 
   SolidElements(const Mesh& mesh, Model model) : body(build_body<Map3, Held::by_every_dart>(problem_of(mesh, model))) {
     view.rebuild(body);
-    term = make_solids(body.material, {view.nodes, body.cell_solid});
+    term = make_solids(body.material, {view.nodes, shapes_of<SolidShape>(body.elements)});
     SplitMix64 random(5);
     for (Vector3d& x : body.vertices.position)
       for (double& c : x) c += 0.01 * random.next_signed();
@@ -274,7 +274,7 @@ TEST(SolidsOnAMap, FollowRandomOperationsUntilNothingIsLeft) {
   SolidElements elements(mesh, Model::neo_hookean);
   AdaptedBody<Map3>& body = elements.body;
   SolidNodesView& view = elements.view;
-  ASSERT_EQ(body.cell_solid.size(), mesh.cell_count());
+  ASSERT_EQ(shapes_of<SolidShape>(body.elements).size(), mesh.cell_count());
   int operations = 0;
   operate_at_random(body, 3, 60, [&](const auto& now, const TopologyChange&, const ChangedEmbeddings& changed) {
     view.apply(now, changed);
@@ -285,10 +285,10 @@ TEST(SolidsOnAMap, FollowRandomOperationsUntilNothingIsLeft) {
       std::vector<Vector3d> x;
       for (std::size_t k = 0; k < view.nodes[c].count; ++k)
         x.push_back(mesh.points[now.vertices.point[view.nodes[c].at[k]]]);
-      const SolidShape shape = solid_shape_of(now.cell_solid[c].kind, x);
+      const SolidShape shape = solid_shape_of(shapes_of<SolidShape>(now.elements)[c].kind, x);
       for (std::size_t q = 0; q < gauss_points(shape.kind); ++q) {
-        ASSERT_EQ(shape.inverse[q], now.cell_solid[c].inverse[q]) << c;
-        ASSERT_EQ(shape.volume[q], now.cell_solid[c].volume[q]) << c;
+        ASSERT_EQ(shape.inverse[q], shapes_of<SolidShape>(now.elements)[c].inverse[q]) << c;
+        ASSERT_EQ(shape.volume[q], shapes_of<SolidShape>(now.elements)[c].volume[q]) << c;
       }
     }
     ++operations;
@@ -349,7 +349,7 @@ TEST(SolidsOnAMap, AreRefinedWhereTheyAreTetrahedra) {
     } catch (const TopologyError&) {
       ++refused[dimension];
     }
-    if (body.cell_solid.size() > 400) break;
+    if (shapes_of<SolidShape>(body.elements).size() > 400) break;
   }
   for (std::size_t dimension = 1; dimension < 4; ++dimension) {
     EXPECT_GT(refined[dimension], 5) << dimension;
@@ -361,11 +361,13 @@ TEST(SolidsOnAMap, AreRefinedWhereTheyAreTetrahedra) {
   for (std::uint32_t c = 0; c < view.nodes.size(); ++c) {
     std::vector<Vector3d> x;
     for (std::size_t k = 0; k < view.nodes[c].count; ++k) x.push_back(body.vertices.rest[view.nodes[c].at[k]]);
-    const SolidShape shape = solid_shape_of(body.cell_solid[c].kind, x);
+    const SolidShape shape = solid_shape_of(shapes_of<SolidShape>(body.elements)[c].kind, x);
     for (std::size_t q = 0; q < gauss_points(shape.kind); ++q) {
       ASSERT_GT(shape.volume[q], 0.0) << c;
-      ASSERT_LE((shape.inverse[q] - body.cell_solid[c].inverse[q]).norm(), 1e-9 * shape.inverse[q].norm()) << c;
-      ASSERT_NEAR(shape.volume[q], body.cell_solid[c].volume[q], 1e-9 * shape.volume[q]) << c;
+      ASSERT_LE((shape.inverse[q] - shapes_of<SolidShape>(body.elements)[c].inverse[q]).norm(),
+                1e-9 * shape.inverse[q].norm())
+          << c;
+      ASSERT_NEAR(shape.volume[q], shapes_of<SolidShape>(body.elements)[c].volume[q], 1e-9 * shape.volume[q]) << c;
     }
   }
   EXPECT_NEAR(term->energy(body.vertices.position), energy, 1e-12 * energy);

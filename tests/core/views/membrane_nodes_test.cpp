@@ -52,8 +52,9 @@ struct SurfaceViews {
     return {cells.nodes[c].at.begin(), cells.nodes[c].at.begin() + cells.nodes[c].count};
   }
   std::unique_ptr<ForceTerm> term(const Surface& body) const {
-    if (cells.nodes.empty()) return make_membranes(body.cell_materials(), {triangles.nodes, body.cell_triangle});
-    return make_membranes(body.cell_materials(), {cells.nodes, body.cell_membrane});
+    if (cells.nodes.empty())
+      return make_membranes(body.cell_materials(), {triangles.nodes, shapes_of<PlaneInverse>(body.elements)});
+    return make_membranes(body.cell_materials(), {cells.nodes, shapes_of<MembraneShape>(body.elements)});
   }
 };
 
@@ -99,12 +100,12 @@ void expect_to_be_as_built_anew(const Sheet& sheet) {
   }
   MembraneBody anew(left, sheet.body.material);
   anew.x = sheet.body.vertices.position;
-  if (!sheet.body.cell_triangle.empty()) {
-    ASSERT_EQ(sheet.body.cell_triangle, anew.triangle_shape);
+  if (!shapes_of<PlaneInverse>(sheet.body.elements).empty()) {
+    ASSERT_EQ(shapes_of<PlaneInverse>(sheet.body.elements), anew.triangle_shape);
   }
   // the rest of a mixed sheet may be triangles alone
-  if (sheet.body.cell_membrane.empty() || !anew.shape.empty()) {
-    ASSERT_EQ(sheet.body.cell_membrane, anew.shape);
+  if (shapes_of<MembraneShape>(sheet.body.elements).empty() || !anew.shape.empty()) {
+    ASSERT_EQ(shapes_of<MembraneShape>(sheet.body.elements), anew.shape);
     ASSERT_EQ(sheet.energy(), anew.energy());
   }
   ASSERT_NEAR(sheet.energy(), anew.energy(), 1e-15 * anew.energy());
@@ -215,15 +216,16 @@ TEST(MembranesOnAMap, AreHeldWhereTheyAreNeeded) {
   Problem springs = problem_of(mixed_sheet(3, 3));
   springs.material = {.density = 0.5, .stiffness = 4.0};
   const Surface of_springs = build_body<Map2, Held::by_every_dart>(springs);
-  EXPECT_TRUE(of_springs.cell_triangle.empty() && of_springs.cell_membrane.empty());
+  EXPECT_TRUE(shapes_of<PlaneInverse>(of_springs.elements).empty() &&
+              shapes_of<MembraneShape>(of_springs.elements).empty());
   SurfaceViews views;
   views.rebuild(of_springs);
   EXPECT_TRUE(views.cells.nodes.empty() && views.triangles.nodes.empty());
   const Sheet triangles(crooked_triangles(3, 3)), mixed(mixed_sheet(3, 3));
-  EXPECT_EQ(triangles.body.cell_triangle.size(), 18u);
-  EXPECT_TRUE(triangles.body.cell_membrane.empty() && triangles.views.cells.nodes.empty());
-  EXPECT_EQ(mixed.body.cell_membrane.size(), mixed.mesh.cell_count());
-  EXPECT_TRUE(mixed.body.cell_triangle.empty() && mixed.views.triangles.nodes.empty());
+  EXPECT_EQ(shapes_of<PlaneInverse>(triangles.body.elements).size(), 18u);
+  EXPECT_TRUE(shapes_of<MembraneShape>(triangles.body.elements).empty() && triangles.views.cells.nodes.empty());
+  EXPECT_EQ(shapes_of<MembraneShape>(mixed.body.elements).size(), mixed.mesh.cell_count());
+  EXPECT_TRUE(shapes_of<PlaneInverse>(mixed.body.elements).empty() && mixed.views.triangles.nodes.empty());
 }
 
 TEST(MembranesOnAMap, AreFlatNowhereAndOfTheirOwnModel) {
