@@ -14,8 +14,6 @@
 #include "core/time/watch/stable_step.h"
 #include "reference/elements/elastic_point.h"
 #include "reference/ode_intervals.h"
-#include "validation/extremes/extreme_judgement.h"
-#include "validation/extremes/motion_truth.h"
 #include "validation/scenes/elastic_solid.h"
 
 namespace dartboard {
@@ -40,13 +38,6 @@ bool finite(const SpringColumns& body) {
   return true;
 }
 
-/// Must energy persist? With methods that keep the energy, or a quantity near it: within their limit of stability that
-/// differs from it by less than the growth allowed. Where gravity acts energy has no floor.
-bool must_live(const SpringColumns& start, const Scheme& scheme, const StableStep& limits) {
-  const bool damped = limits.damping_time.upper > 0.0 || limits.viscous_rate.upper > 0.0;
-  return conserves_energy(scheme) && !damped && start.gravity.isZero(0.0);
-}
-
 bool warned_of(const ExtremeCell& cell, StepCode code) {
   return std::ranges::find(cell.warnings, to_string(code)) != cell.warnings.end();
 }
@@ -62,13 +53,9 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
   if (!seen.finite) return seen;
   seen.energy_before = energy_of(start);
   seen.energy_after = energy_of(end);
-  seen.must_live = must_live(start, scheme, limits);
-  TruthScale scale{.theta = setup.h * limits.upper,
-                   .zeta = limits.damping_ratio().upper,
-                   .order = scheme.order,
-                   .explicit_euler = scheme.name == "explicit-euler",
-                   .steps = static_cast<double>(setup.steps),
-                   .size = largest_coordinate(start.x)};
+  seen.must_live = keeps_moving(scheme, limits) && start.gravity.isZero(0.0);
+  TruthScale scale = truth_scale(scheme, limits, setup.h, setup.steps);
+  scale.size = largest_coordinate(start.x);
   for (const Spring& s : start.springs)
     seen.energy_rounding += s.stiffness * std::pow(64 * epsilon * (scale.size + s.rest_length), 2);
   if (start.solid)
@@ -76,7 +63,7 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
       for (const auto& gradient : point.gradient)
         seen.energy_rounding += static_cast<double>(point.volume * modulus(point.law)) *
                                 std::pow(64 * epsilon * (1 + scale.size * static_cast<double>(gradient.norm())), 2);
-  if (!motion || !setup.compare || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
+  if (!motion || !setup.compare) return seen;
   for (std::size_t i = 0; i < start.x.size(); ++i)
     scale.amplitude = std::max(scale.amplitude, start.v[i].norm() / std::max(limits.lower, 1e-300));
   for (std::size_t s = 0; s < start.springs.size(); ++s)
@@ -86,8 +73,7 @@ ExtremeObservation observe(const ExtremeCell& cell, const ExtremeSetup& setup, c
   if (start.solid)
     for (std::size_t i = 0; i < start.x.size(); ++i)
       scale.amplitude = std::max(scale.amplitude, (start.x[i] - start.solid->rest().points[i]).norm());
-  seen.distance_from_truth = motion->positions;
-  seen.bound_from_truth = truth_bound(scale);
+  compare_with_truth(seen, *motion, scale);
   return seen;
 }
 
@@ -130,18 +116,12 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   const Horizon horizon{.steps = static_cast<double>(setup.steps), .gain = 2.0};
   const StableStep limits = estimate.refresh(body.system(), body.x);
   const Preflight preflight = check_before_run(body.system(), body.motion(), scheme, setup.h, limits, horizon);
-  for (const StepResult& warning : preflight.warnings) cell.warnings.emplace_back(to_string(warning.code));
-  const auto diagnosed = [&cell](const StepResult& result) {
-    cell.outcome = ExtremeOutcome::diagnosed;
-    cell.judged_by = JudgedBy::diagnosis;
-    cell.diagnosis = result;
-  };
+  add_warnings(cell, preflight);
   if (!preflight.refused.ok()) {
-    diagnosed(preflight.refused);
+    diagnose(cell, preflight.refused);
     cell.refused = true;
     return cell;
   }
-  if (!preflight.warnings.empty()) cell.diagnosis = preflight.warnings.front();
   DivergenceDetector detector;
   StepResult result = detector.start(body.system(), body.motion(), setup.h);
   cell.refused = !result.ok();
@@ -165,7 +145,7 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   }
   if (result.ok()) result = detector.check_all(body.system(), body.motion());
   if (!result.ok()) {
-    diagnosed(result);
+    diagnose(cell, result);
     detector.restore(body.motion());
     if (!finite(body)) {
       cell.outcome = ExtremeOutcome::silent;
@@ -180,20 +160,58 @@ ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const Make
   }
   const double duration = setup.h * static_cast<double>(setup.steps);
   const auto motion = distance_from_truth(setup.body, body, duration);
+  cell.end = numbers_of(body.x, body.v);
+  judge_end(cell, observe(cell, setup, body, scheme, limits, motion), evidence, motion,
+            is_unstable_by_theory(scheme, limits, setup.h, horizon));
+  if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body, make);
+  return cell;
+}
+
+void add_warnings(ExtremeCell& cell, const Preflight& preflight) {
+  for (const StepResult& warning : preflight.warnings) {
+    if (cell.warnings.empty()) cell.diagnosis = warning;
+    if (!warned_of(cell, warning.code)) cell.warnings.emplace_back(to_string(warning.code));
+  }
+}
+
+void diagnose(ExtremeCell& cell, const StepResult& result) {
+  cell.outcome = ExtremeOutcome::diagnosed;
+  cell.judged_by = JudgedBy::diagnosis;
+  cell.diagnosis = result;
+}
+
+TruthScale truth_scale(const Scheme& scheme, const StableStep& limits, double h, std::uint64_t steps) {
+  return {.theta = h * limits.upper,
+          .zeta = limits.damping_ratio().upper,
+          .order = scheme.order,
+          .explicit_euler = scheme.name == "explicit-euler",
+          .steps = static_cast<double>(steps)};
+}
+
+void compare_with_truth(ExtremeObservation& seen, const MotionDistance& motion, const TruthScale& scale) {
+  if (!(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return;
+  seen.distance_from_truth = motion.positions;
+  seen.bound_from_truth = truth_bound(scale);
+}
+
+void judge_end(ExtremeCell& cell, const ExtremeObservation& seen, const StepEvidence& evidence,
+               const std::optional<MotionDistance>& motion, bool is_unstable) {
   if (motion && motion->moved > 0.0) cell.motion_error = motion->distance / motion->moved;
-  const ExtremeVerdict verdict = verdict_of(observe(cell, setup, body, scheme, limits, motion));
+  const ExtremeVerdict verdict = verdict_of(seen);
   cell.outcome = verdict.outcome;
   cell.note = verdict.note;
-  cell.end = numbers_of(body.x, body.v);
   judge_steps(cell, evidence, motion && motion->resolved());
-  if (!setup.at_origin.empty() && cell.outcome != ExtremeOutcome::silent) judge_offset(cell, setup, body, make);
-  // a step that is unstable by theory must have been predicted
   const bool warned = cell.outcome == ExtremeOutcome::degraded || cell.outcome == ExtremeOutcome::silent;
-  if (!warned && is_unstable_by_theory(scheme, limits, setup.h, horizon)) {
+  if (!warned && is_unstable) {
     cell.outcome = ExtremeOutcome::silent;
     cell.note = "an unstable step was not predicted";
   }
-  return cell;
+}
+
+// Within its limit of stability, the quantity that such a method keeps differs from the energy by less than the growth
+// allowed.
+bool keeps_moving(const Scheme& scheme, const StableStep& limits) {
+  return conserves_energy(scheme) && !(limits.damping_time.upper > 0.0) && !(limits.viscous_rate.upper > 0.0);
 }
 
 void judge_steps(ExtremeCell& cell, const StepEvidence& evidence, bool motion_resolved) {

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "validation/extremes/extreme_judgement.h"
 #include "validation/extremes/extremes.h"
+#include "validation/extremes/motion_truth.h"
 #include "validation/extremes/step_evidence.h"
 #include "validation/scenes/extreme_bodies.h"
 
@@ -27,6 +30,25 @@ struct ExtremeSetup {
 
 /// Checks, runs, watches and judges it.
 ExtremeCell run_extreme(const ExtremeCase& which, ExtremeSetup setup, const MakeIntegrator& make = make_sound);
+
+/// Adds the codes of the warnings of a preflight, each once; the first of all is the diagnosis until the run is
+/// stopped.
+void add_warnings(ExtremeCell& cell, const Preflight& preflight);
+/// The run was refused or stopped.
+void diagnose(ExtremeCell& cell, const StepResult& result);
+
+/// The scale of a run at its limits, without the amplitude of its motion and the size of its coordinates.
+TruthScale truth_scale(const Scheme& scheme, const StableStep& limits, double h, std::uint64_t steps);
+/// Compares the end with the true motion if its bound means something: steps are short, and nothing was warned of.
+void compare_with_truth(ExtremeObservation& seen, const MotionDistance& motion, const TruthScale& scale);
+
+/// The outcome of a run that ended without a diagnosis: by what was observed, then by its steps and the true motion,
+/// and by whether a step that is unstable by theory was predicted.
+void judge_end(ExtremeCell& cell, const ExtremeObservation& seen, const StepEvidence& evidence,
+               const std::optional<MotionDistance>& motion, bool is_unstable);
+
+/// Does nothing damp the motion, nor does the method?
+bool keeps_moving(const Scheme& scheme, const StableStep& limits);
 
 /// The outcome of a run in which no other fault was found: by its steps, and by whether it resolves the motion.
 void judge_steps(ExtremeCell& cell, const StepEvidence& evidence, bool motion_resolved);

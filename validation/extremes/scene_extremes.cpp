@@ -102,7 +102,6 @@ class SceneTrial {
     const Horizon horizon{.steps = static_cast<double>(steps_in_all), .gain = 2.0};
     limits_ = stage_.limits();
     if (!check_before(horizon)) return;
-    if (!cell_.warnings.empty()) cell_.diagnosis = first_warning_;
     StepResult result = detector_.start(stage_.system(), stage_.motion(), h_);
     cell_.refused = !result.ok();
     energy_before_ = energy_now();
@@ -127,15 +126,11 @@ class SceneTrial {
     return {.first = std::min<std::uint64_t>(8, most), .most = most};
   }
 
-  /// The first warnings of each kind; false if the run is refused.
+  /// False if the run is refused.
   bool check_before(const Horizon& horizon) {
     const Preflight preflight =
         check_before_run(stage_.system(), stage_.motion(), integrator_->scheme(), h_, limits_, horizon);
-    for (const StepResult& warning : preflight.warnings) {
-      const std::string code(to_string(warning.code));
-      if (cell_.warnings.empty()) first_warning_ = warning;
-      if (std::ranges::find(cell_.warnings, code) == cell_.warnings.end()) cell_.warnings.push_back(code);
-    }
+    add_warnings(cell_, preflight);
     if (preflight.refused.ok()) return true;
     stop(preflight.refused);
     cell_.refused = cell_.step == 0;
@@ -202,9 +197,7 @@ class SceneTrial {
   }
 
   void stop(const StepResult& result) {
-    cell_.outcome = ExtremeOutcome::diagnosed;
-    cell_.judged_by = JudgedBy::diagnosis;
-    cell_.diagnosis = result;
+    diagnose(cell_, result);
     if (cell_.step == 0) return;
     detector_.restore(stage_.motion());
     if (check_finite(stage_.motion().x, stage_.motion().v).ok()) return;
@@ -213,20 +206,11 @@ class SceneTrial {
   }
 
   void judge(const Horizon& horizon) {
-    const Scheme& scheme = integrator_->scheme();
     const PointState end = stage_.state();
     const std::optional<MotionDistance> motion = truth_.distance(end, h_);
-    if (motion && motion->moved > 0.0) cell_.motion_error = motion->distance / motion->moved;
-    const ExtremeVerdict verdict = verdict_of(observe(end, motion));
-    cell_.outcome = verdict.outcome;
-    cell_.note = verdict.note;
     cell_.end = numbers_of(end.x, end.v);
-    judge_steps(cell_, evidence_, motion && motion->resolved());
-    const bool warned = cell_.outcome == ExtremeOutcome::degraded || cell_.outcome == ExtremeOutcome::silent;
-    if (!warned && is_unstable_by_theory(scheme, limits_, h_, horizon)) {
-      cell_.outcome = ExtremeOutcome::silent;
-      cell_.note = "an unstable step was not predicted";
-    }
+    judge_end(cell_, observe(end, motion), evidence_, motion,
+              is_unstable_by_theory(integrator_->scheme(), limits_, h_, horizon));
   }
 
   ExtremeObservation observe(const PointState& end, const std::optional<MotionDistance>& motion) {
@@ -240,19 +224,13 @@ class SceneTrial {
     seen.energy_before = static_cast<long double>(energy_before_) + static_cast<long double>(supply_);
     seen.energy_after = energy_now();
     seen.energy_rounding = mass_ * std::pow(64 * std::numeric_limits<double>::epsilon() * limits_.upper * largest_, 2);
-    const bool damped = limits_.damping_time.upper > 0.0 || limits_.viscous_rate.upper > 0.0;
-    seen.must_live = conserves_energy(integrator_->scheme()) && !damped && !has_supply_ &&
-                     scene_.motion.events.empty() && !scene_.has_contact();
-    TruthScale scale{.theta = h_ * limits_.upper,
-                     .zeta = limits_.damping_ratio().upper,
-                     .order = integrator_->scheme().order,
-                     .explicit_euler = cell_.integrator == "explicit-euler",
-                     .steps = static_cast<double>(steps_in_all),
-                     .amplitude = motion ? motion->moved : 0.0,
-                     .size = largest_};
-    if (!motion || !(scale.theta * (1 + 2 * scale.zeta) <= 0.5) || seen.warned) return seen;
-    seen.distance_from_truth = motion->positions;
-    seen.bound_from_truth = truth_bound(scale);
+    seen.must_live = keeps_moving(integrator_->scheme(), limits_) && !has_supply_ && scene_.motion.events.empty() &&
+                     !scene_.has_contact();
+    if (!motion) return seen;
+    TruthScale scale = truth_scale(integrator_->scheme(), limits_, h_, steps_in_all);
+    scale.amplitude = motion->moved;
+    scale.size = largest_;
+    compare_with_truth(seen, *motion, scale);
     return seen;
   }
 
@@ -264,8 +242,7 @@ class SceneTrial {
   std::unique_ptr<Integrator> integrator_;
   StepEvidence evidence_;
   DivergenceDetector detector_;
-  StableStep limits_;  // now
-  StepResult first_warning_;
+  StableStep limits_;        // now
   std::size_t changes_ = 0;  // that have taken place
   bool is_known_ = false;    // to the witnesses
   bool has_supply_ = false;
