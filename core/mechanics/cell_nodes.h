@@ -46,6 +46,18 @@ std::vector<Dart> around_face(const Map& map, Dart d) {
   return darts;
 }
 
+/// How many darts that would be.
+template <class Map>
+std::size_t face_size(const Map& map, Dart d) {
+  std::size_t size = 0;
+  Dart at = d;
+  do {
+    ++size;
+    at = map.template alpha<0, 1>(at);
+  } while (at != d);
+  return size;
+}
+
 }  // namespace detail
 
 /// Add cell k of a body to a mesh whose points are the vertices of the body by number; right-handed at rest.
@@ -56,6 +68,16 @@ std::vector<Dart> around_face(const Map& map, Dart d) {
 template <class Map, Held held>
 void add_cell_of(const MassSpringBody<Map, held>& body, std::uint32_t k, Mesh& mesh) {
   const Map& map = body.map;
+  if constexpr (Map::dimension == 3 && Map::tetrahedral) {
+    // of darts in turn even and odd, the first that starts a clockwise walk seen from outside, as below
+    const Dart lowest = body.cell_dart[k];
+    const Dart start = body.cell_inside_out[k] == 0 ? map.template alpha<0>(lowest) : lowest;
+    const std::array darts{start, map.template alpha<0, 1>(start), map.template alpha<0, 1, 0, 1>(start),
+                           map.template alpha<2, 1, 0>(start)};
+    std::array<std::uint32_t, 4> corners;
+    for (std::size_t a = 0; a < 4; ++a) corners[a] = body.vertex(map, darts[a]);
+    return mesh.add_cell(CellKind::tetrahedron, corners);
+  }
   std::vector<std::uint32_t> nodes;
   const auto add_node = [&](Dart d) { nodes.push_back(body.vertex(map, d)); };
   const auto fail = [&](std::size_t faces) {
@@ -74,7 +96,7 @@ void add_cell_of(const MassSpringBody<Map, held>& body, std::uint32_t k, Mesh& m
     // a dart at each face with three nodes, and at each with four, in both ways round
     std::array<std::vector<detail::SidedDart>, 2> on_face;
     for (const auto& at : darts) {
-      const std::size_t size = detail::around_face(map, at.dart).size();
+      const std::size_t size = detail::face_size(map, at.dart);
       if (size != 3 && size != 4) fail(0);
       on_face[size - 3].push_back(at);
     }
