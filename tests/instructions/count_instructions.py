@@ -53,6 +53,9 @@ def main():
             return SKIPPED
 
     sections = subprocess.run([options.driver, "--list"], capture_output=True, text=True, check=True).stdout.split()
+    if "avx2" not in pathlib.Path("/proc/cpuinfo").read_text():
+        print("sections in lanes are left out: this processor has no AVX2")
+        sections = [section for section in sections if not section.endswith("-in-lanes")]
     counts = {section: count(options, section) for section in sections}
 
     if options.update:
@@ -60,7 +63,8 @@ def main():
         print(f"wrote {options.counts}")
         return 0
 
-    expected = committed["instructions"]
+    expected = {name: number for name, number in committed["instructions"].items()
+                if name in sections or not name.endswith("-in-lanes")}
     bad = sorted(set(expected) ^ set(counts))
     for section in bad:
         print(f"{section}: only in {'the counts' if section in expected else 'the driver'}: update the counts")

@@ -17,6 +17,7 @@
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/time/integrators.h"
+#include "core/time/system/spring_lanes.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
@@ -35,7 +36,7 @@ struct Elements {
 
   Elements(const Mesh& mesh, Model model) : body(build_body<TetMap, Held::by_every_dart>(problem_of(mesh, model))) {
     view.rebuild(body);
-    term = make_tetrahedra(body.material, {view.nodes, body.cell_shape, body.cell_mass});
+    term = make_tetrahedra(body.material, {view.nodes, shapes_of<RestShape>(body.elements), body.cell_mass});
     for (Eigen::Vector3d& x : body.vertices.position) x.x() *= 1.1;
   }
   static Problem problem_of(const Mesh& mesh, Model model) {
@@ -71,7 +72,9 @@ class Springs {
     system_.terms = terms_;
   }
 
-  std::size_t steps(const char* integrator, int count, double h) {
+  enum class Added { one_by_one, in_lanes };
+  std::size_t steps(const char* integrator, int count, double h, Added added = Added::one_by_one) {
+    use_lanes(added == Added::in_lanes);
     const auto method = make_integrator(integrator);
     for (int k = 0; k < count; ++k)
       if (!method->step(system_, {body_.vertices.position, body_.vertices.velocity}, h).ok()) return 0;
@@ -145,7 +148,7 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 16> sections{{
+constexpr std::array<Section, 17> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
@@ -161,6 +164,8 @@ constexpr std::array<Section, 16> sections{{
     {"full-check-general", [](Body& b) { return full_check(b.general); }},
     {"full-check-tetrahedral", [](Body& b) { return full_check(b.tetrahedral); }},
     {"rk4-springs", [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3); }},
+    {"rk4-springs-in-lanes",
+     [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3, Springs::Added::in_lanes); }},
     {"rk4-springs-as-pieces", [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("rk4", 200, 1e-3); }},
     {"vertex-orbits-general", [](Body& b) { return vertex_orbits(b.general); }},
     {"vertex-orbits-tetrahedral", [](Body& b) { return vertex_orbits(b.tetrahedral); }},

@@ -171,7 +171,7 @@ TEST(List, NamesTheWalksOfThePaper) {
   const auto json = nlohmann::json::parse(run("list contenders --json", "").out);
   std::vector<std::string> ids;
   for (const auto& entry : json.at("contenders")) ids.push_back(entry.at("id"));
-  for (const char* id : {"coverage", "lists", "arrays", "graph", "cgal-attributes"})
+  for (const char* id : {"coverage", "lists", "arrays", "columns", "graph", "cgal-attributes"})
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 

@@ -7,7 +7,10 @@
 
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/error.h"
+#include "core/time/integrators.h"
+#include "core/time/system/accelerations.h"
 #include "core/topology/storage/hash.h"
+#include "core/views/spring_ends.h"
 #include "core/walks/cell_arrays.h"
 #include "core/walks/dart_coverage.h"
 #include "core/walks/embedding_lists.h"
@@ -48,6 +51,53 @@ class CoreContender : public ContenderBody {
   double h_;
 };
 
+/// A body of the core whose columns are stepped as those of a scene are: by an integrator of core/time, over views.
+class ColumnsContender : public ContenderBody {
+ public:
+  explicit ColumnsContender(const Problem& problem)
+      : body_(build_body<Map3, Held::by_every_dart>(problem)), integrator_(make_integrator("rk4")), h_(problem.h) {
+    ends_.rebuild(body_);
+    forces_.resize(body_.vertices.size());
+  }
+  void step(int n) override {
+    for (int k = 0; k < n; ++k) integrator_->step(system(), {body_.vertices.position, body_.vertices.velocity}, h_);
+  }
+  PointState state() const override { return body_.state(); }
+  void set_state(const PointState& state) override { body_.set_state(state); }
+  std::vector<Eigen::Vector3d> forces() override {
+    // the accelerations of vertices of 1 kg, none of them fixed, without gravity
+    const VertexColumns& v = body_.vertices;
+    const std::vector<double> ones(v.size(), 1.0);
+    SpringSystem of_unit_masses = system();
+    of_unit_masses.mass = of_unit_masses.inverse_mass = ones;
+    of_unit_masses.gravity.setZero();
+    Terms terms = terms_of(of_unit_masses);
+    terms.fixed = false;
+    accelerations(of_unit_masses, terms, v.position, v.velocity, forces_);
+    std::vector<Eigen::Vector3d> f(v.size());
+    for (std::size_t k = 0; k < v.size(); ++k) f[v.point[k]] = forces_[k];
+    return f;
+  }
+
+ private:
+  SpringSystem system() const {
+    const VertexColumns& v = body_.vertices;
+    return {.ends = ends_.ends,
+            .springs = body_.springs,
+            .mass = v.mass,
+            .inverse_mass = v.inverse_mass,
+            .viscosity = v.viscosity,
+            .fixed = v.fixed,
+            .gravity = body_.surroundings.gravity};
+  }
+
+  MassSpringBody<Map3, Held::by_every_dart> body_;
+  SpringEndsView ends_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<Eigen::Vector3d> forces_;
+  double h_;
+};
+
 /// A witness from reference/, which has the same interface in its own class.
 template <class Body>
 class ReferenceContender : public ContenderBody {
@@ -82,7 +132,7 @@ std::unique_ptr<ContenderBody> cgal(const Problem& problem) {
 std::span<const Contender> contenders() {
   constexpr auto one = Held::by_one_dart;
   constexpr auto every = Held::by_every_dart;
-  static const std::array<Contender, 8> table{{
+  static const std::array<Contender, 9> table{{
       {"coverage", "full dart coverage with marks; one dart of the orbit holds the embedding", "4.2, 5.1", 12.0,
        Carrier::core_map, core<Map3, one, DartCoverage>},
       {"coverage-every", "the same; every dart holds the embedding", "4.2, 5.1", 12.0, Carrier::core_map,
@@ -90,6 +140,8 @@ std::span<const Contender> contenders() {
       {"lists", "lists of embeddings; one dart holds", "5.2", 8.0, Carrier::core_map, core<Map3, one, EmbeddingLists>},
       {"lists-every", "the same; every dart holds", "5.2", 8.0, Carrier::core_map, core<Map3, every, EmbeddingLists>},
       {"arrays", "cell arrays Cell{dart, embedding}", "5.2", 2.0, Carrier::core_map, core<Map3, every, CellArrays>},
+      {"columns", "the columns of a scene, four springs at a time where the processor has AVX2", "", 0.0,
+       Carrier::core_map, [](const Problem& problem) { return std::make_unique<ColumnsContender>(problem); }},
       {"graph", "indexed adjacency graph, the baseline", "5.1", 2.0, Carrier::adjacency_graph, graph},
       {"cgal-coverage", "CGAL linear cell complex, one_dart_per_cell", "", 0.0, Carrier::cgal_map,
        cgal<reference::CgalWalk::coverage>},

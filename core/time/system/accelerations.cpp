@@ -4,40 +4,21 @@
 #include <cmath>
 #include <vector>
 
-#include "core/forces/spring_force.h"
 #include "core/forces/term_damping.h"
 #include "core/plain/nan_maximum.h"
+#include "core/time/system/spring_lanes.h"
 
 namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
 
-// Columns are accessed by local pointers: stores of Eigen's packets may alias anything, so a pointer accessed through a
-// reference is loaded again after each store. Pairing springs for SIMD gains nothing here: the loop waits for the sums
-// at shared ends.
 template <bool damped, class SomeSpring>
 void add_spring_forces(const SpringSystem& system, std::span<const SomeSpring> springs, std::span<const Vector3d> x,
                        std::span<const Vector3d> v, std::span<Vector3d> force) {
-  const SpringEnds* const ends = system.ends.data();
-  const SomeSpring* const row = springs.data();
-  const Vector3d *const at = x.data(), *const velocity = v.data();
-  Vector3d* const sum = force.data();
-  for (std::size_t s = 0, count = springs.size(); s < count; ++s) {
-    const auto [i, j] = ends[s];
-    const SomeSpring& spring = row[s];
-    const Vector3d dx = at[j] - at[i];
-    Vector3d f;
-    if constexpr (damped) {
-      f = spring_force(spring, dx, velocity[j] - velocity[i]);
-    } else {
-      const double length = std::sqrt(dx.squaredNorm());
-      if (length == 0.0) continue;
-      f = (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
-    }
-    sum[i] += f;
-    sum[j] -= f;
-  }
+  const SpringColumnsAt at{system.ends.data(), x, v.data(), force.data()};
+  const std::size_t done = add_forces_in_lanes<damped>(at, springs);
+  add_forces_one_by_one<damped>(at, springs.data(), done, springs.size());
 }
 
 template <bool viscous>
