@@ -71,7 +71,8 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       std::size_t sum = n.vertices * vector;
       for (const SceneForce& force : scene.forces) {
         const std::size_t points = select_points(force.vertices, problem.mesh.points, force.path).size();
-        sum += points * number + (force.force ? 1 : points) * vector;
+        sum += points * number + (force.force || force.acceleration ? 1 : points) * vector +
+               2 * force.factor.at.size() * real;
       }
       return sum;
     }

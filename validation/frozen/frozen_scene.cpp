@@ -65,6 +65,19 @@ void add_times(double from, double until, double every, double duration, const s
   }
 }
 
+/// throws  InputError for what changes in every step
+void require_constant_between_times(const SceneFile& file) {
+  const auto fail = [](const std::string& path) {
+    throw InputError(path +
+                     ": changes in every step, and steps of several lengths are compared here; expected "
+                     "velocities and forces that are constant between the times at which they begin and end");
+  };
+  for (const SceneDrive& drive : file.driven)
+    if (drive.has_table()) fail(drive.path_of_motion());
+  for (const SceneForce& force : file.forces)
+    if (!force.factor.empty()) fail(force.path + "/over_time");
+}
+
 /// The moments of a scene, ascending; at equal times events come first, in the order of the scene.
 std::vector<Moment> moments_of(const SceneFile& file) {
   std::vector<Moment> moments;
@@ -186,6 +199,7 @@ std::string omission_of(const SceneEvent& event, std::size_t operations) {
 FrozenScene freeze(const SceneFile& file, const Problem& problem) { return freeze(file, problem, {}); }
 
 FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Eigen::Vector3d> initial_position) {
+  require_constant_between_times(file);
   if (!initial_position.empty() && initial_position.size() != problem.mesh.points.size())
     throw InputError(
         fmt::format("{} initial positions for {} points", initial_position.size(), problem.mesh.points.size()));
@@ -251,7 +265,7 @@ bool FrozenBody::drive(double time) {
   const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
   const std::span<const std::uint32_t> point = body_->vertices().point;
   const bool moved = driven_.apply(ticks, point, body_->motion().v);
-  return forces_.apply(ticks, point, body_->pull()) || moved;
+  return forces_.apply(ticks, point, body_->pull()) != ForceChange::none || moved;
 }
 
 void FrozenBody::look_at_contact() {

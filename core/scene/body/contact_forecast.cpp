@@ -34,8 +34,7 @@ class Forecaster {
     if (velocities_.empty()) velocities_.emplace_back(0, 0, 0);
     for (const SceneDrive& drive : scene.driven)
       for (const std::uint32_t p : select_points(drive.vertices, points_, drive.path)) {
-        velocities_.push_back(drive.velocity.at(points_[p]));
-        if (drive.reverse_every) velocities_.push_back(-velocities_.back());
+        add_velocities(drive, points_[p]);
       }
   }
 
@@ -54,6 +53,18 @@ class Forecaster {
   }
 
  private:
+  /// The velocities that a drive gives to the vertex at x at rest; of a path or a turn its largest speed, along each
+  /// axis in both directions.
+  void add_velocities(const SceneDrive& drive, const Vector3d& x) {
+    if (!drive.has_table()) {
+      velocities_.push_back(drive.velocity.at(x));
+      if (drive.reverse_every) velocities_.push_back(-velocities_.back());
+      return;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1.0, 1.0})
+        velocities_.push_back(sign * drive.largest_speed_of(x) * Vector3d::Unit(axis));
+  }
   double height(const SceneObstacle& one) const {
     if (const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape)) return extent(points_, plane->normal);
     if (gravity_ > 0.0) return extent(points_, up_);
@@ -126,7 +137,7 @@ class TouchForecaster {
     for (const SceneDrive& drive : scene.driven)
       for (const std::uint32_t p : select_points(drive.vertices, problem.mesh.points, drive.path)) {
         double& speed = bodies_[body_of[p]].speed;
-        speed = std::max(speed, drive.velocity.at(problem.mesh.points[p]).norm());
+        speed = std::max(speed, drive.largest_speed_of(problem.mesh.points[p]));
       }
     Vector3d low = bodies_[0].low, high = bodies_[0].high;
     for (const Body& body : bodies_) {

@@ -40,10 +40,12 @@ struct Diagnostics {
   Eigen::Vector3d angular_momentum{0, 0, 0};           // [kg m^2/s], about the origin
   double mass = 0;                                     // [kg]
   CellCounts counts;
-  double boundary = 0;              // [m^2] area of the boundary surface; of a surface [m] length of its border
-  double largest_stress = 0;        // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
-  std::size_t operations = 0;       // so far: faces dissociated, cells removed, vertices put in by refinement
-  std::optional<double> applied{};  // [J] potential of the forces applied, - sum of f . x; if a scene has some
+  double boundary = 0;         // [m^2] area of the boundary surface; of a surface [m] length of its border
+  double largest_stress = 0;   // [Pa] as stress_name says; of a surface [N/m], of a chain [N]
+  std::size_t operations = 0;  // so far: faces dissociated, cells removed, vertices put in by refinement
+  // [J] potential of the forces applied, - sum of f . x, if a scene has some; if some change in time, that of the start
+  // less the work of all of them since
+  std::optional<double> applied{};
   std::optional<ContactDiagnostics> contact{};  // where a scene has obstacles
 
   double energy() const {

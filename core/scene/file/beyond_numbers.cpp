@@ -45,8 +45,12 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
                            {body.path + "/translate", body.translate.lpNorm<Eigen::Infinity>()},
                            size_of(body, mesh)});
   for (const SceneForce& force : scene.forces)
-    all.push_back(force.force ? Magnitude{force.path + "/force", force.force->lpNorm<Eigen::Infinity>()}
-                              : Magnitude{force.path + "/pressure", std::abs(*force.pressure)});
+    if (force.pressure)
+      all.push_back({force.path + "/pressure", std::abs(*force.pressure)});
+    else
+      for (const auto& [key, value] :
+           {std::pair("/force", force.force), {"/acceleration", force.acceleration}, {"/torque", force.torque}})
+        if (value) all.push_back({force.path + key, value->lpNorm<Eigen::Infinity>()});
   for (const SceneObstacle& one : scene.obstacles)
     all.insert(all.end(), {{one.path + "/pressure", one.law.pressure}, {one.path + "/depth", one.law.depth}});
   for (const SceneTouch& touch : scene.touches) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <numbers>
 
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/read_parts.h"
@@ -22,6 +23,31 @@ std::optional<double> read_until(const SceneValue& value, double from, const Sce
   return ends ? std::optional(until) : std::nullopt;
 }
 
+/// A table of values by ascending times, `least` of them or more.
+template <class T>
+TimeTable<T> read_table(const SceneValue& list, std::string_view key, std::size_t least) {
+  TimeTable<T> table;
+  const std::vector<SceneValue> entries = list.entries();
+  if (entries.size() < least) list.fail(fmt::format("has {} times", entries.size()), fmt::format("{} or more", least));
+  for (const SceneValue& entry : entries) {
+    const double at = entry.get<double>("at");
+    if (!table.at.empty() && !(at > table.at.back()))
+      entry.fail_at("at", fmt::format("is {} s", at),
+                    fmt::format("a time after {} s, that of the entry before", table.at.back()));
+    table.at.push_back(at);
+    table.value.push_back(entry.get<T>(key));
+  }
+  return table;
+}
+
+SceneTurn read_turn(const SceneValue& value) {
+  SceneTurn turn{.axis = value.at("axis").direction(),
+                 .centre = value.get<Eigen::Vector3d>("centre"),
+                 .angle = read_table<double>(value.at("angles"), "degrees", 2)};
+  for (double& angle : turn.angle.value) angle *= std::numbers::pi / 180.0;
+  return turn;
+}
+
 }  // namespace
 
 InitialVelocity read_velocity(const SceneValue& value) {
@@ -34,12 +60,23 @@ InitialVelocity read_velocity(const SceneValue& value) {
 
 SceneDrive read_drive(const SceneValue& value, const SceneFile& scene) {
   SceneDrive drive{.vertices = read_vertices(value),
-                   .velocity = read_velocity(value.at("velocity")),
+                   .velocity = value.has("velocity") ? read_velocity(value.at("velocity")) : InitialVelocity{},
                    .from = value.get<double>("from"),
                    .until = {},
                    .reverse_every = value.find<double>("reverse_every"),
                    .path = value.path()};
-  drive.until = read_until(value, drive.from, scene);
+  if (value.has("path")) drive.way = read_table<Eigen::Vector3d>(value.at("path"), "place", 2);
+  if (value.has("turn")) drive.turn = read_turn(value.at("turn"));
+  if (!drive.has_table()) {
+    drive.until = read_until(value, drive.from, scene);
+    return drive;
+  }
+  const std::vector<double>& times = drive.turn ? drive.turn->angle.at : drive.way.at;
+  drive.from = times.front();
+  if (drive.from >= scene.duration)
+    value.fail_at(drive.turn ? "turn" : "path", fmt::format("begins at {} s", drive.from),
+                  fmt::format("a time before the duration of {} s", scene.duration));
+  if (times.back() <= scene.duration) drive.until = times.back();
   return drive;
 }
 
@@ -49,7 +86,10 @@ SceneForce read_force(const SceneValue& value, const SceneFile& scene) {
                    .pressure = value.find<double>("pressure"),
                    .from = value.get<double>("from"),
                    .until = {},
-                   .path = value.path()};
+                   .path = value.path(),
+                   .acceleration = value.find<Eigen::Vector3d>("acceleration"),
+                   .torque = value.find<Eigen::Vector3d>("torque")};
+  if (value.has("over_time")) force.factor = read_table<double>(value.at("over_time"), "factor", 1);
   force.until = read_until(value, force.from, scene);
   return force;
 }

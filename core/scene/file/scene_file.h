@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/time_table.h"
 #include "core/contact/contact_law.h"
 #include "core/contact/obstacle.h"
 #include "core/plain/diagonals.h"
@@ -95,7 +96,15 @@ struct SceneRegion {
   std::string path;  // "/regions/3"
 };
 
-/// Vertices that move at a given velocity, which may be reversed at intervals, and are held still at other times.
+/// A turn about an axis through a place.
+struct SceneTurn {
+  Eigen::Vector3d axis;     // of length 1
+  Eigen::Vector3d centre;   // [m]
+  TimeTable<double> angle;  // [rad]
+};
+
+/// Vertices that move in a given way, and are held still at other times: at a velocity, which may be reversed at
+/// intervals; along a path; or turned about an axis.
 struct SceneDrive {
   VertexSelection vertices;
   InitialVelocity velocity;             // by rest position
@@ -103,20 +112,37 @@ struct SceneDrive {
   std::optional<double> until;          // [s] no value: to the end
   std::optional<double> reverse_every;  // [s]
   std::string path;                     // "/driven/3"
+  // in place of a velocity
+  TimeTable<Eigen::Vector3d> way{};  // [m] of all of them, from the first place
+  std::optional<SceneTurn> turn{};
+
+  bool has_table() const { return !way.empty() || turn; }
+  /// "/driven/3/path"
+  std::string path_of_motion() const { return path + (turn ? "/turn" : way.empty() ? "/velocity" : "/path"); }
+  /// [m/s] The mean velocity, from one time to another, of a vertex that is at x at rest.
+  Eigen::Vector3d velocity_of(const Eigen::Vector3d& x, double begin, double end) const;
+  /// [m/s] A bound of its speed at any time.
+  double largest_speed_of(const Eigen::Vector3d& x) const;
 };
 
 /// Vertices that an external force pulls or pushes in a constant direction.
 struct SceneForce {
   VertexSelection vertices;
-  // exactly one of the next two has a value
+  // exactly one of these two, an acceleration and a torque has a value
   std::optional<Eigen::Vector3d> force;  // [N] on all of them together, shared in proportion to their masses
   std::optional<double> pressure;  // [Pa] on the faces of the boundary between them; of a surface, against normals
   double from;                     // [s]
   std::optional<double> until;     // [s] no value: to the end
   std::string path;                // "/forces/3"
+  std::optional<Eigen::Vector3d> acceleration{};  // [m/s^2] of each
+  std::optional<Eigen::Vector3d> torque{};        // [N m] about their centre of mass at rest
+  TimeTable<double> factor{};                     // of any of these; empty: 1
 
-  /// Does the force act from the start to the end?
-  bool lasts() const { return from == 0.0 && !until; }
+  /// Does the force act from the start to the end, and always alike?
+  bool lasts() const { return from == 0.0 && !until && factor.empty(); }
+  std::string_view kind() const {
+    return force ? "force" : pressure ? "pressure" : acceleration ? "acceleration" : "torque";
+  }
 };
 
 /// An obstacle for the body, and the law of the contact with it.

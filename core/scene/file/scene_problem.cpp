@@ -141,7 +141,8 @@ Problem make_problem(const SceneFile& scene) {
     for (const SceneDrive& drive : scene.driven) {
       const auto driven = select_points(drive.vertices, problem.mesh.points, drive.path);
       for (const std::uint32_t p : driven)
-        require_slower_than_light(drive.path + "/velocity", drive.velocity.at(problem.mesh.points[p]));
+        require_slower_than_light(drive.path_of_motion(),
+                                  drive.largest_speed_of(problem.mesh.points[p]) * Eigen::Vector3d::UnitX());
       require_not_released(scene, driven, problem.mesh.points);
       problem.fixed.insert(problem.fixed.end(), driven.begin(), driven.end());
     }

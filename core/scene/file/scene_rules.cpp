@@ -127,7 +127,7 @@ std::span<const Rule> rules_between_keys() {
            if (s.exact_events && !force.lasts()) return Breach{"/event_times", force.path};
          return Breach();
        },
-       "is \"exact\" together with {}, which begins or ends only at steps", "\"steps\""},
+       "is \"exact\" together with {}, which begins, changes or ends only at steps", "\"steps\""},
       {events,
        [](S s) {
          for (const SceneForce& force : s.forces)
@@ -180,7 +180,7 @@ std::span<const Rule> rules_between_keys() {
          return Breach{key.empty() ? "" : "/expect/energy_drift_at_most", key};
        },
        "cannot be combined with {}, which changes the energy",
-       "damping and viscosity of 0, no driven vertices or events, and forces from start to end"},
+       "damping and viscosity of 0, no driven vertices or events, and constant forces from start to end"},
   };
   return rules;
 }

@@ -109,6 +109,8 @@ Simulation::Simulation(const SceneFile& scene)
       if (const auto facets = timeline_->schedule(event)) count_cut(event, problem.mesh, *facets);
     timeline_->happen(0);
     timeline_->drive(0);
+    if (timeline_->has_changing_forces())
+      applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
     if (contact_) contact_->start(body_->vertices().position, expected->obstacles, expected->bodies, step_);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
@@ -158,10 +160,13 @@ std::optional<EarlyEnd> Simulation::advance() {
   if (const auto fault = watch_.after_step(result, done_, is_last, work, body_->system(), body_->motion()))
     return diverged(*fault);
   if (is_last) examine_coordinates();
+  add_work_of_forces();
   const std::size_t before = this->operations();
   try {
     timeline_->happen(done_);
-    if (timeline_->drive(done_) || this->operations() != before) {
+    const bool changed = timeline_->drive(done_) || this->operations() != before;
+    if (timeline_->has_changing_forces()) potential_ = pull_energy(body_->system(), body_->motion().x);
+    if (changed) {
       examine_step();
       watch_.system_changed(body_->system(), body_->motion());
     }
@@ -272,6 +277,12 @@ std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
   return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
+// In a step they are constant, so their work is the change of their potential.
+void Simulation::add_work_of_forces() {
+  if (timeline_->has_changing_forces())
+    applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_;
+}
+
 Diagnostics Simulation::diagnostics() const {
   SpringSystem system = body_->system();
   const VertexColumns& v = body_->vertices();
@@ -284,7 +295,8 @@ Diagnostics Simulation::diagnostics() const {
   d.kinetic = kinetic_energy(system, v.velocity);
   d.elastic = elastic_energy(system, v.position);
   d.gravitational = gravity_energy(system, v.position);
-  if (timeline_->has_forces()) d.applied = pull_energy(system, v.position);
+  if (timeline_->has_forces())
+    d.applied = timeline_->has_changing_forces() ? applied_ : pull_energy(system, v.position);
   d.momentum = linear_momentum(system, v.velocity);
   d.angular_momentum = angular_momentum(system, v.position, v.velocity);
   d.mass = body_->mass();

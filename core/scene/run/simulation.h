@@ -122,6 +122,7 @@ class Simulation {
   StepResult step_through_events();
   void state(Archive& archive);
   void examine_step();
+  void add_work_of_forces();
   void examine_coordinates();
   void examine_before_run();
   Divergence diverged(const Fault& fault, bool goes_back = true);
@@ -137,6 +138,8 @@ class Simulation {
   FrameFields fields_;
   bool exact_events_;
   bool within_step_ = false;  // after the first part of a step that events divide
+  // [J] minus the work of forces that change in time up to the last step boundary, and their potential there
+  double applied_ = 0.0, potential_ = 0.0;
   std::optional<CoordinatePrecision> coarse_;
   std::vector<StepResult> warnings_;
   int dimension_ = 0;

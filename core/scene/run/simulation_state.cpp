@@ -23,6 +23,8 @@ void Simulation::state(Archive& archive) {
   }
   archive.part("integrator");
   integrator_->state(archive);
+  archive.part("work of forces");
+  archive(applied_, potential_);
   archive.part("watch over the motion");
   archive(watch_);
   if (!archive.reads()) return;

@@ -12,7 +12,11 @@
 
 namespace dartboard {
 
-/// Applies and ends forces at step boundaries.
+/// What changed at a step boundary: integrators have to be restarted where a force begins or ends, and not where one
+/// that changes in time goes on.
+enum class ForceChange { none, in_size, begins_or_ends };
+
+/// Applies, changes and ends forces at step boundaries. In a step each is constant: its mean over the step.
 ///
 /// A force keeps its direction, so it has a potential. It is stored as an acceleration of each vertex, whose parts
 /// share it in proportion to their masses: no cut changes the sum. A vertex that loses cells loses their share.
@@ -21,23 +25,25 @@ class AppliedForces {
   AppliedForces() = default;
   /// `mesh` is the body at rest; its vertices are as they were built.
   ///
-  /// throws  InputError "/forces/0...: ..." for a force on no vertex, or on fixed ones alone, and a pressure where no
-  ///         facet of the boundary is selected or there are no facets
+  /// throws  InputError "/forces/0...: ..." for a force on no vertex, or on fixed ones alone, a pressure where no facet
+  ///         of the boundary is selected or there are no facets, and a torque about a line that all of its vertices are
+  ///         on
   AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step);
 
   /// Set the forces that are due after n steps.
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
-  /// returns  whether any has begun or ended since the last call
-  /// cost     O(forces), and O(vertices + points pulled at) where one begins or ends
-  bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
+  /// cost     O(forces), and O(vertices + points pulled at) where one begins, changes or ends
+  ForceChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
 
   std::size_t size() const { return forces_.size(); }
+  /// Does any of them change in size while it acts?
+  bool change_in_time() const;
   std::size_t bytes() const;
-  /// Writes or reads which of the forces act; the forces themselves are in the scene.
+  /// Writes or reads which of the forces act, and their factors; the forces themselves are in the scene.
   template <class Archive>
   void state(Archive& archive) {
-    for (Force& force : forces_) archive(force.acts);
+    for (Force& force : forces_) archive(force.acts, force.now);
   }
 
  private:
@@ -45,10 +51,13 @@ class AppliedForces {
     std::vector<std::uint32_t> points;  // of the mesh
     std::vector<Eigen::Vector3d> pull;  // [m/s^2] of each point, or one for all
     std::uint64_t first, last;          // steps that it begins and ends after
+    TimeTable<double> factor;
     bool acts = false;
+    double now = 1.0;  // the factor in this step
   };
   std::vector<Force> forces_;
   std::size_t points_ = 0;  // of the mesh
+  double step_ = 0.0;       // [s]
 };
 
 }  // namespace dartboard

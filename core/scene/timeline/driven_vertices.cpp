@@ -9,12 +9,15 @@
 
 namespace dartboard {
 
-DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Vector3d> rest, double step) {
+DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Vector3d> rest, double step)
+    : step_(step) {
   for (const SceneDrive& from : scene.driven) {
     Drive drive;
     drive.points = select_points(from.vertices, rest, from.path);
     require_some(drive.points, from.path, rest);
-    for (const std::uint32_t p : drive.points) drive.velocity.push_back(from.velocity.at(rest[p]));
+    if (from.has_table()) drive.table = from;
+    for (const std::uint32_t p : drive.points)
+      from.has_table() ? drive.rest.push_back(rest[p]) : drive.velocity.push_back(from.velocity.at(rest[p]));
     drive.first = step_of_time(from.from, step);
     drive.last = from.until ? step_of_time(*from.until, step) : EventClock::never;
     if (from.reverse_every) {
@@ -54,6 +57,20 @@ void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen
     }
 }
 
+/// Along a path or a turn, in the step after n others; true if that changes a velocity.
+bool DrivenVertices::follow(Drive& drive, std::uint64_t n) {
+  bool changed = false;
+  const double begin = static_cast<double>(n) * step_, end = static_cast<double>(n + 1) * step_;
+  for (std::size_t k = 0; k < drive.points.size(); ++k) {
+    Eigen::Vector3d& v = now_[place_[drive.points[k]]];
+    const Eigen::Vector3d next = drive.table->velocity_of(drive.rest[k], begin, end);
+    changed = changed || next != v;
+    v = next;
+  }
+  drive.sign = 1.0;
+  return changed;
+}
+
 bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
                            std::span<Eigen::Vector3d> velocity) {
   bool changed = false;
@@ -72,6 +89,10 @@ bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point
     if (n >= drive.last) set(drive, 0.0);
   for (Drive& drive : drives_) {
     if (n < drive.first || n >= drive.last) continue;
+    if (drive.table) {
+      changed |= follow(drive, n);
+      continue;
+    }
     double sign = drive.sign == 0.0 ? 1.0 : drive.sign;
     for (; drive.turn && drive.turn->next() <= n; drive.turn->advance()) sign = -sign;
     set(drive, sign);
@@ -86,7 +107,7 @@ bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point
 
 std::size_t DrivenVertices::bytes() const {
   std::size_t sum = bytes_of(place_, now_);
-  for (const Drive& drive : drives_) sum += bytes_of(drive.points, drive.velocity);
+  for (const Drive& drive : drives_) sum += bytes_of(drive.points, drive.velocity, drive.rest);
   return sum;
 }
 

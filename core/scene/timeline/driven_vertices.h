@@ -15,7 +15,8 @@
 namespace dartboard {
 
 /// Gives driven vertices their velocities at step boundaries. Integrators keep the velocity of a fixed vertex, so it
-/// moves along straight lines in between, whatever acts on it.
+/// moves along straight lines in between, whatever acts on it: from one place to the next where it follows a path or a
+/// turn.
 ///
 /// Vertices are known by the mesh point they came from. Their numbers may change, and all parts of one that came apart
 /// are driven.
@@ -30,7 +31,7 @@ class DrivenVertices {
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
   /// returns  whether any has changed since the last call
-  /// cost     O(drives), and O(vertices) where one starts, turns or ends
+  /// cost     O(drives), and O(vertices) where one starts, turns back or ends, and in every step of a path or a turn
   bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity);
 
   /// Is this a point of the mesh that some drive moves?
@@ -57,12 +58,16 @@ class DrivenVertices {
   struct Drive {
     std::vector<std::uint32_t> points;  // of the mesh
     std::vector<Eigen::Vector3d> velocity;
+    std::optional<SceneDrive> table;  // of a path or a turn, with the places of its points at rest; no velocities then
+    std::vector<Eigen::Vector3d> rest;
     std::uint64_t first, last;       // steps that it starts and ends after
     std::optional<EventClock> turn;  // the boundaries where it is reversed
     double sign = 0.0;               // of the present velocity; 0 at rest
   };
+  bool follow(Drive& drive, std::uint64_t n);
   void require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const;
 
+  double step_ = 0.0;  // [s]
   std::vector<Drive> drives_;
   std::vector<std::uint32_t> place_;  // by mesh point: in now_, or `none`
   std::vector<Eigen::Vector3d> now_;  // [m/s] of each driven point

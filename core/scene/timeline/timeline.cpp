@@ -50,10 +50,10 @@ void Timeline::apply(Scheduled& scheduled) {
 }
 
 bool Timeline::drive(std::uint64_t n) {
-  bool changed = driven_.apply(n, body_.vertices().point, body_.motion().v);
-  if (forces_.apply(n, body_.vertices().point, body_.pull())) changed = true;
-  if (changed) integrator_.restart();
-  return changed;
+  const bool drives = driven_.apply(n, body_.vertices().point, body_.motion().v);
+  const ForceChange forces = forces_.apply(n, body_.vertices().point, body_.pull());
+  if (drives || forces == ForceChange::begins_or_ends) integrator_.restart();
+  return drives || forces != ForceChange::none;
 }
 
 std::vector<std::string> Timeline::idle_events() const {

@@ -72,9 +72,9 @@ struct WorkCounters {
 
 /// A time integration method with the memory it needs between steps.
 ///
-/// The system may change between steps (its columns in size or value) only if `restart` is called in between; the
-/// motion too, for methods that are not one-step. A fixed vertex keeps its velocity whatever acts on it, so one that is
-/// given a velocity is driven.
+/// The system may change between steps (its columns in size or value) only if `restart` is called in between, except
+/// for the values of `pull`; the motion too, for methods that are not one-step. A fixed vertex keeps its velocity
+/// whatever acts on it, so one that is given a velocity is driven.
 class Integrator {
  public:
   virtual ~Integrator() = default;

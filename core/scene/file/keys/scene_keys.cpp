@@ -223,19 +223,50 @@ std::vector<SceneKey> keys_by_hand() {
        .standard = "[\"x\", \"y\", \"z\"]",
        .help = "along which they are held; along the others they move freely. [\"x\"] makes a symmetry plane across x, "
                "[\"y\", \"z\"] a rail along x. What several selections hold adds up"},
-      {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s", .required = true,
+      {.shape = driven, .name = "velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
        .help = "that they keep, one for all or linear in their place at rest"},
+      {.shape = driven, .name = "path", .type = objects, .of = driven_place,
+       .help = "or the places that all of them go through together, straight from one to the next, as ascending times; "
+               "before and after they are held still"},
+      {.shape = driven, .name = "turn", .type = object, .of = driven_turn,
+       .help = "or how they are turned about an axis, from where they are at rest"},
       {.shape = driven, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
        .help = "time they start at; they are held still before"},
       {.shape = driven, .name = "until", .type = real, .unit = "s", .range = positive,
        .help = "time they stop at, and are held still from; left out, they move to the end"},
       {.shape = driven, .name = "reverse_every", .type = real, .unit = "s", .range = positive,
        .help = "time after which they turn round, again and again; left out, never"},
+      {.shape = driven_place, .name = "at", .type = real, .unit = "s", .range = not_negative, .required = true,
+       .help = "when"},
+      {.shape = driven_place, .name = "place", .type = point, .unit = "m", .required = true,
+       .help = "where; only the way from the first place counts, where they are at rest"},
+      {.shape = driven_turn, .name = "axis", .type = point, .required = true,
+       .help = "direction of the axis; its length does not count"},
+      {.shape = driven_turn, .name = "centre", .type = point, .unit = "m", .required = true,
+       .help = "a place on the axis"},
+      {.shape = driven_turn, .name = "angles", .type = objects, .of = driven_angle, .required = true,
+       .help = "linear in time between one and the next, with ascending times; only the turn from the first angle counts"},
+      {.shape = driven_angle, .name = "at", .type = real, .unit = "s", .range = not_negative, .required = true,
+       .help = "when"},
+      {.shape = driven_angle, .name = "degrees", .type = real, .required = true,
+       .help = "anticlockwise seen from where the axis points to"},
       {.shape = force, .name = "force", .type = point, .unit = "N",
        .help = "on all of them together, shared in proportion to their masses"},
       {.shape = force, .name = "pressure", .type = real, .unit = "Pa",
        .help = "on the faces of the boundary whose corners are all selected, inwards along the normals that they have at "
                "rest; of a surface [N/m^2] on all such faces, against the normal that their order of corners gives them"},
+      {.shape = force, .name = "acceleration", .type = point, .unit = "m/s^2",
+       .help = "of each of them, as gravity has it: gravity that changes in time, or a frame that is accelerated"},
+      {.shape = force, .name = "torque", .type = point, .unit = "N m",
+       .help = "on all of them together: forces that add up to nothing, as of a turn about their centre of mass at rest. "
+               "Their directions stay while the body turns, so the moment is this one for small turns"},
+      {.shape = force, .name = "over_time", .type = objects, .of = force_factor,
+       .help = "factors by which it is multiplied, linear between one and the next, with ascending times; constant before "
+               "the first and after the last. In each step a force is constant, its mean over the step: motions under it "
+               "are of second order in the step at most, with 'bdf2' of first. Left out, 1"},
+      {.shape = force_factor, .name = "at", .type = real, .unit = "s", .range = not_negative, .required = true,
+       .help = "when"},
+      {.shape = force_factor, .name = "factor", .type = real, .required = true, .help = "of the force then"},
       {.shape = force, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
        .help = "time it begins at"},
       {.shape = force, .name = "until", .type = real, .unit = "s", .range = positive,
@@ -512,10 +543,16 @@ std::span<const ShapeHelp> scene_shapes() {
        "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are never "
        "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
        "work, so energy and momentum of the body change."},
+      {Shape::driven_place, "driven_place", "A place on a path, and when."},
+      {Shape::driven_turn, "driven_turn",
+       "A turn about an axis. In each step vertices go straight on, so that they are on "
+       "their circles at the ends of steps."},
+      {Shape::driven_angle, "driven_angle", "An angle, and when."},
       {Shape::force, "force",
-       "A force from outside that keeps its size and direction, and when. Times count as for events. It stays with the "
+       "A force from outside that keeps its direction, and when. Times count as for events. It stays with the "
        "matter it acts on: parts of a vertex that comes apart share it in proportion to their masses, and what loses "
        "cells loses their share. What of it acts on fixed or driven vertices is borne by what holds them."},
+      {Shape::force_factor, "force_factor", "A factor of a force, and when."},
       {Shape::contact, "contact",
        "Contact of the surface of bodies with obstacles, and of solids with solids: of a solid its boundary, cuts included, "
        "of a surface all of it, from both sides. It is felt at the vertices and in the middles of faces, each by its share of the area at rest, and "
@@ -583,7 +620,10 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::held, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::force, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::force, {"force", "pressure"}},
+      {exactly_one, Shape::driven, {"velocity", "path", "turn"}},
+      {excludes, Shape::driven, {"path", "from", "until", "reverse_every"}},
+      {excludes, Shape::driven, {"turn", "from", "until", "reverse_every"}},
+      {exactly_one, Shape::force, {"force", "pressure", "acceleration", "torque"}},
       {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
       {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random", "tag"}},

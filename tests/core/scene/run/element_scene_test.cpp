@@ -123,7 +123,7 @@ TEST(ElementScene, IsDampedByARatioAtAFrequency) {
   scene["expect"]["energy_drift_at_most"] = 1e-3;
   EXPECT_EQ(refusal(scene),
             "file: /expect/energy_drift_at_most: cannot be combined with /material/damping, which changes the energy; "
-            "expected damping and viscosity of 0, no driven vertices or events, and forces from start to end");
+            "expected damping and viscosity of 0, no driven vertices or events, and constant forces from start to end");
 }
 
 // Regions are of materials of their own, damped or not; the remaining energy shows it.
