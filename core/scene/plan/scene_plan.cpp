@@ -213,7 +213,10 @@ class Planner {
         setting_in_words("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
     if (plan_.needs.body.pull)
       add(Part::pull, "by vertex, its share of the external forces; added together with gravity",
-          fmt::format("/forces: {}", scene_.forces.size()));
+          fmt::format("/forces: {}{}", scene_.forces.size(),
+                      std::ranges::all_of(scene_.forces, [](const SceneForce& f) { return f.factor.empty(); })
+                          ? ""
+                          : "; over_time: set anew in every step, and their work is summed"));
     else
       leave_out("column and term of forces from outside", "/forces: not given");
     if (plan_.needs.gravity)

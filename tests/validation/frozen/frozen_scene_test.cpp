@@ -156,5 +156,30 @@ TEST(FrozenScene, NamesTheEventThatItsBodyDoesNotHave) {
   }
 }
 
+TEST(FrozenScene, RefusesWhatChangesInEveryStep) {
+  const auto refusal_of = [](const char* patch) -> std::string {
+    const SceneFile file = parse(changed(patch));
+    try {
+      freeze(file, make_problem(file));
+      return "accepted";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const std::string why = ": changes in every step, and steps of several lengths are compared here";
+  EXPECT_EQ(refusal_of(R"({"forces": [{"ids": [26], "force": [1, 0, 0], "over_time": [{"at": 0, "factor": 2}]}]})")
+                .find("/forces/0/over_time" + why),
+            0u);
+  EXPECT_EQ(
+      refusal_of(
+          R"({"driven": [{"ids": [26], "path": [{"at": 0, "place": [0, 0, 0]}, {"at": 1, "place": [0, 1, 0]}]}]})")
+          .find("/driven/0/path" + why),
+      0u);
+  EXPECT_EQ(refusal_of(R"({"driven": [{"ids": [26], "turn": {"axis": [0, 0, 1], "centre": [0, 0, 0],
+                            "angles": [{"at": 0, "degrees": 0}, {"at": 1, "degrees": 9}]}}]})")
+                .find("/driven/0/turn" + why),
+            0u);
+}
+
 }  // namespace
 }  // namespace dartboard::frozen_scene_test

@@ -580,6 +580,32 @@ TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
   expect_place(scene, place_of(scene, "top", true), {0.05, 0.05, centre[2]});
 }
 
+// The mesh is its own mirror image in the middle of the bar, so half way along nothing moves along the axis.
+TEST(GalleryPhysics, TheWrungBarTurnsHalfAsFarHalfWay) {
+  const SceneFile scene = gallery("bar_wrung");
+  Simulation simulation(scene);
+  while (simulation.steps_done() < simulation.step_count()) ASSERT_FALSE(simulation.advance());
+  const VertexColumns& v = simulation.body().vertices();
+  const std::vector<Eigen::Vector3d> rest = make_problem(scene).mesh.points;
+  Eigen::Vector3d mean(0, 0, 0);
+  double across = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Eigen::Vector3d& x = rest[v.point[k]];
+    if (std::abs(x.z() - 0.2) > 1e-9) continue;
+    mean += v.position[k];
+    // a quarter of a turn: (x, y) goes to (-y, x)
+    const Eigen::Vector3d turned(0.04 - (x.y() - 0.04), 0.04 + (x.x() - 0.04), 0.2);
+    across = std::max(across, (v.position[k] - turned).norm());
+    ++count;
+  }
+  ASSERT_EQ(count, 9);
+  EXPECT_NEAR(mean.z() / 9, 0.2, 1e-9);
+  EXPECT_LE(across, 0.002);
+  // nothing is lost but by viscosity, and the weight is gone: it did less work going than it took back
+  EXPECT_GT(simulation.diagnostics().elastic, 6.0);
+}
+
 // ---- all scenes are tested
 
 TEST(GalleryPhysics, IsExpectedOfEveryScene) {
