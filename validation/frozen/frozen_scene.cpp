@@ -264,8 +264,8 @@ void FrozenBody::pass() {
 bool FrozenBody::drive(double time) {
   const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
   const std::span<const std::uint32_t> point = body_->vertices().point;
-  const bool moved = driven_.apply(ticks, point, body_->motion().v);
-  return forces_.apply(ticks, point, body_->pull()) != ForceChange::none || moved;
+  const LoadChange driven = driven_.apply(ticks, point, body_->motion().v);
+  return std::max(driven, forces_.apply(ticks, point, body_->pull())) != LoadChange::none;
 }
 
 void FrozenBody::look_at_contact() {

@@ -164,12 +164,11 @@ std::optional<EarlyEnd> Simulation::advance() {
   const std::size_t before = this->operations();
   try {
     timeline_->happen(done_);
-    const bool changed = timeline_->drive(done_) || this->operations() != before;
+    const LoadChange loads = timeline_->drive(done_);
+    const bool operated = this->operations() != before;
     if (timeline_->has_changing_forces()) potential_ = pull_energy(body_->system(), body_->motion().x);
-    if (changed) {
-      examine_step();
-      watch_.system_changed(body_->system(), body_->motion());
-    }
+    if (loads == LoadChange::begins_or_ends || operated) examine_step();
+    if (loads != LoadChange::none || operated) watch_.system_changed(body_->system(), body_->motion());
   } catch (const SolverError& error) {
     return stress_failure(error);
   }

@@ -148,20 +148,20 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
   }
 }
 
-ForceChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
-                                 std::span<Vector3d> pull) {
-  auto change = ForceChange::none;
+LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
+                                std::span<Vector3d> pull) {
+  auto change = LoadChange::none;
   for (Force& force : forces_) {
     const bool acts = n >= force.first && n < force.last;
     const double factor = force.factor.empty()
                               ? 1.0
                               : force.factor.mean(static_cast<double>(n) * step_, static_cast<double>(n + 1) * step_);
-    if (acts != force.acts) change = ForceChange::begins_or_ends;
-    if (acts && factor != force.now) change = std::max(change, ForceChange::in_size);
+    if (acts != force.acts) change = LoadChange::begins_or_ends;
+    if (acts && factor != force.now) change = std::max(change, LoadChange::in_value);
     force.acts = acts;
     force.now = factor;
   }
-  if (change == ForceChange::none) return change;
+  if (change == LoadChange::none) return change;
   std::vector<Vector3d> of_point(points_, Vector3d(0, 0, 0));
   for (const Force& force : forces_) {
     if (!force.acts) continue;

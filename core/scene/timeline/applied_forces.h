@@ -9,12 +9,9 @@
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/mesh.h"
 #include "core/scene/file/scene_file.h"
+#include "core/scene/timeline/load_change.h"
 
 namespace dartboard {
-
-/// What changed at a step boundary: integrators have to be restarted where a force begins or ends, and not where one
-/// that changes in time goes on.
-enum class ForceChange { none, in_size, begins_or_ends };
 
 /// Applies, changes and ends forces at step boundaries. In a step each is constant: its mean over the step.
 ///
@@ -34,7 +31,7 @@ class AppliedForces {
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
   /// cost     O(forces), and O(vertices + points pulled at) where one begins, changes or ends
-  ForceChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
+  LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
 
   std::size_t size() const { return forces_.size(); }
   /// Does any of them change in size while it acts?

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
@@ -57,8 +59,8 @@ void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen
     }
 }
 
-/// Along a path or a turn, in the step after n others; true if that changes a velocity.
-bool DrivenVertices::follow(Drive& drive, std::uint64_t n) {
+/// Along a path or a turn, in the step after n others.
+LoadChange DrivenVertices::follow(Drive& drive, std::uint64_t n) {
   bool changed = false;
   const double begin = static_cast<double>(n) * step_, end = static_cast<double>(n + 1) * step_;
   for (std::size_t k = 0; k < drive.points.size(); ++k) {
@@ -67,17 +69,18 @@ bool DrivenVertices::follow(Drive& drive, std::uint64_t n) {
     changed = changed || next != v;
     v = next;
   }
+  const bool begins = drive.sign == 0.0;
   drive.sign = 1.0;
-  return changed;
+  return begins ? LoadChange::begins_or_ends : changed ? LoadChange::in_value : LoadChange::none;
 }
 
-bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
-                           std::span<Eigen::Vector3d> velocity) {
-  bool changed = false;
+LoadChange DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
+                                 std::span<Eigen::Vector3d> velocity) {
+  auto changed = LoadChange::none;
   const auto set = [this, &changed](Drive& drive, double sign) {
     if (sign == drive.sign) return;
     drive.sign = sign;
-    changed = true;
+    changed = LoadChange::begins_or_ends;
     for (std::size_t k = 0; k < drive.points.size(); ++k) {
       Eigen::Vector3d& v = now_[place_[drive.points[k]]];
       v.setZero();
@@ -90,19 +93,19 @@ bool DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point
   for (Drive& drive : drives_) {
     if (n < drive.first || n >= drive.last) continue;
     if (drive.table) {
-      changed |= follow(drive, n);
+      changed = std::max(changed, follow(drive, n));
       continue;
     }
     double sign = drive.sign == 0.0 ? 1.0 : drive.sign;
     for (; drive.turn && drive.turn->next() <= n; drive.turn->advance()) sign = -sign;
     set(drive, sign);
   }
-  if (!changed) return false;
+  if (changed == LoadChange::none) return changed;
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     const std::uint32_t p = point_of_vertex[k];
     if (moves(p)) velocity[k] = now_[place_[p]];
   }
-  return true;
+  return changed;
 }
 
 std::size_t DrivenVertices::bytes() const {

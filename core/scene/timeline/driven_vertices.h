@@ -10,6 +10,7 @@
 #include "core/mechanics/vertex_columns.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/timeline/event_clock.h"
+#include "core/scene/timeline/load_change.h"
 #include "core/time/system/spring_system.h"
 
 namespace dartboard {
@@ -30,9 +31,9 @@ class DrivenVertices {
   /// Set the velocities that are due after n steps.
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
-  /// returns  whether any has changed since the last call
   /// cost     O(drives), and O(vertices) where one starts, turns back or ends, and in every step of a path or a turn
-  bool apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity);
+  LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
+                   std::span<Eigen::Vector3d> velocity);
 
   /// Is this a point of the mesh that some drive moves?
   bool moves(std::uint32_t point) const { return point < place_.size() && place_[point] != none; }
@@ -64,7 +65,7 @@ class DrivenVertices {
     std::optional<EventClock> turn;  // the boundaries where it is reversed
     double sign = 0.0;               // of the present velocity; 0 at rest
   };
-  bool follow(Drive& drive, std::uint64_t n);
+  LoadChange follow(Drive& drive, std::uint64_t n);
   void require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const;
 
   double step_ = 0.0;  // [s]

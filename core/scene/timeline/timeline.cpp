@@ -1,5 +1,7 @@
 #include "core/scene/timeline/timeline.h"
 
+#include <algorithm>
+
 namespace dartboard {
 
 Timeline::Timeline(const SceneFile& scene, const Mesh& mesh, SimulatedBody& body, Integrator& integrator, double step)
@@ -49,11 +51,12 @@ void Timeline::apply(Scheduled& scheduled) {
   if (made > 0) integrator_.restart();
 }
 
-bool Timeline::drive(std::uint64_t n) {
-  const bool drives = driven_.apply(n, body_.vertices().point, body_.motion().v);
-  const ForceChange forces = forces_.apply(n, body_.vertices().point, body_.pull());
-  if (drives || forces == ForceChange::begins_or_ends) integrator_.restart();
-  return drives || forces != ForceChange::none;
+// No integrator keeps anything that the values of forces are in.
+LoadChange Timeline::drive(std::uint64_t n) {
+  const LoadChange driven = driven_.apply(n, body_.vertices().point, body_.motion().v);
+  const LoadChange forces = forces_.apply(n, body_.vertices().point, body_.pull());
+  if (driven != LoadChange::none || forces == LoadChange::begins_or_ends) integrator_.restart();
+  return std::max(driven, forces);
 }
 
 std::vector<std::string> Timeline::idle_events() const {

@@ -40,8 +40,8 @@ class Timeline {
   std::optional<double> next_before(double end) const;
   /// Apply the events between two boundaries that are due until then.
   void happen_until(double time);
-  /// Set the velocities of driven vertices and the forces that are due after n steps; true where any has changed.
-  bool drive(std::uint64_t n);
+  /// Set the velocities of driven vertices and the forces that are due after n steps.
+  LoadChange drive(std::uint64_t n);
 
   bool has_forces() const { return forces_.size() > 0; }
   bool has_changing_forces() const { return forces_.change_in_time(); }

@@ -601,7 +601,7 @@ TEST(GalleryPhysics, TheWrungBarTurnsHalfAsFarHalfWay) {
   }
   ASSERT_EQ(count, 9);
   EXPECT_NEAR(mean.z() / 9, 0.2, 1e-9);
-  EXPECT_LE(across, 0.002);
+  EXPECT_LE(across, 0.003);  // the diagonals of the tetrahedra move the axis by a millimetre
   // nothing is lost but by viscosity, and the weight is gone: it did less work going than it took back
   EXPECT_GT(simulation.diagnostics().elastic, 6.0);
 }
