@@ -47,6 +47,7 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
   for (const SceneForce& force : scene.forces)
     all.push_back(force.force ? Magnitude{force.path + "/force", force.force->lpNorm<Eigen::Infinity>()}
                               : Magnitude{force.path + "/pressure", std::abs(*force.pressure)});
+  for (const SceneAttachment& one : scene.attachments) all.push_back({one.path + "/stiffness", one.stiffness});
   for (const SceneObstacle& one : scene.obstacles)
     all.insert(all.end(), {{one.path + "/pressure", one.law.pressure}, {one.path + "/depth", one.law.depth}});
   for (const SceneTouch& touch : scene.touches) {

@@ -30,6 +30,7 @@ enum class Shape {
   held,
   driven,
   force,
+  attachment,
   contact,
   contact_pair,
   obstacle,
