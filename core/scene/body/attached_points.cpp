@@ -52,11 +52,12 @@ class TargetCells {
   /// The first of the nearest; distances within the thickness of borders count as 0.
   Found nearest(const Vector3d& x) const {
     Found found;
+    // no nearest one is farther away than that of the block whose box is nearest
+    double bound = std::numeric_limits<double>::infinity();
     const auto is_farther = [&](const AlignedBox3d& box) {
-      return !(box.squaredExteriorDistance(x) < found.distance * found.distance);
+      return box.squaredExteriorDistance(x) > (1.0 + 1e-9) * std::min(bound * bound, found.distance * found.distance);
     };
-    for (std::size_t block = 0; block < blocks_.size(); ++block) {
-      if (is_farther(blocks_[block])) continue;
+    const auto look_at = [&](std::size_t block) {
       const std::size_t end = std::min(simplices_.size(), (block + 1) * of_block);
       for (std::size_t k = block * of_block; k < end; ++k) {
         if (is_farther(simplices_[k].box)) continue;
@@ -64,7 +65,14 @@ class TargetCells {
         if (distance <= thickness_) distance = 0.0;
         if (distance < found.distance) found = {&simplices_[k], distance};
       }
-    }
+    };
+    const auto to_box = [&x](const AlignedBox3d& box) { return box.squaredExteriorDistance(x); };
+    if (blocks_.empty()) return found;
+    look_at(static_cast<std::size_t>(std::ranges::min_element(blocks_, {}, to_box) - blocks_.begin()));
+    bound = std::max(found.distance, thickness_);
+    found = {};
+    for (std::size_t block = 0; block < blocks_.size() && found.distance > 0.0; ++block)
+      if (!is_farther(blocks_[block])) look_at(block);
     return found;
   }
 
@@ -168,7 +176,8 @@ void attach(const SceneFile& scene, const SceneAttachment& to, const Mesh& mesh,
     const auto [simplex, distance] = cells.nearest(x);
     const std::size_t number = number_in_file(scene, one.point);
     if (simplex == nullptr)
-      scene.fail(to.path + "/to", fmt::format("is {}, whose cells are flat", *to.to), "cells that are not");
+      scene.fail(to.path + "/to", fmt::format("is {}, whose cells are flat or not finite", *to.to),
+                 "cells with an inside");
     const double longest = cells.longest_edge(simplex->cell);
     if (!(distance <= longest))
       scene.fail(to.path,
@@ -193,7 +202,8 @@ void attach(const SceneFile& scene, const SceneAttachment& to, const Mesh& mesh,
 std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Mesh& mesh) {
   std::vector<AttachedPoints> all;
   if (scene.attachments.empty()) return all;
-  const std::vector<std::size_t> first_cell = first_cells(scene);
+  const bool to_bodies = std::ranges::any_of(scene.attachments, [](const auto& one) { return one.to.has_value(); });
+  const std::vector<std::size_t> first_cell = to_bodies ? first_cells(scene) : std::vector<std::size_t>{};
   for (const SceneAttachment& one : scene.attachments) {
     AttachedPoints held{.stiffness = one.stiffness};
     const std::vector<std::uint32_t> selected = [&] {
