@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -78,8 +79,43 @@ TEST(SceneAttachments, HaveNoForceAtRestAndShareTheirStiffnessByMass) {
   }
 }
 
-// The hexahedron below one of the vertices has it in its inside; another is beyond all cells, and not farther than an
-// edge.
+// Of hundreds of cells; where several have a vertex on their sides, the first.
+TEST(SceneAttachments, AreToTheFirstCellThatAVertexIsIn) {
+  Json json = two_boxes();
+  json["bodies"][1] = Json::parse(R"({"generate": {"box": {"cells": [3, 3, 3], "spacing": 0.09}},
+                                      "translate": [0.11, 0.1, 0.12]})");
+  json["attachments"][0].erase("box");
+  json["attachments"][0]["plane"] = Json::parse(R"({"point": [0, 0, 0], "normal": [0, 0, 1]})");
+  for (const char* box : {R"({"cells": [5, 5, 5], "spacing": 0.1, "jitter": 0.3, "seed": 4})",
+                          R"({"cells": [5, 5, 5], "spacing": 0.1, "kind": "mixed"})",
+                          R"({"cells": [5, 5, 5], "spacing": 0.1, "kind": "hexahedra"})"}) {
+    json["bodies"][0]["generate"]["box"] = Json::parse(box);
+    const SceneFile scene = parse(json);
+    const Problem problem = make_problem(scene);
+    const Mesh& mesh = problem.mesh;
+    const std::vector<AttachedPoints> found = find_attachments(scene, mesh);
+    ASSERT_EQ(found.at(0).points.size(), 64u);
+    for (const Attachment& one : found[0].points) {
+      const Vector3d& x = mesh.points[one.point];
+      Vector3d mean(0, 0, 0);
+      for (std::size_t a = 0; a < 4; ++a) {
+        mean += one.weight[a] * mesh.points[one.corners[a]];
+        EXPECT_GE(one.weight[a], -1e-8) << box;
+      }
+      EXPECT_LT((mean - x).norm(), 1e-15);
+      for (std::uint32_t c = 0; c < one.cell; ++c) {
+        if (mesh.kinds[c] != CellKind::tetrahedron) continue;
+        const auto n = mesh.cell(c);
+        Eigen::Matrix3d sides;
+        for (int k = 0; k < 3; ++k) sides.col(k) = mesh.points[n[static_cast<std::size_t>(k) + 1]] - mesh.points[n[0]];
+        const Vector3d w = sides.inverse() * (x - mesh.points[n[0]]);
+        EXPECT_LT(std::min(w.minCoeff(), 1.0 - w.sum()), -1e-9) << box << c;
+      }
+    }
+  }
+}
+
+// Where a vertex is in no cell, it is not farther away from one than the longest edge.
 TEST(SceneAttachments, AreToTheNearestCellOfTheBody) {
   Json json = two_boxes();
   json["bodies"][1]["translate"] = {0.02, 0.07, 0.31};
