@@ -322,7 +322,7 @@ TEST(SceneAttachments, ArePlannedToTheByte) {
     "body": {"generate": {"chain": {"links": 4, "spacing": 0.1}}}, "attachments": [{"ids": [0, 4], "stiffness": 10}]})");
   Json both = with(two_boxes(), "events", events);
   both["attachments"].push_back(Json::parse(R"({"sphere": {"centre": [0, 0, 0], "radius": 0.01}, "stiffness": 3})"));
-  for (const Json& json : {chain, both, two_boxes(), hung_box()}) {
+  for (const Json& json : {chain, both, two_boxes(), hung_box(), with(hung_box(), "events", events)}) {
     const SceneFile file = parse(json);
     const Problem problem = make_problem(file);
     ScenePlan plan = plan_scene(file, problem);
