@@ -58,6 +58,9 @@ class ForceTerm {
   virtual std::size_t size() const = 0;
   /// The vertices of a piece.
   virtual Nodes nodes(std::size_t piece) const = 0;
+  /// Are the vertices of each piece connected by cells, and away from each other at rest? Those of an attachment are
+  /// not.
+  virtual bool is_within_cells() const { return true; }
 
   /// force += f [N] at these places.
   virtual void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const = 0;

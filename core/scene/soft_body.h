@@ -21,8 +21,8 @@
 namespace dartboard {
 
 /// A solid, a surface or a chain, of springs or of elements, moved by one integrator and changed by the operations of
-/// scenes. Contact, driven vertices, applied forces, bending and springs on diagonals need a scene (recorded_run.h);
-/// the map itself and its embeddings are in core/mechanics/mass_spring_body.h.
+/// scenes. Contact, driven vertices, applied forces, attachments, bending and springs on diagonals need a scene
+/// (recorded_run.h); the map itself and its embeddings are in core/mechanics/mass_spring_body.h.
 ///
 /// A body has the bits that a `Simulation` of the same problem, operations and steps has.
 class SoftBody {

@@ -95,6 +95,23 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::cell_springs:  // kind, first and number, modulus, 16 lengths; eight corners and their count
       return n.cells * (2 * real + 16 * real) + (problem.cell_materials().has_elements() ? 0 : n.cells * 9 * number);
     case Part::bending: return n.edges * (scene.bending.rigidity > 0.0 ? 4 * number + 3 * real : 6 * number + 2 * real);
+    case Part::attachments: {  // rows; on a map their attachments, the cells attached to, and lists by number
+      std::size_t rows = 0;
+      std::vector<std::uint32_t> cells;
+      for (const AttachedPoints& one : plan.needs.body.attached)
+        for (const Attachment& point : one.points) {
+          ++rows;
+          if (point.has_cell()) cells.push_back(point.cell);
+        }
+      const std::size_t to_cells = cells.size();
+      std::ranges::sort(cells);
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+      const std::size_t row = 6 * number + 4 * real + vector + real;
+      if (!plan.needs.body.topology_changes) return rows * row;
+      return rows * (row + 8 * number + 4 * real + vector + real) + rows * 5 * number + to_cells * number +
+             cells.size() * 2 * number + (cells.size() + 1) * number +
+             (n.vertices + (cells.empty() ? 0 : n.cells)) * number;
+    }
     case Part::contact: {  // laws, obstacles, their displacement and damping ratio; samples; velocities to restore
       const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
       return scene.obstacles.size() * (sizeof(ContactLaw) + sizeof(Obstacle) + vector + real) +

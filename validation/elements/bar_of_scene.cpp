@@ -43,6 +43,8 @@ BarOfScene bar_of_scene(const SceneFile& scene) {
     fail("/material/young", "is missing", "a Young's modulus [Pa], which every model can be given");
   if (!scene.driven.empty()) fail("/driven", "moves vertices", "a bar held at one end, and no more");
   if (!scene.forces.empty()) fail("/forces", "pulls at vertices", "a bar under its own weight");
+  if (!scene.attachments.empty())
+    fail("/attachments", "holds vertices by springs", "a bar held at one end, and no more");
   if (scene.has_contact()) fail("/contact", "says what touches", "a bar that touches nothing");
 
   const std::vector<std::uint32_t> fixed = [&] {

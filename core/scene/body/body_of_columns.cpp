@@ -15,6 +15,7 @@
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
 #include "core/topology/storage/hash.h"
+#include "core/views/attachments_view.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
 #include "core/views/inner_edges_view.h"
@@ -68,6 +69,12 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
   }
   vertices_.hold(problem.held_axes);
   if (needs.pull) vertices_.pull.assign(points.size(), Eigen::Vector3d(0, 0, 0));
+  if (needs.attached.empty()) return;
+  for (const Attachment& one : shared_by_mass(needs.attached, vertices_))
+    attached_.push_back(dartboard::attached(one, one.point));
+  attached_.shrink_to_fit();
+  attachment_ = make_attachments(attached_, vertices_.mass);
+  terms_.push_back(attachment_.get());
 }
 
 template <class Map>
@@ -113,6 +120,12 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
       body.vertices.rest = {};
     }
 
+  if (!needs.attached.empty()) {
+    AttachmentsView view(shared_by_mass(needs.attached, body.vertices), [](std::uint32_t cell) { return cell; });
+    view.rebuild(body);
+    attached_ = std::move(view.rows);
+    attachment_ = make_attachments(attached_, vertices_.mass);
+  }
   if (needs.contact()) {
     body.vertices.keep_rest();
     Skin skin;
@@ -159,7 +172,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   elements_ = make_elements(materials, shapes_, {nodes_, solid_nodes_, triangle_nodes_}, cell_mass_);
   springs_within_ = std::move(body.cell_springs);
   if (!springs_within_.empty()) cell_springs_ = make_cell_springs({solid_nodes_, springs_within_});
-  for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get()})
+  for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get(), attachment_.get()})
     if (term != nullptr) terms_.push_back(term);
   if (contact_) terms_.push_back(contact_.get());
   if (body_contact_) terms_.push_back(body_contact_.get());
@@ -168,6 +181,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
   fit(vertices_.dart, springs_, ends_, nodes_, solid_nodes_, springs_within_, triangle_nodes_);
   with_shapes(shapes_, fit);
+  attached_.shrink_to_fit();
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
   fit(cell_material_, volume_);
 }
@@ -191,6 +205,7 @@ MemoryReport BodyOfColumns::memory() const {
   if (cell_springs_)
     report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
   if (bending_) report.push_back({Part::bending, bytes_of(bends_, neighbours_)});
+  if (attachment_) report.push_back({Part::attachments, bytes_of(attached_)});
   if (contact_ || body_contact_)
     report.push_back({Part::contact, bytes_of(samples_) + (contact_ ? contact_->bytes() : 0) +
                                          (body_contact_ ? skin_solids_.bytes() + body_contact_->bytes() : 0)});

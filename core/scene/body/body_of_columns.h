@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/elements/attachments.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
 #include "core/elements/element_shapes.h"
@@ -75,7 +76,8 @@ class BodyOfColumns final : public SimulatedBody {
   std::vector<CellSprings> springs_within_;
   std::vector<BendingEdge> bends_;  // of a surface, one of the two where it resists bending
   std::vector<SecondNeighbours> neighbours_;
-  std::unique_ptr<ForceTerm> cell_springs_, bending_;
+  std::vector<AttachedVertex> attached_;
+  std::unique_ptr<ForceTerm> cell_springs_, bending_, attachment_;
   std::vector<SkinSample> samples_;  // of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
   SkinSolids skin_solids_;  // what its parts can be inside of, where some touch

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/elements/attachments.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
 #include "core/elements/element_shapes.h"
@@ -23,6 +24,7 @@
 #include "core/scene/body/make_contact.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
+#include "core/views/attachments_view.h"
 #include "core/views/component_labels.h"
 #include "core/views/element_nodes_view.h"
 #include "core/views/inner_edges_view.h"
@@ -41,7 +43,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   BodyOnMap(const Problem& problem, const BodyNeeds& needs)
       : body_(build_body<Map, Held::by_every_dart>(problem)),
         holds_{needs.bending.rigidity > 0.0, needs.bending.second_neighbours > 0.0, needs.contact(),
-               !needs.touches.empty()},
+               !needs.touches.empty(), !needs.attached.empty()},
         bends_(needs.bending.rigidity),
         first_cell_(needs.first_cell) {
     add_cell_springs(body_, problem.mesh, needs.diagonals);
@@ -50,8 +52,11 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
     // bending and contact need rest positions, also where no displacement is shown
-    if (needs.rest || holds_.any()) body_.vertices.keep_rest();
+    if (needs.rest || holds_.any_at_rest()) body_.vertices.keep_rest();
     if (needs.pull) body_.vertices.pull.assign(body_.vertices.size(), Eigen::Vector3d(0, 0, 0));
+    if (holds_.attachments)
+      attachments_ = AttachmentsView(shared_by_mass(needs.attached, body_.vertices),
+                                     [this](std::uint32_t cell) { return mesh_cell_[cell]; });
     for_each_view([this](auto& view) { view.rebuild(body_); });
     elements_ = make_elements(body_.cell_materials(), body_.elements, {nodes_.nodes, solids_.nodes, triangles_.nodes},
                               body_.cell_mass);
@@ -62,6 +67,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     if (n == 2 && holds_.neighbours)
       bending_ = make_second_neighbours(neighbours_.rows, needs.bending.second_neighbours);
     add_term(bending_);
+    if (holds_.attachments) attachment_ = make_attachments(attachments_.rows, body_.vertices.mass);
+    add_term(attachment_);
     if (!needs.obstacles.empty()) {
       contact_ = make_contact(needs.obstacles, skin_.samples());
       terms_.push_back(contact_.get());
@@ -245,6 +252,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       report.push_back(
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
     if (bending_) report.push_back({Part::bending, bytes_of(bends_.rows, neighbours_.rows)});
+    if (attachment_) report.push_back({Part::attachments, attachments_.bytes()});
     if (contact_ || body_contact_)
       report.push_back(
           {Part::contact,
@@ -262,6 +270,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     for_each_column(body_, Body::embedded_in_cells(), fit_column);
     fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
         solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
+    attachments_.shrink_to_fit();
   }
 
   void add_refined_facets(Frame& frame) const {
@@ -292,6 +301,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       if (holds_.bends) f(bends_);
       if (holds_.neighbours) f(neighbours_);
     }
+    if (holds_.attachments) f(attachments_);
     if (holds_.skin) f(skin_);
     if (holds_.skin_solids) f(skin_solids_);
     f(components_);
@@ -320,8 +330,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
 
   /// The views that only some scenes need.
   struct OptionalViews {
-    bool bends, neighbours, skin, skin_solids;
-    bool any() const { return bends || neighbours || skin; }
+    bool bends, neighbours, skin, skin_solids, attachments;
+    bool any_at_rest() const { return bends || neighbours || skin; }
   };
 
   Body body_;
@@ -335,7 +345,9 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   BendingView bends_;                             // of a surface, one of the two where it resists bending
   SecondNeighboursView neighbours_;
   std::unique_ptr<ForceTerm> bending_;
-  Skin skin_;  // the samples of its boundary, where there is contact
+  AttachmentsView attachments_;
+  std::unique_ptr<ForceTerm> attachment_;  // null without attachments
+  Skin skin_;                              // the samples of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
   std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
   // what its parts can be inside of, where some touch

@@ -25,6 +25,7 @@ std::string_view name(Part part) {
     case Part::damping: return "damping";
     case Part::cell_springs: return "springs within cells";
     case Part::bending: return "bending";
+    case Part::attachments: return "attachments";
     case Part::contact: return "contact";
     case Part::gravity: return "gravity";
     case Part::integrator: return "integrator";

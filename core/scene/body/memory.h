@@ -32,6 +32,7 @@ enum class Part {
   cell_damping,  // of elements, by the rate of their strain: time only
   cell_springs,  // rest lengths of the diagonals of each cell, and its corners
   bending,       // bending elements across the edges of a surface
+  attachments,   // springs from vertices to points of cells and fixed places
   contact,       // samples of the boundary, and the obstacles
   gravity,       // a force term: time only
   integrator,    // columns kept between steps

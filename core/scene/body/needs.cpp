@@ -40,6 +40,7 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
   body.rest =
       scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
   body.pull = !scene.forces.empty();
+  body.attached = find_attachments(scene, problem.mesh);
   body.obstacles = scene.obstacles;
   for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
   if (!body.touches.empty()) body.first_cell = first_cells(scene);

@@ -9,6 +9,7 @@
 #include "core/contact/body_contact.h"
 #include "core/plain/diagonals.h"
 #include "core/plain/problem.h"
+#include "core/scene/body/attached_points.h"
 #include "core/scene/file/scene_file.h"
 
 namespace dartboard {
@@ -28,6 +29,7 @@ struct BodyNeeds {
   bool pull = false;                       // a column of external forces
   Diagonals diagonals = Diagonals::none;   // springs on those of its cells
   Bending bending{};                       // of a surface
+  std::vector<AttachedPoints> attached{};  // one for each attachment of the scene
   std::vector<SceneObstacle> obstacles{};  // that its boundary may touch
   std::vector<ContactPair> touches{};      // the pairs of its parts that touch: groups are bodies of the scene
   std::vector<std::size_t> first_cell{};   // of each of these bodies, where some touch
@@ -47,6 +49,8 @@ struct Needs {
   bool refinement;        // some event refines
   bool stress_watch;      // some event needs the stress in every step
 };
+///
+/// throws  InputError as find_attachments
 Needs needs_of(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

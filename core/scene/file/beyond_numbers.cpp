@@ -51,6 +51,7 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
       for (const auto& [key, value] :
            {std::pair("/force", force.force), {"/acceleration", force.acceleration}, {"/torque", force.torque}})
         if (value) all.push_back({force.path + key, value->lpNorm<Eigen::Infinity>()});
+  for (const SceneAttachment& one : scene.attachments) all.push_back({one.path + "/stiffness", one.stiffness});
   for (const SceneObstacle& one : scene.obstacles)
     all.insert(all.end(), {{one.path + "/pressure", one.law.pressure}, {one.path + "/depth", one.law.depth}});
   for (const SceneTouch& touch : scene.touches) {

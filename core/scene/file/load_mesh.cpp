@@ -31,6 +31,7 @@ void visit_points(SceneFile& scene, const Visit& visit) {
     visit_ids(scene.fixed[k].vertices, fmt::format("/fixed/{}", k), visit);
   for (SceneDrive& drive : scene.driven) visit_ids(drive.vertices, drive.path, visit);
   for (SceneForce& force : scene.forces) visit_ids(force.vertices, force.path, visit);
+  for (SceneAttachment& one : scene.attachments) visit_ids(one.vertices, one.path, visit);
   for (Probe& probe : scene.probes)
     if (auto* point = std::get_if<std::uint32_t>(&probe.vertex)) visit(*point, probe.path + "/vertex");
   const Overloads visit_choice{
@@ -114,6 +115,7 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   for (HeldSelection& held : scene.fixed) all_of(held.vertices);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
   for (SceneForce& force : scene.forces) all_of(force.vertices);
+  for (SceneAttachment& one : scene.attachments) all_of(one.vertices);
   const Overloads name_in_choice{[&all_of](const std::string&, VertexSelection& vertices) { all_of(vertices); },
                                  [&places](const std::string&, FacetPoints& facets) {
                                    for (auto& points : facets) places.find_face(points);

@@ -57,6 +57,8 @@ void read(const SceneValue& value, SceneFile& scene) {
   for (const SceneValue& held : value.at("fixed").entries()) scene.fixed.push_back(HeldSelection::read(held));
   for (const SceneValue& drive : value.at("driven").entries()) scene.driven.push_back(read_drive(drive, scene));
   for (const SceneValue& force : value.at("forces").entries()) scene.forces.push_back(read_force(force, scene));
+  for (const SceneValue& one : value.at("attachments").entries())
+    scene.attachments.push_back(read_attachment(one, scene));
   if (value.has("contact")) read_contact(value.at("contact"), scene);
   scene.integrator = value.find<std::string>("integrator").value_or(scene.accuracy ? "" : standard_integrator);
   scene.solver = value.find<std::string>("solver").value_or("");

@@ -145,6 +145,14 @@ struct SceneForce {
   }
 };
 
+/// Vertices that springs without length hold to points of the cells of a body, or to the places where they are at rest.
+struct SceneAttachment {
+  VertexSelection vertices;
+  std::optional<std::uint32_t> to;  // the number of a body, counted from 0; no value: to fixed places
+  double stiffness;                 // [N/m] of all springs together, shared in proportion to the masses of vertices
+  std::string path;                 // "/attachments/3"
+};
+
 /// An obstacle for the body, and the law of the contact with it.
 struct SceneObstacle {
   Obstacle obstacle;
@@ -217,6 +225,7 @@ struct SceneFile {
   std::vector<HeldSelection> fixed;
   std::vector<SceneDrive> driven;
   std::vector<SceneForce> forces;
+  std::vector<SceneAttachment> attachments;
   std::vector<SceneObstacle> obstacles;  // without any, and without touches, there is no contact
   std::vector<SceneTouch> touches;       // each pair once, in ascending order
   // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,

@@ -168,6 +168,9 @@ std::span<const Rule> rules_between_keys() {
       {events, [](S s) { return breach_if(!s.forces.empty(), last<Refine>(s)); },
        "cannot be combined with /forces: it takes mass from the vertices that share them",
        "no refinement where forces are applied"},
+      {events, [](S s) { return breach_if(!s.attachments.empty(), last<Refine>(s)); },
+       "cannot be combined with /attachments: it replaces the cells that they refer to, and takes mass from vertices",
+       "no refinement where vertices are attached"},
 
       // ---- output and expectations
       {output, [](S s) { return breach_if(s.output.fields.springs && !s.has_springs(), "/output/fields"); },

@@ -196,6 +196,7 @@ class Planner {
           source_of(scene_) + "; " + elasticity());
     }
     springs_beside_edges();
+    attachments();
     const std::string damping =
         materials.is_one() ? setting_in_words("/material/damping", Shape::material, "damping", materials[0].damping)
                            : materials_in_words();
@@ -242,6 +243,19 @@ class Planner {
     if (scene_.bending.second_neighbours > 0.0)
       add(Part::bending, fmt::format("{} edges: second neighbours across each, rest lengths", n.edges),
           fmt::format("/bending/second_neighbours: {}", scene_.bending.second_neighbours));
+  }
+
+  void attachments() {
+    if (scene_.attachments.empty()) return;
+    std::string held, why;
+    for (std::size_t k = 0; k < scene_.attachments.size(); ++k) {
+      const SceneAttachment& one = scene_.attachments[k];
+      const std::size_t count = plan_.needs.body.attached[k].points.size();
+      held += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", count, count == 1 ? "vertex" : "vertices",
+                          one.to ? fmt::format("body {}", *one.to) : "fixed places");
+      why += fmt::format("{}{}/stiffness: {}", k == 0 ? "" : "; ", one.path, one.stiffness);
+    }
+    add(Part::attachments, fmt::format("springs without length: {}", held), why);
   }
 
   void contact() {

@@ -18,7 +18,7 @@ std::optional<Eigen::Vector3d> centre_of_part(const SimulatedBody& body, std::ui
   DisjointSets parts(system.mass.size());
   for (const SpringEnds& ends : system.ends) parts.join(ends[0], ends[1]);
   for (const ForceTerm* term : system.terms)
-    for (std::size_t piece = 0; piece < term->size(); ++piece)
+    for (std::size_t piece = 0; piece < term->size() && term->is_within_cells(); ++piece)
       for (const std::uint32_t node : term->nodes(piece)) parts.join(term->nodes(piece)[0], node);
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();

@@ -84,8 +84,9 @@ Simulation::Simulation(const SceneFile& scene)
   const CellMaterials materials = problem.cell_materials();
   for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
     if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];
+  const BodyNeeds needs = needs_of(scene, problem).body;
   try {
-    body_ = make_simulated_body(problem, needs_of(scene, problem).body);
+    body_ = make_simulated_body(problem, needs);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}: {}", scene.file, key_without_body(scene, problem), error.what()));
   } catch (const std::bad_alloc&) {

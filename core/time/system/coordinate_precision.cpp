@@ -43,7 +43,7 @@ void look_at_pieces(const SpringSystem& system, Search& search) {
   std::vector<std::uint8_t> has_spring(system.vertex_count(), 0);
   for (const auto& [i, j] : system.ends) has_spring[i] = has_spring[j] = 1;
   for (const ForceTerm* term : system.terms)
-    for (std::size_t piece = 0; piece < term->size(); ++piece) {
+    for (std::size_t piece = 0; piece < term->size() && term->is_within_cells(); ++piece) {
       const ForceTerm::Nodes nodes = term->nodes(piece);
       if (std::ranges::all_of(nodes, [&](std::uint32_t i) { return has_spring[i] != 0; })) continue;
       for (std::size_t a = 1; a < nodes.size(); ++a)

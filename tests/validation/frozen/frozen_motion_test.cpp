@@ -101,6 +101,7 @@ TEST(BeyondReferences, NamesWhatTheyDoNotKnow) {
             "membranes");
   EXPECT_EQ(beyond(R"({"body": {"generate": {"box": {"kind": "hexahedra", "pattern": null}}}, "diagonals": "all"})"),
             "springs that are no edges");
+  EXPECT_EQ(beyond(R"({"attachments": [{"ids": [3], "stiffness": 10}]})"), "attachments");
   EXPECT_EQ(beyond(R"({"events": [{"at": 0.02, "refine": {"cells": {"ids": [3]}}}]})"), "refinement");
 }
 

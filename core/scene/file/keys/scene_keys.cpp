@@ -69,6 +69,8 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "vertices that are moved along, whatever acts on them"},
       {.shape = scene, .name = "forces", .type = objects, .of = force, .standard = "[]",
        .help = "forces from outside on some of the vertices"},
+      {.shape = scene, .name = "attachments", .type = objects, .of = attachment, .standard = "[]",
+       .help = "vertices that springs hold to a body or to the places where they are at rest"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
        .help = "contact of bodies with obstacles, with each other and with themselves; not of a chain, and not with an "
                "accuracy. Without it bodies pass through each other and through themselves"},
@@ -271,6 +273,11 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "time it begins at"},
       {.shape = force, .name = "until", .type = real, .unit = "s", .range = positive,
        .help = "time it ends at; left out, it lasts to the end"},
+      {.shape = attachment, .name = "to", .type = integer, .range = number,
+       .help = "the body that they are attached to, by its place in 'bodies', counted from 0; selected vertices of that body "
+               "are not held. Left out, they are held to the places where they are at rest"},
+      {.shape = attachment, .name = "stiffness", .type = real, .unit = "N/m", .range = positive, .required = true,
+       .help = "of all springs together, shared in proportion to the masses of the vertices"},
       {.shape = contact, .name = "pressure", .type = real, .unit = "Pa", .range = positive, .required = true,
        .help = "that a contact carries at the depth; it grows with the depth to the power exponent - 1"},
       {.shape = contact, .name = "depth", .type = real, .unit = "m", .range = positive, .required = true,
@@ -494,7 +501,8 @@ std::vector<SceneKey> make_keys() {
       keys.back().shape = shape;
     }
   };
-  for (const Shape shape : {Shape::held, Shape::driven, Shape::force}) add(shape, Shape::vertex_selection);
+  for (const Shape shape : {Shape::held, Shape::driven, Shape::force, Shape::attachment})
+    add(shape, Shape::vertex_selection);
   keys.insert(keys.end(), by_hand.begin(), by_hand.end());
   add(Shape::one_body, Shape::body);
   add(Shape::tissue, Shape::material, "viscosity");
@@ -553,6 +561,14 @@ std::span<const ShapeHelp> scene_shapes() {
        "matter it acts on: parts of a vertex that comes apart share it in proportion to their masses, and what loses "
        "cells loses their share. What of it acts on fixed or driven vertices is borne by what holds them."},
       {Shape::force_factor, "force_factor", "A factor of a force, and when."},
+      {Shape::attachment, "attachment",
+       "Springs without length and without damping, one for each of some vertices. Each is attached to the point of a "
+       "body, or of space, where the vertex is at rest, so that at rest there is no force. In a body that point is in "
+       "the cell that the vertex is in or nearest to, no farther away than the longest edge of that cell, and moves "
+       "with a tetrahedron (of a surface a triangle) of it; to be attached to a surface, a vertex lies in the plane of "
+       "such a triangle. Momentum is kept, also where a fixed or driven vertex is attached. Parts of a vertex that "
+       "comes apart share its spring in proportion to their masses, what loses cells loses their share, and a cell "
+       "that is removed takes what is attached to it along. Not with refinement."},
       {Shape::contact, "contact",
        "Contact of the surface of bodies with obstacles, and of solids with solids: of a solid its boundary, cuts included, "
        "of a surface all of it, from both sides. It is felt at the vertices and in the middles of faces, each by its share of the area at rest, and "
@@ -624,6 +640,7 @@ std::span<const SceneRule> scene_rules() {
       {excludes, Shape::driven, {"path", "from", "until", "reverse_every"}},
       {excludes, Shape::driven, {"turn", "from", "until", "reverse_every"}},
       {exactly_one, Shape::force, {"force", "pressure", "acceleration", "torque"}},
+      {exactly_one, Shape::attachment, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},
       {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random", "tag"}},

@@ -34,6 +34,7 @@ enum class Shape {
   driven_angle,
   force,
   force_factor,
+  attachment,
   contact,
   contact_pair,
   obstacle,

@@ -35,8 +35,9 @@ TEST(PointNumbers, AreThoseOfTheFileInEveryKey) {
   const Folder folder(R"("fixed": [{"ids": [1, 5]}], "driven": [{"ids": [4], "velocity": [0, 0, 1]}],
       "events": [{"at": 0.005, "tear": {"vertex": 2, "direction": [1, 0, 0]}},
                  {"at": 0.005, "dissociate": {"points": [[1, 2, 5]]}}],
-      "output": {"probes": [{"name": "p", "vertex": 4}]})");
+      "attachments": [{"ids": [5, 4], "stiffness": 3}], "output": {"probes": [{"name": "p", "vertex": 4}]})");
   const SceneFile scene = folder.scene();
+  EXPECT_EQ(std::get<IdSelection>(scene.attachments.at(0).vertices).ids, (std::vector<std::uint32_t>{3, 2}));
   EXPECT_EQ(std::get<IdSelection>(scene.fixed.at(0).vertices).ids, (std::vector<std::uint32_t>{0, 3}));
   EXPECT_EQ(std::get<IdSelection>(scene.driven.at(0).vertices).ids, (std::vector<std::uint32_t>{2}));
   EXPECT_EQ(std::get<std::uint32_t>(std::get<Tear>(scene.events.at(0).action).vertex), 1u);
@@ -122,6 +123,8 @@ TEST(TouchingScene, HoldsAllVerticesInThePlaceOfAPoint) {
   std::size_t held = 0;
   for (const auto fixed : simulation.body().system().fixed) held += fixed;
   EXPECT_EQ(held, 2u);
+  const TouchingFolder attached(R"(, "attachments": [{"ids": [0], "stiffness": 1}])");
+  EXPECT_EQ(Simulation(attached.scene()).body().system().terms[0]->size(), 2u);
 }
 
 TEST(TouchingScene, KnowsAFaceByThePointsOfTheFile) {

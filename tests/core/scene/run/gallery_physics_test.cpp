@@ -606,6 +606,37 @@ TEST(GalleryPhysics, TheWrungBarTurnsHalfAsFarHalfWay) {
   EXPECT_GT(simulation.diagnostics().elastic, 6.0);
 }
 
+// ---- attachments
+
+// Bars under their weights and those below: how much lower than at rest each part hangs in the mean. What has been cut
+// off falls as a whole and, at its last speed, is as long as at rest.
+TEST(GalleryPhysics, AttachedBodiesHangByTheirSpringsAndFallTogether) {
+  const SceneFile scene = gallery("bodies_attached");
+  const double g = -scene.gravity.z(), young = scene.material.young, density = scene.material.density;
+  const auto side = [](const BodySource& body) {
+    const auto& box = std::get<BoxMesh>(body.mesh);
+    return box.cells[2] * box.spacing;
+  };
+  const double block = side(scene.bodies()[0]), glued = side(scene.bodies()[1]), area = block * block;
+  const double half = density * area * block / 2, small = density * glued * glued * glued;
+  const auto stretched = [&](double length) {
+    return density * g * length * length / young;
+  };  // 3 times that of its mean
+  const double held = scene.attachments.at(0).stiffness, carried = scene.attachments.at(1).stiffness;
+  expect_place(scene, place_of(scene, "above", true),
+               {0.05, 0.05, 0.4 - block / 4 - half * g / held - stretched(block / 2) / 3});
+  // in the lower half of a bar, means over the height of its shape under its own weight and the one below
+  const double down = (2 * half + small) * g / held, strain = small * g / (area * young);
+  const double lower = 0.4 - 0.75 * block - down - 0.75 * block * strain - stretched(block) * (0.75 - 7.0 / 24);
+  const double lowest =
+      0.3 - glued / 2 - down - block * strain - stretched(block) / 2 - small * g / carried - stretched(glued) / 3;
+  const double falls = scene.duration - scene.events.at(0).from, whole = half + small;
+  const Vector3d centre(0.05, 0.05, (half * lower + small * lowest) / whole);
+  const Vector3d end = flight(centre, Vector3d(0, 0, 0), scene, falls), apart(0, 0, block / 4 + glued / 2);
+  expect_place(scene, place_of(scene, "below", true), end + small / whole * apart);
+  expect_place(scene, place_of(scene, "glued", true), end - half / whole * apart);
+}
+
 // ---- all scenes are tested
 
 TEST(GalleryPhysics, IsExpectedOfEveryScene) {
