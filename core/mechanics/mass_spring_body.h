@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/elements/cell_springs.h"
-#include "core/elements/element_shapes.h"
 #include "core/forces/springs.h"
 #include "core/mechanics/columns.h"
+#include "core/mechanics/element_shapes.h"
 #include "core/mechanics/embedding.h"
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/problem.h"

@@ -8,7 +8,7 @@
 #include "core/elements/attachments.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
-#include "core/elements/element_shapes.h"
+#include "core/mechanics/element_shapes.h"
 #include "core/plain/mesh.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/views/element_nodes_view.h"

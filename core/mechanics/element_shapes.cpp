@@ -1,4 +1,4 @@
-#include "core/elements/element_shapes.h"
+#include "core/mechanics/element_shapes.h"
 
 #include "core/base/overloads.h"
 
