@@ -78,7 +78,7 @@ class Archive {
       std::uint8_t k = 0;
       ((k++ == index ? (void)one_of.template emplace<T>() : (void)0), ...);
     }
-    std::visit([this](auto& alternative) { value(alternative); }, one_of);
+    std::visit([this](auto& alternative) { this->value(alternative); }, one_of);
   }
   void value(std::monostate&) {}
   template <class T>
