@@ -20,7 +20,8 @@ DrivenVertices::DrivenVertices(const SceneFile& scene, std::span<const Eigen::Ve
     if (from.has_table()) drive.table = from;
     for (const std::uint32_t p : drive.points)
       from.has_table() ? drive.rest.push_back(rest[p]) : drive.velocity.push_back(from.velocity.at(rest[p]));
-    drive.first = step_of_time(from.from, step);
+    // a path or a turn that begins within a step is followed from there
+    drive.first = from.has_table() ? step_until(from.from, step) : step_of_time(from.from, step);
     drive.last = from.until ? step_of_time(*from.until, step) : EventClock::never;
     if (from.reverse_every) {
       drive.turn.emplace(from.from, from.until.value_or(scene.duration), from.reverse_every, step);

@@ -1,4 +1,5 @@
 #pragma once
+// What the loads of a scene report at a step boundary.
 
 namespace dartboard {
 

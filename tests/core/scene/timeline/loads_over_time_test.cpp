@@ -157,6 +157,20 @@ TEST(LoadsOverTime, TakeDrivenVerticesAlongAPath) {
   }
 }
 
+TEST(LoadsOverTime, TakeDrivenVerticesAlongFromAndToTimesWithinSteps) {
+  Json scene = floating_box("[]");
+  scene["driven"] = Json::parse(R"([{"ids": [26], "path": [{"at": 0.0025, "place": [0, 0, 0]},
+                                                           {"at": 0.0075, "place": [0.05, 0, 0]}]}])");
+  Simulation simulation(parse(scene));
+  const double start = simulation.body().vertices().position[26].x();
+  for (int n = 1; n <= 10; ++n) {
+    ASSERT_FALSE(simulation.advance());
+    EXPECT_NEAR(simulation.body().vertices().position[26].x() - start,
+                0.05 * std::clamp((0.001 * n - 0.0025) / 0.005, 0.0, 1.0), 1e-15)
+        << n;
+  }
+}
+
 TEST(LoadsOverTime, TurnDrivenVerticesOnCircles) {
   Json scene = floating_box("[]");
   scene["driven"] = Json::parse(R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]},
