@@ -60,7 +60,7 @@ def rows_of(table_text):
 
 
 def three_digits(number):
-    return "%.3g" % float(number)
+    return ("%#.3g" % float(number)).rstrip(".")
 
 
 class Readme(unittest.TestCase):
