@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 #include "core/elements/spring_pieces.h"
 #include "core/forces/compensated_sum.h"
 

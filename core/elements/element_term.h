@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_term.h"
 

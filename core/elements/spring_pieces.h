@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_term.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/elements/elastic_laws.h"
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 #include "core/forces/one_minus_exp.h"
 #include "core/forces/term_damping.h"
 #include "core/plain/cell_materials.h"

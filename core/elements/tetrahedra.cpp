@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
 #include "core/forces/compensated_sum.h"

@@ -2,7 +2,6 @@
 // A force term from the energy, the force and the tangent of one piece: all sums are written here.
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +15,7 @@
 
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_term.h"
+#include "core/forces/semidefinite.h"
 
 namespace dartboard {
 
@@ -141,7 +141,8 @@ class PieceTerm final : public ForceTerm {
     for (std::size_t k = 0; k < size(); ++k) {
       const Nodes n = nodes(k);
       Blocks blocks = tangent_at(k, Places(at, n));
-      if (compression == Compression::projected) project(blocks, n.size());
+      if (compression == Compression::projected)
+        make_semidefinite({blocks.data(), n.size() * (n.size() + 1) / 2}, n.size());
       visit(n, {blocks.data(), n.size() * (n.size() + 1) / 2});
     }
   }
@@ -209,17 +210,6 @@ class PieceTerm final : public ForceTerm {
     const double moved = at.w.empty() ? 0.0 : std::abs(at.t) * at.w[n[b]].norm();
     return moved + (P::is_internal ? at.x[n[b]] - at.x[n[0]] : at.x[n[b]]).norm();
   }
-  static void project(Blocks& blocks, std::size_t count) {
-    const auto at = [](std::size_t a) { return static_cast<Eigen::Index>(3 * a); };
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24> whole(at(count), at(count));
-    for (std::size_t a = 0; a < count; ++a)
-      for (std::size_t b = 0; b < count; ++b) whole.template block<3, 3>(at(a), at(b)) = block(blocks, a, b);
-    const Eigen::SelfAdjointEigenSolver<decltype(whole)> solver(whole);
-    whole = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
-    for (std::size_t a = 0, k = 0; a < count; ++a)
-      for (std::size_t b = 0; b <= a; ++b) blocks[k++] = whole.template block<3, 3>(at(a), at(b));
-  }
-
   P pieces_;
 };
 

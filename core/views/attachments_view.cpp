@@ -4,31 +4,24 @@
 #include <utility>
 
 #include "core/base/bytes.h"
-#include "core/topology/cells.h"
 
 namespace dartboard {
 
-AttachmentsView::AttachmentsView(std::vector<Attachment> attachments, MeshCell mesh_cell)
-    : attachments_(std::move(attachments)), mesh_cell_(std::move(mesh_cell)) {
+AttachmentsView::AttachmentsView(std::vector<Attachment> attachments, FollowedCells::MeshCell mesh_cell)
+    : attachments_(std::move(attachments)) {
   std::ranges::stable_sort(attachments_, {}, &Attachment::point);
+  std::vector<std::uint32_t> cells;
   for (std::uint32_t k = 0; k < attachments_.size(); ++k)
     if (attachments_[k].has_cell()) {
-      targets_.push_back(attachments_[k].cell);
+      cells.push_back(attachments_[k].cell);
       by_target_.push_back(k);
     }
-  std::ranges::sort(targets_);
-  targets_.erase(std::unique(targets_.begin(), targets_.end()), targets_.end());
-  for (const Attachment& one : attachments_) target_.push_back(one.has_cell() ? target_of(one.cell) : nothing);
+  targets_ = FollowedCells(std::move(cells), std::move(mesh_cell));
+  for (const Attachment& one : attachments_) target_.push_back(one.has_cell() ? targets_.place_of(one.cell) : nothing);
   std::ranges::stable_sort(by_target_, {}, [this](std::uint32_t k) { return target_[k]; });
   first_.assign(targets_.size() + 1, 0);
   for (const std::uint32_t k : by_target_) ++first_[target_[k] + 1];
   for (std::size_t t = 0; t < targets_.size(); ++t) first_[t + 1] += first_[t];
-}
-
-std::uint32_t AttachmentsView::target_of(std::uint32_t mesh_cell) const {
-  const auto found = std::ranges::lower_bound(targets_, mesh_cell);
-  return found == targets_.end() || *found != mesh_cell ? nothing
-                                                        : static_cast<std::uint32_t>(found - targets_.begin());
 }
 
 template <class Body>
@@ -37,13 +30,7 @@ void AttachmentsView::rebuild(const Body& body) {
   links_.clear();
   first_of_vertex_.assign(body.vertices.size(), nothing);
   first_of_attachment_.assign(attachments_.size(), nothing);
-  cell_of_target_.assign(targets_.size(), nothing);
-  target_of_cell_.clear();
-  for (std::uint32_t c = 0; c < body.cell_dart.size() && !targets_.empty(); ++c) {
-    const std::uint32_t target = target_of(mesh_cell_(c));
-    target_of_cell_.push_back(target);
-    if (target != nothing) cell_of_target_[target] = c;
-  }
+  targets_.rebuild(body);
   for (std::uint32_t k = 0; k < body.vertices.size(); ++k) add_rows(body, k);
   for (std::uint32_t t = 0; t < targets_.size(); ++t) find_corners(body, t);
 }
@@ -51,17 +38,7 @@ void AttachmentsView::rebuild(const Body& body) {
 template <class Body>
 void AttachmentsView::apply(const Body& body, const ChangedEmbeddings& changed) {
   // columns by number follow as `ChangedEmbeddings` says
-  if (!targets_.empty()) {
-    target_of_cell_.resize(changed.cell_count + changed.moved_cells.size(), nothing);
-    for (const auto& [from, to] : changed.moved_cells) {
-      if (const std::uint32_t removed = target_of_cell_[to]; removed != nothing) erase_target(removed);
-      if (from != to) {
-        target_of_cell_[to] = target_of_cell_[from];
-        if (const std::uint32_t target = target_of_cell_[to]; target != nothing) cell_of_target_[target] = to;
-      }
-      target_of_cell_.pop_back();
-    }
-  }
+  targets_.apply(changed, [this](std::uint32_t target) { erase_target(target); });
   first_of_vertex_.resize(changed.vertex_count + changed.moved_vertices.size(), nothing);
   for (const auto& [from, to] : changed.moved_vertices) {
     while (first_of_vertex_[to] != nothing) erase(first_of_vertex_[to]);
@@ -80,11 +57,7 @@ void AttachmentsView::apply(const Body& body, const ChangedEmbeddings& changed) 
     add_rows(body, k);
     for (std::uint32_t row = first_of_vertex_[k]; row != nothing; row = links_[row].next_of_vertex)
       if (const std::uint32_t target = target_[links_[row].attachment]; target != nothing) touched_.push_back(target);
-    if (!targets_.empty())
-      for_each_place_of(body.map, Vertex{body.vertices.dart[k]}, seen, [&](Dart d) {
-        if (const std::uint32_t target = target_of_cell_[body.cell(body.map, d)]; target != nothing)
-          touched_.push_back(target);
-      });
+    targets_.for_each_around(body, k, seen, [this](std::uint32_t target) { touched_.push_back(target); });
   }
   std::ranges::sort(touched_);
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -98,7 +71,7 @@ void AttachmentsView::add_rows(const Body& body, std::uint32_t vertex) {
   for (auto one = std::ranges::lower_bound(attachments_, point, {}, &Attachment::point);
        one != attachments_.end() && one->point == point; ++one) {
     const auto number = static_cast<std::uint32_t>(one - attachments_.begin());
-    if (target_[number] != nothing && cell_of_target_[target_[number]] == nothing) continue;
+    if (target_[number] != nothing && !targets_.is_there(target_[number])) continue;
     bool is_there = false;
     for (std::uint32_t row = first_of_vertex_[vertex]; row != nothing; row = links_[row].next_of_vertex)
       is_there = is_there || links_[row].attachment == number;
@@ -112,12 +85,8 @@ void AttachmentsView::add_rows(const Body& body, std::uint32_t vertex) {
 
 template <class Body>
 void AttachmentsView::find_corners(const Body& body, std::uint32_t target) {
-  if (cell_of_target_[target] == nothing) return;
-  corners_.clear();
-  for_each_dart_of(body.map, Cell<Body::dimension>{body.cell_dart[cell_of_target_[target]]}, [&](Dart d) {
-    const std::uint32_t vertex = body.vertex(body.map, d);
-    corners_.push_back({body.vertices.point[vertex], vertex});
-  });
+  if (!targets_.is_there(target)) return;
+  targets_.find_corners(body, target, corners_);
   for (std::uint32_t k = first_[target]; k < first_[target + 1]; ++k)
     for (std::uint32_t row = first_of_attachment_[by_target_[k]]; row != nothing; row = links_[row].next_of_attachment)
       set_corners(rows[row], attachments_[by_target_[k]]);
@@ -125,7 +94,7 @@ void AttachmentsView::find_corners(const Body& body, std::uint32_t target) {
 
 void AttachmentsView::set_corners(AttachedVertex& row, const Attachment& attachment) const {
   for (std::size_t a = 0; a < attachment.count; ++a)
-    row.nodes[a + 1] = std::ranges::find(corners_, attachment.corners[a], &Corner::point)->vertex;
+    row.nodes[a + 1] = FollowedCells::vertex_at(corners_, attachment.corners[a]);
 }
 
 AttachmentsView::References AttachmentsView::references(std::uint32_t row) {
@@ -152,25 +121,22 @@ void AttachmentsView::erase(std::uint32_t row) {
 }
 
 void AttachmentsView::erase_target(std::uint32_t target) {
-  cell_of_target_[target] = nothing;
   for (std::uint32_t k = first_[target]; k < first_[target + 1]; ++k)
     while (first_of_attachment_[by_target_[k]] != nothing) erase(first_of_attachment_[by_target_[k]]);
 }
 
 std::size_t AttachmentsView::bytes() const {
-  return bytes_of(rows, attachments_, links_) + bytes_of(targets_, by_target_, target_, first_) +
-         bytes_of(first_of_vertex_, first_of_attachment_, cell_of_target_, target_of_cell_);
+  return bytes_of(rows, attachments_, links_) + bytes_of(by_target_, target_, first_) +
+         bytes_of(first_of_vertex_, first_of_attachment_) + targets_.bytes();
 }
 
 void AttachmentsView::shrink_to_fit() {
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
-  fit(rows, attachments_, links_, targets_, by_target_, target_, target_of_cell_);
+  fit(rows, attachments_, links_, targets_, by_target_, target_);
 }
 
 bool operator==(const AttachmentsView& a, const AttachmentsView& b) {
-  if (a.rows.size() != b.rows.size() || a.cell_of_target_ != b.cell_of_target_ ||
-      a.target_of_cell_ != b.target_of_cell_)
-    return false;
+  if (a.rows.size() != b.rows.size() || a.targets_ != b.targets_) return false;
   const auto sorted = [](const AttachmentsView& view) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // the attachment, the row
     for (std::uint32_t row = 0; row < view.rows.size(); ++row) order.push_back({view.links_[row].attachment, row});

@@ -2,12 +2,10 @@
 // The attachments of a body, as they follow every change of the topology.
 
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <vector>
 
 #include "core/elements/attachments.h"
-#include "core/mechanics/adapt.h"
+#include "core/views/followed_cells.h"
 
 namespace dartboard {
 
@@ -18,11 +16,8 @@ namespace dartboard {
 /// pre  the body is not refined
 class AttachmentsView {
  public:
-  /// The cell of the mesh that a cell of the body is, by its number.
-  using MeshCell = std::function<std::uint32_t(std::uint32_t)>;
-
   AttachmentsView() = default;
-  AttachmentsView(std::vector<Attachment> attachments, MeshCell mesh_cell);
+  AttachmentsView(std::vector<Attachment> attachments, FollowedCells::MeshCell mesh_cell);
 
   std::vector<AttachedVertex> rows;
 
@@ -42,13 +37,13 @@ class AttachmentsView {
 
   template <class Archive>
   void state(Archive& archive) {
-    archive(rows, links_, first_of_vertex_, first_of_attachment_, cell_of_target_, target_of_cell_);
+    archive(rows, links_, first_of_vertex_, first_of_attachment_, targets_);
   }
   std::size_t bytes() const;
   void shrink_to_fit();
 
  private:
-  static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t nothing = FollowedCells::nothing;
 
   /// The attachment of a row, and the next row of two lists: of its vertex, and of its attachment.
   struct Link {
@@ -65,7 +60,6 @@ class AttachmentsView {
   void find_corners(const Body& body, std::uint32_t target);
   void erase(std::uint32_t row);
   void erase_target(std::uint32_t target);
-  std::uint32_t target_of(std::uint32_t mesh_cell) const;
   void set_corners(AttachedVertex& row, const Attachment& attachment) const;
   struct References {
     std::uint32_t &of_vertex, &of_attachment;
@@ -73,26 +67,20 @@ class AttachmentsView {
   References references(std::uint32_t row);
 
   // constant
-  std::vector<Attachment> attachments_;  // ascending by point
-  MeshCell mesh_cell_;
-  std::vector<std::uint32_t> targets_;    // the cells of the mesh that some are attached to, ascending
+  std::vector<Attachment> attachments_;   // ascending by point
   std::vector<std::uint32_t> by_target_;  // numbers of attachments to cells, ascending by target
   std::vector<std::uint32_t> target_;     // by attachment: its target; nothing for a fixed place
   std::vector<std::uint32_t> first_{0};   // of each target in by_target_, and the end
 
   // in step with the body
+  FollowedCells targets_;                           // the cells that some are attached to
   std::vector<Link> links_;                         // by row
   std::vector<std::uint32_t> first_of_vertex_;      // row, by vertex
   std::vector<std::uint32_t> first_of_attachment_;  // row, by attachment
-  std::vector<std::uint32_t> cell_of_target_;       // of the body; nothing where it was removed
-  std::vector<std::uint32_t> target_of_cell_;       // by cell of the body; empty without targets
 
   // scratch, kept between calls
   std::vector<std::uint32_t> touched_;
-  struct Corner {
-    std::uint32_t point, vertex;
-  };
-  std::vector<Corner> corners_;
+  std::vector<FollowedCells::Corner> corners_;
 };
 
 #define DARTBOARD_ATTACHMENTS(prefix, Map)                                                        \

@@ -78,6 +78,7 @@ std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
   if (file.has_contact()) return "contact";
   if (!file.key_beside_edges().empty()) return "springs that are no edges";
   if (!file.attachments.empty()) return "attachments";
+  if (std::ranges::any_of(file.forces, &SceneForce::follows)) return "pressures that follow their faces";
   if (file.has_elements() && mesh.dimension() == 2) return "membranes";
   const auto known = [](CellKind kind) { return kind == CellKind::tetrahedron || kind == CellKind::hexahedron; };
   if (file.has_elements() && !std::ranges::all_of(mesh.kinds, known)) return "elements of these cells";

@@ -265,7 +265,7 @@ bool FrozenBody::drive(double time) {
   const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
   const std::span<const std::uint32_t> point = body_->vertices().point;
   const LoadChange driven = driven_.apply(ticks, point, body_->motion().v);
-  return std::max(driven, forces_.apply(ticks, point, body_->pull())) != LoadChange::none;
+  return std::max(driven, forces_.apply(ticks, point, body_->pull(), body_->pressures())) != LoadChange::none;
 }
 
 void FrozenBody::look_at_contact() {

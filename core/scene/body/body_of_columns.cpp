@@ -24,7 +24,8 @@
 
 namespace dartboard {
 
-BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs) {
+BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell)
+    : mesh_cell_(std::move(mesh_cell)) {
   switch (needs.storage) {
     case Storage::links: link(problem, needs); break;
     case Storage::surface: take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh, needs); break;
@@ -101,6 +102,13 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   cells_.kinds = mesh.kinds;
   cells_.first = mesh.first;
   for (const std::uint32_t p : mesh.nodes) cells_.nodes.push_back(vertex_of[p]);
+  pressed_ = needs.pressed;
+  for (PressedFace& face : pressed_)
+    for (std::uint32_t k = 0; k < face.count; ++k) face.corner[k] = vertex_of[face.corner[k]];
+  if (!pressed_.empty()) {
+    pressure_.assign(needs.forces, 0.0);
+    face_pressure_ = std::make_unique<FacePressureTerm>(pressed_, pressure_);
+  }
 
   if constexpr (Map::dimension == 2)
     if (needs.bending.any()) {
@@ -121,7 +129,8 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     }
 
   if (!needs.attached.empty()) {
-    AttachmentsView view(shared_by_mass(needs.attached, body.vertices), [](std::uint32_t cell) { return cell; });
+    AttachmentsView view(shared_by_mass(needs.attached, body.vertices),
+                         [this](std::uint32_t cell) { return mesh_cell(cell); });
     view.rebuild(body);
     attached_ = std::move(view.rows);
     attachment_ = make_attachments(attached_, vertices_.mass);
@@ -133,7 +142,8 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     samples_ = skin.samples();
     if (!needs.obstacles.empty()) contact_ = make_contact(needs.obstacles, samples_);
     if (!needs.touches.empty()) {
-      SkinSolidsView solids([&needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, cell); });
+      SkinSolidsView solids(
+          [this, &needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, mesh_cell(cell)); });
       solids.rebuild(body);
       skin_solids_ = solids.solids();
       body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches);
@@ -174,6 +184,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   if (!springs_within_.empty()) cell_springs_ = make_cell_springs({solid_nodes_, springs_within_});
   for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get(), attachment_.get()})
     if (term != nullptr) terms_.push_back(term);
+  if (face_pressure_) terms_.push_back(face_pressure_.get());
   if (contact_) terms_.push_back(contact_.get());
   if (body_contact_) terms_.push_back(body_contact_.get());
   // columns that grew by doubling give back unused memory
@@ -195,13 +206,13 @@ MemoryReport BodyOfColumns::memory() const {
       {Part::viscosity, bytes_of(vertices_.viscosity)},
       {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
       {Part::rest, bytes_of(vertices_.rest)},
-      {Part::pull, bytes_of(vertices_.pull)},
+      {Part::pull, bytes_of(vertices_.pull, pressed_, pressure_) + (face_pressure_ ? face_pressure_->bytes() : 0)},
       {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
       {Part::damping, springs_.damping_bytes()},
       {Part::elements, shapes + bytes_of(nodes_, triangle_nodes_) + (of_elements ? bytes_of(solid_nodes_) : 0)},
       {Part::output_cells,
        bytes_of(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_) +
-           bytes_of(cell_material_, volume_)}};
+           bytes_of(cell_material_, volume_, mesh_cell_)}};
   if (cell_springs_)
     report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
   if (bending_) report.push_back({Part::bending, bytes_of(bends_, neighbours_)});
@@ -290,7 +301,7 @@ double BodyOfColumns::largest_stress() const {
 Frame BodyOfColumns::frame(const FrameFields& fields) const {
   Frame frame;
   frame.mesh = cells_;
-  for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(c);
+  for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(mesh_cell(c));
   frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
   frame.material = cell_material_;

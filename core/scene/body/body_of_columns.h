@@ -28,13 +28,16 @@ class BodyOfColumns final : public SimulatedBody {
   /// throws  InputError as build_body does; for a link whose length or mass is not a number above 0, and for a velocity
   ///         that is not finite
   explicit BodyOfColumns(const Problem& problem) : BodyOfColumns(problem, body_needs(problem, false)) {}
-  BodyOfColumns(const Problem& problem, const BodyNeeds& needs);
+  /// `mesh_cell` are the numbers of the cells in the mesh that `needs` refers to; empty: their own.
+  BodyOfColumns(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell = {});
 
   std::string map_name() const override { return "no map"; }
   const VertexColumns& vertices() const override { return vertices_; }
   SpringSystem system() const override;
   Motion motion() override { return {vertices_.position, vertices_.velocity}; }
   std::span<Eigen::Vector3d> pull() override { return vertices_.pull; }
+  std::span<double> pressures() override { return pressure_; }
+  FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
   ObstacleContact* contact() override { return contact_.get(); }
   BodyContact* body_contact() override { return body_contact_.get(); }
   using SimulatedBody::body_contact;
@@ -53,6 +56,7 @@ class BodyOfColumns final : public SimulatedBody {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(vertices_);
+    if (face_pressure_) archive(pressure_);
     if (contact_) archive(*contact_);
   }
   MemoryReport memory() const override;
@@ -61,6 +65,7 @@ class BodyOfColumns final : public SimulatedBody {
   void link(const Problem& problem, const BodyNeeds& needs);
   double largest_tension() const;  // [N] of the links of a chain; 0 where none is stretched
   VertexVolumes volumes(std::vector<double>& room) const;
+  std::uint32_t mesh_cell(std::uint32_t cell) const { return mesh_cell_.empty() ? cell : mesh_cell_[cell]; }
   template <class Map>
   void take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs);
 
@@ -78,6 +83,9 @@ class BodyOfColumns final : public SimulatedBody {
   std::vector<SecondNeighbours> neighbours_;
   std::vector<AttachedVertex> attached_;
   std::unique_ptr<ForceTerm> cell_springs_, bending_, attachment_;
+  std::vector<PressedFace> pressed_;
+  std::vector<double> pressure_;  // [Pa] by force; empty without such faces
+  std::unique_ptr<FacePressureTerm> face_pressure_;
   std::vector<SkinSample> samples_;  // of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
   SkinSolids skin_solids_;  // what its parts can be inside of, where some touch
@@ -92,6 +100,7 @@ class BodyOfColumns final : public SimulatedBody {
   // for frames and diagnostics: the cells and the boundary by vertex numbers
   CellCounts counts_;
   Mesh cells_;                                              // its points are not used
+  std::vector<std::uint32_t> mesh_cell_;                    // by cell; empty: their own numbers
   std::vector<double> cell_mass_;                           // of a chain, by link
   std::vector<std::uint32_t> component_;                    // by cell
   std::vector<std::uint32_t> facet_first_{0}, facet_node_;  // corners of the facets of the boundary

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/bytes.h"
@@ -28,6 +29,7 @@
 #include "core/views/component_labels.h"
 #include "core/views/element_nodes_view.h"
 #include "core/views/inner_edges_view.h"
+#include "core/views/pressed_faces.h"
 #include "core/views/skin.h"
 #include "core/views/skin_solids_view.h"
 #include "core/views/spring_ends.h"
@@ -40,14 +42,21 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   using typename ChangingBody<Map>::Body;
   static constexpr int n = Map::dimension;
 
-  BodyOnMap(const Problem& problem, const BodyNeeds& needs)
+  /// `mesh_cell` are the numbers of the cells in the mesh that `needs` refers to; empty: their own.
+  BodyOnMap(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell = {})
       : body_(build_body<Map, Held::by_every_dart>(problem)),
-        holds_{needs.bending.rigidity > 0.0, needs.bending.second_neighbours > 0.0, needs.contact(),
-               !needs.touches.empty(), !needs.attached.empty()},
+        holds_{needs.bending.rigidity > 0.0,
+               needs.bending.second_neighbours > 0.0,
+               needs.contact(),
+               !needs.touches.empty(),
+               !needs.attached.empty(),
+               !needs.pressed.empty()},
         bends_(needs.bending.rigidity),
-        first_cell_(needs.first_cell) {
+        first_cell_(needs.first_cell),
+        mesh_cell_(std::move(mesh_cell)) {
     add_cell_springs(body_, problem.mesh, needs.diagonals);
-    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) mesh_cell_.push_back(c);
+    for (auto c = static_cast<std::uint32_t>(mesh_cell_.size()); c < body_.cell_dart.size(); ++c)
+      mesh_cell_.push_back(c);
     // only walks use the column of forces; integrators over arrays keep their own
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
@@ -57,6 +66,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     if (holds_.attachments)
       attachments_ = AttachmentsView(shared_by_mass(needs.attached, body_.vertices),
                                      [this](std::uint32_t cell) { return mesh_cell_[cell]; });
+    if (holds_.pressed)
+      pressed_ = PressedFacesView(needs.pressed, [this](std::uint32_t cell) { return mesh_cell_[cell]; });
     for_each_view([this](auto& view) { view.rebuild(body_); });
     elements_ = make_elements(body_.cell_materials(), body_.elements, {nodes_.nodes, solids_.nodes, triangles_.nodes},
                               body_.cell_mass);
@@ -69,6 +80,10 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     add_term(bending_);
     if (holds_.attachments) attachment_ = make_attachments(attachments_.rows, body_.vertices.mass);
     add_term(attachment_);
+    if (holds_.pressed) {
+      pressure_.assign(needs.forces, 0.0);
+      terms_.push_back((face_pressure_ = std::make_unique<FacePressureTerm>(pressed_.rows, pressure_)).get());
+    }
     if (!needs.obstacles.empty()) {
       contact_ = make_contact(needs.obstacles, skin_.samples());
       terms_.push_back(contact_.get());
@@ -140,6 +155,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   }
   Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
   std::span<Eigen::Vector3d> pull() override { return body_.vertices.pull; }
+  std::span<double> pressures() override { return pressure_; }
+  FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
   ObstacleContact* contact() override { return contact_.get(); }
   BodyContact* body_contact() override { return body_contact_.get(); }
   using SimulatedBody::body_contact;
@@ -214,6 +231,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(body_, mesh_cell_, removed_mass_, face_origins_);
+    if (holds_.pressed) archive(pressure_);
     for_each_view([&archive](auto& view) { archive(view); });
     if (contact_) archive(*contact_);
   }
@@ -243,7 +261,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         {Part::viscosity, bytes_of(v.viscosity)},
         {Part::fixed, bytes_of(v.fixed, v.held_axes)},
         {Part::rest, bytes_of(v.rest)},
-        {Part::pull, bytes_of(v.pull)},
+        {Part::pull,
+         bytes_of(v.pull) + pressed_.bytes() + bytes_of(pressure_) + (face_pressure_ ? face_pressure_->bytes() : 0)},
         {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
         {Part::damping, body_.springs.damping_bytes()},
         {Part::elements, shapes + bytes_of(triangles_.nodes) + (elements_ ? bytes_of(nodes_.nodes) : 0) +
@@ -271,6 +290,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
         solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
     attachments_.shrink_to_fit();
+    pressed_.shrink_to_fit();
   }
 
   void add_refined_facets(Frame& frame) const {
@@ -302,6 +322,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       if (holds_.neighbours) f(neighbours_);
     }
     if (holds_.attachments) f(attachments_);
+    if (holds_.pressed) f(pressed_);
     if (holds_.skin) f(skin_);
     if (holds_.skin_solids) f(skin_solids_);
     f(components_);
@@ -330,7 +351,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
 
   /// The views that only some scenes need.
   struct OptionalViews {
-    bool bends, neighbours, skin, skin_solids, attachments;
+    bool bends, neighbours, skin, skin_solids, attachments, pressed;
     bool any_at_rest() const { return bends || neighbours || skin; }
   };
 
@@ -347,7 +368,10 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::unique_ptr<ForceTerm> bending_;
   AttachmentsView attachments_;
   std::unique_ptr<ForceTerm> attachment_;  // null without attachments
-  Skin skin_;                              // the samples of its boundary, where there is contact
+  PressedFacesView pressed_;               // the faces that pressures follow
+  std::vector<double> pressure_;           // [Pa] by force; empty without such faces
+  std::unique_ptr<FacePressureTerm> face_pressure_;
+  Skin skin_;  // the samples of its boundary, where there is contact
   std::unique_ptr<ObstacleContact> contact_;
   std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
   // what its parts can be inside of, where some touch

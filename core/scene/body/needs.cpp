@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/body/faces_under_pressure.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
 
@@ -39,8 +40,10 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
   // bending and the samples of a boundary follow a change of the map by rest positions
   body.rest =
       scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
-  body.pull = !scene.forces.empty();
+  body.pull = !std::ranges::all_of(scene.forces, &SceneForce::follows);
+  body.forces = scene.forces.size();
   body.attached = find_attachments(scene, problem.mesh);
+  body.pressed = followed_faces(scene, problem.mesh);
   body.obstacles = scene.obstacles;
   for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
   if (!body.touches.empty()) body.first_cell = first_cells(scene);

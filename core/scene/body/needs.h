@@ -11,6 +11,7 @@
 #include "core/plain/problem.h"
 #include "core/scene/body/attached_points.h"
 #include "core/scene/file/scene_file.h"
+#include "core/views/pressed_faces.h"
 
 namespace dartboard {
 
@@ -30,6 +31,8 @@ struct BodyNeeds {
   Diagonals diagonals = Diagonals::none;   // springs on those of its cells
   Bending bending{};                       // of a surface
   std::vector<AttachedPoints> attached{};  // one for each attachment of the scene
+  std::vector<PressedFace> pressed{};      // the faces that pressures follow
+  std::size_t forces = 0;                  // of the scene, which they are numbered by
   std::vector<SceneObstacle> obstacles{};  // that its boundary may touch
   std::vector<ContactPair> touches{};      // the pairs of its parts that touch: groups are bodies of the scene
   std::vector<std::size_t> first_cell{};   // of each of these bodies, where some touch
@@ -50,7 +53,7 @@ struct Needs {
   bool stress_watch;      // some event needs the stress in every step
 };
 ///
-/// throws  InputError as find_attachments
+/// throws  InputError as find_attachments and followed_faces
 Needs needs_of(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

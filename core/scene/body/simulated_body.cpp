@@ -1,20 +1,40 @@
 #include "core/scene/body/simulated_body.h"
 
+#include <utility>
+
 #include "core/plain/error.h"
 #include "core/scene/body/body_of_columns.h"
 #include "core/scene/body/body_on_map.h"
+#include "core/scene/body/curve_order.h"
 
 namespace dartboard {
 
-std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
-  if (!needs.topology_changes) return std::make_unique<BodyOfColumns>(problem, needs);
+namespace {
+
+/// `mesh_cell` are the numbers of the problem's cells in the mesh of the scene; empty where they are the same.
+std::unique_ptr<SimulatedBody> make_body(const Problem& problem, const BodyNeeds& needs,
+                                         std::vector<std::uint32_t> mesh_cell) {
+  if (!needs.topology_changes) return std::make_unique<BodyOfColumns>(problem, needs, std::move(mesh_cell));
   switch (needs.storage) {
     case Storage::links: throw InputError("a chain has no cells that could change");
-    case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem, needs);
-    case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem, needs);
+    case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem, needs, std::move(mesh_cell));
+    case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem, needs, std::move(mesh_cell));
     case Storage::any_cells: break;
   }
-  return std::make_unique<BodyOnMap<Map3>>(problem, needs);
+  return std::make_unique<BodyOnMap<Map3>>(problem, needs, std::move(mesh_cell));
+}
+
+}  // namespace
+
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
+  if (std::vector<std::uint32_t> order = order_along_curve(problem.mesh); !order.empty()) {
+    try {
+      const Problem ordered = in_order(problem, order);
+      return make_body(ordered, needs, std::move(order));
+    } catch (const InputError&) {  // names a cell by its number there; the mesh in its own order is refused below
+    }
+  }
+  return make_body(problem, needs, {});
 }
 
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes) {

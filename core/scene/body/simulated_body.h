@@ -12,6 +12,7 @@
 #include "core/base/archive.h"
 #include "core/contact/body_contact.h"
 #include "core/contact/obstacle_contact.h"
+#include "core/forces/face_pressure.h"
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/problem.h"
 #include "core/plain/random.h"
@@ -41,6 +42,9 @@ class SimulatedBody {
   virtual Motion motion() = 0;
   /// The pull at each vertex [m/s^2]; empty where the body was made without it. Valid until the next event.
   virtual std::span<Eigen::Vector3d> pull() = 0;
+  /// The pressures that follow their faces [Pa], by number of force, and their term; empty and null without any.
+  virtual std::span<double> pressures() = 0;
+  virtual FacePressureTerm* face_pressure() = 0;
   /// Its contact with obstacles, and that of its parts with each other: the last terms of its system, in this order;
   /// null where the body was made without it.
   virtual ObstacleContact* contact() = 0;
@@ -87,7 +91,8 @@ class SimulatedBody {
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
 /// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, otherwise a 3-g-map. If it cannot, or for a
-/// chain: columns, and no map.
+/// chain: columns, and no map. A large body is stored along a curve where its mesh is in no good order
+/// (curve_order.h).
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

@@ -90,6 +90,9 @@ SceneForce read_force(const SceneValue& value, const SceneFile& scene) {
                    .acceleration = value.find<Eigen::Vector3d>("acceleration"),
                    .torque = value.find<Eigen::Vector3d>("torque")};
   if (value.has("over_time")) force.factor = read_table<double>(value.at("over_time"), "factor", 1);
+  force.follows = value.get<std::string>("normals") == "current";
+  if (force.follows && !force.pressure)
+    value.fail_at("normals", "is \"current\" without 'pressure'", "a pressure, or no such key");
   force.until = read_until(value, force.from, scene);
   return force;
 }

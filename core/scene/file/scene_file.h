@@ -125,7 +125,7 @@ struct SceneDrive {
   double largest_speed_of(const Eigen::Vector3d& x) const;
 };
 
-/// Vertices that an external force pulls or pushes in a constant direction.
+/// Vertices that an external force pulls or pushes: in a constant direction, but for a pressure that follows its faces.
 struct SceneForce {
   VertexSelection vertices;
   // exactly one of these two, an acceleration and a torque has a value
@@ -137,9 +137,10 @@ struct SceneForce {
   std::optional<Eigen::Vector3d> acceleration{};  // [m/s^2] of each
   std::optional<Eigen::Vector3d> torque{};        // [N m] about their centre of mass at rest
   TimeTable<double> factor{};                     // of any of these; empty: 1
+  bool follows = false;                           // a pressure follows its faces as they move and turn
 
   /// Does the force act from the start to the end, and always alike?
-  bool lasts() const { return from == 0.0 && !until && factor.empty(); }
+  bool lasts() const { return from == 0.0 && !until && factor.empty() && !follows; }
   std::string_view kind() const {
     return force ? "force" : pressure ? "pressure" : acceleration ? "acceleration" : "torque";
   }

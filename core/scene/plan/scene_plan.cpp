@@ -212,14 +212,20 @@ class Planner {
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity =
         setting_in_words("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
-    if (plan_.needs.body.pull)
-      add(Part::pull, "by vertex, its share of the external forces; added together with gravity",
-          fmt::format("/forces: {}{}", scene_.forces.size(),
+    const std::size_t pressed = plan_.needs.body.pressed.size();
+    if (scene_.forces.empty())
+      leave_out("column and term of forces from outside", "/forces: not given");
+    else
+      add(Part::pull,
+          (plan_.needs.body.pull ? "by vertex, its share of the external forces; added together with gravity" : "") +
+              (pressed == 0 ? ""
+                            : fmt::format("{}{} under pressure, and their term of the force loop",
+                                          plan_.needs.body.pull ? "; " : "", counted(pressed, "face"))),
+          fmt::format("/forces: {}{}{}", scene_.forces.size(),
                       std::ranges::all_of(scene_.forces, [](const SceneForce& f) { return f.factor.empty(); })
                           ? ""
-                          : "; over_time: set anew in every step, and their work is summed"));
-    else
-      leave_out("column and term of forces from outside", "/forces: not given");
+                          : "; over_time: set anew in every step, and their work is summed",
+                      pressed == 0 ? "" : "; current normals: their work is summed"));
     if (plan_.needs.gravity)
       add(Part::gravity, "added where forces are divided by masses", gravity);
     else

@@ -110,8 +110,7 @@ Simulation::Simulation(const SceneFile& scene)
       if (const auto facets = timeline_->schedule(event)) count_cut(event, problem.mesh, *facets);
     timeline_->happen(0);
     timeline_->drive(0);
-    if (timeline_->has_changing_forces())
-      applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
+    if (timeline_->sums_work()) applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
     if (contact_) contact_->start(body_->vertices().position, expected->obstacles, expected->bodies, step_);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
@@ -148,6 +147,7 @@ std::optional<EarlyEnd> Simulation::advance() {
     return diverged({"stress", stress ? stress->vertex : 0, body_->largest_stress()}, this->operations() == operations);
   };
   StepResult result = watch_.before();
+  if (FacePressureTerm* const pressure = body_->face_pressure()) pressure->begin_step(body_->vertices().position);
   try {
     if (result.ok())
       result = exact_events_ ? step_through_events() : integrate(static_cast<double>(done_) * step_, step_);
@@ -157,17 +157,19 @@ std::optional<EarlyEnd> Simulation::advance() {
   }
   ++done_;
   const bool is_last = done_ == step_count_;
-  const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
+  const double of_pressures =
+      body_->face_pressure() && result.ok() ? body_->face_pressure()->work(body_->vertices().position) : 0.0;
+  const double work = of_pressures + (contact_ && result.ok() ? contact_->new_work() : 0.0);
   if (const auto fault = watch_.after_step(result, done_, is_last, work, body_->system(), body_->motion()))
     return diverged(*fault);
   if (is_last) examine_coordinates();
-  add_work_of_forces();
+  add_work_of_forces(of_pressures);
   const std::size_t before = this->operations();
   try {
     timeline_->happen(done_);
     const LoadChange loads = timeline_->drive(done_);
     const bool operated = this->operations() != before;
-    if (timeline_->has_changing_forces()) potential_ = pull_energy(body_->system(), body_->motion().x);
+    if (timeline_->sums_work()) potential_ = pull_energy(body_->system(), body_->motion().x);
     if (loads == LoadChange::begins_or_ends || operated) examine_step();
     if (loads != LoadChange::none || operated) watch_.system_changed(body_->system(), body_->motion());
   } catch (const SolverError& error) {
@@ -277,10 +279,10 @@ std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
   return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
-// In a step they are constant, so their work is the change of their potential.
-void Simulation::add_work_of_forces() {
-  if (timeline_->has_changing_forces())
-    applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_;
+// In a step forces are constant, so their work is the change of their potential; that of pressures on faces is added.
+void Simulation::add_work_of_forces(double of_pressures) {
+  if (timeline_->sums_work())
+    applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_ - of_pressures;
 }
 
 Diagnostics Simulation::diagnostics() const {
@@ -295,8 +297,7 @@ Diagnostics Simulation::diagnostics() const {
   d.kinetic = kinetic_energy(system, v.velocity);
   d.elastic = elastic_energy(system, v.position);
   d.gravitational = gravity_energy(system, v.position);
-  if (timeline_->has_forces())
-    d.applied = timeline_->has_changing_forces() ? applied_ : pull_energy(system, v.position);
+  if (timeline_->has_forces()) d.applied = timeline_->sums_work() ? applied_ : pull_energy(system, v.position);
   d.momentum = linear_momentum(system, v.velocity);
   d.angular_momentum = angular_momentum(system, v.position, v.velocity);
   d.mass = body_->mass();

@@ -122,7 +122,7 @@ class Simulation {
   StepResult step_through_events();
   void state(Archive& archive);
   void examine_step();
-  void add_work_of_forces();
+  void add_work_of_forces(double of_pressures);
   void examine_coordinates();
   void examine_before_run();
   Divergence diverged(const Fault& fault, bool goes_back = true);

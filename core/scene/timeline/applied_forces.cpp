@@ -4,13 +4,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/container/static_vector.hpp>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
+#include "core/scene/body/faces_under_pressure.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/timeline/event_clock.h"
 
@@ -18,47 +18,6 @@ namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
-using Corners = boost::container::static_vector<std::uint32_t, 4>;
-
-/// Half the sum of the cross products of its corners, seen from the first.
-Vector3d area_vector(const Corners& corners, std::span<const Vector3d> points) {
-  Vector3d twice(0, 0, 0);
-  const Vector3d& origin = points[corners[0]];
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-    twice += (points[corners[k]] - origin).cross(points[corners[k + 1]] - origin);
-  return twice / 2;
-}
-
-/// The faces that a pressure acts on: the boundary faces of solid cells, turned outwards; all faces of a surface, as
-/// given. visit(corners, area vector [m^2])
-template <class Visit>
-void for_each_pressed_face(const Mesh& mesh, Visit&& visit) {
-  struct Side {
-    Corners corners;
-    std::uint32_t cell;
-    int cells;
-  };
-  std::map<Corners, Side> sides;  // by their corners in ascending order
-  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c)
-    for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
-      Corners corners;
-      for (const int k : cycle) corners.push_back(mesh.nodes[mesh.first[c] + static_cast<std::size_t>(k)]);
-      if (mesh.dimension() == 2) {
-        visit(corners, area_vector(corners, mesh.points));
-        continue;
-      }
-      Corners key = corners;
-      std::ranges::sort(key);
-      ++sides.try_emplace(key, Side{corners, c, 0}).first->second.cells;
-    }
-  for (const auto& [key, side] : sides)
-    if (side.cells == 1) {
-      // counter-clockwise seen from outside a cell that is right-handed
-      const double turn = signed_measure(mesh, side.cell) < 0.0 ? -1.0 : 1.0;
-      visit(side.corners, turn * area_vector(side.corners, mesh.points));
-    }
-}
-
 /// The accelerations alpha x (X - centre of mass) of vertices whose forces have this moment [N m].
 std::vector<Vector3d> turning(const SceneForce& force, std::span<const std::uint32_t> points,
                               std::span<const Vector3d> place, std::span<const double> mass) {
@@ -123,17 +82,12 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
       force.pull = turning(from, force.points, mesh.points, mass);
     } else {
       std::vector<Vector3d> on(points_, Vector3d(0, 0, 0));  // [N]
-      std::vector<bool> selected(points_, false);
-      for (const std::uint32_t p : force.points) selected[p] = true;
-      bool any = false;
-      for_each_pressed_face(mesh, [&](const Corners& corners, const Vector3d& area) {
-        if (!std::ranges::all_of(corners, [&selected](std::uint32_t p) { return selected[p]; })) return;
-        any = true;
-        for (const std::uint32_t p : corners) on[p] -= *from.pressure / static_cast<double>(corners.size()) * area;
-      });
-      if (!any)
-        throw InputError(fmt::format("{}/pressure: all corners of no face {} are selected; expected one at least",
-                                     from.path, mesh.dimension() == 3 ? "of the boundary" : "of a surface"));
+      for (const PressedFace& face : faces_under_pressure(from, static_cast<std::uint32_t>(forces_.size()), mesh)) {
+        std::array<Vector3d, 4> x;
+        for (std::uint32_t k = 0; k < face.count; ++k) x[k] = mesh.points[face.corner[k]];
+        const auto force_at = forces_of_pressure(*from.pressure, face.count, x);
+        for (std::uint32_t k = 0; k < face.count; ++k) on[face.corner[k]] += force_at[k];
+      }
       for (const std::uint32_t p : force.points) force.pull.push_back(on[p] / mass[p]);
     }
     double most = 1.0;
@@ -144,12 +98,17 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
             fmt::format("{}/{}: accelerates a vertex by {:.3g} m/s^2, whose square is not finite; expected a "
                         "smaller value",
                         from.path, from.kind(), most * pull.lpNorm<Eigen::Infinity>()));
+    if (from.follows) {
+      force.followed = *from.pressure;
+      force.points = {};
+      force.pull = {};
+    }
     forces_.push_back(std::move(force));
   }
 }
 
 LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
-                                std::span<Vector3d> pull) {
+                                std::span<Vector3d> pull, std::span<double> pressure) {
   auto change = LoadChange::none;
   for (Force& force : forces_) {
     const bool acts = n >= force.first && n < force.last;
@@ -170,11 +129,14 @@ LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> 
   }
   for (std::size_t k = 0; k < pull.size(); ++k)
     pull[k] = point_of_vertex[k] < points_ ? of_point[point_of_vertex[k]] : Vector3d(0, 0, 0);
+  for (std::size_t f = 0; f < pressure.size(); ++f)
+    pressure[f] = forces_[f].acts ? forces_[f].now * forces_[f].followed : 0.0;
   return change;
 }
 
-bool AppliedForces::change_in_time() const {
-  return std::ranges::any_of(forces_, [](const Force& force) { return !force.factor.empty(); });
+bool AppliedForces::sum_work() const {
+  return std::ranges::any_of(forces_,
+                             [](const Force& force) { return !force.factor.empty() || force.followed != 0.0; });
 }
 
 std::size_t AppliedForces::bytes() const {

@@ -15,8 +15,9 @@ namespace dartboard {
 
 /// Applies, changes and ends forces at step boundaries. In a step each is constant: its mean over the step.
 ///
-/// A force keeps its direction, so it has a potential. It is stored as an acceleration of each vertex, whose parts
-/// share it in proportion to their masses: no cut changes the sum. A vertex that loses cells loses their share.
+/// A force keeps its direction in a step, so it has a potential there. It is stored as an acceleration of each vertex,
+/// whose parts share it in proportion to their masses: no cut changes the sum. A vertex that loses cells loses their
+/// share. Pressures that follow their faces are a term of the body, whose values are set here.
 class AppliedForces {
  public:
   AppliedForces() = default;
@@ -27,15 +28,17 @@ class AppliedForces {
   ///         on
   AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step);
 
-  /// Set the forces that are due after n steps.
+  /// Set the forces that are due after n steps: accelerations, and of pressures that follow their faces the values by
+  /// number of force.
   ///
   /// pre      called for 0, then for ascending n, whenever something is due
   /// cost     O(forces), and O(vertices + points pulled at) where one begins, changes or ends
-  LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull);
+  LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
+                   std::span<double> pressure = {});
 
   std::size_t size() const { return forces_.size(); }
-  /// Does any of them change in size while it acts?
-  bool change_in_time() const;
+  /// Is their work summed, since they have no potential that lasts?
+  bool sum_work() const;
   std::size_t bytes() const;
   /// Writes or reads which of the forces act, and their factors; the forces themselves are in the scene.
   template <class Archive>
@@ -49,6 +52,7 @@ class AppliedForces {
     std::vector<Eigen::Vector3d> pull;  // [m/s^2] of each point, or one for all
     std::uint64_t first, last;          // steps that it begins and ends after
     TimeTable<double> factor;
+    double followed = 0.0;  // [Pa] of a pressure that follows its faces; it has no points and no pull
     bool acts = false;
     double now = 1.0;  // the factor in this step
   };

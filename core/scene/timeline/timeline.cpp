@@ -54,7 +54,7 @@ void Timeline::apply(Scheduled& scheduled) {
 // No integrator keeps anything that the values of forces are in.
 LoadChange Timeline::drive(std::uint64_t n) {
   const LoadChange driven = driven_.apply(n, body_.vertices().point, body_.motion().v);
-  const LoadChange forces = forces_.apply(n, body_.vertices().point, body_.pull());
+  const LoadChange forces = forces_.apply(n, body_.vertices().point, body_.pull(), body_.pressures());
   if (driven != LoadChange::none || forces == LoadChange::begins_or_ends) integrator_.restart();
   return std::max(driven, forces);
 }

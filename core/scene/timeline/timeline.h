@@ -44,7 +44,7 @@ class Timeline {
   LoadChange drive(std::uint64_t n);
 
   bool has_forces() const { return forces_.size() > 0; }
-  bool has_changing_forces() const { return forces_.change_in_time(); }
+  bool sums_work() const { return forces_.sum_work(); }
   /// Is this a point of the mesh that some drive moves?
   bool moves(std::uint32_t point) const { return driven_.moves(point); }
   std::size_t operations() const { return operations_; }

@@ -255,8 +255,12 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = force, .name = "force", .type = point, .unit = "N",
        .help = "on all of them together, shared in proportion to their masses"},
       {.shape = force, .name = "pressure", .type = real, .unit = "Pa",
-       .help = "on the faces of the boundary whose corners are all selected, inwards along the normals that they have at "
-               "rest; of a surface [N/m^2] on all such faces, against the normal that their order of corners gives them"},
+       .help = "on the faces of the boundary whose corners are all selected, inwards along their 'normals'; "
+               "of a surface [N/m^2] on all such faces, against the normal that their order of corners gives them"},
+      {.shape = force, .name = "normals", .type = choice, .choices = {"at rest", "current"}, .standard = "\"at rest\"",
+       .help = "those that a 'pressure' acts along: as the mesh has them; or those of the faces as they move, on their "
+               "current areas: exact at every time for every integrator. Faces stay under it whatever is cut around them, and go with "
+               "their cells; faces that a cut exposes are not under it"},
       {.shape = force, .name = "acceleration", .type = point, .unit = "m/s^2",
        .help = "of each of them, as gravity has it: gravity that changes in time, or a frame that is accelerated"},
       {.shape = force, .name = "torque", .type = point, .unit = "N m",
