@@ -65,26 +65,26 @@ void PressedFacesView::rebuild(const Body& body) {
     if (cells_.is_there(p))
       find_corners(body, p);
     else
-      for (std::uint32_t face = first_[p]; face < first_[p + 1]; ++face) erase(face);
+      erase_all_of(p);
   }
 }
 
-/// The last row takes the place of the one erased.
-void PressedFacesView::erase(std::uint32_t face) {
-  const std::uint32_t row = row_[face];
-  rows[row] = rows.back();
-  face_[row] = face_.back();
-  row_[face_[row]] = row;
-  row_[face] = FollowedCells::nothing;
-  rows.pop_back();
-  face_.pop_back();
+/// The last row takes the place of each one erased.
+void PressedFacesView::erase_all_of(std::uint32_t place) {
+  for (std::uint32_t face = first_[place]; face < first_[place + 1]; ++face) {
+    const std::uint32_t row = row_[face];
+    rows[row] = rows.back();
+    face_[row] = face_.back();
+    row_[face_[row]] = row;
+    row_[face] = FollowedCells::nothing;
+    rows.pop_back();
+    face_.pop_back();
+  }
 }
 
 template <class Body>
 void PressedFacesView::apply(const Body& body, const ChangedEmbeddings& changed) {
-  cells_.apply(changed, [this](std::uint32_t p) {
-    for (std::uint32_t face = first_[p]; face < first_[p + 1]; ++face) erase(face);
-  });
+  cells_.apply(changed, [this](std::uint32_t p) { erase_all_of(p); });
   touched_.clear();
   Mark seen(body.map);
   for (const std::uint32_t k : changed.vertices)

@@ -50,7 +50,7 @@ class PressedFacesView {
   template <class Body>
   void find_corners(const Body& body, std::uint32_t place);
 
-  void erase(std::uint32_t face);
+  void erase_all_of(std::uint32_t place);
 
   std::vector<PressedFace> of_mesh_;  // ascending by cell; constant
   std::vector<std::uint32_t> first_;  // face of each followed cell, and the end; constant
