@@ -77,10 +77,11 @@ class ElementTerm : public ForceTerm {
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       const auto n = cells_.nodes(c);
+      const Lines lines(at, n);
       cells_.for_each_point(laws_, c, [&](const auto& point, double volume) {
         double summed = 0.0;
         for (std::size_t a = 1; a < n.size(); ++a) summed += line_size(at, n[0], n[a]) * point[a].norm();
-        const double stress = stress_size(laws_[c].modulus(), summed);
+        const double stress = stress_size(laws_[c].modulus(), summed, point.deformation(lines).norm());
         for (std::size_t a = 0; a < n.size(); ++a) size[n[a]] += volume * stress * point[a].norm();
       });
     }

@@ -53,7 +53,7 @@ class Tetrahedra final : public ForceTerm {
       const auto gradients = shape_gradients(columns_.shape[c]);
       double summed = 0.0;
       for (std::size_t a = 1; a < 4; ++a) summed += line_size(at, n[0], n[a]) * gradients[a].norm();
-      const double stress = stress_size(laws_[c].modulus(), summed);
+      const double stress = stress_size(laws_[c].modulus(), summed, gradient(at, n, columns_.shape[c]).norm());
       for (std::size_t a = 0; a < 4; ++a) size[n[a]] += volume(c) * stress * gradients[a].norm();
     }
   }

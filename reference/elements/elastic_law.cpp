@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -188,8 +189,9 @@ StressSlope stress_slope(const ElasticLaw& law, const Matrix3<long double>& f) {
   return slope;
 }
 
-long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed) {
-  const long double size = modulus(law) * (1 + summed) * (1 + summed * summed);
+long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed, long double far) {
+  const long double most = std::min(summed, 4 * (f.norm() + far));
+  const long double size = modulus(law) * (1 + summed) * (1 + most * most);
   if (law.model != Model::corotational) return size;
   // the error of the rotation is that of F over the least sum of two stretches
   const Eigen::JacobiSVD<Matrix3<long double>> svd(f);

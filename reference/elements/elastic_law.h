@@ -44,9 +44,9 @@ StressSlope stress_slope(const ElasticLaw& law, const Matrix3<long double>& f);
 template <class Real>
 Matrix3<Real> nearest_rotation(const Matrix3<Real>& f);
 
-/// [Pa] A bound of the error of the stress over the relative rounding of F's entries, which are as large as `summed`;
-/// infinite if the nearest rotation is not unique.
-long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed);
+/// [Pa] A bound of the error of the stress over the relative rounding of the numbers, as large as `summed`, that F was
+/// summed from; infinite if the nearest rotation is not unique. F may be as `far` from this one.
+long double stress_size(const ElasticLaw& law, const Matrix3<long double>& f, long double summed, long double far = 0);
 
 /// [Pa] The further error of a discrete gradient in double precision, over the same rounding: the two strains of a
 /// corotational move are as accurate as their rotations, and their difference is divided by the move.

@@ -105,7 +105,7 @@ void for_each_damping_size(const ElasticPoint& point, const long double* x, long
 /// longer by `reach` [m] than here, bounds the error of the force there; infinite if a rotation is not unique.
 template <class F>
 void for_each_size(const ElasticPoint& point, const long double* x, long double reach, F&& f) {
-  long double summed = 0;
+  long double summed = 0, far = 0;
   for (std::size_t a = 1; a < point.corner.size(); ++a) {
     long double square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -113,8 +113,9 @@ void for_each_size(const ElasticPoint& point, const long double* x, long double 
       square += line * line;
     }
     summed += (std::sqrt(square) + reach) * point.gradient[a].norm();
+    far += reach * point.gradient[a].norm();
   }
-  const long double size = stress_size(point.law, deformation(point, x), summed);
+  const long double size = stress_size(point.law, deformation(point, x), summed, far);
   for (std::size_t a = 0; a < point.corner.size(); ++a)
     f(point.corner[a], point.volume * size * point.gradient[a].norm());
 }

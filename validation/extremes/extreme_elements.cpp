@@ -12,21 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-Material material_of(Model model, double poisson = 0.3, double young = 100.0) {
-  return {.density = 1.0, .young = young, .poisson = poisson, .model = model};
-}
-
-/// The same with the ratio `zeta` at its highest frequency.
+/// An elastic body with the damping ratio `zeta` at its highest frequency.
 SpringColumns damped_body(std::string_view scene, Model model, double zeta) {
-  Material material = material_of(model);
+  Material material = elastic_material(model);
   material.damping_time = 2 * zeta / highest_frequency(elastic_body(scene, material));
   return elastic_body(scene, material);
-}
-
-/// Displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
-SpringColumns moving(SpringColumns body, double size) {
-  set_moving(body, size, highest_frequency(body) / 4);
-  return body;
 }
 
 }  // namespace
@@ -38,30 +28,30 @@ void add_elements(ExtremeMatrix& matrix) {
     };
     for (const double theta : {0.1, 1.5, 2.5, 30.0, 1e4})
       add(fmt::format("h omega {:g}", theta), [model, theta](std::string_view scene) {
-        return with_theta(moving(elastic_body(scene, material_of(model)), 0.01), theta);
+        return with_theta(in_motion(elastic_body(scene, elastic_material(model)), 0.01), theta);
       });
-    for (const double poisson : {0.0, 0.45, 0.49, 0.499})
+    for (const double poisson : {0.0, 0.45, 0.49, 0.499, 0.4999})
       for (const double theta : {0.3, 30.0})
         add(fmt::format("Poisson's ratio {:g}, h omega {:g}", poisson, theta),
             [model, poisson, theta](std::string_view scene) {
-              return with_theta(moving(elastic_body(scene, material_of(model, poisson)), 1e-3), theta);
+              return with_theta(in_motion(elastic_body(scene, elastic_material(model, poisson)), 1e-3), theta);
             });
     for (const double spread : {1e5, 1e10})
       for (const double theta : {0.3, 30.0})
         add(fmt::format("a stiffness {:g} times another, h omega {:g}", spread, theta),
             [model, spread, theta](std::string_view scene) {
-              const Material soft = material_of(model), stiff = material_of(model, 0.3, 100.0 * spread);
-              return with_theta(moving(elastic_body(scene, soft, stiff), 1e-3), theta);
+              const Material soft = elastic_material(model), stiff = elastic_material(model, 0.3, 100.0 * spread);
+              return with_theta(in_motion(elastic_body(scene, soft, stiff), 1e-3), theta);
             });
     for (const double zeta : {0.05, 0.7, 50.0})
       for (const double theta : {0.1, 1.0, 30.0})
         add(fmt::format("damping ratio {:g}, h omega {:g}", zeta, theta), [model, zeta, theta](std::string_view scene) {
-          return with_theta(moving(damped_body(scene, model, zeta), 0.01), theta);
+          return with_theta(in_motion(damped_body(scene, model, zeta), 0.01), theta);
         });
     const auto shape = [&add, model](const char* value, std::function<void(SpringColumns&)> deform) {
       for (const double theta : {0.2, 20.0})
         add(fmt::format("{}, h omega {:g}", value, theta), [model, theta, deform](std::string_view scene) {
-          SpringColumns body = moving(elastic_body(scene, material_of(model)), 1e-3);
+          SpringColumns body = in_motion(elastic_body(scene, elastic_material(model)), 1e-3);
           const double omega = highest_frequency(body);
           deform(body);
           return ExtremeSetup{.body = std::move(body), .h = theta / omega, .compare = false};
@@ -86,14 +76,14 @@ void add_elements(ExtremeMatrix& matrix) {
     });
     for (const double speed : {1.0, 1e3, 1e6})
       add(fmt::format("{:g} edges per second", speed), [model, speed](std::string_view scene) {
-        SpringColumns body = elastic_body(scene, material_of(model));
+        SpringColumns body = elastic_body(scene, elastic_material(model));
         const double omega = highest_frequency(body);
         set_moving(body, speed / omega, omega);
         return ExtremeSetup{.body = std::move(body), .h = 0.1 / omega, .compare = false};
       });
     for (const double offset : {1e3, 1e6})
       add(fmt::format("{:g} edges from the origin", offset), [model, offset](std::string_view scene) {
-        SpringColumns body = moving(elastic_body(scene, material_of(model)), 0.01);
+        SpringColumns body = in_motion(elastic_body(scene, elastic_material(model)), 0.01);
         const double omega = highest_frequency(body);
         ExtremeSetup setup{.body = std::move(body), .h = 0.3 / omega, .offset = offset};
         setup.at_origin = setup.body.x;

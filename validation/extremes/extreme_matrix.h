@@ -69,5 +69,6 @@ void add_denormals(ExtremeMatrix& matrix);
 void add_bad_numbers(ExtremeMatrix& matrix, bool injected);
 void add_events(ExtremeMatrix& matrix);
 void add_elements(ExtremeMatrix& matrix);
+void add_regions(ExtremeMatrix& matrix);
 
 }  // namespace dartboard

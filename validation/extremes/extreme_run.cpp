@@ -268,11 +268,12 @@ double highest_frequency(const SpringColumns& body) {
   return estimate.refresh(body.system(), body.x).lower;
 }
 
-SpringColumns moving_body(std::string_view scene, double size) {
-  SpringColumns body = extreme_body(scene);
+SpringColumns in_motion(SpringColumns body, double size) {
   set_moving(body, size, highest_frequency(body) / 4);
   return body;
 }
+
+SpringColumns moving_body(std::string_view scene, double size) { return in_motion(extreme_body(scene), size); }
 
 ExtremeSetup with_theta(SpringColumns body, double theta, std::uint64_t steps) {
   const double omega = highest_frequency(body);

@@ -64,7 +64,9 @@ long double energy_of(const SpringColumns& body);
 /// omega_max [1/s] at the state of the body, from below.
 double highest_frequency(const SpringColumns& body);
 
-/// An extreme body displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
+/// A body displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
+SpringColumns in_motion(SpringColumns body, double size);
+/// The same for an extreme body.
 SpringColumns moving_body(std::string_view scene, double size = 0.01);
 
 /// A run with steps of theta / omega_max.

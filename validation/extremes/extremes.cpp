@@ -29,6 +29,8 @@ constexpr std::array axes{
     ExtremeAxis{"events", "dissociations and removals in every step"},
     ExtremeAxis{"long", "many steps"},
     ExtremeAxis{"elements", "elastic solids: models, Poisson's ratio, spread of stiffness, flat and inverted cells"},
+    ExtremeAxis{"regions",
+                "springs and elements of two materials: stiffness, density, damping, flat cells between them"},
 };
 
 }  // namespace
@@ -79,6 +81,7 @@ std::vector<ExtremeCase> extreme_cases(std::string_view axis, bool quick) {
   if (axis == "injected") add_bad_numbers(matrix, true);
   if (axis == "events") add_events(matrix);
   if (axis == "elements") add_elements(matrix);
+  if (axis == "regions") add_regions(matrix);
   return matrix.take();
 }
 

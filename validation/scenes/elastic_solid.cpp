@@ -22,6 +22,7 @@ ElasticSolid::ElasticSolid(Mesh rest, std::vector<Material> materials, std::vect
       std::ranges::copy(nodes, solid.at.begin());
       solid_shapes_.push_back(solid_shape_of(rest_.kinds[c], corners));
     }
+    if (material(c).model == Model::springs) continue;
     for (reference::ElasticPoint& point : reference::elastic_points(rest_, c, material(c)))
       points_.push_back(std::move(point));
   }

@@ -16,6 +16,7 @@ namespace dartboard {
 /// Tetrahedra, or cells of several kinds, of given materials; at rest in the mesh.
 class ElasticSolid {
  public:
+  /// Cells of springs have no force in it, and no points of the references.
   /// pre  the mesh is one of tetrahedra or hexahedra; `material_of` has a number for each cell
   ElasticSolid(Mesh rest, std::vector<Material> materials, std::vector<MaterialNumber> material_of);
   ElasticSolid(const ElasticSolid&) = delete;

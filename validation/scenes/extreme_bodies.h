@@ -16,11 +16,16 @@ namespace dartboard {
 SpringColumns extreme_body(std::string_view name);
 inline constexpr std::string_view extreme_bodies[]{"oscillator", "chain", "box", "sheet"};
 
-/// Elements of a jittered box of 2 x 1 x 1 cubes of edge 1 m: twelve tetrahedra, or two hexahedra; each cell's mass in
-/// equal parts at its corners. The second half of the cells is of `other`. At rest, without springs.
+/// A material of density 1 kg/m^3, undamped; springs share the modulus `young` [Pa] as elements have it.
+Material elastic_material(Model model, double poisson = 0.3, double young = 100.0);
+
+/// A jittered box of 2 x 1 x 1 cubes of edge 1 m: twelve tetrahedra, or two hexahedra; each cell's mass in equal parts
+/// at its corners. The second half of the cells is of `other`, and of this thickness along x [m] at rest. Cells are
+/// elements of their material or, where its model is springs, have springs along their edges. At rest.
 ///
 /// throws  InputError for another name
-SpringColumns elastic_body(std::string_view name, const Material& material, const Material& other);
+SpringColumns elastic_body(std::string_view name, const Material& material, const Material& other,
+                           double thickness = 1.0);
 inline SpringColumns elastic_body(std::string_view name, const Material& material) {
   return elastic_body(name, material, material);
 }

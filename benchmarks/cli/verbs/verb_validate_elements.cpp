@@ -64,8 +64,8 @@ void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome) 
       study_options<Options>(*verb, {.quick = "coarse meshes", .seed = "the random operations", .keeps_folder = false});
   auto* operations =
       verb->add_option("--operations", options->operations,
-                       "in place of the beam: cut, tear and erode bodies of elements so many times each, "
-                       "and hold energies, forces and masses against other code");
+                       "in place of the beam: cut, tear and erode bodies of elements, and of two materials by region, "
+                       "so many times each, and hold energies, forces, masses and materials against other code");
   operations->check(CLI::PositiveNumber);
   verb->add_option("MESH", options->meshes, "mesh files, or names of meshes of the project [liver564.mesh and a box]")
       ->needs(operations);
