@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/forces/force_size.h"
 #include "core/forces/compensated_sum.h"
+#include "core/forces/force_size.h"
 
 namespace dartboard {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/forces/force_size.h"
 #include "core/elements/spring_pieces.h"
 #include "core/forces/compensated_sum.h"
+#include "core/forces/force_size.h"
 
 namespace dartboard {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "core/forces/force_size.h"
 #include "core/forces/compensated_sum.h"
+#include "core/forces/force_size.h"
 #include "core/forces/force_term.h"
 
 namespace dartboard {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/forces/force_size.h"
 #include "core/forces/compensated_sum.h"
+#include "core/forces/force_size.h"
 #include "core/forces/force_term.h"
 
 namespace dartboard {

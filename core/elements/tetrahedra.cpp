@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 
-#include "core/forces/force_size.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
 #include "core/forces/compensated_sum.h"
+#include "core/forces/force_size.h"
 
 namespace dartboard {
 namespace {

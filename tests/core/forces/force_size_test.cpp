@@ -1,4 +1,4 @@
-#include "core/elements/force_size.h"
+#include "core/forces/force_size.h"
 
 #include <gtest/gtest.h>
 
