@@ -51,6 +51,7 @@ class FacePressureTerm final : public ForceTerm {
   std::string_view pieces_name() const override { return "faces under pressure"; }
   std::size_t size() const override { return rows_.size(); }
   Nodes nodes(std::size_t piece) const override { return rows_[piece].corners(); }
+  bool has_energy() const override { return false; }
 
   void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
   /// The mean of the forces along the step.

@@ -61,6 +61,9 @@ class ForceTerm {
   /// Are the vertices of each piece connected by cells, and away from each other at rest? Those of an attachment are
   /// not.
   virtual bool is_within_cells() const { return true; }
+  /// Do its forces derive from its energy? Otherwise that is zero, `energy_change` is the work along the step, and
+  /// whatever watches energies sums `power`.
+  virtual bool has_energy() const { return true; }
 
   /// force += f [N] at these places.
   virtual void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const = 0;

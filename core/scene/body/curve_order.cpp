@@ -42,6 +42,12 @@ std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
 
 }  // namespace
 
+std::vector<std::uint32_t> order_of_mesh(const Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.cell_count());
+  std::iota(order.begin(), order.end(), 0u);
+  return order;
+}
+
 std::size_t count_wide_cells(const Mesh& mesh, std::span<const std::uint32_t> order) {
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(mesh.points.size(), none);
@@ -61,8 +67,7 @@ std::size_t count_wide_cells(const Mesh& mesh, std::span<const std::uint32_t> or
 
 std::vector<std::uint32_t> order_along_curve(const Mesh& mesh) {
   if (mesh.points.size() <= window) return {};
-  std::vector<std::uint32_t> order(mesh.cell_count());
-  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::uint32_t> order = order_of_mesh(mesh);
   const std::size_t as_given = count_wide_cells(mesh, order);
   if (as_given == 0) return {};
 

@@ -17,6 +17,8 @@ namespace dartboard {
 /// source  J. Skilling, Programming the Hilbert curve, AIP Conference Proceedings 707, 2004
 std::vector<std::uint32_t> order_along_curve(const Mesh& mesh);
 
+/// The numbers of the cells in the order of the mesh.
+std::vector<std::uint32_t> order_of_mesh(const Mesh& mesh);
 /// The cells whose corners have numbers more than 4096 apart if points are numbered as cells reach them in this order.
 std::size_t count_wide_cells(const Mesh& mesh, std::span<const std::uint32_t> order);
 

@@ -30,10 +30,12 @@ std::vector<PressedFace> faces_under_pressure(const SceneForce& force, std::uint
 std::vector<PressedFace> followed_faces(const SceneFile& scene, const Mesh& mesh) {
   std::vector<PressedFace> all;
   for (std::uint32_t f = 0; f < scene.forces.size(); ++f)
-    if (scene.forces[f].follows) {
-      const auto faces = faces_under_pressure(scene.forces[f], f, mesh);
-      all.insert(all.end(), faces.begin(), faces.end());
-    }
+    if (scene.forces[f].follows) try {
+        const auto faces = faces_under_pressure(scene.forces[f], f, mesh);
+        all.insert(all.end(), faces.begin(), faces.end());
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", scene.file, error.what()));
+      }
   return all;
 }
 

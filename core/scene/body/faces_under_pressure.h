@@ -16,7 +16,7 @@ namespace dartboard {
 /// cost    O(n log n) for n cells
 std::vector<PressedFace> faces_under_pressure(const SceneForce& force, std::uint32_t number, const Mesh& mesh);
 
-/// The same for all pressures of the scene that follow their faces.
+/// The same for all pressures of the scene that follow their faces; errors name its file.
 std::vector<PressedFace> followed_faces(const SceneFile& scene, const Mesh& mesh);
 
 }  // namespace dartboard

@@ -6,6 +6,7 @@
 
 #include "core/base/counted.h"
 #include "core/plain/material.h"
+#include "core/scene/body/curve_order.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
@@ -130,7 +131,14 @@ class Planner {
 
   void columns() {
     const MeshTally& n = plan_.counts;
-    add(Part::vertices, "mass, 1/mass, position, velocity and mesh point by vertex", source_of(scene_));
+    const std::vector<std::uint32_t> order = order_along_curve(problem_.mesh);
+    add(Part::vertices,
+        fmt::format("mass, 1/mass, position, velocity and mesh point by vertex{}",
+                    order.empty() ? "" : ", cells and vertices stored along a space-filling curve"),
+        order.empty() ? source_of(scene_)
+                      : fmt::format("{}: its order is worse, {} cells in place of {} span more than 4096 vertices",
+                                    source_of(scene_), count_wide_cells(problem_.mesh, order_of_mesh(problem_.mesh)),
+                                    count_wide_cells(problem_.mesh, order)));
     const bool on_map = plan_.needs.body.topology_changes;
     const std::string viscosity =
         setting_in_words("/material/viscosity", Shape::material, "viscosity", problem_.material.viscosity);
@@ -166,7 +174,7 @@ class Planner {
     // driven vertices are looked up as in the run, by the points of the mesh
     DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
     SystemArrays arrays(problem_, plan_.needs.body);
-    vertices.apply(0, plan_.counts.point, arrays.v);
+    vertices.apply(0, arrays.body().vertices().point, arrays.v);
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
     plan_.driven_springs = detector.driven_springs();

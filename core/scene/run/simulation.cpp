@@ -159,7 +159,7 @@ std::optional<EarlyEnd> Simulation::advance() {
   const bool is_last = done_ == step_count_;
   const double of_pressures =
       body_->face_pressure() && result.ok() ? body_->face_pressure()->work(body_->vertices().position) : 0.0;
-  const double work = of_pressures + (contact_ && result.ok() ? contact_->new_work() : 0.0);
+  const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
   if (const auto fault = watch_.after_step(result, done_, is_last, work, body_->system(), body_->motion()))
     return diverged(*fault);
   if (is_last) examine_coordinates();

@@ -95,9 +95,12 @@ void DivergenceDetector::find_driven(const SpringSystem& system, Motion motion) 
   }
 }
 
-// The work per time that drives do at driven vertices against the springs and the weight there.
+// The work per time of drives, against the springs and the weight at driven vertices, and of terms without an energy.
 double DivergenceDetector::power(const SpringSystem& system, Motion motion) {
   double sum = 0.0;
+  for (const ForceTerm* term : system.terms)
+    if (!term->has_energy())
+      for (std::uint32_t piece = 0; piece < term->size(); ++piece) sum += term->power({&piece, 1}, motion.x, motion.v);
   for (const std::uint32_t s : driven_springs_) {
     const auto [i, j] = system.ends[s];
     const Vector3d f = spring_force(system.springs[s], motion.x[j] - motion.x[i], motion.v[j] - motion.v[i]);
@@ -180,7 +183,8 @@ void DivergenceDetector::add_work(double work) {
 StepResult DivergenceDetector::after_step(const SpringSystem& system, Motion motion) {
   ++since_kept_;
   ++since_all_;
-  if (!driven_.empty()) {
+  const auto has_energy = [](const ForceTerm* term) { return term->has_energy(); };
+  if (!driven_.empty() || !std::ranges::all_of(system.terms, has_energy)) {
     const double power_now = power(system, motion);
     work_ += step_ / 2 * (power_ + power_now);
     power_ = power_now;

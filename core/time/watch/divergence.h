@@ -16,12 +16,13 @@ namespace dartboard {
 /// Forces do work from an elastic energy that is never negative, from gravity, and from vertices that are driven; the
 /// rest dissipates. So kinetic energy stays below T_0 + V_0 plus the work of gravity and of driven vertices, and so
 /// does the energy of any springs. The work of driven vertices is summed after every step, by the trapezoidal rule,
-/// over the springs that end at them. An unstable motion raises that work in proportion to its amplitude, and its own
-/// energy with the square of it, so the work cannot mask it. Compared are the kinetic energy and the energy of a sample
-/// of springs that rotates: an overdamped instability grows without moving fast. Exact sums are skipped where an upper
-/// bound suffices: the largest mass times the sum of the squared speeds, compared with the supply without gravity. A
-/// stable method may exceed it: Verlet's and symplectic Euler's oscillate by 1 / (1 - theta^2 / 4). More than `gain`
-/// times the energy available, that is a tenfold amplitude, is no oscillation of a stable one below 0.99 of its limit.
+/// over the springs that end at them, and so is that of terms without an energy. An unstable motion raises that work in
+/// proportion to its amplitude, and its own energy with the square of it, so the work cannot mask it. Compared are the
+/// kinetic energy and the energy of a sample of springs that rotates: an overdamped instability grows without moving
+/// fast. Exact sums are skipped where an upper bound suffices: the largest mass times the sum of the squared speeds,
+/// compared with the supply without gravity. A stable method may exceed it: Verlet's and symplectic Euler's oscillate
+/// by 1 / (1 - theta^2 / 4). More than `gain` times the energy available, that is a tenfold amplitude, is no
+/// oscillation of a stable one below 0.99 of its limit.
 ///
 /// An energy that stays above the bound is found within 16 steps where the velocities or the sampled springs show it,
 /// and within 64 where they only suggest it (`suspicion`): then all springs are summed. An unstable step needs
@@ -104,7 +105,7 @@ class DivergenceDetector {
   std::vector<std::uint32_t> driven_, driven_springs_;  // vertices, and the springs at them that may change in length
   std::vector<std::vector<std::uint32_t>> driven_pieces_;  // by force term: those with a driven vertex
   std::vector<Eigen::Vector3d> driven_velocity_;           // of all vertices, zero where not driven
-  double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;  // [W] now, [J] of driven vertices since the run began, its peak
+  double power_ = 0.0, work_ = 0.0, most_work_ = 0.0;  // [W] now, [J] of drives and loads since the run began, its peak
   std::size_t first_spring_ = 0;
   std::uint64_t since_start_ = 0, next_check_ = 1, since_kept_ = 0, checks_ = 0;
   std::uint64_t since_all_ = 0;  // steps since the last sum over all springs
