@@ -184,8 +184,12 @@ class SceneTrial {
     if (scene_.frozen)
       for (const SceneObstacle& one : scene_.frozen->file.obstacles)
         obstacles = max_or_nan(obstacles, one.obstacle.velocity.norm());
+    std::vector<Vector3d> loads(system.vertex_count(), Vector3d(0, 0, 0));  // [N]
+    for (const ForceTerm* term : system.terms)
+      if (!term->has_energy()) term->add_forces({motion.x}, loads);
     for (std::size_t i = 0; i < system.vertex_count(); ++i) {
-      const Vector3d pull = system.pull.empty() ? Vector3d(0, 0, 0) : system.pull[i];
+      const Vector3d pull =
+          (system.pull.empty() ? Vector3d(0, 0, 0) : system.pull[i]) + system.inverse_mass[i] * loads[i];
       const bool is_driven = system.fixed[i] != 0 || (!system.held_axes.empty() && system.held_axes[i] != 0);
       const double speed = (is_driven ? motion.v[i].norm() : 0.0) + obstacles;
       supply_ += 0.5 * system.mass[i] * std::pow((system.gravity + pull).norm() * time, 2) +

@@ -110,5 +110,16 @@ TEST(SceneExtremes, OfAMembraneAreJudgedByTheirSurvival) {
         << cell.integrator;
 }
 
+// It has no energy that it could come from.
+TEST(SceneExtremes, OfAPressureThatFollowsItsFacesAreNotStoppedForItsWork) {
+  constexpr std::string_view pressed = R"({"name": "pressed", "body": {"generate": {"box": {"cells": [3, 1, 1],
+    "spacing": 0.01}}}, "material": {"density": 1000, "young": 1e5, "poisson": 0.3}, "gravity": [0, 0, 0],
+    "fixed": [{"plane": {"point": [0.001, 0, 0], "normal": [-1, 0, 0]}}], "step": 1e-4, "duration": 0.1,
+    "forces": [{"plane": {"point": [0, 0, 0.01], "normal": [0, 0, 1]}, "pressure": 3000, "normals": "current"}]})";
+  for (const ExtremeCell& cell : run(scene_extreme_cases(scene_of(pressed), true), "h omega 0.5"))
+    EXPECT_EQ(cell.outcome, cell.integrator == "explicit-euler" ? ExtremeOutcome::diagnosed : ExtremeOutcome::survived)
+        << cell.integrator << " " << cell.note;
+}
+
 }  // namespace
 }  // namespace dartboard::scene_extremes_test
