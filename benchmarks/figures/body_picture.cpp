@@ -190,9 +190,13 @@ std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first) {
     d.colour = shaded(colour, 0.62 + 0.45 * std::round(steps * std::max(0.0, cosine)) / steps);
     drawn.push_back(std::move(d));
   }
-  for (const auto& [a, b] : panel.links) {
+  for (std::size_t k = 0; k < panel.links.size(); ++k) {
+    const auto [a, b] = panel.links[k];
     const Vector3d &from = panel.mesh.points[a], &to = panel.mesh.points[b];
-    drawn.push_back({{seen(from), seen(to)}, ((from + to) / 2).dot(toward_viewer), component_colours[0]});
+    const std::uint32_t component = panel.component[panel.mesh.cell_count() + k];
+    drawn.push_back({{seen(from), seen(to)},
+                     ((from + to) / 2).dot(toward_viewer),
+                     component_colours[component % component_colours.size()]});
   }
   std::ranges::stable_sort(drawn, {}, &DrawnFacet::depth);
   return drawn;

@@ -13,7 +13,7 @@ namespace dartboard {
 namespace {
 
 std::vector<std::uint32_t> all_cells(const Mesh& mesh) {
-  std::vector<std::uint32_t> cells(mesh.cell_count());
+  std::vector<std::uint32_t> cells(mesh.cell_count() + mesh.links.size());
   std::iota(cells.begin(), cells.end(), 0u);
   return cells;
 }
@@ -24,7 +24,8 @@ std::optional<std::size_t> first_loose_cell(const Mesh& mesh) { return first_loo
 
 std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const std::uint32_t> cells) {
   for (const std::uint32_t c : cells)
-    if (mesh.kinds[c] != CellKind::tetrahedron && mesh.kinds[c] != CellKind::triangle) return c;
+    if (c < mesh.cell_count() && mesh.kinds[c] != CellKind::tetrahedron && mesh.kinds[c] != CellKind::triangle)
+      return c;
   return {};
 }
 
@@ -41,14 +42,16 @@ double mean_stiffness(const Mesh& mesh, double young, std::span<const std::uint3
     edges += 1.0;
   };
   for (const std::uint32_t c : cells) {
+    if (c >= mesh.cell_count()) {
+      const auto [a, b] = mesh.links[c - mesh.cell_count()];
+      add(a, b, (mesh.points[b] - mesh.points[a]).norm());
+      continue;
+    }
     const auto nodes = mesh.cell(c);
     const double measure = std::abs(signed_measure(mesh, c));
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) add(nodes[j], nodes[i], measure);
   }
-  if (mesh.cell_count() == 0)
-    for (std::uint32_t k = 0; k + 1 < mesh.points.size(); ++k)
-      add(k, k + 1, (mesh.points[k + 1] - mesh.points[k]).norm());
   return edges == 0.0 ? 0.0 : sum / edges;
 }
 

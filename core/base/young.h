@@ -16,8 +16,7 @@ std::optional<std::size_t> first_loose_cell(const Mesh& mesh);
 std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const std::uint32_t> cells);
 
 /// The stiffness [N/m] of the springs of a Young's modulus, a mean over the edges of all cells: that of the edge of
-/// rest length l of a cell of volume V (area, length) is young V / l^2. For a mesh without cells, a chain, over its
-/// links.
+/// rest length l of a cell of volume V (area, length) is young V / l^2. The links of chains are cells of one edge.
 ///
 /// Averaged over all directions, the energy of such edges is that of an elastic solid with this modulus: in tetrahedra
 /// of Poisson's ratio 1/4, in triangles of 1/3; it cannot be chosen. Single meshes have directions: a box of cubes of
@@ -26,7 +25,7 @@ std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const st
 /// cost    a pass over the mesh
 /// source  Van Gelder, Journal of Graphics Tools 3(2), 1998: k = E V / l^2; the averages by integration over directions
 double mean_stiffness(const Mesh& mesh, double young);
-/// The same over the edges of these cells; for a mesh without cells, over its links.
+/// The same over the edges of these cells; numbers from the number of cells on are links.
 double mean_stiffness(const Mesh& mesh, double young, std::span<const std::uint32_t> cells);
 
 }  // namespace dartboard

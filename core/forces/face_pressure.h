@@ -48,6 +48,8 @@ class FacePressureTerm final : public ForceTerm {
   FacePressureTerm(const std::vector<PressedFace>& rows, const std::vector<double>& pressure)
       : rows_(rows), pressure_(pressure) {}
 
+  const std::vector<PressedFace>& rows() const { return rows_; }
+
   std::string_view pieces_name() const override { return "faces under pressure"; }
   std::size_t size() const override { return rows_.size(); }
   Nodes nodes(std::size_t piece) const override { return rows_[piece].corners(); }

@@ -22,6 +22,15 @@ struct ChangedEmbeddings {
   // order, each followed by dropping the last element.
   std::vector<Renumbered> moved_vertices, moved_edges, moved_faces, moved_cells;
   std::size_t vertex_count = 0, edge_count = 0, face_count = 0, cell_count = 0;
+
+  /// The moves of a column by cell number that has no new numbers.
+  template <class Column>
+  void move_cells(Column& column) const {
+    for (const auto& [from, to] : moved_cells) {
+      column[to] = column[from];
+      column.pop_back();
+    }
+  }
 };
 
 /// Adapt the embeddings of a body to the change that an operation, or a series of them, made to its map.

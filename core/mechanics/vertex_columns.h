@@ -18,6 +18,11 @@ namespace dartboard {
 /// Stands in place of a mesh point for a vertex that a refinement made.
 inline constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
 
+/// A vertex of a cell, and the point of the mesh that it is a part of.
+struct CellCorner {
+  std::uint32_t point, vertex;
+};
+
 /// The columns of the vertex embeddings. All share one numbering.
 struct VertexColumns {
   std::vector<double> mass;               // [kg]  eq. (1)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -60,6 +61,19 @@ int Mesh::dimension() const {
   return found;
 }
 
+int Mesh::highest_dimension() const {
+  int highest = 0;
+  for (const CellKind kind : kinds) highest = std::max(highest, dartboard::dimension(kind));
+  return highest;
+}
+
+bool is_mixed(const Mesh& mesh) {
+  const auto is_solid = [](CellKind kind) { return dimension(kind) == 3; };
+  const bool solids = std::ranges::any_of(mesh.kinds, is_solid),
+             surfaces = !std::ranges::all_of(mesh.kinds, is_solid);
+  return solids + surfaces + !mesh.links.empty() > 1;
+}
+
 void append(Mesh& mesh, const Mesh& other) {
   constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
   if (mesh.points.size() + other.points.size() >= most || mesh.nodes.size() + other.nodes.size() >= most)
@@ -71,6 +85,7 @@ void append(Mesh& mesh, const Mesh& other) {
   mesh.kinds.insert(mesh.kinds.end(), other.kinds.begin(), other.kinds.end());
   for (std::size_t c = 0; c < other.cell_count(); ++c) mesh.first.push_back(nodes + other.first[c + 1]);
   for (const std::uint32_t p : other.nodes) mesh.nodes.push_back(points + p);
+  for (const auto& [a, b] : other.links) mesh.links.push_back({points + a, points + b});
 }
 
 double signed_measure(const Mesh& mesh, std::size_t c) {

@@ -2,6 +2,7 @@
 // The plain mesh: points, and cells as lists of point numbers. It is all of a body that core and reference share.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,12 +22,13 @@ std::string_view name(CellKind kind);
 /// In a right-handed 3D cell every cycle runs counter-clockwise seen from outside.
 std::span<const std::vector<int>> faces_of(CellKind kind);
 
-/// Points [m] and cells; cells are stored back to back in `nodes`.
+/// Points [m] and cells; cells are stored back to back in `nodes`. Points of chains belong to no cell but to links.
 struct Mesh {
   std::vector<Eigen::Vector3d> points;
   std::vector<CellKind> kinds;
   std::vector<std::uint32_t> first{0};  // first[c] .. first[c+1]: where the nodes of cell c lie
   std::vector<std::uint32_t> nodes;
+  std::vector<std::array<std::uint32_t, 2>> links{};  // of chains: two points each
 
   std::size_t cell_count() const { return kinds.size(); }
   std::span<const std::uint32_t> cell(std::size_t c) const {
@@ -37,9 +39,14 @@ struct Mesh {
   /// 2 when all cells are polygons, 3 when all are volumes; 0 for no cell.
   /// throws  InputError when both occur
   int dimension() const;
+  /// The highest dimension of a cell, where polygons and volumes may both occur; 0 for no cell.
+  int highest_dimension() const;
 };
 
-/// Add the points and cells of another mesh after the present ones.
+/// Has it more than one of volumes, polygons and links?
+bool is_mixed(const Mesh& mesh);
+
+/// Add the points, cells and links of another mesh after the present ones.
 /// throws  InputError if there are not enough numbers for them
 void append(Mesh& mesh, const Mesh& other);
 

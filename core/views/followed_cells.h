@@ -84,10 +84,7 @@ class FollowedCells {
     });
   }
 
-  /// A vertex of a cell, and the point of the mesh that it is a part of.
-  struct Corner {
-    std::uint32_t point, vertex;
-  };
+  using Corner = CellCorner;
   /// The vertices of a cell that is there, each as often as it has darts in it.
   template <class Body>
   void find_corners(const Body& body, std::uint32_t place, std::vector<Corner>& corners) const {

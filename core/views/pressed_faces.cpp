@@ -12,7 +12,6 @@
 namespace dartboard {
 
 std::vector<PressedFace> outer_faces(const Mesh& mesh) {
-  const bool solid = mesh.dimension() == 3;
   struct Side {
     PressedFace face;
     int cells;
@@ -20,6 +19,7 @@ std::vector<PressedFace> outer_faces(const Mesh& mesh) {
   std::map<std::array<std::uint32_t, 4>, Side> sides;  // by their corners in ascending order
   std::vector<PressedFace> faces;
   for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+    const bool solid = dimension(mesh.kinds[c]) == 3;
     // the faces of a cell are counter-clockwise seen from outside if it is right-handed
     const bool is_mirrored = solid && signed_measure(mesh, c) < 0.0;
     for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {

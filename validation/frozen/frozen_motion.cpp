@@ -34,11 +34,11 @@ Mesh cells_of(const Mesh& mesh, const CellMaterials& materials, const std::vecto
 void add_links(const Problem& problem, reference::SpringNetwork& network) {
   const Material& material = problem.material;
   const auto& points = problem.mesh.points;
-  for (std::uint32_t k = 0; k + 1 < points.size(); ++k) {
-    const double length = (points[k + 1] - points[k]).norm();
+  for (const auto& [a, b] : problem.mesh.links) {
+    const double length = (points[b] - points[a]).norm();
     const double share = material.young > 0.0 ? material.young / length / material.stiffness : 1.0;
-    network.springs.push_back({k, k + 1, share * material.stiffness, share * material.damping, length});
-    for (const std::uint32_t end : {k, k + 1}) network.mass[end] += material.density * length / 2;
+    network.springs.push_back({a, b, share * material.stiffness, share * material.damping, length});
+    for (const std::uint32_t end : {a, b}) network.mass[end] += material.density * length / 2;
   }
 }
 
@@ -75,6 +75,7 @@ std::uint32_t origin_of(const Vector3d& x, std::size_t vertices) {
 }  // namespace
 
 std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
+  if (is_mixed(mesh)) return "bodies of several dimensions";
   if (file.has_contact()) return "contact";
   if (!file.key_beside_edges().empty()) return "springs that are no edges";
   if (!file.attachments.empty()) return "attachments";
@@ -89,8 +90,8 @@ std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
 double mean_edge(const Mesh& mesh) {
   reference::SpringNetwork edges;
   if (mesh.cell_count() > 0) edges.springs = reference::rebuild(mesh, Material{}).springs;
-  for (std::uint32_t k = 0; mesh.cell_count() == 0 && k + 1 < mesh.points.size(); ++k)
-    edges.springs.push_back({k, k + 1, 0.0, 0.0, (mesh.points[k + 1] - mesh.points[k]).norm()});
+  for (const auto& [a, b] : mesh.links)
+    edges.springs.push_back({a, b, 0.0, 0.0, (mesh.points[b] - mesh.points[a]).norm()});
   return reference::mean_rest_length(edges);
 }
 

@@ -11,7 +11,6 @@
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/base/counted.h"
-#include "core/scene/file/scene_materials.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/body_in_words.h"
 #include "core/scene/run/scene_warnings.h"
@@ -22,13 +21,10 @@ namespace {
 std::string drift_text(double drift) { return drift == 0.0 ? "0" : fmt::format("{:.2e}", drift); }
 
 /// "springs", "neo-hookean elements, springs"
-std::string models_of(const SceneFile& scene, int dimension) {
+std::string in_words(std::span<const Model> models) {
   std::string said;
-  for (std::size_t m = model_names.size(); m-- > 0;)
-    if (std::ranges::any_of(scene.tissues(), [&](const SceneFile::Tissue& tissue) {
-          return model_of(tissue, dimension) == static_cast<Model>(m);
-        }))
-      said += fmt::format("{}{}{}", said.empty() ? "" : ", ", model_names[m], m == 0 ? "" : " elements");
+  for (const Model model : models)
+    said += fmt::format("{}{}{}", said.empty() ? "" : ", ", name(model), model == Model::springs ? "" : " elements");
   return said;
 }
 
@@ -75,7 +71,7 @@ Table summary_of(const SimulationReport& r) {
 std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words) {
   std::string said = fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name),
                                  simulation.body().map_name(), scene.integrator, scene.step, step_in_words,
-                                 models_of(scene, simulation.dimension()), in_words(simulation.body()));
+                                 in_words(simulation.models()), in_words(simulation.body()));
   for (const SelectionCount& count : simulation.selections()) said += to_string(count) + "\n";
   return said + "\n";
 }

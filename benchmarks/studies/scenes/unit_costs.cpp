@@ -147,7 +147,10 @@ struct Standard {
   Standard(const Problem& of, const BodyNeeds& needs) {
     const double spacing = 0.1;
     if (needs.storage == Storage::links)
-      for (int k = 0; k < 500; ++k) problem.mesh.points.emplace_back(k * spacing, 0, 0);
+      for (std::uint32_t k = 0; k < 500; ++k) {
+        problem.mesh.points.emplace_back(k * spacing, 0, 0);
+        if (k > 0) problem.mesh.links.push_back({k - 1, k});
+      }
     else
       problem.mesh = needs.storage == Storage::surface      ? triangle_sheet(24, 24, spacing)
                      : needs.storage == Storage::tetrahedra ? kuhn_box(6, 6, 6, spacing)

@@ -163,6 +163,9 @@ class TargetCells {
 /// Attaches the points to the cells first to last - 1, except the corners of these.
 void attach(const SceneFile& scene, const SceneAttachment& to, const Mesh& mesh, std::size_t first, std::size_t last,
             std::vector<Attachment>& points) {
+  if (first == last)
+    scene.fail(to.path + "/to", fmt::format("is {}, a chain, which has no cells", *to.to),
+               "a body with cells that the chain's vertices are attached to");
   std::vector<bool> is_of_target(mesh.points.size(), false);
   for (std::size_t c = first; c < last; ++c)
     for (const std::uint32_t p : mesh.cell(c)) is_of_target[p] = true;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/bytes.h"
+#include "core/base/disjoint_sets.h"
 #include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/error.h"
@@ -30,29 +31,44 @@ BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs, std
     case Storage::links: link(problem, needs); break;
     case Storage::surface: take(build_body<Map2, Held::by_every_dart>(problem), problem.mesh, needs); break;
     case Storage::tetrahedra: take(build_body<TetMap, Held::by_every_dart>(problem), problem.mesh, needs); break;
+    case Storage::several:  // a body of its own kind (body_of_parts.h)
     case Storage::any_cells: take(build_body<Map3, Held::by_every_dart>(problem), problem.mesh, needs); break;
   }
 }
 
 void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
   const auto& points = problem.mesh.points;
-  const Material& material = problem.material;
+  const CellMaterials materials = problem.cell_materials();
   gravity_ = problem.surroundings.gravity;
-  material_ = material;
-  counts_ = {.vertices = points.size(), .edges = points.size() - 1, .components = 1};
+  material_ = problem.material;
+  materials_ = problem.materials;
+  cell_material_ = problem.cell_material;
+  counts_ = {.vertices = points.size(), .edges = problem.mesh.links.size()};
   vertices_.position = points;
   vertices_.mass.assign(points.size(), 0.0);
-  for (std::uint32_t k = 0; k + 1 < points.size(); ++k) {
-    const double length = (points[k + 1] - points[k]).norm(), mass = material.density * length;
+  DisjointSets chains(points.size());
+  for (std::size_t k = 0; k < problem.mesh.links.size(); ++k) {
+    const auto [a, b] = problem.mesh.links[k];
+    const Material& material = materials[k];
+    const double length = (points[b] - points[a]).norm(), mass = material.density * length;
     if (!(std::min(length, mass) > 0.0 && std::isfinite(length) && std::isfinite(mass)))
       throw InputError(
           fmt::format("link {} has a length of {} m and a mass of {} kg; expected numbers > 0", k, length, mass));
-    ends_.push_back({k, k + 1});
+    ends_.push_back({a, b});
+    chains.join(a, b);
     const double share = material.young > 0.0 ? material.young / length / material.stiffness : 1.0;
     springs_.push_back({length, share * material.stiffness, share * material.damping});
     cell_mass_.push_back(mass);
     for (const std::uint32_t end : ends_.back()) vertices_.mass[end] += mass / 2;
   }
+  counts_.components = chains.count();
+  std::vector<std::uint32_t> number(points.size(), 0);  // of chains, by their lowest points
+  std::uint32_t next = 0;
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    if (!(vertices_.mass[p] > 0.0)) throw InputError(fmt::format("point {} belongs to no cell and to no link", p));
+    if (chains.set_of(p) == p) number[p] = next++;
+  }
+  for (const auto& [a, b] : ends_) component_.push_back(number[chains.set_of(a)]);
   if (needs.rest) vertices_.keep_rest();
   vertices_.velocity = problem.initial_velocity;
   vertices_.velocity.resize(points.size(), Eigen::Vector3d(0, 0, 0));
@@ -65,7 +81,7 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
     if (!vertices_.velocity[p].allFinite())
       throw InputError(fmt::format("the initial velocity of point {} is not finite", p));
     vertices_.inverse_mass.push_back(1.0 / vertices_.mass[p]);
-    if (needs.viscosity) vertices_.viscosity.push_back(material.viscosity * vertices_.mass[p]);
+    if (needs.viscosity) vertices_.viscosity.push_back(material_.viscosity * vertices_.mass[p]);
     vertices_.point.push_back(p);
   }
   vertices_.hold(problem.held_axes);
@@ -247,6 +263,17 @@ std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
       event.action);
 }
 
+std::vector<std::vector<CellCorner>> BodyOfColumns::corners_of(std::span<const std::uint32_t> mesh_cells) const {
+  std::vector<std::vector<CellCorner>> corners(mesh_cells.size());
+  for (std::uint32_t c = 0; c < counts_.cells; ++c) {
+    const auto found = std::ranges::lower_bound(mesh_cells, mesh_cell(c));
+    if (found == mesh_cells.end() || *found != mesh_cell(c)) continue;
+    for (const std::uint32_t vertex : cells_.cell(c))
+      corners[static_cast<std::size_t>(found - mesh_cells.begin())].push_back({vertices_.point[vertex], vertex});
+  }
+  return corners;
+}
+
 double BodyOfColumns::mass() const {
   double sum = 0.0;
   for (const double m : cell_mass_) sum += m;
@@ -301,9 +328,9 @@ double BodyOfColumns::largest_stress() const {
 Frame BodyOfColumns::frame(const FrameFields& fields) const {
   Frame frame;
   frame.mesh = cells_;
-  for (std::uint32_t c = 0; c < counts_.cells; ++c) frame.mesh_cell.push_back(mesh_cell(c));
-  frame.component = component_;
   if (counts_.cells == 0) frame.links = ends_;
+  for (std::uint32_t c = 0; c < component_.size(); ++c) frame.mesh_cell.push_back(mesh_cell(c));
+  frame.component = component_;
   frame.material = cell_material_;
   std::vector<double> room;
   fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});

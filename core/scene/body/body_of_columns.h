@@ -22,20 +22,19 @@ struct VertexVolumes;
 /// with the same bits; the map and all that was held by darts are then freed.
 class BodyOfColumns final : public SimulatedBody {
  public:
-  /// A mesh without cells makes a chain: each link from a point to the next is a spring of the material's stiffness and
-  /// damping, and gives half its mass, density times length, to each of its ends.
+  /// A mesh with links and without cells makes chains: each link is a spring of its material's stiffness and damping,
+  /// and gives half its mass, density times length, to each of its ends.
   ///
-  /// throws  InputError as build_body does; for a link whose length or mass is not a number above 0, and for a velocity
-  ///         that is not finite
+  /// throws  InputError as build_body does; for a point without a link, a link whose length or mass is not a number above
+  ///         0, and for a velocity that is not finite
   explicit BodyOfColumns(const Problem& problem) : BodyOfColumns(problem, body_needs(problem, false)) {}
   /// `mesh_cell` are the numbers of the cells in the mesh that `needs` refers to; empty: their own.
   BodyOfColumns(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell = {});
 
   std::string map_name() const override { return "no map"; }
-  const VertexColumns& vertices() const override { return vertices_; }
+  VertexColumns& vertices() override { return vertices_; }
+  using SimulatedBody::vertices;
   SpringSystem system() const override;
-  Motion motion() override { return {vertices_.position, vertices_.velocity}; }
-  std::span<Eigen::Vector3d> pull() override { return vertices_.pull; }
   std::span<double> pressures() override { return pressure_; }
   FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
   ObstacleContact* contact() override { return contact_.get(); }
@@ -44,6 +43,8 @@ class BodyOfColumns final : public SimulatedBody {
   using SimulatedBody::contact;
   /// throws  InputError for an event that would change the topology
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override;
+
+  std::vector<std::vector<CellCorner>> corners_of(std::span<const std::uint32_t> mesh_cells) const override;
 
   double mass() const override;
   double removed_mass() const override { return 0.0; }

@@ -108,10 +108,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     const ChangedEmbeddings changed = adapt(body_, change);
     for (const auto [from, to] : changed.moved_vertices)
       for (std::uint32_t& vertex : tracked_) vertex = vertex == to ? no_vertex : vertex == from ? to : vertex;
-    for (const auto [from, to] : changed.moved_cells) {
-      mesh_cell_[to] = mesh_cell_[from];
-      mesh_cell_.pop_back();
-    }
+    changed.move_cells(mesh_cell_);
     follow(change, changed);
   }
   void follow(const Subdivision& subdivision, double bracing) override {
@@ -134,7 +131,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::string map_name() const override {
     return n == 2 ? "2-g-map" : Map::tetrahedral ? "tetrahedral 3-g-map" : "3-g-map";
   }
-  const VertexColumns& vertices() const override { return body_.vertices; }
+  VertexColumns& vertices() override { return body_.vertices; }
+  using SimulatedBody::vertices;
   SpringSystem system() const override {
     const VertexColumns& v = body_.vertices;
     SpringSystem system{.ends = ends_.ends,
@@ -153,8 +151,6 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     }
     return system;
   }
-  Motion motion() override { return {body_.vertices.position, body_.vertices.velocity}; }
-  std::span<Eigen::Vector3d> pull() override { return body_.vertices.pull; }
   std::span<double> pressures() override { return pressure_; }
   FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
   ObstacleContact* contact() override { return contact_.get(); }
@@ -164,6 +160,16 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override {
     ChangingBody<Map>& on = *this;
     return std::visit([&](const auto& action) { return ready(on, action, event.action_path()); }, event.action);
+  }
+
+  std::vector<std::vector<CellCorner>> corners_of(std::span<const std::uint32_t> mesh_cells) const override {
+    FollowedCells cells({mesh_cells.begin(), mesh_cells.end()},
+                        [this](std::uint32_t cell) { return mesh_cell_[cell]; });
+    cells.rebuild(body_);
+    std::vector<std::vector<CellCorner>> corners(cells.size());
+    for (std::uint32_t k = 0; k < corners.size(); ++k)
+      if (cells.is_there(k)) cells.find_corners(body_, k, corners[k]);
+    return corners;
   }
 
   double mass() const override {

@@ -27,7 +27,7 @@ class Forecaster {
  public:
   Forecaster(const SceneFile& scene, const Problem& problem)
       : scene_(scene), points_(problem.mesh.points), gravity_(problem.surroundings.gravity.norm()) {
-    surface_ = problem.mesh.dimension() == 2;
+    surface_ = problem.mesh.highest_dimension() == 2;
     for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
     if (gravity_ > 0.0) up_ = -problem.surroundings.gravity / gravity_;
     velocities_ = problem.initial_velocity;
@@ -119,7 +119,8 @@ class TouchForecaster {
     gravity_ = g.norm();
     const std::vector<std::size_t> first_cell = first_cells(scene);
     bodies_.resize(first_cell.size());
-    std::vector<std::uint32_t> body_of(problem.mesh.points.size());
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();  // for points of chains
+    std::vector<std::uint32_t> body_of(problem.mesh.points.size(), none);
     for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
       const std::size_t end = b + 1 < bodies_.size() ? first_cell[b + 1] : problem.mesh.cell_count();
       for (std::size_t c = first_cell[b]; c < end; ++c)
@@ -127,6 +128,7 @@ class TouchForecaster {
     }
     // without gravity, along the axis that a body is longest along
     for (std::uint32_t p = 0; p < body_of.size(); ++p) {
+      if (body_of[p] == none) continue;
       Body& body = bodies_[body_of[p]];
       const Vector3d& x = problem.mesh.points[p];
       const Vector3d heights = gravity_ > 0.0 ? Vector3d::Constant(-x.dot(g) / gravity_) : x;
@@ -136,11 +138,13 @@ class TouchForecaster {
     }
     for (const SceneDrive& drive : scene.driven)
       for (const std::uint32_t p : select_points(drive.vertices, problem.mesh.points, drive.path)) {
+        if (body_of[p] == none) continue;
         double& speed = bodies_[body_of[p]].speed;
         speed = std::max(speed, drive.largest_speed_of(problem.mesh.points[p]));
       }
-    Vector3d low = bodies_[0].low, high = bodies_[0].high;
+    Vector3d low = Body().low, high = Body().high;
     for (const Body& body : bodies_) {
+      if (!(body.high[0] >= body.low[0])) continue;  // a chain
       low = low.cwiseMin(body.low);
       high = high.cwiseMax(body.high);
       heights_ += body.height();

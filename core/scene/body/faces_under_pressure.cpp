@@ -23,7 +23,7 @@ std::vector<PressedFace> faces_under_pressure(const SceneForce& force, std::uint
   }
   if (faces.empty())
     throw InputError(fmt::format("{}/pressure: all corners of no face {} are selected; expected one at least",
-                                 force.path, mesh.dimension() == 3 ? "of the boundary" : "of a surface"));
+                                 force.path, mesh.highest_dimension() == 3 ? "of the boundary" : "of a surface"));
   return faces;
 }
 

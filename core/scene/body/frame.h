@@ -25,23 +25,25 @@ struct Frame {
   std::vector<Eigen::Vector3d> velocity;  // [m/s] by point
   std::vector<double> mass;               // [kg] by point
   std::vector<std::int64_t> mesh_point;   // by point: its number in the file of the mesh, or -1: refinement made it
-  std::vector<std::uint32_t> mesh_cell;   // by cell: its number in the mesh that the body came from
-  std::vector<std::uint32_t> component;   // by cell
-  std::vector<std::uint8_t> material;     // by cell: its number; of a body of several
-  // of a chain, which has no cells: the ends of each link, which files count as a cell of component 0
-  std::vector<std::array<std::uint32_t, 2>> links;
+  std::vector<std::array<std::uint32_t, 2>> links;  // of chains: the ends of each, which are its cells
+  // by cell, then by link
+  std::vector<std::uint32_t> mesh_cell;  // its number in the mesh that the body came from
+  std::vector<std::uint32_t> component;
+  std::vector<std::uint8_t> material;        // its number; of a body of several
+  std::vector<std::uint32_t> body;           // its number in the scene; of a scene of several
   std::vector<RefinedFacet> refined_facets;  // not written to files; those within a cell of the mesh are not among them
 
   FrameFields fields;              // which of the following are filled; the others are empty
   std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven, 3 held along some axes
-  // [Pa] (of a surface [N/m]) by point of a body with cells; infinite where a stress is not finite
+  // [Pa] (of a surface [N/m], of a chain next to other bodies 0) by point of a body with cells; infinite where a stress
+  // is not finite
   std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
-  std::vector<double> tension;                        // [N] of a chain, by link; negative where it is pressed together
+  std::vector<double> tension;                        // [N] of chains, by link; negative where it is pressed together
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
   std::vector<Eigen::Vector3d> contact_force;         // [N] by point: of contacts, without friction and damping
   std::vector<double> contact_depth;                  // [m] by point: the depth inside an obstacle or body; 0 outside
   std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
-  std::vector<double> strain;                         // (l - L) / L by spring; of a chain, by link
+  std::vector<double> strain;                         // (l - L) / L by link of a chain, then by spring
 };
 
 }  // namespace dartboard

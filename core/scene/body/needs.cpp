@@ -9,7 +9,8 @@
 namespace dartboard {
 
 Storage storage_of(const Mesh& mesh) {
-  if (mesh.cell_count() == 0 && !mesh.points.empty()) return Storage::links;
+  if (is_mixed(mesh)) return Storage::several;
+  if (!mesh.links.empty()) return Storage::links;
   if (mesh.dimension() == 2) return Storage::surface;
   return std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; })
              ? Storage::tetrahedra
@@ -21,6 +22,7 @@ std::string_view map_name(Storage storage) {
     case Storage::links: return "no map";
     case Storage::surface: return "2-g-map";
     case Storage::tetrahedra: return "tetrahedral 3-g-map";
+    case Storage::several: return "a map for each dimension";
     case Storage::any_cells: break;
   }
   return "3-g-map";

@@ -15,10 +15,11 @@
 
 namespace dartboard {
 
-/// The smallest storage that can hold a mesh. Points without cells are a chain in their order: links, and no map.
-enum class Storage { links, surface, tetrahedra, any_cells };
+/// The smallest storage that can hold a mesh. Chains are links, and no map; a mesh of cells of several dimensions is
+/// several bodies.
+enum class Storage { links, surface, tetrahedra, any_cells, several };
 Storage storage_of(const Mesh& mesh);
-/// "no map", "2-g-map", "tetrahedral 3-g-map", "3-g-map"
+/// "no map", "2-g-map", "tetrahedral 3-g-map", "3-g-map", "a map for each dimension"
 std::string_view map_name(Storage storage);
 
 /// The needs of a body.

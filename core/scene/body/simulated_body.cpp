@@ -4,6 +4,7 @@
 
 #include "core/plain/error.h"
 #include "core/scene/body/body_of_columns.h"
+#include "core/scene/body/body_of_parts.h"
 #include "core/scene/body/body_on_map.h"
 #include "core/scene/body/curve_order.h"
 
@@ -19,22 +20,32 @@ std::unique_ptr<SimulatedBody> make_body(const Problem& problem, const BodyNeeds
     case Storage::links: throw InputError("a chain has no cells that could change");
     case Storage::surface: return std::make_unique<BodyOnMap<Map2>>(problem, needs, std::move(mesh_cell));
     case Storage::tetrahedra: return std::make_unique<BodyOnMap<TetMap>>(problem, needs, std::move(mesh_cell));
+    case Storage::several:
     case Storage::any_cells: break;
   }
   return std::make_unique<BodyOnMap<Map3>>(problem, needs, std::move(mesh_cell));
 }
 
-}  // namespace
-
-std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
+/// The same, with its cells in the order in which they are stored.
+std::unique_ptr<SimulatedBody> make_ordered_body(const Problem& problem, const BodyNeeds& needs,
+                                                 std::vector<std::uint32_t> mesh_cell) {
   if (std::vector<std::uint32_t> order = order_along_curve(problem.mesh); !order.empty()) {
     try {
       const Problem ordered = in_order(problem, order);
+      if (!mesh_cell.empty())
+        for (std::uint32_t& cell : order) cell = mesh_cell[cell];
       return make_body(ordered, needs, std::move(order));
     } catch (const InputError&) {  // names a cell by its number there; the mesh in its own order is refused below
     }
   }
-  return make_body(problem, needs, {});
+  return make_body(problem, needs, std::move(mesh_cell));
+}
+
+}  // namespace
+
+std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
+  if (needs.storage == Storage::several) return std::make_unique<BodyOfParts>(problem, needs, make_ordered_body);
+  return make_ordered_body(problem, needs, {});
 }
 
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, bool topology_changes) {

@@ -35,13 +35,14 @@ class SimulatedBody {
 
   /// "tetrahedral 3-g-map", "3-g-map", "2-g-map"
   virtual std::string map_name() const = 0;
-  virtual const VertexColumns& vertices() const = 0;
+  virtual VertexColumns& vertices() = 0;
+  const VertexColumns& vertices() const { return const_cast<SimulatedBody*>(this)->vertices(); }
   /// Springs and all that acts on vertices; valid until the next event.
   virtual SpringSystem system() const = 0;
   /// Positions and velocities; valid until the next event.
-  virtual Motion motion() = 0;
+  Motion motion() { return {vertices().position, vertices().velocity}; }
   /// The pull at each vertex [m/s^2]; empty where the body was made without it. Valid until the next event.
-  virtual std::span<Eigen::Vector3d> pull() = 0;
+  std::span<Eigen::Vector3d> pull() { return vertices().pull; }
   /// The pressures that follow their faces [Pa], by number of force, and their term; empty and null without any.
   virtual std::span<double> pressures() = 0;
   virtual FacePressureTerm* face_pressure() = 0;
@@ -57,13 +58,19 @@ class SimulatedBody {
   }
 
   /// Follow a vertex from now on, whatever number it takes: `tracked` grows by one. Tracking does not change the body.
-  void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
+  virtual void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
   /// The numbers now of the vertices tracked; `no_vertex` for those removed.
   std::span<const std::uint32_t> tracked() const { return tracked_; }
   static constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
   /// throws  InputError "/events/3/...: ..." if the event cannot happen to this body
   virtual std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) = 0;
+
+  /// The corners of some cells of the mesh, each as often as the body needs to list it; none of a cell that is removed.
+  ///
+  /// pre   the numbers ascend, and the body is not refined
+  /// cost  O(cells log(numbers))
+  virtual std::vector<std::vector<CellCorner>> corners_of(std::span<const std::uint32_t> mesh_cells) const = 0;
 
   /// Mass of all cells [kg], summed by their numbers.
   virtual double mass() const = 0;
@@ -92,7 +99,7 @@ class SimulatedBody {
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
 /// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, otherwise a 3-g-map. If it cannot, or for a
 /// chain: columns, and no map. A large body is stored along a curve where its mesh is in no good order
-/// (curve_order.h).
+/// (curve_order.h). Solids, surfaces and chains of one mesh are a body each, held together (body_of_parts.h).
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

@@ -76,8 +76,6 @@ BodySource read_bodies(const SceneValue& list, const std::filesystem::path& fold
   BodyList bodies;
   for (const SceneValue& value : list.entries()) {
     BodySource& body = bodies.all.emplace_back(read_body(value, folder));
-    if (std::holds_alternative<ChainMesh>(body.mesh))
-      value.fail_at("generate/chain", "is a chain", "cells, or a chain alone in its scene");
     if (value.has("material")) body.material = read_material(value.at("material"));
     if (value.has("initial_velocity")) body.velocity = read_velocity(value.at("initial_velocity"));
   }

@@ -86,6 +86,11 @@ std::span<const BodySource> SceneFile::bodies() const {
   return {&body, 1};
 }
 
+bool SceneFile::is_chain() const {
+  return std::ranges::all_of(bodies(),
+                             [](const BodySource& one) { return std::holds_alternative<ChainMesh>(one.mesh); });
+}
+
 std::vector<SceneFile::Tissue> SceneFile::tissues() const {
   std::vector<Tissue> all{{material, "/material", true}};
   for (const BodySource& one : bodies())

@@ -255,7 +255,8 @@ struct SceneFile {
   std::string_view key_beside_edges() const {
     return diagonals != Diagonals::none ? "/diagonals" : bending.any() ? "/bending" : "";
   }
-  bool is_chain() const { return std::holds_alternative<ChainMesh>(body.mesh); }
+  /// Is every body a chain?
+  bool is_chain() const;
   /// The one body, or each of several.
   std::span<const BodySource> bodies() const;
   /// A material that some cells may be made of, with its key.

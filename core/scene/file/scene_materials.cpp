@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,9 +38,12 @@ std::vector<std::uint32_t> cells_of(const SceneFile& scene, const SceneRegion& r
   return cells;
 }
 
-/// Surfaces have no neo-Hookean law, and nothing but viscosity damps them.
-void require_elements(const SceneFile& scene, const Mesh& mesh, const std::string& path, const Material& material) {
-  if (mesh.dimension() != 2) return;
+/// Surfaces have no neo-Hookean law, and nothing but viscosity damps them; chains have no elements.
+void require_elements(const SceneFile& scene, int dimension, const std::string& path, const Material& material) {
+  if (dimension == 1)
+    scene.fail(path + "/poisson", "is given for a chain, whose links are springs",
+               "a material of its own for the chain, without this key");
+  if (dimension != 2) return;
   if (material.model == Model::neo_hookean)
     scene.fail(
         path + "/model", fmt::format("is \"{}\", and the body is a surface", name(material.model)),
@@ -56,7 +60,8 @@ double stiffness_of_young(const SceneFile& scene, const Mesh& mesh, const SceneF
     scene.fail(tissue.path + "/young", fmt::format("is {} Pa, and {}", tissue.material.young, found), expected);
   };
   for (const std::uint32_t c : cells)
-    if (first_loose_cell(mesh, {&c, 1}) && diagonals_of(mesh.kinds[c], scene.diagonals).empty())
+    if (c < mesh.cell_count() && first_loose_cell(mesh, {&c, 1}) &&
+        diagonals_of(mesh.kinds[c], scene.diagonals).empty())
       wrong(fmt::format("cell {} is a {}, whose edges alone do not hold its shape", c, name(mesh.kinds[c])),
             "tetrahedra, triangles or a chain, /diagonals together with it, or 'stiffness' in its place");
   const double mean = scene.diagonals == Diagonals::none
@@ -88,39 +93,50 @@ std::vector<Eigen::Vector3d> centroids(const Mesh& mesh) {
   return all;
 }
 
-void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell, Problem& problem) {
-  const std::size_t count = problem.mesh.cell_count();
+void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell,
+                      std::span<const std::size_t> first_link, Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const std::size_t cells = mesh.cell_count(), count = cells + mesh.links.size();
   std::vector<SceneFile::Tissue> tissues = scene.tissues();
   if (tissues.size() > most_materials)
     scene.fail(tissues[most_materials].path, fmt::format("is the last of {} materials", tissues.size()),
                fmt::format("at most {}", most_materials));
   std::vector<std::size_t> tissue_of(count, 0);
+  const auto give = [&tissue_of](std::size_t first, std::size_t end, std::size_t tissue) {
+    std::fill(tissue_of.begin() + static_cast<std::ptrdiff_t>(first),
+              tissue_of.begin() + static_cast<std::ptrdiff_t>(end), tissue);
+  };
   std::size_t next = 1;
   const auto bodies = scene.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!bodies[b].material) continue;
-    const std::size_t end = b + 1 < bodies.size() ? first_cell[b + 1] : count;
-    std::fill(tissue_of.begin() + static_cast<std::ptrdiff_t>(first_cell[b]),
-              tissue_of.begin() + static_cast<std::ptrdiff_t>(end), next++);
+    const bool is_last = b + 1 == bodies.size();
+    give(first_cell[b], is_last ? cells : first_cell[b + 1], next);
+    give(cells + first_link[b], is_last ? count : cells + first_link[b + 1], next);
+    ++next;
   }
   for (const SceneRegion& region : scene.regions) {
-    for (const std::uint32_t c : cells_of(scene, region, problem.mesh)) tissue_of[c] = next;
+    for (const std::uint32_t c : cells_of(scene, region, mesh)) tissue_of[c] = next;
     ++next;
   }
 
-  std::vector<std::vector<std::uint32_t>> cells(tissues.size());
-  for (std::uint32_t c = 0; c < count; ++c) cells[tissue_of[c]].push_back(c);
-  const bool has_cells = count > 0;
-  std::vector<MaterialNumber> number_of(tissues.size());
-  for (std::size_t t = 0; t < tissues.size(); ++t) {
-    if (has_cells && cells[t].empty()) continue;
-    Material& material = tissues[t].material;
-    material.model = model_of(tissues[t], problem.mesh.dimension());
+  // by the dimension of the cells, too: a tissue without 'model' may be of several
+  std::map<std::pair<std::size_t, int>, std::vector<std::uint32_t>> cells_of_material;
+  const auto material_of = [&](std::uint32_t c) {
+    return std::pair(tissue_of[c], c < cells ? -dimension(mesh.kinds[c]) : -1);
+  };
+  if (count == 0) cells_of_material[{0, 0}] = {};
+  for (std::uint32_t c = 0; c < count; ++c) cells_of_material[material_of(c)].push_back(c);
+  std::map<std::pair<std::size_t, int>, MaterialNumber> number_of;
+  for (const auto& [key, own] : cells_of_material) {
+    const SceneFile::Tissue& tissue = tissues[key.first];
+    Material material = tissue.material;
+    material.model = model_of(tissue, -key.second);
     if (material.model != Model::springs)
-      require_elements(scene, problem.mesh, tissues[t].path, material);
+      require_elements(scene, -key.second, tissue.path, material);
     else if (material.young > 0.0)
-      material.stiffness = stiffness_of_young(scene, problem.mesh, tissues[t], cells[t]);
-    number_of[t] = static_cast<MaterialNumber>(problem.materials.size());
+      material.stiffness = stiffness_of_young(scene, mesh, tissue, own);
+    number_of[key] = static_cast<MaterialNumber>(problem.materials.size());
     problem.materials.push_back(material);
     problem.materials.back().viscosity = scene.material.viscosity;
   }
@@ -129,7 +145,7 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
     problem.materials.clear();
     return;
   }
-  for (const std::size_t t : tissue_of) problem.cell_material.push_back(number_of[t]);
+  for (std::uint32_t c = 0; c < count; ++c) problem.cell_material.push_back(number_of.at(material_of(c)));
 }
 
 }  // namespace dartboard

@@ -14,17 +14,18 @@ namespace dartboard {
 Eigen::Vector3d centroid(const Mesh& mesh, std::size_t c);
 std::vector<Eigen::Vector3d> centroids(const Mesh& mesh);
 
-/// The model of the cells of a tissue in a mesh of this dimension: the model it names; if it has a 'poisson' and names
+/// The model of the cells of a tissue that have this dimension: the model it names; if it has a 'poisson' and names
 /// no model, stable neo-Hookean solids, or membranes of St. Venant and Kirchhoff.
 Model model_of(const SceneFile::Tissue& tissue, int dimension);
 
 /// Give the cells of a problem's mesh their materials: that of a region, else of the body, else of the scene. Materials
 /// without a cell are left out, and if one is left the body is homogeneous. For springs with a Young's modulus the mean
-/// stiffness is taken over their cells (core/base/young.h).
+/// stiffness is taken over their cells (core/base/young.h). Links are cells, too, numbered after the others.
 ///
-/// units   first_cell: of each body, the number of its first cell
+/// units   first_cell, first_link: of each body, the numbers of its first cell and its first link
 /// throws  InputError "FILE: /regions/0/cells: ..." for a region without a cell, for a model that surfaces do not have,
 ///         for cells whose edges do not hold their shape
-void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell, Problem& problem);
+void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell,
+                      std::span<const std::size_t> first_link, Problem& problem);
 
 }  // namespace dartboard

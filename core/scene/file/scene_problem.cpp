@@ -33,6 +33,7 @@ Mesh generate(const BallMesh& ball) { return tetrahedron_ball(ball.layers, ball.
 Mesh generate(const ChainMesh& chain) {
   Mesh mesh;
   for (int k = 0; k <= chain.links; ++k) mesh.points.emplace_back(k * chain.spacing, 0, 0);
+  for (std::uint32_t k = 0; k + 1 < mesh.points.size(); ++k) mesh.links.push_back({k, k + 1});
   return mesh;
 }
 /// Refuses a speed above that of light.
@@ -56,21 +57,33 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
   }
 }
 
+/// Refuses the touch of a body without an inside.
+void require_solids_that_touch(const SceneFile& scene, std::span<const std::size_t> first_cell, const Mesh& mesh) {
+  const auto is_solid = [&](std::uint32_t body) {
+    const std::size_t end = body + 1 < first_cell.size() ? first_cell[body + 1] : mesh.cell_count();
+    return first_cell[body] < end && dimension(mesh.kinds[first_cell[body]]) == 3;
+  };
+  for (const SceneTouch& touch : scene.touches)
+    for (const std::uint32_t body : {touch.first, touch.second})
+      if (!is_solid(body))
+        throw InputError(fmt::format(
+            "{}: {}: cannot be used with surfaces and chains, which have no inside, like {}; expected solids, only "
+            "obstacles, or 'pairs' that do not touch",
+            scene.file, touch.path, scene.bodies()[body].path));
+}
+
 /// Several bodies as one mesh.
 struct Assembled {
   Mesh mesh;
-  std::vector<std::size_t> first_point, first_cell;  // of each body
+  std::vector<std::size_t> first_point, first_cell, first_link;  // of each body
 };
 Assembled assembled(const std::string& scene, std::span<const BodySource> bodies) {
   Assembled all;
   for (const BodySource& body : bodies) {
     const Mesh mesh = make_mesh(scene, body);
-    if (all.mesh.cell_count() > 0 && mesh.dimension() != all.mesh.dimension())
-      throw InputError(fmt::format("{}: {}: is a {}, but {} is a {}; expected bodies of one kind", scene, body.path,
-                                   mesh.dimension() == 2 ? "surface" : "solid", bodies.front().path,
-                                   mesh.dimension() == 2 ? "solid" : "surface"));
     all.first_point.push_back(all.mesh.points.size());
     all.first_cell.push_back(all.mesh.cell_count());
+    all.first_link.push_back(all.mesh.links.size());
     append(all.mesh, mesh);
   }
   return all;
@@ -119,14 +132,10 @@ Problem make_problem(const SceneFile& scene) {
   if (const auto* list = std::get_if<BodyList>(&scene.body.mesh))
     body = assembled(scene.file, list->all);
   else
-    body = {make_mesh(scene), {0}, {0}};
+    body = {make_mesh(scene), {0}, {0}, {0}};
   problem.mesh = std::move(body.mesh);
-  if (!scene.touches.empty() && problem.mesh.dimension() == 2)
-    throw InputError(
-        fmt::format("{}: {}: cannot be used with surfaces, which have no inside; expected solids, or "
-                    "only obstacles",
-                    scene.file, scene.touches.front().path));
-  assign_materials(scene, body.first_cell, problem);
+  require_solids_that_touch(scene, body.first_cell, problem.mesh);
+  assign_materials(scene, body.first_cell, body.first_link, problem);
   require_springs_beside_edges(scene, problem);
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
@@ -160,6 +169,21 @@ Problem make_problem(const SceneFile& scene) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
   return problem;
+}
+
+std::vector<std::uint32_t> body_of_cells(const SceneFile& scene) {
+  const auto* list = std::get_if<BodyList>(&scene.body.mesh);
+  if (list == nullptr) return {};
+  const Assembled all = assembled(scene.file, list->all);
+  std::vector<std::uint32_t> body;
+  const auto add = [&body](const std::vector<std::size_t>& first, std::size_t count) {
+    const std::size_t before = body.size();
+    for (std::uint32_t b = 0; b < first.size(); ++b)
+      body.resize(before + (b + 1 < first.size() ? first[b + 1] : count), b);
+  };
+  add(all.first_cell, all.mesh.cell_count());
+  add(all.first_link, all.mesh.links.size());
+  return body;
 }
 
 std::vector<std::size_t> first_cells(const SceneFile& scene) {

@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-/// The mesh of the body, or of all bodies, one after another; of a chain its points alone.
+/// The mesh of the body, or of all bodies, one after another.
 ///
 /// throws  IoError if its file cannot be read, InputError for a generator that cannot make it
 Mesh make_mesh(const SceneFile& scene);
@@ -21,7 +21,7 @@ Mesh make_mesh(const std::string& scene, const BodySource& body);
 /// here: only DrivenVertices defines how they move.
 ///
 /// throws  as make_mesh; InputError for an id that is no point of the mesh, an empty selection, a speed above that of
-///         light, bodies of two dimensions, surfaces that are to touch each other, and as assign_materials
+///         light, bodies without an inside that are to touch each other, and as assign_materials
 Problem make_problem(const SceneFile& scene);
 
 /// Where the cells of each body begin in the mesh of the scene.
@@ -29,5 +29,10 @@ Problem make_problem(const SceneFile& scene);
 /// throws  as make_mesh
 /// cost    for several bodies, the generated ones are made once more
 std::vector<std::size_t> first_cells(const SceneFile& scene);
+
+/// The body of each cell of the mesh of the scene, then of each link of chains; empty for a scene of one body.
+///
+/// throws and costs as first_cells
+std::vector<std::uint32_t> body_of_cells(const SceneFile& scene);
 
 }  // namespace dartboard

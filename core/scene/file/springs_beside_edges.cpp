@@ -39,6 +39,7 @@ void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
   // by edge: the direction away from it in the first face met
   std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3d> away_from;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    if (dimension(mesh.kinds[c]) == 3) continue;
     if (mesh.kinds[c] != CellKind::triangle)
       scene.fail("/bending/rigidity", fmt::format("{}, and cell {} is a {}", found, c, name(mesh.kinds[c])),
                  "triangles, or 'second_neighbours' in its place");
@@ -64,7 +65,8 @@ void require_flat_triangles(const SceneFile& scene, const Mesh& mesh) {
 void require_springs_beside_edges(const SceneFile& scene, const Problem& problem) {
   if (scene.diagonals != Diagonals::none) require_diagonals(scene, problem);
   if (!scene.bending.any()) return;
-  if (problem.mesh.dimension() != 2)
+  const auto is_polygon = [](CellKind kind) { return dimension(kind) == 2; };
+  if (std::ranges::none_of(problem.mesh.kinds, is_polygon))
     scene.fail("/bending", "cannot be combined with a solid, whose cells do not bend at edges", "a surface");
   if (scene.bending.rigidity > 0.0) require_flat_triangles(scene, problem.mesh);
 }
@@ -73,6 +75,7 @@ double mean_stiffness_beside(const Mesh& mesh, double young, std::span<const std
                              Diagonals diagonals) {
   double sum = 0.0, edges = 0.0;
   for (const std::uint32_t c : cells) {
+    if (c >= mesh.cell_count()) continue;  // links have no diagonals
     const auto nodes = mesh.cell(c);
     const double measure = std::abs(signed_measure(mesh, c));
     for (const CornerSpring& edge : edges_beside(mesh.kinds[c], diagonals)) {

@@ -69,18 +69,19 @@ void append_array(std::string& out, const char* name, const std::vector<Eigen::V
 }
 
 bool has_columns_of_its_size(const Frame& frame) {
-  const std::size_t points = frame.mesh.points.size(), cells = frame.mesh.cell_count();
+  const std::size_t points = frame.mesh.points.size(), cells = frame.mesh.cell_count() + frame.links.size();
   const FrameFields& fields = frame.fields;
-  const bool is_chain = !frame.links.empty();
+  const bool is_chain = cells == frame.links.size() && cells > 0;
   const auto is = [](std::size_t size, bool asked, std::size_t expected) { return size == (asked ? expected : 0); };
   const bool has_stress = fields.stress && !is_chain;
   return frame.velocity.size() == points && (frame.mesh_point.empty() || frame.mesh_point.size() == points) &&
          frame.mass.size() == points && frame.mesh_cell.size() == cells && frame.component.size() == cells &&
-         (frame.material.empty() || frame.material.size() == cells) && is(frame.held.size(), fields.held, points) &&
+         (frame.material.empty() || frame.material.size() == cells) &&
+         (frame.body.empty() || frame.body.size() == cells) && is(frame.held.size(), fields.held, points) &&
          is(frame.largest_principal_stress.size(), has_stress, points) &&
          is(frame.largest_stress_magnitude.size(), has_stress, points) &&
          is(frame.von_mises_stress.size(), has_stress, points) &&
-         is(frame.tension.size(), fields.stress && is_chain, frame.links.size()) &&
+         is(frame.tension.size(), fields.stress, frame.links.size()) &&
          is(frame.displacement.size(), fields.displacement, points) &&
          is(frame.contact_force.size(), fields.contact, points) &&
          is(frame.contact_depth.size(), fields.contact, points) &&
@@ -108,17 +109,19 @@ std::string to_vtu(const Frame& frame) {
   std::vector<std::int64_t> mesh_cell(frame.mesh_cell.begin(), frame.mesh_cell.end());
   std::vector<std::int64_t> component(frame.component.begin(), frame.component.end());
   std::vector<std::int64_t> material(frame.material.begin(), frame.material.end());
-  const auto add_line = [&](const std::array<std::uint32_t, 2>& ends, std::int64_t number, std::int64_t label) {
+  std::vector<std::int64_t> body(frame.body.begin(), frame.body.end());
+  const auto add_line = [&](const std::array<std::uint32_t, 2>& ends) {
     connectivity.insert(connectivity.end(), ends.begin(), ends.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     types.push_back(3);
-    mesh_cell.push_back(number);
-    component.push_back(label);
-    if (!material.empty()) material.push_back(-1);
   };
-  for (const auto& link : frame.links) add_line(link, static_cast<std::int64_t>(mesh_cell.size()), 0);
-  for (const auto& spring : frame.springs) add_line(spring, -1, -1);
-  std::vector<double> strain(cells, 0.0);
+  for (const auto& link : frame.links) add_line(link);
+  for (const auto& spring : frame.springs) add_line(spring);
+  for (auto* numbers : {&mesh_cell, &component, &material, &body})  // springs are no cells
+    if (!numbers->empty()) numbers->resize(types.size(), -1);
+  std::vector<double> tension(cells, 0.0), strain(cells, 0.0);
+  tension.insert(tension.end(), frame.tension.begin(), frame.tension.end());
+  tension.resize(types.size(), 0.0);
   strain.insert(strain.end(), frame.strain.begin(), frame.strain.end());
 
   std::string out =
@@ -143,7 +146,7 @@ std::string to_vtu(const Frame& frame) {
   append_array(out, "mass", frame.mass);
   if (!frame.mesh_point.empty()) append_array(out, "mesh_point", frame.mesh_point);
   const FrameFields& fields = frame.fields;
-  const bool is_chain = !frame.links.empty();
+  const bool is_chain = cells == 0 && !frame.links.empty();
   if (fields.held) append_array(out, "held", frame.held);
   if (fields.stress && !is_chain) {
     append_array(out, "largest_principal_stress", frame.largest_principal_stress);
@@ -159,7 +162,8 @@ std::string to_vtu(const Frame& frame) {
   append_array(out, "mesh_cell", mesh_cell);
   append_array(out, "component", component);
   if (!material.empty()) append_array(out, "material", material);
-  if (fields.stress && is_chain) append_array(out, "tension", frame.tension);
+  if (!body.empty()) append_array(out, "body", body);
+  if (fields.stress && !frame.links.empty()) append_array(out, "tension", tension);
   if (fields.springs) append_array(out, "strain", strain);
   out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
   return out;

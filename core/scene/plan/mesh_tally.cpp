@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/disjoint_sets.h"
+#include "core/mechanics/problem_parts.h"
 
 namespace dartboard {
 namespace {
@@ -39,24 +40,51 @@ class FirstMet {
   std::vector<Met> met_;
 };
 
-MeshTally tally_of_chain(const Mesh& mesh) {
+MeshTally tally_of_chains(const Mesh& mesh) {
   MeshTally t;
   t.vertices = mesh.points.size();
-  t.edges = t.vertices - 1;
-  t.components = 1;
+  t.edges = mesh.links.size();
+  DisjointSets together(t.vertices);
   t.point.resize(t.vertices);
   std::iota(t.point.begin(), t.point.end(), 0u);
-  for (std::uint32_t k = 0; k < t.edges; ++k) t.ends.push_back({k, k + 1});
+  for (const auto& [a, b] : mesh.links) {
+    t.ends.push_back({a, b});
+    together.join(a, b);
+  }
+  t.components = together.count();
   t.cells_of_edge.assign(t.edges, 1);  // a link is a cell of its own
   t.edge_on_boundary.assign(t.edges, 0);
   return t;
 }
 
+/// Add the counts of another part of a mesh, whose points and cells have these numbers in it.
+void append(MeshTally& t, const MeshTally& part, std::span<const std::uint32_t> point,
+            std::span<const std::uint32_t> cell) {
+  const auto first = static_cast<std::uint32_t>(t.vertices);
+  for (const std::uint32_t p : part.point) t.point.push_back(point[p]);
+  for (const auto& [a, b] : part.ends) t.ends.push_back({first + a, first + b});
+  for (const auto& [a, b] : part.cells_of_facet) t.cells_of_facet.push_back({cell[a], cell[b]});
+  const auto add_column = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add_column(t.cells_of_edge, part.cells_of_edge);
+  add_column(t.edge_on_boundary, part.edge_on_boundary);
+  for (const auto count :
+       {&MeshTally::vertices, &MeshTally::edges, &MeshTally::faces, &MeshTally::cells, &MeshTally::darts,
+        &MeshTally::components, &MeshTally::boundary_facets, &MeshTally::boundary_corners})
+    t.*count += part.*count;
+}
+
 }  // namespace
 
 MeshTally tally_of(const Mesh& mesh) {
-  if (mesh.cell_count() == 0 && !mesh.points.empty()) return tally_of_chain(mesh);
   MeshTally t;
+  if (is_mixed(mesh)) {
+    Problem problem;
+    problem.mesh = mesh;
+    for (const ProblemPart& part : parts_of(problem))
+      append(t, tally_of(part.problem.mesh), part.point, part.cell);
+    return t;
+  }
+  if (!mesh.links.empty()) return tally_of_chains(mesh);
   t.cells = mesh.cell_count();
   std::vector<std::uint32_t> vertex_of(mesh.points.size(), none), last_cell;  // last_cell: by edge
   FirstMet<2> edges(mesh.points.size());

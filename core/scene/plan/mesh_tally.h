@@ -30,7 +30,7 @@ struct MeshTally {
   std::vector<std::array<std::uint32_t, 2>> cells_of_facet;  // of those between two cells
 };
 
-/// A mesh of points alone is a chain in their order.
+/// Of solids, surfaces and chains in one mesh the counts are those of all of them, which bodies hold one after another.
 ///
 /// pre     cells name points of the mesh
 /// cost    O(darts), some 0.2 microseconds per dart

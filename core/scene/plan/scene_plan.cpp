@@ -10,6 +10,7 @@
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
+#include "core/scene/file/scene_problem.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/survey/bending_stiffness.h"
@@ -107,6 +108,7 @@ class Planner {
     const std::string changed = fmt::format("{}/{}: changes the topology", first->path, key_of(first->action));
     const std::string kind = tetrahedra                    ? "tetrahedra alone"
                              : storage == Storage::surface ? "a surface"
+                             : storage == Storage::several ? "bodies of several dimensions"
                                                            : "cells other than tetrahedra";
     add(Part::map, fmt::format("{}, {} darts", map_name(storage), n.darts),
         fmt::format("{}; {}: {}", changed, source_of(scene_), kind));
@@ -189,7 +191,11 @@ class Planner {
     const bool elements = materials.has_elements();
     const bool surface = plan_.needs.body.storage == Storage::surface;
     if (elements)
-      add(Part::elements, fmt::format("{} {}: rest shape, corners", n.cells, surface ? "membranes" : "solid cells"),
+      add(Part::elements,
+          fmt::format("{} {}: rest shape, corners", n.cells,
+                      surface                                        ? "membranes"
+                      : plan_.needs.body.storage == Storage::several ? "cells of bodies with elements"
+                                                                     : "solid cells"),
           source_of(scene_) + "; " + elasticity());
     if (elements && surface && !scene_.bending.any())
       leave_out("stiffness against bending, which membranes do not have", "/bending: not given");
@@ -302,6 +308,7 @@ class Planner {
                     : damps ? "; restitution around each step"
                             : ""),
         why);
+    if (!problem_.mesh.links.empty()) leave_out("contact of chains", source_of(scene_) + ": links have no surface");
     if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
     ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
@@ -351,9 +358,10 @@ class Planner {
   }
 
   void output() {
-    if (scene_.is_chain())
+    const bool on_map = plan_.needs.body.topology_changes;
+    if (scene_.is_chain() || (on_map && !problem_.mesh.links.empty()))
       add(Part::output_cells, "masses of links", "/output: diagnostics report mass");
-    else if (!plan_.needs.body.topology_changes)
+    else if (!on_map)
       add(Part::output_cells,
           fmt::format("cells, their masses{} and the boundary by vertex numbers",
                       problem_.materials.empty() ? "" : ", materials"),
@@ -362,7 +370,8 @@ class Planner {
         output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
       add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
-    add(Part::diagnostics, fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.dimension())),
+    add(Part::diagnostics,
+        fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.highest_dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
     if (!plan_.needs.stress_watch) leave_out("stresses in every step", "/events: no event tears by stress");
   }
@@ -378,12 +387,23 @@ class Planner {
                : setting_in_words("/material/stiffness", Shape::material, "stiffness", material.stiffness);
   }
 
+  /// Of the cells of a tissue; of one that is not a body's own, the highest of all.
+  int dimension_of(const SceneFile::Tissue& tissue) const {
+    const auto bodies = scene_.bodies();
+    const Mesh& mesh = problem_.mesh;
+    for (std::size_t b = 0; b < bodies.size() && is_mixed(mesh); ++b)
+      if (bodies[b].path + "/material" == tissue.path) {
+        const std::size_t first = first_cells(scene_)[b];
+        return first < mesh.cell_count() ? dimension(mesh.kinds[first]) : 1;
+      }
+    return mesh.highest_dimension();
+  }
   /// "/material: springs; /regions/0/material: neo-hookean"
   std::string materials_in_words() const {
     std::string words;
     for (const SceneFile::Tissue& tissue : scene_.tissues())
-      words += fmt::format("{}{}: {}", words.empty() ? "" : "; ", tissue.path,
-                           name(model_of(tissue, problem_.mesh.dimension())));
+      words +=
+          fmt::format("{}{}: {}", words.empty() ? "" : "; ", tissue.path, name(model_of(tissue, dimension_of(tissue))));
     return words;
   }
   /// "/material/damping: a ratio of 0.025 at 1 Hz", "/material: without 'damping'"
@@ -405,7 +425,10 @@ class Planner {
     const FrameFields& fields = scene_.output.fields;
     std::string words;
     if (fields.held) words += ", which vertices are held";
-    if (fields.stress) words += scene_.is_chain() ? ", tensions" : ", stresses";
+    if (fields.stress)
+      words += scene_.is_chain()             ? ", tensions"
+               : problem_.mesh.links.empty() ? ", stresses"
+                                             : ", stresses and tensions";
     if (fields.displacement) words += ", displacements";
     if (fields.springs) words += ", springs";
     if (fields.contact) words += ", forces and depths of contact";

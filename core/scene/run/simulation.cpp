@@ -79,9 +79,12 @@ Simulation::Simulation(const SceneFile& scene)
       fields_(scene.output.fields),
       exact_events_(scene.exact_events) {
   const Problem problem = make_problem(scene);
-  dimension_ = problem.mesh.dimension();
+  dimension_ = problem.mesh.highest_dimension();
   file_number_ = numbers_in_file(scene);
+  body_of_cell_ = body_of_cells(scene);
   const CellMaterials materials = problem.cell_materials();
+  for (std::size_t m = model_names.size(); m-- > 0;)
+    if (materials.any(static_cast<Model>(m))) models_.push_back(static_cast<Model>(m));
   for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
     if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];
   const BodyNeeds needs = needs_of(scene, problem).body;
@@ -132,8 +135,9 @@ void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh, std::size_
   for (const CellKind kind : mesh.kinds)
     facets_of_cells += dimension_ == 3 ? faces_of(kind).size() : static_cast<std::size_t>(node_count(kind));
   const CellCounts counts = body_->counts();
-  selections_.push_back(
-      dartboard::count_cut(event, mesh, facets, facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges)));
+  const std::size_t all =
+      is_mixed(mesh) ? count_inner_facets(mesh) : facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges);
+  selections_.push_back(dartboard::count_cut(event, mesh, facets, all));
 }
 
 Simulation::~Simulation() = default;
@@ -334,6 +338,8 @@ Frame Simulation::frame(const FrameFields& fields) const {
   frame.time = time();
   if (fields.held)
     frame.held = constraints_of(body_->vertices(), [this](std::uint32_t point) { return timeline_->moves(point); });
+  if (!body_of_cell_.empty())
+    for (const std::uint32_t c : frame.mesh_cell) frame.body.push_back(body_of_cell_[c]);
   put_in_order(frame, file_number_);
   return frame;
 }

@@ -82,6 +82,8 @@ class Simulation {
   const SimulatedBody& body() const { return *body_; }
   /// The dimension of the cells: 3, 2 for a surface, 0 for a chain.
   int dimension() const { return dimension_; }
+  /// The models of its cells, each once, springs last.
+  std::span<const Model> models() const { return models_; }
   /// The number of cells of springs of each kind at the start.
   const std::map<CellKind, std::size_t>& cells_of_springs() const { return cells_of_springs_; }
   std::size_t operations() const { return timeline_->operations(); }
@@ -143,8 +145,10 @@ class Simulation {
   std::optional<CoordinatePrecision> coarse_;
   std::vector<StepResult> warnings_;
   int dimension_ = 0;
+  std::vector<Model> models_;
   std::map<CellKind, std::size_t> cells_of_springs_;
-  std::vector<std::uint32_t> file_number_;  // of each point of the mesh; empty where it is the point's own
+  std::vector<std::uint32_t> file_number_;   // of each point of the mesh; empty where it is the point's own
+  std::vector<std::uint32_t> body_of_cell_;  // by cell of the mesh, then by link; empty for one body
   std::vector<SelectionCount> selections_;
   std::vector<StiffBody> stiff_bodies_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -53,11 +55,25 @@ std::size_t just_outside(const PlaneSelection& plane, const CutRegion& within, c
 
 }  // namespace
 
+std::size_t count_inner_facets(const Mesh& mesh) {
+  std::set<Points> facets;
+  std::size_t of_cells = 0;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    for (Points& points : facets_of(mesh, c)) {
+      std::ranges::sort(points);
+      facets.insert(std::move(points));
+      ++of_cells;
+    }
+  return of_cells - facets.size();
+}
+
 SelectionCount count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t selected, std::size_t all) {
   const auto& cut = std::get<Dissociate>(event.action);
   const double thickness = border_thickness(mesh.points);
   SelectionCount count{.path = event.path + "/dissociate",
-                       .of_what = mesh.dimension() == 3 ? "faces between cells" : "edges between faces",
+                       .of_what = is_mixed(mesh)                  ? "faces and edges between cells"
+                                  : mesh.highest_dimension() == 3 ? "faces between cells"
+                                                                  : "edges between faces",
                        .selected = selected,
                        .all = all,
                        .near = 10.0 * thickness};

@@ -33,7 +33,7 @@ std::optional<MeshDirection> direction_of(const Mesh& mesh) {
 
 std::string direction_in_words(const SceneFile& scene, const Mesh& mesh) {
   constexpr double worth_a_word = 1.5;
-  const std::optional<MeshDirection> found = direction_of(mesh);
+  const std::optional<MeshDirection> found = is_mixed(mesh) ? std::nullopt : direction_of(mesh);
   if (!found || found->ratio < worth_a_word) return "";
   const Eigen::Vector3d& a = found->axis;
   std::string text = fmt::format(

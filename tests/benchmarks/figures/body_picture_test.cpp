@@ -70,6 +70,7 @@ TEST(BodyPicture, OfAChainShowsItsLinksAsLines) {
   Frame panel;
   panel.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 0, -1}};
   panel.links = {{0, 1}, {1, 2}};
+  panel.component = {0, 0};
   panel.mesh_point = {0, 1, 2};
   const auto lines = drawn_facets(panel, panel);
   ASSERT_EQ(lines.size(), 2u);
@@ -91,6 +92,7 @@ Eigen::Matrix<double, 2, 3> view() {
   Frame axes;
   axes.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   axes.links = {{0, 1}, {0, 2}, {0, 3}};
+  axes.component = {0, 0, 0};
   axes.mesh_point = {0, 1, 2, 3};
   Eigen::Matrix<double, 2, 3> columns;
   for (int axis = 0; axis < 3; ++axis) {
@@ -321,6 +323,7 @@ TEST_F(BodyPictureFiles, HaveARectangleAroundEachLink) {
   Frame panel;
   panel.mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 0, -1}};
   panel.links = {{0, 1}, {1, 2}};
+  panel.component = {0, 0};
   panel.mesh_point = {0, 1, 2};
   ASSERT_EQ(draw_bodies(std::vector{panel}, "t", folder_, "links"), "");
   const auto drawn = polygons(text("links.dat"));

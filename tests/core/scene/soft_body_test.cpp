@@ -93,6 +93,7 @@ TEST(SoftBody, ReportsWhatEachOperationDoes) {
 TEST(SoftBody, RefusesWhatItsKindDoesNotAdmit) {
   Problem chain;
   chain.mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  chain.mesh.links = {{0, 1}, {1, 2}};
   EXPECT_THROW(SoftBody(chain).dissociate({0.5, 0, 0}, {1, 0, 0}), InputError);
   EXPECT_THROW(SoftBody(box_problem(), "no such method"), InputError);
   SoftBody body(box_problem());

@@ -41,10 +41,12 @@ class CellChooser {
       refuse_event(path + "/tag", "has not been looked up", "cells of a scene whose mesh was loaded (load_mesh)");
     if (const auto* random = std::get_if<RandomSelection>(&selection)) random_.emplace(random->seed);
     if (const auto* by_id = std::get_if<IdSelection>(&selection)) {
+      const auto& numbers = on.mesh_cell();
+      const std::uint32_t end = numbers.empty() ? 0 : *std::ranges::max_element(numbers) + 1;
       for (std::size_t k = 0; k < by_id->ids.size(); ++k)
-        if (by_id->ids[k] >= on.mesh_cell().size())
+        if (by_id->ids[k] >= end)
           refuse_event(fmt::format("{}/ids/{}", path, k), fmt::format("is {}", by_id->ids[k]),
-                       fmt::format("a cell of the mesh, less than {}", on.mesh_cell().size()));
+                       fmt::format("a cell of the mesh, less than {}", end));
       ids_.insert(by_id->ids.begin(), by_id->ids.end());
     }
   }

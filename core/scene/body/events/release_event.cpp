@@ -15,9 +15,16 @@ namespace {
 class ReadyRelease final : public ReadyEvent {
  public:
   ReadyRelease(VertexColumns& vertices, const Release& release, const std::string& path) : vertices_(vertices) {
-    for (const std::uint32_t k : select_points(release.vertices, vertices.position, path))
-      if ((!vertices.fixed.empty() && vertices.fixed[k]) || (!vertices.held_axes.empty() && vertices.held_axes[k]))
-        points_.push_back(vertices.point[k]);
+    // selections number points, which there is one vertex of each of at rest
+    std::vector<Eigen::Vector3d> place(vertices.size(), Eigen::Vector3d(0, 0, 0));
+    std::vector<bool> held(vertices.size(), false);
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      place[vertices.point[k]] = vertices.position[k];
+      held[vertices.point[k]] =
+          (!vertices.fixed.empty() && vertices.fixed[k]) || (!vertices.held_axes.empty() && vertices.held_axes[k]);
+    }
+    for (const std::uint32_t p : select_points(release.vertices, place, path))
+      if (held[p]) points_.push_back(p);
     if (points_.empty())
       throw InputError(fmt::format("{}: selects no vertex that is fixed; expected at least one", path));
     std::ranges::sort(points_);

@@ -72,7 +72,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "attachments", .type = objects, .of = attachment, .standard = "[]",
        .help = "vertices that springs hold to a body or to the places where they are at rest"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
-       .help = "contact of bodies with obstacles, with each other and with themselves; not of a chain, and not with an "
+       .help = "contact of bodies with obstacles, with each other and with themselves; not of chains, and not with an "
                "accuracy. Without it bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
@@ -434,7 +434,7 @@ std::vector<SceneKey> keys_by_hand() {
                "cells. 'held': which vertices are free (0), fixed (1), driven (2) or held along some axes (3). 'stress': of each vertex the largest principal "
                "stress, the largest magnitude of one and the von Mises stress [Pa] (of a surface [N/m]), infinite where "
                "one is not finite: Cauchy's, per area (length) as it is now, of springs their virial over the volume "
-               "(area) of the cells; of a chain the tension [N] of each link. 'displacement': of each vertex from where it "
+               "(area) of the cells; of chains the tension [N] of each link, and 0 at vertices. 'displacement': of each vertex from where it "
                "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
                "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
                "inside [m]"},
@@ -529,7 +529,8 @@ std::span<const ShapeHelp> scene_shapes() {
   static constexpr ShapeHelp shapes[] = {
       {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
       {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
-      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and its material."},
+      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and its material. Solids, surfaces and chains may be side by side; "
+       "diagnostics then list the boundary and the stress of the solids, or without any of the surfaces."},
       {Shape::generate, "generate", "A mesh made on the spot."},
       {Shape::box_mesh, "box_mesh", "A box of cubes."},
       {Shape::sheet_mesh, "sheet_mesh", "A rectangle of squares."},
@@ -537,7 +538,7 @@ std::span<const ShapeHelp> scene_shapes() {
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
        "A chain has links and no cells, so nothing can happen to it except that fixed points are released. In place of "
-       "the largest principal stress it has the largest tension [N]."},
+       "the largest principal stress it has the largest tension [N]. Its ends can be attached to other bodies."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::tissue, "tissue",
        "The material of some of the cells: what a 'material' has, except the viscosity, which is that of what "

@@ -66,6 +66,16 @@ TEST(Release, LetsGoOfAllPartsOfAVertexThatCameApart) {
   EXPECT_EQ(simulation.operations(), 8u + 2u);  // point 1 is at (0.125, 0, 0)
 }
 
+TEST(Release, KnowsVerticesByTheNumbersOfTheirPoints) {
+  Simulation simulation(parse(held_box(R"([{"at": 0.001, "release": {"ids": [5, 20]}}])")));
+  const auto start = simulation.body().vertices().position;
+  const auto& point = simulation.body().vertices().point;
+  ASSERT_NE(point[5], 5u);  // vertices have another order
+  run(simulation);
+  for (std::size_t k = 0; k < start.size(); ++k)
+    EXPECT_EQ(simulation.body().vertices().position[k] != start[k], point[k] == 5 || point[k] == 20) << point[k];
+}
+
 TEST(Release, NeedsNoMap) { EXPECT_EQ(Simulation(parse(held_box(all_at_4_ms))).body().map_name(), "no map"); }
 
 TEST(Release, WorksOnAChain) {

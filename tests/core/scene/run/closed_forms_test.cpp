@@ -242,5 +242,43 @@ TEST(ClosedForms, TwoBodiesHeldAtEachOtherSwingAsADoublePendulum) {
   }
 }
 
+// A chain of 0.6 m between two blocks, one of which is moved until it is 0.4 m from the other: a catenary, to which a
+// chain of n links is near to second order.
+TEST(ClosedForms, AChainBetweenTwoBodiesHangsAsACatenary) {
+  constexpr double span = 0.4, length = 0.6;
+  double low = 0.01, high = 10.0;  // half of the span over the parameter: sinh(a) / a = length / span
+  for (int k = 0; k < 100; ++k) {
+    const double a = (low + high) / 2;
+    (std::sinh(a) / a < length / span ? low : high) = a;
+  }
+  const double sag = span / (2 * low) * (std::cosh(low) - 1);
+  std::array<double, 3> error{};
+  for (std::size_t k = 0; k < error.size(); ++k) {
+    const int links = 6 << k;
+    Json scene = Json::parse(R"({
+      "name": "catenary", "step": 0.01, "duration": 5, "integrator": "backward-euler",
+      "bodies": [
+        {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}, "translate": [-0.1, -0.05, -0.05]},
+        {"generate": {"chain": {"links": 6, "spacing": 1}}, "material": {"density": 0.2, "young": 2e4}},
+        {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}, "translate": [0.6, -0.05, -0.05]}],
+      "material": {"viscosity": 8},
+      "fixed": [{"box": {"min": [-0.1, -1, 0.01], "max": [0, 1, 1]}}, {"box": {"min": [-0.1, -1, -1], "max": [0, 1, -0.01]}}],
+      "driven": [{"box": {"min": [0.6, -1, 0.01], "max": [1, 1, 1]}, "velocity": [-0.2, 0, 0], "until": 1},
+                 {"box": {"min": [0.6, -1, -1], "max": [1, 1, -0.01]}, "velocity": [-0.2, 0, 0], "until": 1}],
+      "attachments": [{"box": {"min": [0, 0, 0], "max": [0, 0, 0]}, "to": 0, "stiffness": 1e5},
+                      {"box": {"min": [0.6, 0, 0], "max": [0.6, 0, 0]}, "to": 2, "stiffness": 1e5}]})");
+    scene["bodies"][1]["generate"]["chain"] = {{"links", links}, {"spacing", length / links}};
+    Simulation simulation(parse(scene));
+    run(simulation);
+    const auto& v = simulation.body().vertices();
+    double lowest = 0.0;
+    for (const Vector3d& x : v.position) lowest = std::min(lowest, x.z());
+    error[k] = std::abs(-lowest - sag);
+  }
+  EXPECT_LT(error[2], 1e-3);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2.0, 0.3);
+  EXPECT_NEAR(std::log2(error[1] / error[2]), 2.0, 0.3);
+}
+
 }  // namespace
 }  // namespace dartboard::closed_forms_test

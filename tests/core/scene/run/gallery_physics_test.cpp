@@ -637,6 +637,61 @@ TEST(GalleryPhysics, AttachedBodiesHangByTheirSpringsAndFallTogether) {
   expect_place(scene, place_of(scene, "glued", true), end - half / whole * apart);
 }
 
+// A chain of point masses in the plane, each end held by a spring: its shape follows from the force at the first end,
+// which Newton's method finds. The curtain is a bar under its own weight; what is cut off falls as a whole.
+TEST(GalleryPhysics, TheRopeHangsAsAChainAndTheHemFalls) {
+  const SceneFile scene = gallery("rope_and_curtain");
+  const double g = -scene.gravity.z();
+  const BodySource &rope = scene.bodies()[2], &curtain = scene.bodies()[3];
+  const auto& chain = std::get<ChainMesh>(rope.mesh);
+  const double link = chain.spacing, k = rope.material->stiffness, held = scene.attachments.at(0).stiffness;
+  const double m = rope.material->density * link;
+  const Vector2d left(rope.translate.x(), rope.translate.z());
+  const Vector2d right = left + Vector2d(chain.links * link + scene.driven.at(0).velocity.constant.x(), 0);
+  // the places of all masses, and that of the second holder, if the first one pulls with this force
+  const auto shape = [&](const Vector2d& force) {
+    Vector2d pull = -force, x = left - force / held;  // of the links to the right
+    pull.y() += m / 2 * g;
+    std::vector<Vector2d> places{x};
+    for (int n = 1; n <= chain.links; ++n) {
+      x += pull.normalized() * (link + pull.norm() / k);
+      places.push_back(x);
+      pull.y() += (n < chain.links ? m : m / 2) * g;
+    }
+    places.push_back(x + pull / held);
+    return places;
+  };
+  Vector2d force(-0.3, chain.links * m * g / 2);
+  for (int n = 0; n < 50; ++n) {
+    const Vector2d error = shape(force).back() - right;
+    Eigen::Matrix2d slope;
+    for (int c = 0; c < 2; ++c)
+      slope.col(c) = (shape(force + 1e-7 * Vector2d::Unit(c)).back() - shape(force).back()) / 1e-7;
+    const Vector2d move = -slope.lu().solve(error);
+    force += move * std::min(1.0, 0.3 / move.norm());
+  }
+  ASSERT_LT((shape(force).back() - right).norm(), 1e-9);
+  for (const auto& [probe, number] : {std::pair("rope", 6), {"quarter", 3}}) {
+    const Vector2d& x = shape(force)[static_cast<std::size_t>(number)];
+    expect_place(scene, place_of(scene, probe), {x.x(), 0.05, x.y()});
+  }
+
+  const auto& sheet = std::get<SheetMesh>(curtain.mesh);
+  const double length = sheet.cells[1] * sheet.spacing, density = curtain.material->density;
+  const double block = 0.1, weight = density * g * length * sheet.cells[0] * sheet.spacing;
+  const double down = scene.material.density * g * block * block / (2 * scene.material.young) +
+                      weight / scene.attachments.at(2).stiffness;
+  const auto lowered = [&](double s) { return density * g * (length * s - s * s / 2) / curtain.material->young; };
+  double centre = 0.0;  // of the lower half, by rows, of which the outer ones have half of the mass
+  for (int row = 4; row <= 8; ++row) {
+    const double s = row * sheet.spacing;
+    centre -= (row == 4 || row == 8 ? 0.125 : 0.25) * (s + lowered(s) + down);
+  }
+  const double falls = scene.duration - scene.events.at(0).from;
+  expect_place(scene, place_of(scene, "hem", true),
+               flight(Vector3d(0.05, 0.05, centre), Vector3d(0, 0, 0), scene, falls));
+}
+
 // ---- all scenes are tested
 
 TEST(GalleryPhysics, IsExpectedOfEveryScene) {

@@ -327,10 +327,6 @@ TEST(SceneBodies, NameTheKeyThatIsWrong) {
     return refusal(scene);
   };
   EXPECT_EQ(with(1, "scale", -1), "file: /bodies/1/scale: is -1; expected a number > 0");
-  EXPECT_EQ(with(1, "generate", Json::parse(R"({"sheet": {"cells": [2, 2], "spacing": 1}})")),
-            "file: /bodies/1: is a surface, but /bodies/0 is a solid; expected bodies of one kind");
-  EXPECT_EQ(with(0, "generate", Json::parse(R"({"chain": {"links": 2, "spacing": 1}})")),
-            "file: /bodies/0/generate/chain: is a chain; expected cells, or a chain alone in its scene");
   EXPECT_EQ(with(1, "initial_velocity", Json{0, 0, 3e8}),
             "file: /bodies/1/initial_velocity: is 3e+08 m/s somewhere in the body; expected at most 299792458 m/s, the "
             "speed of light");

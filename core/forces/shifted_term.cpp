@@ -1,0 +1,63 @@
+#include "core/forces/shifted_term.h"
+
+#include <array>
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+
+StagePlaces places_from(std::uint32_t first, const StagePlaces& at) {
+  return {at.x.subspan(first), at.w.empty() ? at.w : at.w.subspan(first), at.t};
+}
+
+ForceTerm::VisitTangent shifted(std::uint32_t first, const ForceTerm::VisitTangent& visit) {
+  return [first, &visit](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+    std::array<std::uint32_t, 8> there{};  // no piece has more vertices
+    for (std::size_t k = 0; k < nodes.size(); ++k) there.at(k) = first + nodes[k];
+    visit(ForceTerm::Nodes(there).first(nodes.size()), blocks);
+  };
+}
+
+}  // namespace
+
+void ShiftedTerm::shift_to(std::uint32_t first) {
+  first_ = first;
+  nodes_.clear();
+  first_node_.assign(1, 0);
+  for (std::size_t piece = 0; piece < term_.size(); ++piece) {
+    for (const std::uint32_t node : term_.nodes(piece)) nodes_.push_back(first + node);
+    first_node_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+  }
+}
+
+void ShiftedTerm::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  term_.add_forces(places_from(first_, at), force.subspan(first_));
+}
+void ShiftedTerm::add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  term_.add_discrete_forces(places_from(first_, at), force.subspan(first_));
+}
+void ShiftedTerm::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
+  term_.add_force_sizes(places_from(first_, at), size.subspan(first_));
+}
+double ShiftedTerm::energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const {
+  return term_.energy(x.subspan(first_), first, stride);
+}
+EnergyChange ShiftedTerm::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
+  return term_.energy_change(places_from(first_, at), step.subspan(first_), scale);
+}
+double ShiftedTerm::power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
+                          std::span<const Vector3d> w) const {
+  return term_.power(pieces, x.subspan(first_), w.subspan(first_));
+}
+void ShiftedTerm::for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const {
+  term_.for_each_tangent(places_from(first_, at), compression, shifted(first_, visit));
+}
+void ShiftedTerm::for_each_constant_tangent(const VisitTangent& visit) const {
+  term_.for_each_constant_tangent(shifted(first_, visit));
+}
+Virial ShiftedTerm::virial(std::span<const Vector3d> x, std::size_t piece) const {
+  return term_.virial(x.subspan(first_), piece);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,47 @@
+#pragma once
+// A force term of one of several bodies, by the vertex numbers of all of them.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/forces/force_term.h"
+
+namespace dartboard {
+
+/// A term whose vertices 0, 1, ... are first, first + 1, ... in the columns that it is called with.
+///
+/// pre  the term outlives it and has no damping
+class ShiftedTerm final : public ForceTerm {
+ public:
+  explicit ShiftedTerm(const ForceTerm& term) : term_(term) {}
+
+  /// Follow a change of the first vertex, or of the term's pieces.   cost  O(pieces)
+  void shift_to(std::uint32_t first);
+  std::size_t bytes() const { return sizeof(std::uint32_t) * (nodes_.size() + first_node_.size()); }
+
+  std::string_view pieces_name() const override { return term_.pieces_name(); }
+  std::size_t size() const override { return term_.size(); }
+  Nodes nodes(std::size_t piece) const override {
+    return Nodes(nodes_).subspan(first_node_[piece], first_node_[piece + 1] - first_node_[piece]);
+  }
+  bool is_within_cells() const override { return term_.is_within_cells(); }
+  bool has_energy() const override { return term_.has_energy(); }
+  void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
+  void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
+  void add_force_sizes(const StagePlaces& at, std::span<double> size) const override;
+  double energy(std::span<const Eigen::Vector3d> x, std::size_t first, std::size_t stride) const override;
+  EnergyChange energy_change(const StagePlaces& at, std::span<const Eigen::Vector3d> step, double scale) const override;
+  double power(std::span<const std::uint32_t> pieces, std::span<const Eigen::Vector3d> x,
+               std::span<const Eigen::Vector3d> w) const override;
+  void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override;
+  void for_each_constant_tangent(const VisitTangent& visit) const override;
+  Virial virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const override;
+
+ private:
+  const ForceTerm& term_;
+  std::uint32_t first_ = 0;
+  std::vector<std::uint32_t> nodes_, first_node_;  // by piece
+};
+
+}  // namespace dartboard
