@@ -59,16 +59,23 @@ class ElementTerm : public ForceTerm {
   Nodes nodes(std::size_t piece) const override { return cells_.nodes(piece); }
 
   void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override {
-    for (std::size_t c = 0; c < size(); ++c) {
-      const Lines lines(at, cells_.nodes(c));
-      add_stresses(c, force, [&](const auto& point) { return laws_[c].stress(point.deformation(lines)); });
-    }
+    for (std::size_t c = 0; c < size(); ++c) add_forces_of(c, at, everywhere, force);
+  }
+  bool adds_in_parts() const override { return true; }
+  void add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
+                          std::span<Eigen::Vector3d> force) const override {
+    for (std::size_t c = run.first; c < run.last; ++c)
+      if (run.whole)
+        add_forces_of(c, at, everywhere, force);
+      else
+        add_forces_of(
+            c, at, [own](std::uint32_t vertex) { return own.contains(vertex); }, force);
   }
 
   void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override {
     for (std::size_t c = 0; c < size(); ++c) {
       const Lines from({at.x}, cells_.nodes(c)), move({at.w}, cells_.nodes(c));
-      add_stresses(c, force, [&](const auto& point) {
+      add_stresses(c, everywhere, force, [&](const auto& point) {
         return discrete_stress(laws_[c], point.deformation(from), (2.0 * at.t) * point.deformation(move));
       });
     }
@@ -185,8 +192,19 @@ class ElementTerm : public ForceTerm {
       block += g[0] * columns.template middleRows<3>(0) + g[1] * columns.template middleRows<3>(3);
   }
 
-  template <class Stress>
-  void add_stresses(std::size_t c, std::span<Eigen::Vector3d> force, const Stress& stress_at) const {
+  static constexpr auto everywhere = [](std::uint32_t) { return true; };
+
+  template <class IsOwn>
+  void add_forces_of(std::size_t c, const StagePlaces& at, const IsOwn& is_own,
+                     std::span<Eigen::Vector3d> force) const {
+    const Lines lines(at, cells_.nodes(c));
+    add_stresses(c, is_own, force, [&](const auto& point) { return laws_[c].stress(point.deformation(lines)); });
+  }
+
+  /// At the corners for which `is_own` holds.
+  template <class IsOwn, class Stress>
+  void add_stresses(std::size_t c, const IsOwn& is_own, std::span<Eigen::Vector3d> force,
+                    const Stress& stress_at) const {
     const auto n = cells_.nodes(c);
     std::array<Eigen::Vector3d, Cells::most> sum;
     sum.fill(Eigen::Vector3d::Zero());
@@ -197,9 +215,9 @@ class ElementTerm : public ForceTerm {
     // the force on the first corner is minus the sum of the others: rounding changes no momentum
     for (std::size_t a = 1; a < n.size(); ++a) {
       sum[0] += sum[a];
-      force[n[a]] -= sum[a];
+      if (is_own(n[a])) force[n[a]] -= sum[a];
     }
-    force[n[0]] += sum[0];
+    if (is_own(n[0])) force[n[0]] += sum[0];
   }
 };
 

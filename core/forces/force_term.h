@@ -37,6 +37,18 @@ struct Virial {
   double growth = 0.0;  // [m^3] of its volume (of a surface [m^2] of its area) since rest; 0 of pieces without one
 };
 
+/// Pieces, or springs, from `first` to before `last`; `whole`: all of their vertices belong to one thread.
+struct PieceRun {
+  std::uint32_t first = 0, last = 0;
+  bool whole = true;
+};
+
+/// The vertices from `first` to before `last`.
+struct VertexRange {
+  std::uint32_t first = 0, last = 0;
+  bool contains(std::uint32_t vertex) const { return vertex >= first && vertex < last; }
+};
+
 class TermDamping;
 
 /// Forces that derive from an energy: a sum over pieces of a few vertices each.
@@ -67,6 +79,11 @@ class ForceTerm {
 
   /// force += f [N] at these places.
   virtual void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const = 0;
+  /// Can several threads add its forces, each those of some pieces at some vertices?
+  virtual bool adds_in_parts() const { return false; }
+  /// The same of a run of pieces at the vertices within `own` alone.
+  /// pre  it adds in parts; the vertices of a whole run are all within `own`
+  virtual void add_forces_in_part(const StagePlaces&, PieceRun, VertexRange, std::span<Eigen::Vector3d>) const {}
   /// force += the discrete gradient between x and x + 2 t w, `at` being half way: its work is the energy's change.
   virtual void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const = 0;
   /// size[i] += a bound of the terms of the force at i [N]: eps times it bounds the rounding error of the force.

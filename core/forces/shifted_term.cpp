@@ -1,5 +1,6 @@
 #include "core/forces/shifted_term.h"
 
+#include <algorithm>
 #include <array>
 
 namespace dartboard {
@@ -33,6 +34,12 @@ void ShiftedTerm::shift_to(std::uint32_t first) {
 
 void ShiftedTerm::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
   term_.add_forces(places_from(first_, at), force.subspan(first_));
+}
+void ShiftedTerm::add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
+                                     std::span<Vector3d> force) const {
+  own.first = std::max(own.first, first_) - first_;
+  own.last = std::max(own.last, first_) - first_;
+  term_.add_forces_in_part(places_from(first_, at), run, own, force.subspan(first_));
 }
 void ShiftedTerm::add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const {
   term_.add_discrete_forces(places_from(first_, at), force.subspan(first_));

@@ -28,6 +28,9 @@ class ShiftedTerm final : public ForceTerm {
   bool is_within_cells() const override { return term_.is_within_cells(); }
   bool has_energy() const override { return term_.has_energy(); }
   void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
+  bool adds_in_parts() const override { return term_.adds_in_parts(); }
+  void add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
+                          std::span<Eigen::Vector3d> force) const override;
   void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override;
   double energy(std::span<const Eigen::Vector3d> x, std::size_t first, std::size_t stride) const override;

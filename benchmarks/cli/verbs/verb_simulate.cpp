@@ -21,6 +21,7 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/simulate_report.h"
+#include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/atomic_file.h"
@@ -36,6 +37,7 @@ struct SimulateOptions {
   std::string scene, out, continued;
   bool json = false, quick = false, picture = false, film = false;
   std::optional<std::uint64_t> steps, seed;
+  unsigned threads = 0;
 
   std::optional<std::uint64_t> most_steps() const {
     if (steps) return steps;
@@ -101,6 +103,7 @@ nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& option
 
 void simulate(const SimulateOptions& options, Outcome& outcome) {
   RecordedRun run = make_run(options);
+  use_threads(options.threads);  // a step for an accuracy is chosen on one thread
   const SceneFile& scene = run.scene();
   const Simulation& simulation = run.simulation();
   std::optional<SettledAccuracy> settled;
@@ -209,6 +212,11 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
   verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder");
   verb->add_option("--steps", options->steps, "stop after so many steps");
+  verb->add_option(
+          "--threads", options->threads,
+          "of forces and of explicit integrators, 0 for one on each processor [0]: the bits of a run do not depend "
+          "on it, and small bodies are moved by one")
+      ->check(CLI::Range(0u, 256u));
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");

@@ -34,26 +34,32 @@ StepResult ClassicalRungeKutta::step(const SpringSystem& system, Motion motion, 
   Vector3d *const sum_x = sum_x_.data(), *const sum_v = sum_v_.data(), *const stage_x = stage_.x.data(),
                   *const stage_v = stage_.v.data();
   accelerations(system, terms, motion.x, motion.v, a_);
-  for (std::size_t i = 0; i < n; ++i) {
-    sum_x[i] = v[i];
-    sum_v[i] = a[i];
-    stage_x[i] = x[i] + (h / 2) * v[i];
-    stage_v[i] = v[i] + (h / 2) * a[i];
-  }
+  terms.for_each_share(n, [=](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      sum_x[i] = v[i];
+      sum_v[i] = a[i];
+      stage_x[i] = x[i] + (h / 2) * v[i];
+      stage_v[i] = v[i] + (h / 2) * a[i];
+    }
+  });
   for (const double reach : {h / 2, h}) {  // to the stage that follows
     accelerations(system, terms, stage_.x, stage_.v, a_);
-    for (std::size_t i = 0; i < n; ++i) {
-      sum_x[i] += 2.0 * stage_v[i];
-      sum_v[i] += 2.0 * a[i];
-      stage_x[i] = x[i] + reach * stage_v[i];
-      stage_v[i] = v[i] + reach * a[i];
-    }
+    terms.for_each_share(n, [=](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        sum_x[i] += 2.0 * stage_v[i];
+        sum_v[i] += 2.0 * a[i];
+        stage_x[i] = x[i] + reach * stage_v[i];
+        stage_v[i] = v[i] + reach * a[i];
+      }
+    });
   }
   accelerations(system, terms, stage_.x, stage_.v, a_);
-  for (std::size_t i = 0; i < n; ++i) {
-    stage_x[i] = x[i] + (h / 6) * (sum_x[i] + stage_v[i]);
-    stage_v[i] = v[i] + (h / 6) * (sum_v[i] + a[i]);
-  }
+  terms.for_each_share(n, [=](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      stage_x[i] = x[i] + (h / 6) * (sum_x[i] + stage_v[i]);
+      stage_v[i] = v[i] + (h / 6) * (sum_v[i] + a[i]);
+    }
+  });
   work_.force_evaluations += 4;
   return stage_.commit(motion, work_);
 }

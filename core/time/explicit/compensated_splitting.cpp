@@ -63,7 +63,7 @@ StepResult CompensatedSplitting::step(const SpringSystem& system, Motion motion,
   state_.begin(motion);
   for (std::size_t k = 0; k < splitting_.kicks.size(); ++k) {
     state_.drift(splitting_.drifts[k] * h);
-    accelerations(system, {.fixed = terms.fixed}, state_.x(), state_.v(), a_);
+    accelerations(system, terms.undamped(), state_.x(), state_.v(), a_);
     ++work_.force_evaluations;
     const double t = splitting_.kicks[k] * h;
     if (damped) {

@@ -40,15 +40,19 @@ StepResult SymplecticEuler::step(const SpringSystem& system, Motion motion, doub
   const Terms terms = terms_.of(system);
   end_.resize(motion.x.size());
   a_.resize(motion.x.size());
-  accelerations(system, {.fixed = terms.fixed}, motion.x, motion.v, a_);
+  accelerations(system, terms.undamped(), motion.x, motion.v, a_);
   ++work_.force_evaluations;
-  for (std::size_t i = 0; i < a_.size(); ++i) end_.v[i] = motion.v[i] + h * a_[i];
+  terms.for_each_share(a_.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) end_.v[i] = motion.v[i] + h * a_[i];
+  });
   if (terms.damping || terms.viscosity) {
     damping_.freeze(system, terms, motion.x);
     damping_.decay_once(system, terms, h, end_.v);
     ++work_.damping_sweeps;
   }
-  for (std::size_t i = 0; i < a_.size(); ++i) end_.x[i] = motion.x[i] + h * end_.v[i];
+  terms.for_each_share(a_.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) end_.x[i] = motion.x[i] + h * end_.v[i];
+  });
   return end_.commit(motion, work_);
 }
 

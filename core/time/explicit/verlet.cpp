@@ -42,19 +42,29 @@ StepResult Verlet::step(const SpringSystem& system, Motion motion, double h) {
   const std::size_t n = motion.x.size();
   end_.resize(n);
   a_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) end_.x[i] = motion.x[i] + (h / 2) * motion.v[i];
-  accelerations(system, {.fixed = terms.fixed}, end_.x, motion.v, a_);
+  terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) end_.x[i] = motion.x[i] + (h / 2) * motion.v[i];
+  });
+  accelerations(system, terms.undamped(), end_.x, motion.v, a_);
   ++work_.force_evaluations;
   if (terms.damping || terms.viscosity) {
-    for (std::size_t i = 0; i < n; ++i) end_.v[i] = motion.v[i] + (h / 2) * a_[i];
+    terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) end_.v[i] = motion.v[i] + (h / 2) * a_[i];
+    });
     damping_.freeze(system, terms, end_.x);
     damping_.decay_symmetric(system, terms, h, end_.v);
     work_.damping_sweeps += 2;
-    for (std::size_t i = 0; i < n; ++i) end_.v[i] += (h / 2) * a_[i];
+    terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) end_.v[i] += (h / 2) * a_[i];
+    });
   } else {
-    for (std::size_t i = 0; i < n; ++i) end_.v[i] = motion.v[i] + h * a_[i];
+    terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) end_.v[i] = motion.v[i] + h * a_[i];
+    });
   }
-  for (std::size_t i = 0; i < n; ++i) end_.x[i] += (h / 2) * end_.v[i];
+  terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) end_.x[i] += (h / 2) * end_.v[i];
+  });
   return end_.commit(motion, work_);
 }
 
