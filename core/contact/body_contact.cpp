@@ -44,17 +44,16 @@ enum class Side { inside, outside, inverted };
 template <class Place>
 Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, std::array<double, 4>& weights) {
   const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
-                 r = y - p;
-  const double volume = volume_of(a, b, c);
+                 r = y - p, normal = b.cross(c);
+  const double volume = a.dot(normal);
   if (!(volume > 0.0)) return Side::inverted;
-  weights[1] = volume_of(r, b, c) / volume;
-  weights[2] = volume_of(r, c, a) / volume;
-  weights[3] = volume_of(r, a, b) / volume;
-  weights[0] = 1.0 - (weights[1] + weights[2] + weights[3]);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool outer = (t.outer >> k & 1u) != 0;
-    if (!(outer ? weights[k] > 0.0 : weights[k] > -seam)) return Side::outside;
-  }
+  const auto is_beyond = [&](std::size_t k, double weight) {
+    weights[k] = weight;
+    return !(weight > ((t.outer >> k & 1u) != 0 ? 0.0 : -seam));
+  };
+  if (is_beyond(1, r.dot(normal) / volume) || is_beyond(2, volume_of(r, c, a) / volume) ||
+      is_beyond(3, volume_of(r, a, b) / volume) || is_beyond(0, 1.0 - (weights[1] + weights[2] + weights[3])))
+    return Side::outside;
   return Side::inside;
 }
 
@@ -136,10 +135,15 @@ void BodyContact::find_touching(const Place& place) const {
   lost_.clear();
   inverted_ = 0;
   const auto list = candidates_.tetrahedra();
-  for (const CandidatePairs::Row& row : candidates_.rows())
-    look_at(row.sample, list.subspan(row.first, row.count), place, [this](const BodyTouch& touch) {
+  for (const CandidatePairs::Row& row : candidates_.rows()) {
+    near_.clear();
+    for (std::size_t pair = row.first; pair < row.first + row.count; ++pair)
+      if (candidates_.can_have_met(pair)) near_.push_back(list[pair]);
+    if (near_.empty()) continue;
+    look_at(row.sample, near_, place, [this](const BodyTouch& touch) {
       (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
     });
+  }
 }
 
 std::span<const BodyTouch> BodyContact::touching(const StagePlaces& at) const {
@@ -444,7 +448,7 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 }
 
 std::size_t BodyContact::bytes() const {
-  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) + bytes_of(asked_, by_triangle_) +
+  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) + bytes_of(near_, asked_, by_triangle_) +
          groups_.bytes() + candidates_.bytes();
 }
 

@@ -188,6 +188,7 @@ class BodyContact final : public ForceTerm {
 
   mutable CandidatePairs candidates_;
   mutable std::vector<BodyTouch> touching_, lost_, earlier_;
+  mutable std::vector<std::uint32_t> near_;                                   // tetrahedra
   mutable std::vector<std::uint8_t> asked_;                                   // by piece
   mutable std::vector<std::pair<std::uint32_t, std::uint32_t>> by_triangle_;  // place of a touch
   mutable std::size_t inverted_ = 0;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <tuple>
@@ -19,6 +21,8 @@ using Eigen::Vector3d;
 constexpr double most_cells = 512.0;
 /// The allowance for rounding in a margin, relative to the size of the coordinates.
 constexpr double slack = 0x1p-30;
+/// A tetrahedron with less than this share of the volume of the cube around it is flat.
+constexpr double flat = 1e-6;
 
 std::size_t hash_of(double x, double y, double z) {
   const auto whole = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c)); };
@@ -128,11 +132,41 @@ void CandidatePairs::put_into_grid() {
     for_each_bucket(boxes_[t], [this, t](std::size_t bucket) { bucket_entry_[--bucket_first_[bucket]] = t; });
 }
 
+/// A bound of the rounding of distances from the box [m].
+double CandidatePairs::rounding_of(const Box& box) const {
+  const double far = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+  return slack * (1.0 + share_) * cell_size_ + 0x1p-44 * far;
+}
+
+/// At most the distance between a place and a tetrahedron, by the box around it and by its faces, less the rounding.
+double CandidatePairs::gap_between(const Vector3d& y, const SkinTetrahedron& t) const {
+  const auto place = [&](std::size_t k) -> const Vector3d& { return where_[place_of_node_[t.nodes[k]]]; };
+  const Vector3d &p = place(0), a = place(1) - p, b = place(2) - p, c = place(3) - p, r = y - p;
+  const Vector3d low = a.cwiseMin(b).cwiseMin(c).cwiseMin(0.0), high = a.cwiseMax(b).cwiseMax(c).cwiseMax(0.0);
+  double gap = (low - r).cwiseMax(r - high).cwiseMax(0.0).norm();
+  const double size = (high - low).maxCoeff();
+  const std::array<Vector3d, 3> normals{b.cross(c), c.cross(a), a.cross(b)};
+  const double volume = a.dot(normals[0]);
+  // the faces of a flat one have no certain directions
+  if (!(std::abs(volume) > flat * size * size * size)) return 0.0;
+  const double side = volume > 0.0 ? 1.0 : -1.0;
+  double inside = 0.0;
+  for (const Vector3d& normal : normals) {
+    const double beyond = side * r.dot(normal);
+    inside += beyond;
+    gap = std::max(gap, -beyond / normal.norm());
+  }
+  gap = std::max(gap, (inside - std::abs(volume)) / (b - a).cross(c - a).norm());
+  return std::max(0.0, gap - 1e-8 * size - rounding_of({p + low, p + high}));
+}
+
 void CandidatePairs::make() {
   const auto place = [this](std::uint32_t i) -> const Vector3d& { return where_[place_of_node_[i]]; };
   const auto& tetrahedra = solids_.tetrahedra();
   rows_.clear();
   tetrahedra_.clear();
+  gaps_.clear();
+  moved_together_ = 0.0;
   changes_ = solids_.changes();
   sample_count_ = samples_.size();
   ++made_;
@@ -155,8 +189,7 @@ void CandidatePairs::make() {
   const double margin = share_ * cell_size_;
   limit_ = 0.25 * margin * margin;
   for (Box& box : boxes_) {
-    const double far = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
-    const double by = margin + slack * (cell_size_ + margin) + 0x1p-44 * far;
+    const double by = margin + rounding_of(box);
     box.low.array() -= by;
     box.high.array() += by;
   }
@@ -185,11 +218,13 @@ void CandidatePairs::make() {
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     rows_.push_back({s, static_cast<std::uint32_t>(tetrahedra_.size()), static_cast<std::uint32_t>(found_.size())});
     tetrahedra_.insert(tetrahedra_.end(), found_.begin(), found_.end());
+    for (const std::uint32_t t : found_)
+      gaps_.push_back(static_cast<float>((1.0 - 1e-6) * gap_between(y, tetrahedra[t])));
   }
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(rows_, tetrahedra_, watched_, where_, place_of_node_, boxes_) +
+  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, place_of_node_, boxes_) +
          bytes_of(bucket_first_, bucket_entry_, everywhere_) + may_touch_.bytes();
 }
 
