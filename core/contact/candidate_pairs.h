@@ -113,7 +113,7 @@ class CandidatePairs {
   void put_into_grid();
   double rounding_of(const Box& box) const;
   double gap_between(const Eigen::Vector3d& y, const SkinTetrahedron& tetrahedron) const;
-  std::size_t bucket_of(const Eigen::Vector3d& y) const;
+  std::size_t bucket_of(double x, double y, double z) const;
 
   const std::vector<SkinSample>& samples_;
   const SkinSolids& solids_;
@@ -137,6 +137,7 @@ class CandidatePairs {
   std::vector<Box> boxes_;                    // of tetrahedra, with the margin
   std::vector<std::uint32_t> bucket_first_, bucket_entry_, everywhere_, found_;
   double cell_size_ = 0.0;
+  std::uint64_t stride_y_ = 0, stride_z_ = 0;  // from a cell of the grid to its neighbour
 };
 
 }  // namespace dartboard

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "benchmarks/checkout/source_folder.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
+#include "core/scene/file/scene_file.h"
 #include "core/scene/run/simulation.h"
 #include "core/topology/storage/hash.h"
 
@@ -178,7 +180,7 @@ ContactCounts count(const std::string& situation, const Simulation& simulation, 
     }
     if (sizes > 0.0) counts.unbalanced = sum.norm() / sizes;
   }
-  counts.evaluations = static_cast<int>(std::max<std::size_t>(1, evaluated / counts.tetrahedra));
+  counts.evaluations = 2 * static_cast<int>(std::max<std::size_t>(1, evaluated / 2 / counts.tetrahedra));  // even
   return counts;
 }
 
@@ -211,16 +213,22 @@ std::pair<std::uint64_t, std::uint64_t> add_step_tasks(const Situation& situatio
   return {tasks[tasks.size() - 2].hash(), tasks.back().hash()};
 }
 
-/// A body whose forces are taken over and over.
+/// A body whose forces are taken over and over, an even number of times, at two places in turn: contacts are not
+/// searched twice at the same.
 struct Pressed {
   Simulation simulation;
+  std::array<std::vector<Vector3d>, 2> x;
   std::vector<Vector3d> force;
   std::unique_ptr<BodyContact> own;  // whose lists are made anew
   int evaluations = 1;
 
-  explicit Pressed(const SceneFile& scene) : simulation(scene) {}
-  StagePlaces at() const { return {simulation.body().vertices().position}; }
-  void start() { force.assign(at().x.size(), Vector3d(0, 0, 0)); }
+  Pressed(const SceneFile& scene, int steps) : simulation(scene) {
+    advance(simulation, steps);
+    x[0] = x[1] = simulation.body().vertices().position;
+    for (Vector3d& place : x[1]) place[0] += 1e-6 * spacing;
+  }
+  StagePlaces at(int evaluation) const { return {x[static_cast<std::size_t>(evaluation % 2)]}; }
+  void start() { force.assign(x[0].size(), Vector3d(0, 0, 0)); }
   std::uint64_t hash() const {
     Hash hash;
     hash.add(force);
@@ -231,8 +239,7 @@ struct Pressed {
 void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTask>& tasks,
                      const std::function<void(const ContactCounts&)>& counts_sink) {
   const SceneFile scene = parsed(situation.scene);
-  const auto s = std::make_shared<Pressed>(scene);
-  advance(s->simulation, situation.steps);
+  const auto s = std::make_shared<Pressed>(scene, situation.steps);
   const ContactCounts counts = count(situation.name, s->simulation, scene);
   counts_sink(counts);
   s->evaluations = counts.evaluations;
@@ -244,7 +251,7 @@ void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTa
                        const std::size_t others = body.terms_but_contact(terms).size();
                        const ForceTerms chosen = of_contact ? terms.subspan(others) : terms.first(others);
                        for (int k = 0; k < s->evaluations; ++k)
-                         for (const ForceTerm* term : chosen) term->add_forces(s->at(), s->force);
+                         for (const ForceTerm* term : chosen) term->add_forces(s->at(k), s->force);
                      },
                      [s] { return s->hash(); }});
   };
@@ -256,7 +263,7 @@ void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTa
                    [s] {
                      for (int k = 0; k < s->evaluations; ++k) {
                        s->own->set_margin(s->own->candidates().margin_share());
-                       s->own->touching(s->at());
+                       s->own->touching(s->at(k));
                      }
                    },
                    [s] { return static_cast<std::uint64_t>(s->own->candidates().pair_count()); }});
