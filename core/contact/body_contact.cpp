@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
 #include "core/base/bytes.h"
@@ -22,6 +23,8 @@ using Eigen::Vector3d;
 constexpr double seam = 0x1p-40;
 /// Depths below this share of the coordinates are rounding.
 constexpr double rounding = 0x1p-46;
+/// The factor between squared distances that differ by more than rounding.
+constexpr double certainly_more = 1.0001;
 
 /// The place of a vertex, within a step if there is one.
 struct PlaceNow {
@@ -44,46 +47,57 @@ enum class Side { inside, outside, inverted };
 template <class Place>
 Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, std::array<double, 4>& weights) {
   const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
-                 r = y - p;
-  const double volume = volume_of(a, b, c);
+                 r = y - p, normal = b.cross(c);
+  const double volume = a.dot(normal);
   if (!(volume > 0.0)) return Side::inverted;
-  weights[1] = volume_of(r, b, c) / volume;
-  weights[2] = volume_of(r, c, a) / volume;
-  weights[3] = volume_of(r, a, b) / volume;
-  weights[0] = 1.0 - (weights[1] + weights[2] + weights[3]);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool outer = (t.outer >> k & 1u) != 0;
-    if (!(outer ? weights[k] > 0.0 : weights[k] > -seam)) return Side::outside;
-  }
+  const auto is_beyond = [&](std::size_t k, double weight) {
+    weights[k] = weight;
+    return !(weight > ((t.outer >> k & 1u) != 0 ? 0.0 : -seam));
+  };
+  if (is_beyond(1, r.dot(normal) / volume) || is_beyond(2, volume_of(r, c, a) / volume) ||
+      is_beyond(3, volume_of(r, a, b) / volume) || is_beyond(0, 1.0 - (weights[1] + weights[2] + weights[3])))
+    return Side::outside;
   return Side::inside;
 }
 
-/// The way out of the tetrahedron for the sample at y. False if y is on the boundary, to rounding.
+/// The way out of the tetrahedron for the sample at y. False if y is on the boundary, to rounding. The search begins
+/// with a triangle that is likely to be the nearest, if it is one of those that count: this saves most of the others.
 template <class Place>
 bool find_way_out(const SkinSolids& solids, const SkinSample& sample, const Vector3d& y, const Place& place,
-                  BodyTouch& touch) {
+                  std::uint32_t likely, BodyTouch& touch) {
   const auto corners = sample.corners();
   const auto& triangles = solids.triangles();
+  const auto& nodes = solids.tetrahedra()[touch.tetrahedron].nodes;
+  const auto has_one_of = [](const SkinTriangle& t, std::span<const std::uint32_t> some) {
+    return std::ranges::any_of(t.nodes, [some](std::uint32_t j) { return std::ranges::find(some, j) != some.end(); });
+  };
   double least = 0.0;
   touch.triangle = BodyTouch::none;
   NearestOnTriangle best;
-  for (const std::uint32_t i : solids.tetrahedra()[touch.tetrahedron].nodes)
-    solids.for_each_triangle_at(i, [&](std::uint32_t k) {
-      const SkinTriangle& t = triangles[k];
-      if (k == touch.triangle) return;
-      for (const std::uint32_t j : t.nodes)
-        if (std::ranges::find(corners, j) != corners.end()) return;
-      const NearestOnTriangle found =
-          nearest_on_triangle(place(t.nodes[0]) - y, place(t.nodes[1]) - y, place(t.nodes[2]) - y);
-      const double square = found.way.squaredNorm();
-      if (touch.triangle != BodyTouch::none) {
-        if (!(square <= least)) return;
-        const SkinTriangle& other = triangles[touch.triangle];
-        if (square == least && std::tie(other.face, other.part) < std::tie(t.face, t.part)) return;
-      }
-      least = square;
-      best = found;
-      touch.triangle = k;
+  const auto compare = [&](std::uint32_t k) {
+    const SkinTriangle& t = triangles[k];
+    if (k == touch.triangle || has_one_of(t, corners)) return;
+    const Vector3d a = place(t.nodes[0]) - y, b = place(t.nodes[1]) - y, c = place(t.nodes[2]) - y;
+    if (touch.triangle != BodyTouch::none) {
+      const Vector3d to_box = a.cwiseMin(b).cwiseMin(c).cwiseMax(-a.cwiseMax(b).cwiseMax(c)).cwiseMax(0.0);
+      if (to_box.squaredNorm() > certainly_more * least) return;
+    }
+    const NearestOnTriangle found = nearest_on_triangle(a, b, c);
+    const double square = found.way.squaredNorm();
+    if (std::isnan(square)) return;
+    if (touch.triangle != BodyTouch::none) {
+      if (!(square <= least)) return;
+      const SkinTriangle& other = triangles[touch.triangle];
+      if (square == least && std::tie(other.face, other.part) < std::tie(t.face, t.part)) return;
+    }
+    least = square;
+    best = found;
+    touch.triangle = k;
+  };
+  if (likely < triangles.size() && has_one_of(triangles[likely], nodes)) compare(likely);
+  for (std::size_t corner = 0; corner < nodes.size(); ++corner)
+    solids.for_each_triangle_at(nodes[corner], [&](std::uint32_t k) {
+      if (!has_one_of(triangles[k], std::span(nodes).first(corner))) compare(k);
     });
   if (touch.triangle == BodyTouch::none) return true;
   touch.depth = std::sqrt(least);
@@ -112,7 +126,8 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
 
 /// Tests one sample with some tetrahedra, in the order of their cells and parts.
 template <class Place, class Tetrahedra, class F>
-void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const Place& place, const F& found) const {
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, std::uint32_t likely, const Place& place,
+                          const F& found) const {
   const SkinSample& sample = samples_[s];
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = s};
@@ -124,7 +139,7 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const P
     touch.tetrahedron = t;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
-    if (find_way_out(solids_, sample, y, place, touch)) found(touch);
+    if (find_way_out(solids_, sample, y, place, likely, touch)) found(touch);
     return;
   }
 }
@@ -132,18 +147,50 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const P
 template <class Place>
 void BodyContact::find_touching(const Place& place) const {
   candidates_.make_sure(place);
+  last_ways_.resize(samples_.size(), BodyTouch::none);
   touching_.clear();
   lost_.clear();
   inverted_ = 0;
   const auto list = candidates_.tetrahedra();
-  for (const CandidatePairs::Row& row : candidates_.rows())
-    look_at(row.sample, list.subspan(row.first, row.count), place, [this](const BodyTouch& touch) {
+  for (const CandidatePairs::Row& row : candidates_.rows()) {
+    near_.clear();
+    for (std::size_t pair = row.first; pair < row.first + row.count; ++pair)
+      if (candidates_.can_have_met(pair)) near_.push_back(list[pair]);
+    if (near_.empty()) continue;
+    look_at(row.sample, near_, last_ways_[row.sample], place, [this](const BodyTouch& touch) {
+      last_ways_[touch.sample] = touch.triangle;
       (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
     });
+  }
+}
+
+void BodyContact::exchange_with_aside() const {
+  touching_.swap(touching_aside_);
+  lost_.swap(lost_aside_);
+  std::swap(inverted_, inverted_aside_);
+  put_aside_ = !put_aside_;
+}
+
+/// A run asks for the contacts at the end of a step some times: for forces, losses and warnings.
+void BodyContact::find_touching_now(const StagePlaces& at) const {
+  if (!at.w.empty()) {
+    if (!searched_.empty() && !put_aside_) exchange_with_aside();
+    find_touching(PlaceNow{at});
+    return;
+  }
+  if (searched_changes_ == solids_.changes() && !at.x.empty() && searched_.size() == at.x.size() &&
+      std::memcmp(searched_.data(), at.x.data(), at.x.size_bytes()) == 0) {
+    if (put_aside_) exchange_with_aside();
+    return;
+  }
+  find_touching(PlaceNow{at});
+  searched_.assign(at.x.begin(), at.x.end());
+  searched_changes_ = solids_.changes();
+  put_aside_ = false;
 }
 
 std::span<const BodyTouch> BodyContact::touching(const StagePlaces& at) const {
-  find_touching(PlaceNow{at});
+  find_touching_now(at);
   return touching_;
 }
 
@@ -156,16 +203,18 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
                     [&tetrahedra](std::uint32_t t) { return std::pair(tetrahedra[t].cell, tetrahedra[t].part); });
   MayTouch may_touch(solids_, groups_);
   std::vector<BodyTouch> touches;
+  const std::size_t inverted = inverted_;  // among the candidates
   for (std::uint32_t s = 0; s < samples_.size(); ++s) {
     may_touch.look_at(samples_[s]);
     may.clear();
     for (const std::uint32_t t : order)
       if (may_touch(tetrahedra[t])) may.push_back(t);
-    look_at(s, may, PlaceNow{at}, [&](const BodyTouch& touch) {
+    look_at(s, may, BodyTouch::none, PlaceNow{at}, [&](const BodyTouch& touch) {
       if (touch.triangle != BodyTouch::none) touches.push_back(touch);
       if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
     });
   }
+  inverted_ = inverted;
   return touches;
 }
 
@@ -337,6 +386,7 @@ double BodyContact::energy(std::span<const Vector3d> x, std::size_t first, std::
 EnergyChange BodyContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
   EnergyChange sum;
   // by sample and law: the depth before and after
+  searched_.clear();
   find_touching(PlaceNow{at});
   earlier_.assign(touching_.begin(), touching_.end());
   find_touching(PlaceAfter{at, step, scale});
@@ -404,7 +454,7 @@ double BodyContact::power(std::span<const std::uint32_t> pieces, std::span<const
 
 // With w the weights of a site, (w . v)^2 <= 2 (own part)^2 + 2 (other part)^2.
 void BodyContact::for_each_tangent(const StagePlaces& at, Compression, const VisitTangent& visit) const {
-  find_touching(PlaceNow{at});
+  find_touching_now(at);
   const auto tangent_of = [this](const BodyTouch& t) -> Matrix3d {
     // along the line; its rotation is neglected
     return 2.0 * laws_[t.law].stiffness(t.area, t.depth) * (t.normal * t.normal.transpose());
@@ -444,8 +494,9 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 }
 
 std::size_t BodyContact::bytes() const {
-  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) + bytes_of(asked_, by_triangle_) +
-         groups_.bytes() + candidates_.bytes();
+  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
+         bytes_of(searched_, touching_aside_, lost_aside_, near_, last_ways_, asked_, by_triangle_) + groups_.bytes() +
+         candidates_.bytes();
 }
 
 }  // namespace dartboard

@@ -89,7 +89,7 @@ struct BodyContactState {
 ///
 /// Candidates come from a list with a margin (candidate_pairs.h) that every evaluation checks: contacts, their order,
 /// and bits do not depend on when lists are made. After a change of the skin the list is made anew. It must not be used
-/// by two threads at once: lists and contacts found are kept.
+/// by two threads at once: lists and contacts found are kept, and found again only at other places.
 ///
 /// pre     samples and solids live as long as the term, are those of one body, and change together
 /// cost    O(nodes of skin tetrahedra) to check whether the list holds, O(candidates); no allocation once there have
@@ -109,7 +109,10 @@ class BodyContact final : public ForceTerm {
 
   /// The distance beyond a tetrahedron up to which candidates are listed, over the mean size of tetrahedra [1/4].
   /// pre  > 0 and finite
-  void set_margin(double share) { candidates_.set_margin(share); }
+  void set_margin(double share) {
+    candidates_.set_margin(share);
+    searched_.clear();
+  }
   /// The list and the number of times it was made.
   const CandidatePairs& candidates() const { return candidates_; }
 
@@ -173,9 +176,12 @@ class BodyContact final : public ForceTerm {
 
  private:
   template <class Place, class Tetrahedra, class F>
-  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, const Place& place, const F& found) const;
+  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, std::uint32_t likely, const Place& place,
+               const F& found) const;
   template <class Place>
   void find_touching(const Place& place) const;
+  void find_touching_now(const StagePlaces& at) const;
+  void exchange_with_aside() const;
   /// The largest over the laws that the sample may have, each at this share of its depth [N/m].
   double largest_stiffness(std::uint32_t sample, double share_of_depth) const;
 
@@ -188,7 +194,16 @@ class BodyContact final : public ForceTerm {
 
   mutable CandidatePairs candidates_;
   mutable std::vector<BodyTouch> touching_, lost_, earlier_;
-  mutable std::vector<std::uint8_t> asked_;                                   // by piece
+  // The places that were searched last, with `changes()` then; empty if there are none. What was found there is put
+  // aside while places within a step are searched.
+  mutable std::vector<Eigen::Vector3d> searched_;
+  mutable std::uint64_t searched_changes_ = 0;
+  mutable bool put_aside_ = false;
+  mutable std::vector<BodyTouch> touching_aside_, lost_aside_;
+  mutable std::size_t inverted_aside_ = 0;
+  mutable std::vector<std::uint32_t> near_;       // tetrahedra
+  mutable std::vector<std::uint32_t> last_ways_;  // by sample, a triangle: searches begin with it
+  mutable std::vector<std::uint8_t> asked_;       // by piece
   mutable std::vector<std::pair<std::uint32_t, std::uint32_t>> by_triangle_;  // place of a touch
   mutable std::size_t inverted_ = 0;
   // for find_lost

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <tuple>
@@ -17,16 +19,12 @@ using Eigen::Vector3d;
 
 /// A tetrahedron that covers more cells of the grid than this is tested with every sample.
 constexpr double most_cells = 512.0;
+/// The most cells of the grid for each bucket, if neighbours are to be neighbours in memory.
+constexpr double most_empty = 4.0;
 /// The allowance for rounding in a margin, relative to the size of the coordinates.
 constexpr double slack = 0x1p-30;
-
-std::size_t hash_of(double x, double y, double z) {
-  const auto whole = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c)); };
-  std::uint64_t h = whole(x) * 0x9E3779B97F4A7C15u;
-  h = (h ^ (h >> 32u) ^ whole(y)) * 0xBF58476D1CE4E5B9u;
-  h = (h ^ (h >> 29u) ^ whole(z)) * 0x94D049BB133111EBu;
-  return static_cast<std::size_t>(h ^ (h >> 31u));
-}
+/// A tetrahedron with less than this share of the volume of the cube around it is flat.
+constexpr double flat = 1e-6;
 
 }  // namespace
 
@@ -99,9 +97,9 @@ void CandidatePairs::watch() {
   where_.resize(watched_.size());
 }
 
-std::size_t CandidatePairs::bucket_of(const Vector3d& y) const {
-  const Vector3d cell = y / cell_size_;
-  return hash_of(std::floor(cell[0]), std::floor(cell[1]), std::floor(cell[2])) & (bucket_first_.size() - 2);
+std::size_t CandidatePairs::bucket_of(double x, double y, double z) const {
+  const auto whole = [](double c) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(c)); };
+  return static_cast<std::size_t>(whole(x) + stride_y_ * whole(y) + stride_z_ * whole(z)) & (bucket_first_.size() - 2);
 }
 
 // Two passes over all cells that the boxes cover: to count, and to fill.
@@ -109,14 +107,25 @@ void CandidatePairs::put_into_grid() {
   const std::size_t buckets = std::bit_ceil(2 * std::max<std::size_t>(boxes_.size(), 1));
   bucket_first_.assign(buckets + 1, 0);
   everywhere_.clear();
+  // Cells next to each other have buckets next to each other where the body fills its box: one that is searched in
+  // order stays within few lines of memory. Bodies far apart are scattered.
+  Vector3d lowest(0, 0, 0), highest(0, 0, 0);
+  for (const Box& box : boxes_) {
+    lowest = &box == boxes_.data() ? box.low : Vector3d(lowest.cwiseMin(box.low));
+    highest = &box == boxes_.data() ? box.high : Vector3d(highest.cwiseMax(box.high));
+  }
+  const Vector3d across = ((highest - lowest) / cell_size_).array().floor() + 2.0;
+  const bool fills = across.prod() <= most_empty * static_cast<double>(buckets);  // false for NaN
+  stride_y_ = fills ? static_cast<std::uint64_t>(across[0]) : 0x9E3779B97F4A7C15u;
+  stride_z_ = fills ? static_cast<std::uint64_t>(across[0] * across[1]) : 0xBF58476D1CE4E5B9u;
   const auto for_each_bucket = [&](const Box& box, auto&& visit) {
     const Vector3d low = (box.low / cell_size_).array().floor(), high = (box.high / cell_size_).array().floor();
     const Vector3d cells = high - low + Vector3d(1, 1, 1);
     // also false for NaN
     if (!(cells[0] * cells[1] * cells[2] <= most_cells && low.cwiseAbs().maxCoeff() < 1e15)) return false;
-    for (double x = low[0]; x <= high[0]; ++x)
+    for (double z = low[2]; z <= high[2]; ++z)
       for (double y = low[1]; y <= high[1]; ++y)
-        for (double z = low[2]; z <= high[2]; ++z) visit(hash_of(x, y, z) & (buckets - 1));
+        for (double x = low[0]; x <= high[0]; ++x) visit(bucket_of(x, y, z));
     return true;
   };
   for (std::uint32_t t = 0; t < boxes_.size(); ++t)
@@ -128,11 +137,41 @@ void CandidatePairs::put_into_grid() {
     for_each_bucket(boxes_[t], [this, t](std::size_t bucket) { bucket_entry_[--bucket_first_[bucket]] = t; });
 }
 
+/// A bound of the rounding of distances from the box [m].
+double CandidatePairs::rounding_of(const Box& box) const {
+  const double far = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+  return slack * (1.0 + share_) * cell_size_ + 0x1p-44 * far;
+}
+
+/// At most the distance between a place and a tetrahedron, by the box around it and by its faces, less the rounding.
+double CandidatePairs::gap_between(const Vector3d& y, const SkinTetrahedron& t) const {
+  const auto place = [&](std::size_t k) -> const Vector3d& { return where_[place_of_node_[t.nodes[k]]]; };
+  const Vector3d &p = place(0), a = place(1) - p, b = place(2) - p, c = place(3) - p, r = y - p;
+  const Vector3d low = a.cwiseMin(b).cwiseMin(c).cwiseMin(0.0), high = a.cwiseMax(b).cwiseMax(c).cwiseMax(0.0);
+  double gap = (low - r).cwiseMax(r - high).cwiseMax(0.0).norm();
+  const double size = (high - low).maxCoeff();
+  const std::array<Vector3d, 3> normals{b.cross(c), c.cross(a), a.cross(b)};
+  const double volume = a.dot(normals[0]);
+  // the faces of a flat one have no certain directions
+  if (!(std::abs(volume) > flat * size * size * size)) return 0.0;
+  const double side = volume > 0.0 ? 1.0 : -1.0;
+  double inside = 0.0;
+  for (const Vector3d& normal : normals) {
+    const double beyond = side * r.dot(normal);
+    inside += beyond;
+    gap = std::max(gap, -beyond / normal.norm());
+  }
+  gap = std::max(gap, (inside - std::abs(volume)) / (b - a).cross(c - a).norm());
+  return std::max(0.0, gap - 1e-8 * size - rounding_of({p + low, p + high}));
+}
+
 void CandidatePairs::make() {
   const auto place = [this](std::uint32_t i) -> const Vector3d& { return where_[place_of_node_[i]]; };
   const auto& tetrahedra = solids_.tetrahedra();
   rows_.clear();
   tetrahedra_.clear();
+  gaps_.clear();
+  moved_together_ = 0.0;
   changes_ = solids_.changes();
   sample_count_ = samples_.size();
   ++made_;
@@ -155,8 +194,7 @@ void CandidatePairs::make() {
   const double margin = share_ * cell_size_;
   limit_ = 0.25 * margin * margin;
   for (Box& box : boxes_) {
-    const double far = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
-    const double by = margin + slack * (cell_size_ + margin) + 0x1p-44 * far;
+    const double by = margin + rounding_of(box);
     box.low.array() -= by;
     box.high.array() += by;
   }
@@ -174,7 +212,8 @@ void CandidatePairs::make() {
       if ((y.array() < box.low.array()).any() || (y.array() > box.high.array()).any()) return;
       if (may_touch_(tetrahedra[t])) found_.push_back(t);
     };
-    const std::size_t bucket = bucket_of(y);
+    const Vector3d cell = (y / cell_size_).array().floor();
+    const std::size_t bucket = bucket_of(cell[0], cell[1], cell[2]);
     for (std::size_t k = bucket_first_[bucket]; k < bucket_first_[bucket + 1]; ++k) try_one(bucket_entry_[k]);
     for (const std::uint32_t t : everywhere_) try_one(t);
     if (found_.empty()) continue;
@@ -185,11 +224,13 @@ void CandidatePairs::make() {
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     rows_.push_back({s, static_cast<std::uint32_t>(tetrahedra_.size()), static_cast<std::uint32_t>(found_.size())});
     tetrahedra_.insert(tetrahedra_.end(), found_.begin(), found_.end());
+    for (const std::uint32_t t : found_)
+      gaps_.push_back(static_cast<float>((1.0 - 1e-6) * gap_between(y, tetrahedra[t])));
   }
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(rows_, tetrahedra_, watched_, where_, place_of_node_, boxes_) +
+  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, place_of_node_, boxes_) +
          bytes_of(bucket_first_, bucket_entry_, everywhere_) + may_touch_.bytes();
 }
 

@@ -2,6 +2,8 @@
 // Which samples are near which tetrahedra: a list with a margin, valid until a vertex has moved by half of it.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -76,17 +78,28 @@ class CandidatePairs {
   }
   std::span<const Row> rows() const { return rows_; }
   std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }
+  /// Whether the sample and the tetrahedron of a pair can have come together at the places of the last `make_sure`:
+  /// they have not moved by as much as they were apart.
+  bool can_have_met(std::size_t pair) const { return gaps_[pair] <= moved_together_; }
   std::size_t pair_count() const { return tetrahedra_.size(); }
   /// The number of times a list has been made.
   std::uint64_t times_made() const { return made_; }
   std::size_t bytes() const;
 
  private:
+  struct Box {
+    Eigen::Vector3d low, high;
+  };
   template <class At>
-  bool holds(const At& place) const {
+  bool holds(const At& place) {
     if (changes_ != solids_.changes() || sample_count_ != samples_.size() || made_ == 0) return false;
-    for (std::size_t k = 0; k < watched_.size(); ++k)
-      if (!((place(watched_[k]) - where_[k]).squaredNorm() < limit_)) return false;
+    double most = 0.0;
+    for (std::size_t k = 0; k < watched_.size(); ++k) {
+      const double square = (place(watched_[k]) - where_[k]).squaredNorm();
+      if (!(square < limit_)) return false;
+      most = std::max(most, square);
+    }
+    moved_together_ = 2.0 * std::sqrt(most);
     return true;
   }
   template <class At>
@@ -98,7 +111,9 @@ class CandidatePairs {
   void watch();
   void make();
   void put_into_grid();
-  std::size_t bucket_of(const Eigen::Vector3d& y) const;
+  double rounding_of(const Box& box) const;
+  double gap_between(const Eigen::Vector3d& y, const SkinTetrahedron& tetrahedron) const;
+  std::size_t bucket_of(double x, double y, double z) const;
 
   const std::vector<SkinSample>& samples_;
   const SkinSolids& solids_;
@@ -106,6 +121,9 @@ class CandidatePairs {
 
   std::vector<Row> rows_;
   std::vector<std::uint32_t> tetrahedra_;
+  // [m] by pair: at most the distance between the two when the list was made, 0 where it is not known
+  std::vector<float> gaps_;
+  double moved_together_ = 0.0;  // [m] the largest way of two vertices since
   // nodes of tetrahedra, their places when the list was made; the squared distance they may move [m^2]
   std::vector<std::uint32_t> watched_;
   std::vector<Eigen::Vector3d> where_;
@@ -114,14 +132,12 @@ class CandidatePairs {
   std::size_t sample_count_ = 0;
 
   // scratch
-  struct Box {
-    Eigen::Vector3d low, high;
-  };
   MayTouch may_touch_;
   std::vector<std::uint32_t> place_of_node_;  // in watched_
   std::vector<Box> boxes_;                    // of tetrahedra, with the margin
   std::vector<std::uint32_t> bucket_first_, bucket_entry_, everywhere_, found_;
   double cell_size_ = 0.0;
+  std::uint64_t stride_y_ = 0, stride_z_ = 0;  // from a cell of the grid to its neighbour
 };
 
 }  // namespace dartboard

@@ -172,6 +172,7 @@ bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_ma
                                    std::span<const Vector3d> x, std::span<Vector3d> v) {
   bool changed = false;
   Penetration in;
+  if (obstacles_->is_clear(x)) return false;
   for (const SkinSample& s : obstacles_->samples()) {
     const Vector3d y = ObstacleContact::place_of(s, x);
     for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
@@ -226,6 +227,7 @@ bool ContactImpulses::damp_bodies(double h, InverseMass inverse_mass, Fixed fixe
 
 void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                            std::span<const Vector3d> x, std::span<const Vector3d> v) {
+  if (obstacles_->is_clear(x, v, h / 2)) return;
   Penetration in;
   auto old = before_.begin();
   const auto& samples = obstacles_->samples();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/box_around.h"
 #include "core/contact/way_inside.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
@@ -38,6 +39,25 @@ const Vector3d& origin_of(const ObstacleShape& shape) {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) return plane->point;
   if (const auto* ball = std::get_if<Ball>(&shape)) return ball->centre;
   return std::get<Block>(shape).high;
+}
+
+/// The rounding of a mean of places, and of its distance from an obstacle, over the sizes of coordinates.
+constexpr double slack = 1e-12;
+/// The calls of `is_clear` that are not answered after one that could not say yes.
+constexpr int passed_calls = 15;
+
+/// Is the whole box outside of the shape, by more than `by` and the rounding of the shape?
+bool is_outside(const ObstacleShape& shape, const BoxAround& box, double by) {
+  if (const auto* plane = std::get_if<HalfSpace>(&shape)) {
+    const Vector3d deepest = (plane->normal.array() > 0.0).select(box.low, box.high);
+    return (deepest - plane->point).dot(plane->normal) > by + slack * plane->point.cwiseAbs().maxCoeff();
+  }
+  const auto* ball = std::get_if<Ball>(&shape);
+  const auto* block = std::get_if<Block>(&shape);
+  const Vector3d low = ball != nullptr ? ball->centre : block->low, high = ball != nullptr ? ball->centre : block->high;
+  by += slack * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff());
+  const Vector3d beyond = (low - box.high).cwiseMax(box.low - high).cwiseMax(0.0);
+  return ball != nullptr ? beyond.norm() > (1.0 + slack) * ball->radius + by : beyond.maxCoeff() > by;
 }
 
 }  // namespace
@@ -94,6 +114,30 @@ bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penet
   if (!is_inside(obstacles_[o].shape, place)) return false;
   found = penetration(obstacles_[o].shape, place);
   return found.depth > 0.0;
+}
+
+bool ObstacleContact::is_clear(std::span<const Vector3d> x, std::span<const Vector3d> v, double t) const {
+  if (calls_to_pass_ > 0) {
+    --calls_to_pass_;
+    return false;
+  }
+  if (x.empty()) return true;
+  const auto size_of = [](const BoxAround& box) { return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff(); };
+  BoxAround box = box_around(x);
+  double size = size_of(box);
+  if (!v.empty()) {
+    const BoxAround speeds = box_around(v);
+    const Vector3d one = t * speeds.low, other = t * speeds.high;
+    box = {box.low + one.cwiseMin(other), box.high + one.cwiseMax(other)};
+    size += size_of({one, other});
+  }
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    const double by = slack * (size + moved_[o].cwiseAbs().maxCoeff());
+    if (is_outside(obstacles_[o].shape, {box.low - moved_[o], box.high - moved_[o]}, by)) continue;
+    calls_to_pass_ = passed_calls;
+    return false;
+  }
+  return true;
 }
 
 template <class F>
@@ -156,6 +200,7 @@ double ObstacleContact::largest_stiffness(double area, double share_of_depth) co
 }
 
 void ObstacleContact::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
+  if (frozen_.empty() && is_clear(at.x, at.w, at.t)) return;
   for (const SkinSample& s : samples_)
     for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       share_force(s, law.force(s.area, in.depth) * in.normal, force);

@@ -51,8 +51,9 @@ struct ContactState {
 /// The constant tangent is that of a contact at the depth of its law, with the obstacle of the stiffest law at each
 /// sample, as if all were touching. Projected tangents leave out the curvature of balls, whose sign is negative.
 /// pre     the samples live as long as the term and are read anew in each call
-/// cost    per sample that is outside of all obstacles: its mean and, for each obstacle, a dot product (half-space),
-///         a squared distance (ball) or up to six comparisons (block), no root; no allocation
+/// cost    while all is far from the obstacles: a box around the vertices. Otherwise, per sample that is outside of all
+///         of them: its mean and, for each, a dot product (half-space), a squared distance (ball) or up to six
+///         comparisons (block), no root; no allocation
 class ObstacleContact final : public ForceTerm {
  public:
   /// One law for each obstacle.
@@ -78,6 +79,10 @@ class ObstacleContact final : public ForceTerm {
   Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
   /// The same; false, and `found` is not set, if y is not inside: a few comparisons.
   bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
+
+  /// Is it certain that no sample is inside, with the vertices at x + t v? False if it is not known.
+  /// cost  O(vertices), a tenth of asking the samples; once it is not certain, only some of the next calls find out
+  bool is_clear(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v = {}, double t = 0.0) const;
 
   ContactState state_at(std::span<const Eigen::Vector3d> x) const;
   /// By vertex: the largest depth [m] of a sample at the vertex, 0 outside.
@@ -133,6 +138,7 @@ class ObstacleContact final : public ForceTerm {
   std::vector<Eigen::Vector3d> moved_;  // [m] by obstacle
   std::vector<ContactFriction> frozen_;
   bool friction_ = false, damping_ = false;
+  mutable int calls_to_pass_ = 0;  // of `is_clear`
 };
 
 }  // namespace dartboard

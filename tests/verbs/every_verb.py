@@ -39,6 +39,7 @@ RUNS = {
     "bench ablation": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench topology": [(["--quick", "--json", "--only", "liver564", "--out", "OUT"], MAY_BE_SLOW)],
     "bench operations": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
+    "bench contact": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "simulate": [(["sheet_cut", "--quick", "--picture", "--out", "OUT"], AGREES),
                  (["liver_cut", "--quick", "--json"], AGREES)],
     "scene": [(["--schema"], AGREES), (["--keys"], AGREES), (["--check", "liver_cut"], AGREES)],

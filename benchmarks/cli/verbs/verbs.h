@@ -33,5 +33,6 @@ void add_validate_solvers(CLI::App& validate, Outcome& outcome);
 void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome);
+void add_bench_contact(CLI::App& bench, CLI::App& app, Outcome& outcome);
 
 }  // namespace dartboard

@@ -10,6 +10,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/counted.h"
+#include "core/contact/box_around.h"
 #include "core/scene/run/body_in_words.h"
 
 namespace dartboard {
@@ -172,6 +173,7 @@ void SceneContact::undo(double time, Motion motion) {
 
 /// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
+  if (obstacles_->is_clear(x)) return;
   ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
   double most = 1.0;
   Penetration in;
@@ -256,11 +258,7 @@ void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3
 // The relative speed of two places is at most that between opposite corners of a box around all velocities.
 void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<const Vector3d> v) {
   if (v.empty()) return;
-  Vector3d low = v[0], high = v[0];
-  for (const Vector3d& speed : v) {
-    low = low.cwiseMin(speed);
-    high = high.cwiseMax(speed);
-  }
+  const auto [low, high] = box_around(v);
   const double way = (high - low).norm() * h;
   if (!(way > 0.5 * least_altitude_)) return;
   const Vector3d middle = 0.5 * (low + high);

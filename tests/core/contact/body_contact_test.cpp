@@ -439,5 +439,28 @@ TEST(BodyContact, TellsItsDepths) {
   }
 }
 
+// Contacts are kept for the places where they were found: other places, and other calls, do not get them.
+TEST(BodyContact, FindsTheContactsOfThesePlacesAfterItHasLookedAtOthers) {
+  TwoBodies balls = overlapping_balls(3, 2);
+  const BodyContact& term = *balls.contact;
+  const auto& x = balls.x;
+  const auto expected = term.touching_by_brute_force({x}, nullptr);
+  const std::vector<Vector3d> w(x.size(), Vector3d(0.01, 0, 0));
+  ASSERT_FALSE(expected.empty());
+  expect_same(term.touching({x}), expected);
+  term.touching({x, w, 1.0});
+  expect_same(term.touching({x}), expected);
+  term.energy_change({x}, w, 1.0);
+  expect_same(term.touching({x}), expected);
+  std::vector<Vector3d> elsewhere = moved(x, w, 1.0);
+  expect_same(term.touching({elsewhere}), term.touching_by_brute_force({elsewhere}, nullptr));
+  elsewhere.back()[2] += 1e-12;  // the last bits of one vertex
+  expect_same(term.touching({elsewhere}), term.touching_by_brute_force({elsewhere}, nullptr));
+  const std::uint64_t lists = term.candidates().times_made();
+  balls.contact->set_margin(term.candidates().margin_share());
+  expect_same(term.touching({elsewhere}), term.touching_by_brute_force({elsewhere}, nullptr));
+  EXPECT_EQ(term.candidates().times_made(), lists + 1);
+}
+
 }  // namespace
 }  // namespace dartboard::body_contact_test

@@ -336,5 +336,38 @@ TEST(ObstacleContact, NeedsALawForEachObstacle) {
   EXPECT_TRUE(other.has_damping() && !other.has_friction());
 }
 
+// Clouds around each obstacle, and on their way past it.
+TEST(ObstacleContact, IsClearOnlyWhereNoSampleIsInside) {
+  SplitMix64 random(5);
+  for (std::size_t of = 0; of < 3; ++of) {
+    std::size_t clear = 0, touching = 0;
+    for (std::uint64_t k = 0; k < 300; ++k) {
+      Cloud cloud(k, 12);
+      const Vector3d aside(2.5 * random.next_signed(), 2.5 * random.next_signed(), 2.5 * random.next_signed());
+      for (Vector3d& x : cloud.x) x = 0.3 * x + aside;
+      const double t = k % 2 == 0 ? 0.0 : random.next_signed();
+      ObstacleContact term({laws_of(3)[of]}, {obstacles()[of]}, cloud.samples);
+      const bool found_clear = t == 0.0 ? term.is_clear(cloud.x) : term.is_clear(cloud.x, cloud.w, t);
+      const std::size_t inside = term.state_at(moved(cloud.x, cloud.w, t)).contacts;
+      EXPECT_FALSE(found_clear && inside > 0) << of << ' ' << k;
+      clear += found_clear ? 1 : 0;
+      touching += inside > 0 ? 1 : 0;
+    }
+    EXPECT_GT(clear, 60u) << of;
+    EXPECT_GT(touching, 5u) << of;
+  }
+}
+
+TEST(ObstacleContact, IsClearOfAnObstacleAtItsPresentPlace) {
+  const Cloud cloud(1, 12);
+  Obstacle ball{Ball{{0, 0, 9}, 1.0}};
+  ball.velocity = {0, 0, -1};
+  ObstacleContact term({law_of(3)}, {ball}, cloud.samples);
+  EXPECT_TRUE(term.is_clear(cloud.x));
+  term.place_at(9.0);
+  EXPECT_FALSE(term.is_clear(cloud.x));
+  EXPECT_GT(term.state_at(cloud.x).contacts, 0u);
+}
+
 }  // namespace
 }  // namespace dartboard::obstacle_contact_test

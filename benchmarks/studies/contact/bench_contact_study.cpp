@@ -1,0 +1,37 @@
+#include "benchmarks/studies/contact/bench_contact_study.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/harness/processes.h"
+#include "benchmarks/studies/contact/bench_contact_report.h"
+
+namespace dartboard {
+
+Report contact_bench(const ContactBenchPlan& plan, StudyLog& log) {
+  const int processes = plan.quick ? 3 : 8, rounds = plan.quick ? 3 : 24, steps = plan.quick ? 20 : 60;
+  ContactCosts costs{
+      .samples = {}, .counts = {}, .largest = plan.quick ? std::size_t{10'000} : 1'000'000, .steps = steps};
+  log.say(fmt::format("steps and forces, plates of up to {} tetrahedra, in {} processes", costs.largest, processes));
+  log.begin("timing", static_cast<std::size_t>(processes));
+  for (int process = 0; process < processes; ++process) {
+    run_self({"measure-contact", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
+              std::to_string(steps), "--largest", std::to_string(costs.largest), "--seed", std::to_string(plan.seed)},
+             [&](std::string_view line) {
+               const auto json = nlohmann::json::parse(line);
+               log.sample(json);
+               if (json.contains("situation"))
+                 costs.counts[json.at("situation")] = json.get<ContactCounts>();
+               else
+                 costs.samples.push_back(json.get<Sample>());
+             });
+    log.advance();
+  }
+  check_repeats(costs.samples);
+  return {.tables = {{"steps", "A step with contact, and without", contact_steps_table(costs), contact_costs_note()},
+                     {"forces", "Forces of contact, and of elements", contact_forces_table(costs)}},
+          .claims = claims_of(costs)};
+}
+
+}  // namespace dartboard
