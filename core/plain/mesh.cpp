@@ -69,8 +69,7 @@ int Mesh::highest_dimension() const {
 
 bool is_mixed(const Mesh& mesh) {
   const auto is_solid = [](CellKind kind) { return dimension(kind) == 3; };
-  const bool solids = std::ranges::any_of(mesh.kinds, is_solid),
-             surfaces = !std::ranges::all_of(mesh.kinds, is_solid);
+  const bool solids = std::ranges::any_of(mesh.kinds, is_solid), surfaces = !std::ranges::all_of(mesh.kinds, is_solid);
   return solids + surfaces + !mesh.links.empty() > 1;
 }
 

@@ -68,7 +68,8 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
     if (!(vertices_.mass[p] > 0.0)) throw InputError(fmt::format("point {} belongs to no cell and to no link", p));
     if (chains.set_of(p) == p) number[p] = next++;
   }
-  for (const auto& [a, b] : ends_) component_.push_back(number[chains.set_of(a)]);
+  if (next > 1)
+    for (const auto& [a, b] : ends_) component_.push_back(number[chains.set_of(a)]);
   if (needs.rest) vertices_.keep_rest();
   vertices_.velocity = problem.initial_velocity;
   vertices_.velocity.resize(points.size(), Eigen::Vector3d(0, 0, 0));
@@ -329,8 +330,9 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   Frame frame;
   frame.mesh = cells_;
   if (counts_.cells == 0) frame.links = ends_;
-  for (std::uint32_t c = 0; c < component_.size(); ++c) frame.mesh_cell.push_back(mesh_cell(c));
+  for (std::uint32_t c = 0; c < cell_mass_.size(); ++c) frame.mesh_cell.push_back(mesh_cell(c));
   frame.component = component_;
+  frame.component.resize(cell_mass_.size(), 0);
   frame.material = cell_material_;
   std::vector<double> room;
   fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});

@@ -103,7 +103,7 @@ class BodyOfColumns final : public SimulatedBody {
   Mesh cells_;                                              // its points are not used
   std::vector<std::uint32_t> mesh_cell_;                    // by cell; empty: their own numbers
   std::vector<double> cell_mass_;                           // of a chain, by link
-  std::vector<std::uint32_t> component_;                    // by cell
+  std::vector<std::uint32_t> component_;                    // by cell; by link of several chains
   std::vector<std::uint32_t> facet_first_{0}, facet_node_;  // corners of the facets of the boundary
 };
 

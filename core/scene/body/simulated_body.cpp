@@ -2,11 +2,11 @@
 
 #include <utility>
 
+#include "core/mechanics/curve_order.h"
 #include "core/plain/error.h"
 #include "core/scene/body/body_of_columns.h"
 #include "core/scene/body/body_of_parts.h"
 #include "core/scene/body/body_on_map.h"
-#include "core/scene/body/curve_order.h"
 
 namespace dartboard {
 

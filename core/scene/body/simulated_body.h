@@ -99,7 +99,8 @@ class SimulatedBody {
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
 /// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, otherwise a 3-g-map. If it cannot, or for a
 /// chain: columns, and no map. A large body is stored along a curve where its mesh is in no good order
-/// (curve_order.h). Solids, surfaces and chains of one mesh are a body each, held together (body_of_parts.h).
+/// (core/mechanics/curve_order.h). Solids, surfaces and chains of one mesh are a body each, held together
+/// (body_of_parts.h).
 ///
 /// throws  InputError as build_body does
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs);

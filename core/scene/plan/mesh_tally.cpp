@@ -80,8 +80,7 @@ MeshTally tally_of(const Mesh& mesh) {
   if (is_mixed(mesh)) {
     Problem problem;
     problem.mesh = mesh;
-    for (const ProblemPart& part : parts_of(problem))
-      append(t, tally_of(part.problem.mesh), part.point, part.cell);
+    for (const ProblemPart& part : parts_of(problem)) append(t, tally_of(part.problem.mesh), part.point, part.cell);
     return t;
   }
   if (!mesh.links.empty()) return tally_of_chains(mesh);

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/counted.h"
+#include "core/mechanics/curve_order.h"
 #include "core/plain/material.h"
-#include "core/scene/body/curve_order.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"

@@ -181,6 +181,7 @@ TEST(YoungsModulus, OfAChainIsThatOfItsLinksInSeries) {
   for (const int links : {1, 4, 64}) {
     Mesh mesh;
     for (int k = 0; k <= links; ++k) mesh.points.emplace_back(2.0 * k / links, 0, 0);
+    for (std::uint32_t k = 0; k + 1 < mesh.points.size(); ++k) mesh.links.push_back({k, k + 1});
     EXPECT_EQ(mean_stiffness(mesh, young) / links, young / 2.0);
   }
 }

@@ -529,7 +529,8 @@ std::span<const ShapeHelp> scene_shapes() {
   static constexpr ShapeHelp shapes[] = {
       {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
       {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
-      {Shape::one_body, "one_body", "One of several bodies: what a 'body' has, and its material. Solids, surfaces and chains may be side by side; "
+      {Shape::one_body, "one_body",
+       "One of several bodies: what a 'body' has, and its material. Solids, surfaces and chains may be side by side; "
        "diagnostics then list the boundary and the stress of the solids, or without any of the surfaces."},
       {Shape::generate, "generate", "A mesh made on the spot."},
       {Shape::box_mesh, "box_mesh", "A box of cubes."},

@@ -1,6 +1,6 @@
 // Large bodies are stored along a space-filling curve where their mesh is in no good order.
 
-#include "core/scene/body/curve_order.h"
+#include "core/mechanics/curve_order.h"
 
 #include <gtest/gtest.h>
 

@@ -251,6 +251,7 @@ TEST(FrameStress, IsInfiniteWhereItIsNotFiniteAndNowhereElse) {
 TEST(FrameTension, IsThatOfEachLink) {
   Mesh points;
   for (int k = 0; k < 5; ++k) points.points.emplace_back(0.5 * k, 0, 0);
+  points.links = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
   const auto body = body_of(std::move(points), false);
   auto x = body->motion().x;
   for (std::size_t k = 2; k < 5; ++k) x[k].y() += 0.25;  // from now on all of these are higher

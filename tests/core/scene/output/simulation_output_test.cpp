@@ -146,6 +146,8 @@ TEST(WriteVtu, GivesTheLinksOfAChainTheirTensionAndStrain) {
   chain.velocity.assign(3, {0, 0, 0});
   chain.mass.assign(3, 1.0);
   chain.links = {{0, 1}, {1, 2}};
+  chain.mesh_cell = {0, 1};
+  chain.component = {0, 0};
   chain.fields = {.stress = true, .springs = true};
   chain.tension = {5, -6};
   chain.strain = {0.5, -0.25};
@@ -187,6 +189,8 @@ TEST(WriteVtu, ListsPolygonsAndLinksAsVtkDoes) {
   chain.velocity.assign(3, {0, 0, 0});
   chain.mass.assign(3, 1.0);
   chain.links = {{0, 1}, {1, 2}};
+  chain.mesh_cell = {0, 1};
+  chain.component = {0, 0};
   const std::string vtu = to_vtu(chain);
   EXPECT_EQ(column<std::uint8_t>(vtu, "types", "UInt8"), (Bytes{3, 3}));
   EXPECT_EQ(column<std::int64_t>(vtu, "connectivity", "Int64"), (Integers{0, 1, 1, 2}));

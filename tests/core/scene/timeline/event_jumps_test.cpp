@@ -20,6 +20,7 @@ using namespace moving;
 Problem link() {
   Problem problem;
   problem.mesh.points = {{0, 0, 0}, {1, 0, 0}};
+  problem.mesh.links = {{0, 1}};
   problem.material = {.density = 2.0, .stiffness = 8.0, .damping = 0.0, .viscosity = 0.0};
   return problem;
 }

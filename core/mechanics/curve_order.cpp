@@ -1,4 +1,4 @@
-#include "core/scene/body/curve_order.h"
+#include "core/mechanics/curve_order.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
