@@ -31,11 +31,16 @@ class Tetrahedra final : public ForceTerm {
   Nodes nodes(std::size_t piece) const override { return columns_.nodes[piece]; }
 
   void add_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
-    if (at.w.empty())
-      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at.x, n, shape); },
-                    force);
+    add_forces_of(at, 0, size(), everywhere, force);
+  }
+  bool adds_in_parts() const override { return true; }
+  void add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
+                          std::span<Vector3d> force) const override {
+    if (run.whole)
+      add_forces_of(at, run.first, run.last, everywhere, force);
     else
-      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at, n, shape); }, force);
+      add_forces_of(
+          at, run.first, run.last, [own](std::uint32_t vertex) { return own.contains(vertex); }, force);
   }
 
   void add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
@@ -43,7 +48,7 @@ class Tetrahedra final : public ForceTerm {
       const TetrahedronNodes& n = columns_.nodes[c];
       const Matrix3d from = gradient(at.x, n, columns_.shape[c]);
       const Matrix3d move = (2.0 * at.t) * gradient(at.w, n, columns_.shape[c]);
-      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(laws_[c], from, move), force);
+      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(laws_[c], from, move), everywhere, force);
     }
   }
 
@@ -144,22 +149,37 @@ class Tetrahedra final : public ForceTerm {
     const Vector3d one = shape.row(0), two = shape.row(1), three = shape.row(2);
     return {-(one + two + three), one, two, three};
   }
-  static void add_force(const TetrahedronNodes& n, const Matrix3d& shape, const Matrix3d& weighted,
+  static constexpr auto everywhere = [](std::uint32_t) { return true; };
+
+  /// At the corners for which `is_own` holds.
+  template <class IsOwn>
+  static void add_force(const TetrahedronNodes& n, const Matrix3d& shape, const Matrix3d& weighted, const IsOwn& is_own,
                         std::span<Vector3d> force) {
     const Matrix3d f = weighted * shape.transpose();
-    force[n[0]] -= f.col(0) + f.col(1) + f.col(2);
-    force[n[1]] += f.col(0);
-    force[n[2]] += f.col(1);
-    force[n[3]] += f.col(2);
+    if (is_own(n[0])) force[n[0]] -= f.col(0) + f.col(1) + f.col(2);
+    if (is_own(n[1])) force[n[1]] += f.col(0);
+    if (is_own(n[2])) force[n[2]] += f.col(1);
+    if (is_own(n[3])) force[n[3]] += f.col(2);
   }
-  template <class Gradient>
-  void add_forces_of(const Gradient& gradient_of, std::span<Vector3d> force) const {
+  template <class IsOwn>
+  void add_forces_of(const StagePlaces& at, std::size_t first, std::size_t last, const IsOwn& is_own,
+                     std::span<Vector3d> force) const {
+    if (at.w.empty())
+      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at.x, n, shape); }, first,
+                    last, is_own, force);
+    else
+      add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at, n, shape); }, first,
+                    last, is_own, force);
+  }
+  template <class Gradient, class IsOwn>
+  void add_forces_of(const Gradient& gradient_of, std::size_t first, std::size_t last, const IsOwn& is_own,
+                     std::span<Vector3d> force) const {
     const TetrahedronNodes* const nodes = columns_.nodes.data();
     const Matrix3d* const shape = columns_.shape.data();
     const double* const mass = columns_.mass.data();
-    for (std::size_t c = 0, count = columns_.nodes.size(); c < count; ++c) {
+    for (std::size_t c = first; c < last; ++c) {
       const Matrix3d stress = laws_[c].stress(gradient_of(nodes[c], shape[c]));
-      add_force(nodes[c], shape[c], (-laws_.per_mass(c) * mass[c]) * stress, force);
+      add_force(nodes[c], shape[c], (-laws_.per_mass(c) * mass[c]) * stress, is_own, force);
     }
   }
 

@@ -24,10 +24,15 @@ struct Terms {
   /// these have shares.
   template <class F>
   void for_each_share(std::size_t n, const F& f) const {
-    if (is_shared())
-      thread_team().run([&](unsigned thread) { f((*shares)[thread].own.first, (*shares)[thread].own.last); });
-    else
-      f(std::size_t{0}, n);
+    if (is_shared()) {
+      thread_team().run([&](unsigned thread) {
+        const F own = f;
+        own((*shares)[thread].own.first, (*shares)[thread].own.last);
+      });
+    } else {
+      const F own = f;  // its captures stay in registers
+      own(std::size_t{0}, n);
+    }
   }
   /// What acts without damping and viscosity.
   Terms undamped() const { return {.fixed = fixed, .shares = shares}; }
