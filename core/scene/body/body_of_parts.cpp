@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 #include <utility>
 
@@ -376,6 +377,8 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
     std::vector<double> strain;
   } of_links, of_springs;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  constexpr std::array stresses{&Frame::largest_principal_stress, &Frame::largest_stress_magnitude,
+                                &Frame::von_mises_stress};
   std::uint32_t components = 0;
   for (const Member& part : parts_) {
     Frame frame = part.body->frame(own);
@@ -411,12 +414,13 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
     append(all.mesh_point, frame.mesh_point);
     append(all.displacement, frame.displacement);
     append(all.tension, frame.tension);
-    for (const auto column :
-         {&Frame::largest_principal_stress, &Frame::largest_stress_magnitude, &Frame::von_mises_stress}) {
+    for (const auto column : stresses) {
       append(all.*column, frame.*column);
       if (fields.stress) (all.*column).resize(all.mesh.points.size(), 0.0);  // chains have tensions
     }
   }
+  if (all.mesh.cell_count() == 0)
+    for (const auto column : stresses) (all.*column).clear();
   append(all.mesh_cell, of_links.mesh_cell);
   append(all.component, of_links.component);
   append(all.material, of_links.material);

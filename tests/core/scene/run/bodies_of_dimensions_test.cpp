@@ -292,6 +292,19 @@ TEST(BodiesOfDimensions, AreListedInOneFrameWithTheirNumbersMaterialsAndComponen
   EXPECT_NE(to_vtu(frame).find("Name=\"tension\""), std::string::npos);
 }
 
+TEST(BodiesOfDimensions, AreListedAsAChainWhereNothingElseIsLeft) {
+  Json scene = three_bodies();
+  scene["output"]["fields"] = {"stress", "springs"};
+  scene["events"] = Json::parse(R"([{"at": 0.001, "remove": {"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}}}])");
+  Simulation simulation(parse(scene));
+  run(simulation);
+  const Frame frame = simulation.frame();
+  EXPECT_EQ(frame.mesh.points.size(), 6u);
+  EXPECT_EQ(frame.component, (std::vector<std::uint32_t>(5, 0)));
+  EXPECT_NE(to_vtu(frame).find("Name=\"tension\""), std::string::npos);
+  EXPECT_EQ(simulation.body().boundary(), 0.0);
+}
+
 TEST(BodiesOfDimensions, AreExplainedWithAllTheirMemory) {
   Json scene = rope();
   scene["bodies"].push_back(
