@@ -52,7 +52,8 @@ Json pile_of_100(std::uint64_t seed) {
     Json body = box(2, 2, 2);
     const auto place = [&random](int cubes) { return 2.5 * spacing * cubes + 0.2 * spacing * random.next_signed(); };
     const double x = place(k % 5), y = place(k / 5 % 5);
-    body["translate"] = {x, y, 1.98 * spacing * (k / 25)};
+    const int layer = k / 25;
+    body["translate"] = {x, y, 1.98 * spacing * layer};
     scene["bodies"].push_back(body);
   }
   scene["gravity"] = {0, 0, -9.81};

@@ -672,7 +672,7 @@ TEST(GalleryPhysics, TheRopeHangsAsAChainAndTheHemFalls) {
   }
   ASSERT_LT((shape(force).back() - right).norm(), 1e-9);
   for (const auto& [probe, number] : {std::pair("rope", 6), {"quarter", 3}}) {
-    const Vector2d& x = shape(force)[static_cast<std::size_t>(number)];
+    const Vector2d x = shape(force)[static_cast<std::size_t>(number)];
     expect_place(scene, place_of(scene, probe), {x.x(), 0.05, x.y()});
   }
 
