@@ -74,7 +74,10 @@ Json plates(int across) {
   return scene;
 }
 constexpr int plates_across[] = {7, 20, 65, 204};
-std::size_t tetrahedra_of_plates(int across) { return static_cast<std::size_t>(24 * across * across); }
+std::size_t tetrahedra_of_plates(int across) {
+  const auto squares = static_cast<std::size_t>(across);
+  return 24 * squares * squares;
+}
 std::string name_of_plates(int across) { return fmt::format("plates of {}", tetrahedra_of_plates(across)); }
 
 struct Situation {
