@@ -46,8 +46,11 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
   switch (item.part) {
     case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
     // three are in use at once while a body is built: those of a coverage, of a cell visited by it, of the cells around
-    // that
-    case Part::marks: return 3 * n.darts * number;
+    // that: a bit for each dart, in words of two bytes, and a list of an eighth of these words and 64
+    case Part::marks: {
+      const std::size_t words = (n.darts + 15) / 16;
+      return 3 * (2 * words + number * (words / 8 + 64));
+    }
     // places for the numbers of vertices, edges, faces and cells: for a tetrahedron 4, 6, 4 and 1
     case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
     case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;

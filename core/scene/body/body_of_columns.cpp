@@ -15,7 +15,6 @@
 #include "core/scene/body/events/ready.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
-#include "core/topology/storage/hash.h"
 #include "core/views/attachments_view.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
@@ -240,19 +239,6 @@ MemoryReport BodyOfColumns::memory() const {
   return report;
 }
 
-SpringSystem BodyOfColumns::system() const {
-  return {.ends = ends_,
-          .springs = springs_,
-          .mass = vertices_.mass,
-          .inverse_mass = vertices_.inverse_mass,
-          .viscosity = vertices_.viscosity,
-          .fixed = vertices_.fixed,
-          .gravity = gravity_,
-          .pull = vertices_.pull,
-          .terms = terms_,
-          .held_axes = vertices_.held_axes};
-}
-
 std::unique_ptr<ReadyEvent> BodyOfColumns::make_ready(const SceneEvent& event) {
   return std::visit(
       [&]<class Kind>(const Kind& action) -> std::unique_ptr<ReadyEvent> {
@@ -338,13 +324,6 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});
   if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
   return frame;
-}
-
-std::uint64_t BodyOfColumns::state_hash() const {
-  Hash h;
-  h.add(vertices_.position);
-  h.add(vertices_.velocity);
-  return h.value();
 }
 
 }  // namespace dartboard

@@ -13,7 +13,6 @@
 #include "core/scene/body/events/ready.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
-#include "core/topology/storage/hash.h"
 
 namespace dartboard {
 namespace {
@@ -318,19 +317,6 @@ std::string BodyOfParts::map_name() const {
   return names.empty() ? "no map" : names;
 }
 
-SpringSystem BodyOfParts::system() const {
-  return {.ends = ends_,
-          .springs = springs_,
-          .mass = vertices_.mass,
-          .inverse_mass = vertices_.inverse_mass,
-          .viscosity = vertices_.viscosity,
-          .fixed = vertices_.fixed,
-          .gravity = gravity_,
-          .pull = vertices_.pull,
-          .terms = terms_,
-          .held_axes = vertices_.held_axes};
-}
-
 double BodyOfParts::mass() const {
   double sum = 0.0;
   for (const Member& part : parts_) sum += part.body->mass();
@@ -429,13 +415,6 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
   all.fields = fields;
   if (fields.contact) fill_contact(all, contact_.get(), leading().body_contact());
   return all;
-}
-
-std::uint64_t BodyOfParts::state_hash() const {
-  Hash h;
-  h.add(vertices_.position);
-  h.add(vertices_.velocity);
-  return h.value();
 }
 
 std::string BodyOfParts::violation() const {

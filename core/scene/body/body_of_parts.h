@@ -33,7 +33,7 @@ class BodyOfParts final : public SimulatedBody {
   std::string map_name() const override;
   VertexColumns& vertices() override { return vertices_; }
   using SimulatedBody::vertices;
-  SpringSystem system() const override;
+  SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, terms_); }
   std::span<double> pressures() override { return pressure_; }
   FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
   ObstacleContact* contact() override { return contact_.get(); }
@@ -55,7 +55,6 @@ class BodyOfParts final : public SimulatedBody {
   double boundary() const override;
   double largest_stress() const override;
   Frame frame(const FrameFields& fields) const override;
-  std::uint64_t state_hash() const override;
   std::string violation() const override;
   void state(Archive& archive) override;
   MemoryReport memory() const override;

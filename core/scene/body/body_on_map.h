@@ -134,22 +134,9 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   VertexColumns& vertices() override { return body_.vertices; }
   using SimulatedBody::vertices;
   SpringSystem system() const override {
-    const VertexColumns& v = body_.vertices;
-    SpringSystem system{.ends = ends_.ends,
-                        .springs = body_.springs,
-                        .mass = v.mass,
-                        .inverse_mass = v.inverse_mass,
-                        .viscosity = v.viscosity,
-                        .fixed = v.fixed,
-                        .gravity = body_.surroundings.gravity,
-                        .pull = v.pull};
-    system.terms = terms_;
-    system.held_axes = v.held_axes;
-    if (!body_.cell_materials().has_springs()) {
-      system.ends = {};
-      system.springs = {};
-    }
-    return system;
+    const bool has_springs = body_.cell_materials().has_springs();
+    return system_of(body_.vertices, has_springs ? ends_.ends : std::span<const SpringEnds>(),
+                     has_springs ? SpringSpan(body_.springs) : SpringSpan(), body_.surroundings.gravity, terms_);
   }
   std::span<double> pressures() override { return pressure_; }
   FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
@@ -232,7 +219,6 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     return frame;
   }
 
-  std::uint64_t state_hash() const override { return body_.state_hash(); }
   std::string violation() const override { return check(body_.map); }
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
@@ -343,15 +329,15 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   }
 
   /// All marks of the map are idle between operations; each is taken once to read its length. The last one taken is a
-  /// new one, without a stamp.
+  /// new one, without a bit.
   std::size_t mark_bytes() const {
     std::size_t bytes = 0;
-    std::vector<MarkPool::Stamps*> taken;
+    std::vector<MarkPool::Bits*> taken;
     do {
       taken.push_back(&body_.map.marks().take(0));
-      bytes += bytes_of(taken.back()->stamp);
-    } while (!taken.back()->stamp.empty());
-    for (MarkPool::Stamps* stamps : taken) stamps->in_use = false;
+      bytes += bytes_of(taken.back()->words, taken.back()->used);
+    } while (!taken.back()->words.empty());
+    for (MarkPool::Bits* bits : taken) bits->in_use = false;
     return bytes;
   }
 

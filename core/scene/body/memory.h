@@ -15,7 +15,7 @@ struct VertexColumns;
 /// something to solve.
 enum class Part {
   map,           // alphas and generations
-  marks,         // stamps by dart
+  marks,         // bits by dart
   embeddings,    // the number of the embedding at every dart
   cell_darts,    // the lowest dart of each vertex, edge, face and cell
   cells,         // masses of cells, and the data of cells that changes need

@@ -7,9 +7,9 @@
 #include "core/scene/body/body_of_columns.h"
 #include "core/scene/body/body_of_parts.h"
 #include "core/scene/body/body_on_map.h"
+#include "core/topology/storage/hash.h"
 
 namespace dartboard {
-
 namespace {
 
 /// `mesh_cell` are the numbers of the problem's cells in the mesh of the scene; empty where they are the same.
@@ -42,6 +42,27 @@ std::unique_ptr<SimulatedBody> make_ordered_body(const Problem& problem, const B
 }
 
 }  // namespace
+
+std::uint64_t SimulatedBody::state_hash() const {
+  Hash h;
+  h.add(vertices().position);
+  h.add(vertices().velocity);
+  return h.value();
+}
+
+SpringSystem system_of(const VertexColumns& vertices, std::span<const SpringEnds> ends, SpringSpan springs,
+                       const Eigen::Vector3d& gravity, ForceTerms terms) {
+  return {.ends = ends,
+          .springs = springs,
+          .mass = vertices.mass,
+          .inverse_mass = vertices.inverse_mass,
+          .viscosity = vertices.viscosity,
+          .fixed = vertices.fixed,
+          .gravity = gravity,
+          .pull = vertices.pull,
+          .terms = terms,
+          .held_axes = vertices.held_axes};
+}
 
 std::unique_ptr<SimulatedBody> make_simulated_body(const Problem& problem, const BodyNeeds& needs) {
   if (needs.storage == Storage::several) return std::make_unique<BodyOfParts>(problem, needs, make_ordered_body);

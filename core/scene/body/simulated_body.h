@@ -84,7 +84,7 @@ class SimulatedBody {
   /// pre  the body was made with rest positions if `fields` asks for displacement
   virtual Frame frame(const FrameFields& fields) const = 0;
   /// A hash of positions and velocities, in the order of the embeddings' numbers.
-  virtual std::uint64_t state_hash() const = 0;
+  std::uint64_t state_hash() const;
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
   /// Writes all that steps and events change, or reads it into a body made of the same scene.
@@ -95,6 +95,10 @@ class SimulatedBody {
  protected:
   std::vector<std::uint32_t> tracked_;
 };
+
+/// The system of a body whose vertices have these columns.
+SpringSystem system_of(const VertexColumns& vertices, std::span<const SpringEnds> ends, SpringSpan springs,
+                       const Eigen::Vector3d& gravity, ForceTerms terms);
 
 /// A body that holds no more than the scene needs. If its topology can change: a body on the smallest map that can hold
 /// it, a 2-g-map for a surface, tetrahedral storage for tetrahedra alone, otherwise a 3-g-map. If it cannot, or for a

@@ -18,7 +18,9 @@ class BlanesMoan4 : public Integrator {
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   void restart() override { terms_.forget(); }
-  std::size_t bytes() const override { return end_.bytes() + bytes_of(a_, product_) + damping_.bytes(); }
+  std::size_t bytes() const override {
+    return end_.bytes() + bytes_of(a_, product_) + damping_.bytes() + terms_.bytes();
+  }
 
  private:
   void damped_kick(const SpringSystem& system, const Terms& terms, double t);

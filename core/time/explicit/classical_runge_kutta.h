@@ -11,7 +11,7 @@ class ClassicalRungeKutta : public Integrator {
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   void restart() override { terms_.forget(); }
-  std::size_t bytes() const override { return stage_.bytes() + bytes_of(a_, sum_x_, sum_v_); }
+  std::size_t bytes() const override { return stage_.bytes() + bytes_of(a_, sum_x_, sum_v_) + terms_.bytes(); }
 
  private:
   KnownTerms terms_;

@@ -27,7 +27,9 @@ class CompensatedSplitting : public Integrator {
     Integrator::state(archive);
     archive(state_);
   }
-  std::size_t bytes() const override { return state_.bytes() + bytes_of(a_, product_, sum_) + damping_.bytes(); }
+  std::size_t bytes() const override {
+    return state_.bytes() + bytes_of(a_, product_, sum_) + damping_.bytes() + terms_.bytes();
+  }
 
   /// The digits that the motion lacks, by vertex.
   const TrialState& lost() const { return state_.lost(); }

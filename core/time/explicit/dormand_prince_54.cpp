@@ -68,7 +68,7 @@ void DormandPrince54::restart() {
 }
 
 std::size_t DormandPrince54::bytes() const {
-  std::size_t sum = end_.bytes() + bytes_of(stage_x_);
+  std::size_t sum = end_.bytes() + bytes_of(stage_x_) + terms_.bytes();
   for (const auto* columns : {&stage_v_, &stage_a_})
     for (const Column& column : *columns) sum += bytes_of(column);
   return sum;

@@ -13,7 +13,7 @@ class ExplicitEuler : public Integrator {
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   void restart() override { terms_.forget(); }
-  std::size_t bytes() const override { return end_.bytes(); }
+  std::size_t bytes() const override { return end_.bytes() + terms_.bytes(); }
 
  private:
   KnownTerms terms_;

@@ -14,7 +14,7 @@ class SymplecticEuler : public Integrator {
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   void restart() override;
-  std::size_t bytes() const override { return end_.bytes() + bytes_of(a_) + damping_.bytes(); }
+  std::size_t bytes() const override { return end_.bytes() + bytes_of(a_) + damping_.bytes() + terms_.bytes(); }
 
  private:
   KnownTerms terms_;

@@ -40,6 +40,7 @@ class KnownTerms {
     return terms_;
   }
   void forget() { known_ = false; }
+  std::size_t bytes() const { return terms_.shares ? bytes_of_shares(*terms_.shares) : 0; }
 
  private:
   Terms terms_;

@@ -77,7 +77,7 @@ TEST(Mark, IsReleasedWithItsScope) {
     EXPECT_EQ(map.marks().in_use(), 1u);
   }
   EXPECT_EQ(map.marks().in_use(), 0u);
-  EXPECT_FALSE(Mark(map)({0}));  // the next user of the same stamps
+  EXPECT_FALSE(Mark(map)({0}));  // the next user of the same bits
 }
 
 TEST(Mark, AMovedMarkIsReleasedOnce) {
@@ -112,7 +112,7 @@ TEST(Mark, AMarkReleasedOutOfOrderDisturbsNoOther) {
   a.set({0});
   c.set({2});
   b.reset();
-  const Mark d(map);  // takes the stamps of b
+  const Mark d(map);  // takes the bits of b
   EXPECT_TRUE(a({0}));
   EXPECT_TRUE(c({2}));
   EXPECT_FALSE(d({0}));
@@ -151,9 +151,9 @@ TEST(Mark, ANewTetrahedronInAUsedSlotIsUnmarked) {
   for (std::uint32_t p = 0; p < 24; ++p) EXPECT_FALSE(mark({p})) << p;
 }
 
-TEST(Mark, AStaleStampDoesNotComeBackWithALaterEpoch) {
+TEST(Mark, ABitOfAnEarlierMarkDoesNotComeBack) {
   Map2 map = darts(2);
-  for (int round = 0; round < 100; ++round) {  // the same stamps, taken again and again
+  for (int round = 0; round < 100; ++round) {  // the same bits, taken again and again
     Mark mark(map);
     EXPECT_FALSE(mark({0}));
     EXPECT_FALSE(mark({1}));
@@ -161,17 +161,36 @@ TEST(Mark, AStaleStampDoesNotComeBackWithALaterEpoch) {
   }
 }
 
-// Once in 2^32 clears: stamps of epochs that will come again must not be taken for theirs.
-TEST(Mark, UnmarksEveryDartWhenTheEpochsBeginAgain) {
-  const Map2 map = darts(3);
-  auto& stamps = map.marks().take(map.capacity());
-  stamps.epoch = 0xFFFFFFFE;
-  stamps.stamp[2] = 1;  // left over from the first mark of all
-  stamps.in_use = false;
+// A dart that is unset and set again puts its word on the list of those to be cleared once more.
+TEST(Mark, IsClearedAfterItWasUnsetAndSetAnyNumberOfTimes) {
+  const Map2 map = darts(40);
+  for (int round = 0; round < 3; ++round) {
+    Mark mark(map);
+    for (int k = 0; k < 1000; ++k) {
+      EXPECT_TRUE(mark.set_if_new({17}));
+      mark.unset({17});
+    }
+    mark.set({18});
+    if (round == 1) mark.clear();
+    for (std::uint32_t d = 0; d < 40; ++d) EXPECT_EQ(mark({d}), round != 1 && d == 18) << d;
+  }
+}
+
+TEST(Mark, SetsDartsOfOneWordWithoutEachOther) {
+  const Map2 map = darts(200);
   Mark mark(map);
-  mark.set({0});
-  mark.clear();
-  map.for_each_dart([&](Dart d) { EXPECT_FALSE(mark(d)); });
+  for (std::uint32_t d = 0; d < 200; d += 3) EXPECT_TRUE(mark.set_if_new({d}));
+  for (std::uint32_t d = 0; d < 200; ++d) EXPECT_EQ(mark({d}), d % 3 == 0) << d;
+  for (std::uint32_t d = 0; d < 200; d += 6) mark.unset({d});
+  for (std::uint32_t d = 0; d < 200; ++d) EXPECT_EQ(mark({d}), d % 6 == 3) << d;
+}
+
+TEST(Mark, TakesABitForEachDart) {
+  const Map2 map = darts(1600);
+  { const Mark first(map), second(map); }
+  MarkPool::Bits& bits = map.marks().take(map.capacity());
+  EXPECT_EQ(bits.words.size() * sizeof(bits.words[0]), 200u);
+  bits.in_use = false;
 }
 
 }  // namespace
