@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/base/counted.h"
 #include "core/plain/nan_maximum.h"
 
 namespace dartboard {
@@ -23,6 +25,13 @@ static_assert(OverlapTally::classes == 10);
 constexpr double most_energy = 5e-3;
 // Sums of some hundred forces in each of some hundred steps, by their roundings.
 constexpr double most_momentum = 1e-12;
+// Linear cells are too stiff, least so with six faces and more to the edge of the contact.
+constexpr double most_hertz = 0.1;
+constexpr int least_faces = 6;
+// Rest is where inertia has gone: backward Euler leaves less than this of the ball's way in its last step.
+constexpr double most_moved = 1e-3;
+// A stack at rest has lost its drop to rounding, and creeps nowhere in friction that sticks.
+constexpr double most_kinetic = 1e-10, most_creep = 1e-6;
 
 Claim claim(std::string id, std::string text, double bound, double worst, const std::string& unit) {
   Claim made{.id = std::move(id),
@@ -65,6 +74,12 @@ std::vector<Claim> claims_of(const ContactResults& results) {
     looks += run.looks;
     if (!run.ended || run.contacts == 0) in_motion = depth = energy = momentum = angular = NAN;
   }
+  double hertz = results.balls.empty() ? NAN : 0.0;
+  for (const auto& [ball, found] : results.balls) {
+    if (ball.across >= least_faces) hertz = max_or_nan(hertz, std::abs(found.error()));
+    if (!found.ended || !(found.moved <= most_moved) || ball.across < least_faces) hertz = NAN;
+  }
+  const bool rests = results.stack && results.stack->ended && results.stack->drop > 0.0;
   std::vector<Claim> claims{
       claim("contact-placed", "bodies that overlap deeper than 3/4 of the least altitude of a cell are felt",
             most_unfelt, quiet, " altitudes"),
@@ -79,6 +94,15 @@ std::vector<Claim> claims_of(const ContactResults& results) {
       claim("contact-angular-momentum", "and their angular momentum", most_momentum, angular, "")};
   claims[0].bound_or_interval = fmt::format("of {} placements that overlap", overlapping);
   for (std::size_t k = 2; k < claims.size(); ++k) claims[k].bound_or_interval = fmt::format("in {} looks", looks);
+  claims.push_back(claim("contact-hertz", "a ball in a half-space is carried by Hertz's force", most_hertz, hertz, ""));
+  claims.back().bound_or_interval = fmt::format("the worst of {}", counted(results.balls.size(), "case"));
+  claims.push_back(claim("contact-stack-rests", "a stack comes to rest: its kinetic energy over that of the drop",
+                         most_kinetic, rests ? results.stack->kinetic / results.stack->drop : NAN, ""));
+  claims.push_back(claim("contact-stack-still", "and stays where it is", most_creep, rests ? results.stack->moved : NAN,
+                         " cell edges"));
+  if (rests)
+    for (std::size_t k = claims.size() - 2; k < claims.size(); ++k)
+      claims[k].bound_or_interval = fmt::format("in {} steps", results.stack->steps);
   return claims;
 }
 
@@ -133,6 +157,29 @@ Table runs_table(const std::vector<ContactRun>& runs) {
                    fmt::format("{:.2g}", run.deepest), fmt::format("{:g}", run.allowed),
                    fmt::format("{:.1e}", run.energy), run.alone ? fmt::format("{:.1e}", run.momentum) : "",
                    run.alone ? fmt::format("{:.1e}", run.angular) : ""});
+  return table;
+}
+
+Table carried_table(const ContactResults& results) {
+  Table table({{"scene"},
+               {"quantity"},
+               {"found", Align::right},
+               {"expected", Align::right},
+               {"error", Align::right},
+               {"limit", Align::right}});
+  for (const auto& [ball, found] : results.balls)
+    table.add_row(
+        {fmt::format("ball in {}, {} faces to the edge of the contact, p = {}",
+                     ball.cells == CellKind::hexahedron ? "hexahedra" : "tetrahedra", ball.across, ball.exponent),
+         "force [N]", fmt::format("{:.4g}", found.force), fmt::format("{:.4g}", found.closed_form),
+         fmt::format("{:+.1f} %", 100.0 * found.error()), fmt::format("{:g} %", 100.0 * most_hertz)});
+  if (!results.stack) return table;
+  const StackAtRest& stack = *results.stack;
+  const std::string name = fmt::format("stack of {} boxes, {} steps", stack.boxes, stack.steps);
+  table.add_row({name, "kinetic energy over that of the drop", fmt::format("{:.1e}", stack.kinetic / stack.drop), "0",
+                 "", fmt::format("{:g}", most_kinetic)});
+  table.add_row({name, "largest way of a vertex over a cell edge", fmt::format("{:.1e}", stack.moved), "0", "",
+                 fmt::format("{:g}", most_creep)});
   return table;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 // The conclusions of `validate contact` from its results.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/table.h"
 #include "validation/contact/contact_run.h"
+#include "validation/contact/hertz.h"
 #include "validation/contact/random_placements.h"
+#include "validation/contact/stack_at_rest.h"
 
 namespace dartboard {
 
@@ -18,6 +21,12 @@ struct ContactResults {
   };
   std::vector<Placed> placements;
   std::vector<ContactRun> runs;
+  struct Pressed {
+    HertzCase ball;
+    HertzResult found;
+  };
+  std::vector<Pressed> balls;
+  std::optional<StackAtRest> stack;
 };
 
 std::vector<Claim> claims_of(const ContactResults& results);
@@ -27,5 +36,7 @@ std::vector<Claim> claims_of(const ContactResults& results);
 Table placements_table(const ContactResults& results);
 Table depths_table(const ContactResults& results);
 Table runs_table(const std::vector<ContactRun>& runs);
+/// Hertz's force, case by case; and the stack.
+Table carried_table(const ContactResults& results);
 
 }  // namespace dartboard

@@ -71,10 +71,35 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
     results.runs.push_back(run);
     log.advance(scene.name);
   }
+  std::vector<HertzCase> balls{{}, {.exponent = 2}, {.exponent = 4}, {.across = 8}, {.cells = CellKind::tetrahedron}};
+  if (plan.one_ball) balls = {{.growth = 2.0}};
+  log.begin("validate contact: closed forms", balls.size() + 1);
+  for (const HertzCase& ball : balls) {
+    const HertzResult found = press_ball(ball);
+    log.sample({{"ball_in", ball.cells == CellKind::hexahedron ? "hexahedra" : "tetrahedra"},
+                {"faces", ball.across},
+                {"exponent", ball.exponent},
+                {"force", found.force},
+                {"hertz", found.closed_form},
+                {"depth", found.depth},
+                {"contacts", found.contacts},
+                {"ended", found.ended}});
+    results.balls.push_back({ball, found});
+    log.advance("a ball in a half-space");
+  }
+  results.stack = watch_stack();
+  log.sample({{"stack_of", results.stack->boxes},
+              {"steps", results.stack->steps},
+              {"drop", results.stack->drop},
+              {"kinetic", results.stack->kinetic},
+              {"moved", results.stack->moved},
+              {"ended", results.stack->ended}});
+  log.advance("a stack");
   return {.tables = {{"placements", "Bodies put into each other at random; depths over the least altitude of a cell",
                       placements_table(results)},
                      {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
-                     {"runs", "Runs, looked at on the way", runs_table(results.runs)}},
+                     {"runs", "Runs, looked at on the way", runs_table(results.runs)},
+                     {"carried", "What contact carries, and where it stands still", carried_table(results)}},
           .claims = claims_of(results)};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// `dartboard validate contact`: do bodies feel every overlap that CGAL and separating axes find?
+// `dartboard validate contact`: do bodies feel every overlap that CGAL and separating axes find, and do they carry each
+// other as closed forms say?
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,7 @@ struct ContactStudyPlan {
   std::size_t placements = 100'000;  // in all
   std::size_t looks = 100;           // in each run
   std::uint64_t seed = 1;            // seeds the placements
+  bool one_ball = false;             // pressed into a half-space; otherwise by every law, and into other cells
 };
 
 Report contact_study(const ContactStudyPlan& plan, StudyLog& log);

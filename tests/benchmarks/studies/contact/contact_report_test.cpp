@@ -30,6 +30,9 @@ ContactResults good_results() {
     run.ended = true;
     r.runs.push_back(run);
   }
+  r.balls = {{{.across = 6}, {.force = 10.5, .closed_form = 10.0, .moved = 1e-9, .ended = true}},
+             {{.across = 8}, {.force = 9.8, .closed_form = 10.0, .moved = 1e-9, .ended = true}}};
+  r.stack = StackAtRest{.boxes = 5, .steps = 100, .drop = 0.5, .kinetic = 1e-12, .moved = 1e-8, .ended = true};
   return r;
 }
 
@@ -45,7 +48,7 @@ const Ids moving{"contact-moving-pairs", "contact-depth", "contact-energy", "con
 
 TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_results());
-  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 7u);
+  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 10u);
   expect_words(claims, "contact-placed", "<= 0.75 altitudes", "0.2 altitudes", "of 170 placements that overlap");
   const Claim& pairs = find_claim(claims, "contact-placed-pairs");
   EXPECT_EQ(pairs.paper_value, ">= 95 %");
@@ -54,6 +57,9 @@ TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   expect_words(claims, "contact-depth", "<= 1 depths", "0.8 depths", "in 200 looks");
   expect_words(claims, "contact-energy", "<= 0.005", "0.0001", "in 200 looks");
   expect_words(claims, "contact-momentum", "<= 1e-12", "1e-15", "in 200 looks");
+  expect_words(claims, "contact-hertz", "<= 0.1", "0.05", "the worst of 2 cases");
+  expect_words(claims, "contact-stack-rests", "<= 1e-10", "2e-12", "in 100 steps");
+  expect_words(claims, "contact-stack-still", "<= 1e-06 cell edges", "1e-08 cell edges", "in 100 steps");
 }
 
 TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
@@ -71,6 +77,10 @@ TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].energy = 6e-3; }), Ids{"contact-energy"});
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].momentum = 2e-12; }), Ids{"contact-momentum"});
   EXPECT_EQ(short_with([](auto& r) { r.runs[1].angular = 2e-12; }), Ids{"contact-angular-momentum"});
+  for (const double force : {8.9, 11.1})
+    EXPECT_EQ(short_with([force](auto& r) { r.balls[1].found.force = force; }), Ids{"contact-hertz"});
+  EXPECT_EQ(short_with([](auto& r) { r.stack->kinetic = 6e-11; }), Ids{"contact-stack-rests"});
+  EXPECT_EQ(short_with([](auto& r) { r.stack->moved = 1.1e-6; }), Ids{"contact-stack-still"});
 }
 
 TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
@@ -79,6 +89,14 @@ TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
   EXPECT_EQ(short_with([](auto& r) { r.runs.clear(); }), moving);
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].ended = false; }), moving);
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].contacts = 0; }), moving);
+  const std::function<void(ContactResults&)> without_ball[]{
+      [](auto& r) { r.balls.clear(); }, [](auto& r) { r.balls[0].found.ended = false; },
+      [](auto& r) { r.balls[0].found.moved = 2e-3; }, [](auto& r) { r.balls[0].ball.across = 5; }};
+  for (const auto& spoil : without_ball) EXPECT_EQ(short_with(spoil), Ids{"contact-hertz"});
+  const Ids stack{"contact-stack-rests", "contact-stack-still"};
+  EXPECT_EQ(short_with([](auto& r) { r.stack.reset(); }), stack);
+  EXPECT_EQ(short_with([](auto& r) { r.stack->ended = false; }), stack);
+  EXPECT_EQ(short_with([](auto& r) { r.stack->drop = 0.0; }), stack);
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].energy = std::numeric_limits<double>::quiet_NaN(); }),
             Ids{"contact-energy"});
 }
@@ -110,13 +128,23 @@ TEST(ContactTables, HaveARowForEachPairOfBodiesClassOfDepthAndScene) {
                                                                     "1.0e-04", "1.0e-15", "1.0e-15"}));
 }
 
+TEST(ContactTables, HaveARowForEachBallAndTwoForTheStack) {
+  const Table table = carried_table(good_results());
+  ASSERT_EQ(table.rows().size(), 4u);
+  EXPECT_EQ(table.rows()[0], (std::vector<std::string>{"ball in hexahedra, 6 faces to the edge of the contact, p = 3",
+                                                       "force [N]", "10.5", "10", "+5.0 %", "10 %"}));
+  EXPECT_EQ(table.rows()[2],
+            (std::vector<std::string>{"stack of 5 boxes, 100 steps", "kinetic energy over that of the drop", "2.0e-12",
+                                      "0", "", "1e-10"}));
+}
+
 TEST(ContactStudy, HoldsAndSaysSo) {
   StudyLog log;
-  const Report report = contact_study({.placements = 80, .looks = 6, .seed = 2}, log);
+  const Report report = contact_study({.placements = 80, .looks = 6, .seed = 2, .one_ball = true}, log);
   EXPECT_EQ(ids_of(report.claims, Verdict::falls_short), Ids{});
-  EXPECT_EQ(report.claims.size(), 7u);
+  EXPECT_EQ(report.claims.size(), 10u);
   EXPECT_EQ(exit_code(report), 0);
-  ASSERT_EQ(report.tables.size(), 3u);
+  ASSERT_EQ(report.tables.size(), 4u);
 }
 
 }  // namespace
