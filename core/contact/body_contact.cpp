@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/base/bytes.h"
-#include "core/contact/nearest_on_triangle.h"
+#include "core/contact/way_out.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
 
@@ -18,13 +18,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// The distance that a place may be outside of a face within the body, over the tetrahedron's altitude there.
-constexpr double seam = 0x1p-40;
-/// Depths below this share of the coordinates are rounding.
-constexpr double rounding = 0x1p-46;
-/// The factor between squared distances that differ by more than rounding.
-constexpr double certainly_more = 1.0001;
 
 /// The place of a vertex, within a step if there is one.
 struct PlaceNow {
@@ -38,77 +31,6 @@ struct PlaceAfter {
   double scale;
   Vector3d operator()(std::uint32_t i) const { return PlaceNow{at}(i) + scale * step[i]; }
 };
-
-double volume_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
-
-enum class Side { inside, outside, inverted };
-
-/// The side of y by its weights over the corners.
-template <class Place>
-Side side_of(const SkinTetrahedron& t, const Vector3d& y, const Place& place, std::array<double, 4>& weights) {
-  const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
-                 r = y - p, normal = b.cross(c);
-  const double volume = a.dot(normal);
-  if (!(volume > 0.0)) return Side::inverted;
-  const auto is_beyond = [&](std::size_t k, double weight) {
-    weights[k] = weight;
-    return !(weight > ((t.outer >> k & 1u) != 0 ? 0.0 : -seam));
-  };
-  if (is_beyond(1, r.dot(normal) / volume) || is_beyond(2, volume_of(r, c, a) / volume) ||
-      is_beyond(3, volume_of(r, a, b) / volume) || is_beyond(0, 1.0 - (weights[1] + weights[2] + weights[3])))
-    return Side::outside;
-  return Side::inside;
-}
-
-/// The way out of the tetrahedron for the sample at y. False if y is on the boundary, to rounding. The search begins
-/// with a triangle that is likely to be the nearest, if it is one of those that count: this saves most of the others.
-template <class Place>
-bool find_way_out(const SkinSolids& solids, const SkinSample& sample, const Vector3d& y, const Place& place,
-                  std::uint32_t likely, BodyTouch& touch) {
-  const auto corners = sample.corners();
-  const auto& triangles = solids.triangles();
-  const auto& nodes = solids.tetrahedra()[touch.tetrahedron].nodes;
-  const auto has_one_of = [](const SkinTriangle& t, std::span<const std::uint32_t> some) {
-    return std::ranges::any_of(t.nodes, [some](std::uint32_t j) { return std::ranges::find(some, j) != some.end(); });
-  };
-  double least = 0.0;
-  touch.triangle = BodyTouch::none;
-  NearestOnTriangle best;
-  const auto compare = [&](std::uint32_t k) {
-    const SkinTriangle& t = triangles[k];
-    if (k == touch.triangle || has_one_of(t, corners)) return;
-    const Vector3d a = place(t.nodes[0]) - y, b = place(t.nodes[1]) - y, c = place(t.nodes[2]) - y;
-    if (touch.triangle != BodyTouch::none) {
-      const Vector3d to_box = a.cwiseMin(b).cwiseMin(c).cwiseMax(-a.cwiseMax(b).cwiseMax(c)).cwiseMax(0.0);
-      if (to_box.squaredNorm() > certainly_more * least) return;
-    }
-    const NearestOnTriangle found = nearest_on_triangle(a, b, c);
-    const double square = found.way.squaredNorm();
-    if (std::isnan(square)) return;
-    if (touch.triangle != BodyTouch::none) {
-      if (!(square <= least)) return;
-      const SkinTriangle& other = triangles[touch.triangle];
-      if (square == least && std::tie(other.face, other.part) < std::tie(t.face, t.part)) return;
-    }
-    least = square;
-    best = found;
-    touch.triangle = k;
-  };
-  if (likely < triangles.size() && has_one_of(triangles[likely], nodes)) compare(likely);
-  for (std::size_t corner = 0; corner < nodes.size(); ++corner)
-    solids.for_each_triangle_at(nodes[corner], [&](std::uint32_t k) {
-      if (!has_one_of(triangles[k], std::span(nodes).first(corner))) compare(k);
-    });
-  if (touch.triangle == BodyTouch::none) return true;
-  touch.depth = std::sqrt(least);
-  double coordinates = y.cwiseAbs().maxCoeff();
-  for (const std::uint32_t j : triangles[touch.triangle].nodes)
-    coordinates = std::max(coordinates, place(j).cwiseAbs().maxCoeff());
-  if (!(touch.depth > rounding * coordinates)) return false;
-  touch.normal = best.way / touch.depth;
-  touch.nearest = best.weight;
-  return true;
-}
 
 }  // namespace
 
@@ -126,7 +48,7 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
 
 /// Tests one sample with some tetrahedra, in the order of their cells and parts.
 template <class Place, class Tetrahedra, class F>
-void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, std::uint32_t likely, const Place& place,
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWay& known, const Place& place,
                           const F& found) const {
   const SkinSample& sample = samples_[s];
   const Vector3d y = mean_of(sample, place);
@@ -139,15 +61,19 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, std::ui
     touch.tetrahedron = t;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
-    if (find_way_out(solids_, sample, y, place, likely, touch)) found(touch);
+    if (!known.is_certain(t, candidates_.travelled())) ++ways_searched_;
+    if (find_way_out(solids_, sample, y, place, candidates_.travelled(), known, touch)) found(touch);
     return;
   }
 }
 
 template <class Place>
 void BodyContact::find_touching(const Place& place) const {
-  candidates_.make_sure(place);
-  last_ways_.resize(samples_.size(), BodyTouch::none);
+  candidates_.make_sure(place, follows_);
+  if (known_ways_.size() != samples_.size() || journey_ != candidates_.journey()) {
+    known_ways_.assign(samples_.size(), {});
+    journey_ = candidates_.journey();
+  }
   touching_.clear();
   lost_.clear();
   inverted_ = 0;
@@ -157,11 +83,11 @@ void BodyContact::find_touching(const Place& place) const {
     for (std::size_t pair = row.first; pair < row.first + row.count; ++pair)
       if (candidates_.can_have_met(pair)) near_.push_back(list[pair]);
     if (near_.empty()) continue;
-    look_at(row.sample, near_, last_ways_[row.sample], place, [this](const BodyTouch& touch) {
-      last_ways_[touch.sample] = touch.triangle;
+    look_at(row.sample, near_, known_ways_[row.sample], place, [this](const BodyTouch& touch) {
       (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
     });
   }
+  follows_ = !touching_.empty();
 }
 
 void BodyContact::exchange_with_aside() const {
@@ -209,7 +135,8 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
     may.clear();
     for (const std::uint32_t t : order)
       if (may_touch(tetrahedra[t])) may.push_back(t);
-    look_at(s, may, BodyTouch::none, PlaceNow{at}, [&](const BodyTouch& touch) {
+    KnownWay nothing;
+    look_at(s, may, nothing, PlaceNow{at}, [&](const BodyTouch& touch) {
       if (touch.triangle != BodyTouch::none) touches.push_back(touch);
       if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
     });
@@ -292,7 +219,7 @@ double BodyContact::least_altitude(std::span<const Vector3d> x) const {
   double least = std::numeric_limits<double>::infinity();
   for (const SkinTetrahedron& t : solids_.tetrahedra()) {
     const Vector3d &p = x[t.nodes[0]], a = x[t.nodes[1]] - p, b = x[t.nodes[2]] - p, c = x[t.nodes[3]] - p;
-    const double volume = std::abs(volume_of(a, b, c));
+    const double volume = std::abs(a.dot(b.cross(c)));
     double largest = (b - a).cross(c - a).norm();  // twice the area of a face
     for (const double area : {a.cross(b).norm(), b.cross(c).norm(), c.cross(a).norm()})
       largest = std::max(largest, area);
@@ -495,7 +422,7 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 
 std::size_t BodyContact::bytes() const {
   return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
-         bytes_of(searched_, touching_aside_, lost_aside_, near_, last_ways_, asked_, by_triangle_) + groups_.bytes() +
+         bytes_of(searched_, touching_aside_, lost_aside_, near_, known_ways_, asked_, by_triangle_) + groups_.bytes() +
          candidates_.bytes();
 }
 

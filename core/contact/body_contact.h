@@ -39,6 +39,16 @@ struct BodyTouch {
   std::array<double, 4> inside{};   // weights of the sample's own place over the tetrahedron's
 };
 
+/// The way out that a search has found for a sample, and how long it is certain.
+struct KnownWay {
+  std::uint32_t tetrahedron = BodyTouch::none, triangle = BodyTouch::none;
+  double until = -1.0;  // [m] the travel of the places up to which no other triangle can be as near
+
+  bool is_certain(std::uint32_t inside_of, double travelled) const {
+    return tetrahedron == inside_of && travelled <= until;
+  }
+};
+
 /// The friction force, during a step, between two places that coincide half way through it.
 struct BodyFriction {
   std::uint32_t sample = 0, tetrahedron = 0;
@@ -115,6 +125,8 @@ class BodyContact final : public ForceTerm {
   }
   /// The list and the number of times it was made.
   const CandidatePairs& candidates() const { return candidates_; }
+  /// The number of ways out that were searched among all triangles in reach; the others were known to be the nearest.
+  std::uint64_t ways_searched() const { return ways_searched_; }
 
   /// The contacts in the order of samples, without those out of reach; valid until the next call of any function.
   std::span<const BodyTouch> touching(const StagePlaces& at) const;
@@ -176,7 +188,7 @@ class BodyContact final : public ForceTerm {
 
  private:
   template <class Place, class Tetrahedra, class F>
-  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, std::uint32_t likely, const Place& place,
+  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, KnownWay& known, const Place& place,
                const F& found) const;
   template <class Place>
   void find_touching(const Place& place) const;
@@ -201,9 +213,11 @@ class BodyContact final : public ForceTerm {
   mutable bool put_aside_ = false;
   mutable std::vector<BodyTouch> touching_aside_, lost_aside_;
   mutable std::size_t inverted_aside_ = 0;
-  mutable std::vector<std::uint32_t> near_;       // tetrahedra
-  mutable std::vector<std::uint32_t> last_ways_;  // by sample, a triangle: searches begin with it
-  mutable std::vector<std::uint8_t> asked_;       // by piece
+  mutable std::vector<std::uint32_t> near_;   // tetrahedra
+  mutable std::vector<KnownWay> known_ways_;  // by sample, of this journey of the candidates
+  mutable std::uint64_t journey_ = 0, ways_searched_ = 0;
+  mutable bool follows_ = false;             // something has touched at the last places
+  mutable std::vector<std::uint8_t> asked_;  // by piece
   mutable std::vector<std::pair<std::uint32_t, std::uint32_t>> by_triangle_;  // place of a touch
   mutable std::size_t inverted_ = 0;
   // for find_lost

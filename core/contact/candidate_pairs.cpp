@@ -230,7 +230,7 @@ void CandidatePairs::make() {
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, place_of_node_, boxes_) +
+  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, last_, place_of_node_, boxes_) +
          bytes_of(bucket_first_, bucket_entry_, everywhere_) + may_touch_.bytes();
 }
 

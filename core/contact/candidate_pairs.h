@@ -69,13 +69,21 @@ class CandidatePairs {
   void set_margin(double share);
   double margin_share() const { return share_; }
 
-  /// Make the list anew if a vertex has moved by half of the margin since, or the skin has changed.
+  /// Make the list anew if a vertex has moved by half of the margin since, or the skin has changed. `follows`: the
+  /// travel of the places is needed.
   /// cost  O(nodes of tetrahedra) where it holds
   template <class At>
-  void make_sure(const At& place) {
-    if (holds(place)) return;
-    make_from(place);
+  void make_sure(const At& place, bool follows = false) {
+    if (!holds(place)) make_from(place);
+    if (follows)
+      follow(place);
+    else
+      last_.clear();
   }
+  /// [m] At least the distance by which two places have moved relative to each other, from one to the other of all
+  /// calls that follow: since they began to, or the skin has changed, which begins another journey.
+  double travelled() const { return travelled_; }
+  std::uint64_t journey() const { return journey_; }
   std::span<const Row> rows() const { return rows_; }
   std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }
   /// Whether the sample and the tetrahedron of a pair can have come together at the places of the last `make_sure`:
@@ -108,6 +116,25 @@ class CandidatePairs {
     for (std::size_t k = 0; k < watched_.size(); ++k) where_[k] = place(watched_[k]);
     make();
   }
+  template <class At>
+  void follow(const At& place) {
+    const bool goes_on = last_.size() == watched_.size() && last_changes_ == changes_;
+    if (!goes_on) {
+      last_.resize(watched_.size());
+      last_changes_ = changes_;
+      travelled_ = 0.0;
+      ++journey_;
+    }
+    double most = 0.0, sum = 0.0;
+    for (std::size_t k = 0; k < watched_.size(); ++k) {
+      const Eigen::Vector3d now = place(watched_[k]);
+      const double square = goes_on ? (now - last_[k]).squaredNorm() : 0.0;
+      most = std::max(most, square);
+      sum += square;  // the maximum loses what is not a number
+      last_[k] = now;
+    }
+    travelled_ += std::isfinite(sum) ? 2.0 * std::sqrt(most) : std::numeric_limits<double>::infinity();
+  }
   void watch();
   void make();
   void put_into_grid();
@@ -130,6 +157,10 @@ class CandidatePairs {
   double limit_ = 0.0;
   std::uint64_t changes_ = 0, made_ = 0;
   std::size_t sample_count_ = 0;
+  // their places at the last call that follows; empty if it did not
+  std::vector<Eigen::Vector3d> last_;
+  std::uint64_t last_changes_ = 0, journey_ = 0;
+  double travelled_ = 0.0;
 
   // scratch
   MayTouch may_touch_;

@@ -225,6 +225,45 @@ TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
   }
 }
 
+// As in a run: each place a little further than the last, and the nearest triangle another one now and then. Most are
+// known to be the nearest still, and the others are found.
+TEST(BodyContact, KnowsTheWaysOutOfPlacesThatHaveMovedALittle) {
+  struct Case {
+    double way;
+    std::size_t least_others;
+    double most_searched;
+  };
+  for (const auto [way, least_others, most_searched] :
+       {Case{1e-6, 0, 0.1}, Case{1e-4, 4, 0.4}, Case{2e-3, 100, 0.95}}) {
+    TwoBodies balls = overlapping_balls(3, 6);
+    SplitMix64 random(5);
+    std::vector<Vector3d> speed(balls.x.size(), Vector3d(0, 0, 0));
+    std::size_t ways = 0, others = 0;
+    std::vector<std::uint32_t> last(balls.skin->samples.size(), BodyTouch::none);
+    const auto known = [&](const BodyTouch& touch) {
+      ++ways;
+      if (last[touch.sample] != BodyTouch::none && last[touch.sample] != touch.triangle) ++others;
+      last[touch.sample] = touch.triangle;
+    };
+    const std::uint64_t before = balls.contact->ways_searched();
+    std::uint64_t by_brute_force = 0;
+    for (int step = 0; step < 150; ++step) {
+      for (std::size_t i = 0; i < speed.size(); ++i)
+        for (int c = 0; c < 3; ++c) balls.x[i][c] += way * (speed[i][c] += 0.2 * random.next_signed());
+      const auto found = balls.contact->touching({balls.x});
+      for (const BodyTouch& touch : found) known(touch);
+      const std::vector<BodyTouch> kept(found.begin(), found.end());
+      const std::uint64_t searched = balls.contact->ways_searched();
+      expect_same(kept, balls.contact->touching_by_brute_force({balls.x}, nullptr));
+      by_brute_force += balls.contact->ways_searched() - searched;
+    }
+    const std::uint64_t searched = balls.contact->ways_searched() - before - by_brute_force;
+    EXPECT_GT(ways, 1000u);
+    EXPECT_GE(others, least_others) << way;
+    EXPECT_LT(static_cast<double>(searched), most_searched * static_cast<double>(ways)) << way;
+  }
+}
+
 // Vertices that are NaN, or far from everything, are nowhere inside, and their lists hold nothing.
 TEST(BodyContact, LooksAtNothingThatIsNoNumber) {
   TwoBodies balls = overlapping_balls(3, 6);
