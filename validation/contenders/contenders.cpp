@@ -57,7 +57,6 @@ class ColumnsContender : public ContenderBody {
   explicit ColumnsContender(const Problem& problem)
       : body_(build_body<Map3, Held::by_every_dart>(problem)), integrator_(make_integrator("rk4")), h_(problem.h) {
     ends_.rebuild(body_);
-    forces_.resize(body_.vertices.size());
   }
   void step(int n) override {
     for (int k = 0; k < n; ++k) integrator_->step(system(), {body_.vertices.position, body_.vertices.velocity}, h_);
@@ -65,18 +64,8 @@ class ColumnsContender : public ContenderBody {
   PointState state() const override { return body_.state(); }
   void set_state(const PointState& state) override { body_.set_state(state); }
   std::vector<Eigen::Vector3d> forces() override {
-    // the accelerations of vertices of 1 kg, none of them fixed, without gravity
     const VertexColumns& v = body_.vertices;
-    const std::vector<double> ones(v.size(), 1.0);
-    SpringSystem of_unit_masses = system();
-    of_unit_masses.mass = of_unit_masses.inverse_mass = ones;
-    of_unit_masses.gravity.setZero();
-    Terms terms = terms_of(of_unit_masses);
-    terms.fixed = false;
-    accelerations(of_unit_masses, terms, v.position, v.velocity, forces_);
-    std::vector<Eigen::Vector3d> f(v.size());
-    for (std::size_t k = 0; k < v.size(); ++k) f[v.point[k]] = forces_[k];
-    return f;
+    return spring_and_drag_forces(system(), v.position, v.velocity, v.point);
   }
 
  private:
@@ -94,7 +83,6 @@ class ColumnsContender : public ContenderBody {
   MassSpringBody<Map3, Held::by_every_dart> body_;
   SpringEndsView ends_;
   std::unique_ptr<Integrator> integrator_;
-  std::vector<Eigen::Vector3d> forces_;
   double h_;
 };
 
@@ -149,6 +137,21 @@ std::span<const Contender> contenders() {
        cgal<reference::CgalWalk::attributes>},
   }};
   return table;
+}
+
+std::vector<Eigen::Vector3d> spring_and_drag_forces(SpringSystem system, std::span<const Eigen::Vector3d> x,
+                                                    std::span<const Eigen::Vector3d> v,
+                                                    std::span<const std::uint32_t> point) {
+  // the accelerations of vertices of 1 kg, none of them fixed, without gravity
+  const std::vector<double> ones(x.size(), 1.0);
+  system.mass = system.inverse_mass = ones;
+  system.gravity.setZero();
+  Terms terms = terms_of(system);
+  terms.fixed = false;
+  std::vector<Eigen::Vector3d> of_vertices(x.size()), f(x.size());
+  accelerations(system, terms, x, v, of_vertices);
+  for (std::size_t k = 0; k < x.size(); ++k) f[point[k]] = of_vertices[k];
+  return f;
 }
 
 const Contender& contender(std::string_view id) {

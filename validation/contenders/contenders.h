@@ -1,13 +1,17 @@
 #pragma once
 // The contenders: one row per way of carrying and walking the same body.
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/plain/problem.h"
+#include "core/time/system/spring_system.h"
 #include "validation/contenders/contender_body.h"
 
 namespace dartboard {
@@ -27,6 +31,11 @@ struct Contender {
 std::span<const Contender> contenders();
 
 inline constexpr std::string_view baseline_id = "graph";
+
+/// Springs and ambient drag on each point [N], by the forces of core/time; `point` is that of each vertex.
+std::vector<Eigen::Vector3d> spring_and_drag_forces(SpringSystem system, std::span<const Eigen::Vector3d> x,
+                                                    std::span<const Eigen::Vector3d> v,
+                                                    std::span<const std::uint32_t> point);
 
 /// throws  InputError that lists the known ids
 const Contender& contender(std::string_view id);

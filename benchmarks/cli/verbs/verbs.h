@@ -34,5 +34,6 @@ void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_contact(CLI::App& bench, CLI::App& app, Outcome& outcome);
+void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome);
 
 }  // namespace dartboard

@@ -1,0 +1,52 @@
+#include <memory>
+
+#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/tell.h"
+#include "benchmarks/paper/paper_bodies.h"
+#include "benchmarks/studies/step/bench_step_study.h"
+#include "benchmarks/studies/step/step_costs.h"
+
+namespace dartboard {
+namespace {
+
+// A verb that help does not show.
+void add_measure_step(CLI::App& app) {
+  struct Options : StepCostPlan {
+    bool compare = false;
+  };
+  auto options = std::make_shared<Options>();
+  auto* verb = app.add_subcommand("measure-step", "Time steps in this process (used by bench).")->group("");
+  verb->add_flag("--compare", options->compare);
+  verb->add_option("--process", options->process);
+  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--largest", options->largest);
+  verb->add_option("--seed", options->seed);
+  verb->callback([options] {
+    const auto print = [](const auto& sample) { tell("{}\n", json_text(nlohmann::json(sample))); };
+    options->compare ? compare_steps(*options, print) : measure_step_costs(*options, print);
+  });
+}
+
+}  // namespace
+
+void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome) {
+  auto* verb = bench.add_subcommand(
+      "step", "An RK4 step over springs, compared with the naive graph and with the limits of the processor.");
+  auto options = study_options(*verb, {.quick = "bodies of up to 10^5 tetrahedra, fewer processes",
+                                       .seed = "the order of the tasks, shuffled meshes and velocities"});
+  verb->callback([options, &outcome] {
+    RunFacts facts{.seeds = {{"order of the tasks, shuffled meshes, velocities", options->seed}},
+                   .input_files = {paper_body("liver").mesh}};
+    run_study(
+        *options, {.label = "step-costs", .facts = facts},
+        [&](StudyLog& log) {
+          return step_bench({options->quick, options->seed}, log);
+        },
+        outcome);
+  });
+  add_measure_step(app);
+}
+
+}  // namespace dartboard

@@ -1,0 +1,61 @@
+#pragma once
+// Steps of RK4 over springs, timed in this process: the columns of a scene, and what they are compared with.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/harness/paired.h"
+
+namespace dartboard {
+
+/// A body, and what one sample of its tasks does.
+struct StepCounts {
+  std::string body;
+  std::size_t tetrahedra = 0, vertices = 0, springs = 0;
+  int steps = 1;              // in a sample
+  bool lanes = false;         // the processor can take four springs at a time
+  unsigned threads = 1;       // that share the forces of the body; 1 where it is too small for several, or there is one
+  bool arrays = false;        // cell arrays are timed
+  double bytes = 0.0;         // read and written in one evaluation, that of the vertices included
+  double copied_bytes = 0.0;  // read and written in a sample of the task "copy"
+  double roots = 0.0;         // springs in a sample of the task "roots"
+  std::size_t differing = 0;  // contenders that end in other bits, or are too far from the graph
+};
+void to_json(nlohmann::json& json, const StepCounts& counts);
+void from_json(const nlohmann::json& json, StepCounts& counts);
+
+/// The ways to step a body; its tasks are named "BODY: graph", "BODY: arrays" ... "BODY: threads".
+namespace step_task {
+inline constexpr const char *graph = ": graph", *arrays = ": arrays", *one = ": one", *lanes = ": lanes",
+                            *threads = ": threads";
+/// The limits: columns as large as those of the body, copied; a square root and a division for each spring.
+inline constexpr const char *copy = ": copy", *roots = ": roots";
+}  // namespace step_task
+
+/// The paper's body with and without damping.
+std::string paper_step_body(bool damped);
+/// The box of about so many tetrahedra, a power of ten from 10^3 to 10^6, its points and cells along the grid or
+/// shuffled.
+std::string step_box(std::size_t tetrahedra, bool shuffled);
+/// Both bodies of the paper, and boxes of up to so many tetrahedra.
+std::vector<std::string> step_bodies(std::size_t largest);
+
+struct StepCostPlan {
+  int process = 0;
+  int rounds = 20;                  // a fifth of them for the largest boxes
+  std::size_t largest = 1'000'000;  // tetrahedra
+  std::uint64_t seed = 1;           // of the order of the tasks, of shuffled meshes and of velocities
+};
+
+/// Compare the ways to step each body: those over columns must end in the same bits, and keep to the rounding bound of
+/// the graph (validation/contenders/motion_agreement.h).
+void compare_steps(const StepCostPlan& plan, const std::function<void(const StepCounts&)>& sink);
+
+/// Take turns in this process, body by body, and report every sample.
+void measure_step_costs(const StepCostPlan& plan, const std::function<void(const Sample&)>& sink);
+
+}  // namespace dartboard
