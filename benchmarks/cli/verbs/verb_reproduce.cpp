@@ -16,9 +16,9 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
       "reproduce",
       "Gate and time the paper's walks on a body of its size and answer its claims; then put all integrators to the "
       "extremes and answer ours.");
-  auto options = study_options<Options>(
-      *verb, {.quick = "fewer processes and rounds, a third of the extremes; a minute instead of three",
-              .seed = "the order in which contenders take turns"});
+  auto options =
+      study_options<Options>(*verb, {.quick = "fewer processes and rounds, a third of the extremes: some minutes less",
+                                     .seed = "the order in which contenders take turns"});
   verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
       ->check(CLI::IsMember({"paper", "extremes"}));
   verb->callback([options, &outcome] {
