@@ -133,7 +133,8 @@ class CandidatePairs {
       sum += square;  // the maximum loses what is not a number
       last_[k] = now;
     }
-    travelled_ += std::isfinite(sum) ? 2.0 * std::sqrt(most) : std::numeric_limits<double>::infinity();
+    travelled_ += 2.0 * std::sqrt(most);
+    if (!std::isfinite(sum)) travelled_ = std::numeric_limits<double>::infinity();
   }
   void watch();
   void make();
