@@ -14,6 +14,7 @@ RUN = "results/2026-11-21-epyc-"
 STEPS = "results/2026-11-26-xeon-paper/samples.jsonl"
 TOPOLOGY = RUN + "topology/samples.jsonl"
 OPERATIONS = RUN + "operations/samples.jsonl"
+STEP = "results/2026-11-27-xeon-step/samples.jsonl"
 ABLATION = RUN + "ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
@@ -63,6 +64,12 @@ def words(number):
 
 
 # ---- what is measured
+
+def step_over_graph(body):
+    """Four springs at a time."""
+    return ratio([r for r in lines(STEP) if r.get("task", "").startswith(body)], body + ": lanes", body + ": graph")
+
+
 
 def ms(task):
     return 1e-6 * time(lines(STEPS), task).median
@@ -286,6 +293,13 @@ FIGURES = [
     (RESULTS, "The incremental arrays take {} [{}, {}] us.", [OPERATIONS],
      lambda: ["%.2f" % x for x in figure(operation("liver564", "remove", [2]))]),
 
+    (RESULTS, "a step takes {} [{}, {}] of the naive graph's on the paper's body with damping", [STEP],
+     lambda: all_of(step_over_graph("liver564, damped")) + judged([step_over_graph("liver564, damped")], 0.58, "falls short")),
+    (RESULTS, "(target 0.58) and {} [{}, {}] without (target 0.50)", [STEP],
+     lambda: all_of(step_over_graph("liver564, undamped")) + judged([step_over_graph("liver564, undamped")], 0.50, "falls short")),
+    (RESULTS, "a million tetrahedra in shuffled order take {} [{}, {}] (target", [STEP],
+     lambda: all_of(step_over_graph("10^6 shuffled")) + judged([step_over_graph("10^6 shuffled")], 0.25, "falls short")),
+
     (RESULTS, "the vertex orbit falls short: it is {} [{}, {}] times as fast as CGAL's (target 20)", [TOPOLOGY],
      lambda: all_of(faster_than("CGAL", "liver564", "vertex-orbit"))
      + judged([faster_than("CGAL", "liver564", "vertex-orbit")], 20, "falls short", at_least=True)),
@@ -445,6 +459,9 @@ NO_MEASUREMENT = [
 
     (RESULTS, "answers all 35.", ("benchmarks/paper/paper_claims.h", "std::array<PaperClaim, 35>")),
     (RESULTS, "from 2,000 to 1,000,000 tetrahedra", NAME),
+    (RESULTS, "(target 0.58) and", ("benchmarks/studies/step/bench_step_report.cpp", "most_damped = 0.58")),
+    (RESULTS, "without (target 0.50)", ("benchmarks/studies/step/bench_step_report.cpp", "most_undamped = 0.50")),
+    (RESULTS, "(target 0.25): more is to be had", ("benchmarks/studies/step/bench_step_report.cpp", "most_shuffled = 0.25")),
     (RESULTS, "times as fast as CGAL's (target 20)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
     (RESULTS, "ns a dart (target 3: cannot tell)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
     (RESULTS, "on 48,000 tetrahedra", NAME),
