@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <tuple>
 
 #include "core/base/bytes.h"
@@ -61,8 +62,10 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWa
     touch.tetrahedron = t;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
-    if (!known.is_certain(t, candidates_.travelled())) ++ways_searched_;
-    if (find_way_out(solids_, sample, y, place, candidates_.travelled(), known, touch)) found(touch);
+    // where the places were not followed, nothing that is known is certain
+    const double travelled = follows_ ? candidates_.travelled() : std::numeric_limits<double>::infinity();
+    if (!known.is_certain(t, travelled)) ++ways_searched_;
+    if (find_way_out(solids_, sample, y, place, travelled, known, touch)) found(touch);
     return;
   }
 }

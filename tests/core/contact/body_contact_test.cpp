@@ -264,6 +264,31 @@ TEST(BodyContact, KnowsTheWaysOutOfPlacesThatHaveMovedALittle) {
   }
 }
 
+// A box that touches another, hops, and sinks far into it: what was the nearest side before the hop is so no more.
+TEST(BodyContact, KnowsNoWayOutOfBodiesThatWereApart) {
+  const TwoBodies boxes = stacked(2, 0.001, law_between(3, 1000.0, 0.1));
+  const std::size_t upper = kuhn_box(2, 2, 2, 0.5).points.size();
+  const auto lifted = [&](const Vector3d& by) {
+    std::vector<Vector3d> x = boxes.x;
+    for (std::size_t i = upper; i < x.size(); ++i) x[i] += by;
+    return x;
+  };
+  SplitMix64 random(7);
+  std::size_t contacts = 0;
+  for (int hop = 0; hop < 40; ++hop) {
+    const double x = 0.4 * random.next_signed(), y = 0.4 * random.next_signed();
+    EXPECT_FALSE(boxes.contact->touching({lifted({x, y, 0})}).empty());
+    EXPECT_FALSE(boxes.contact->touching({lifted({x, y, 0.0001})}).empty());
+    EXPECT_TRUE(boxes.contact->touching({lifted({x, y, 0.002})}).empty());
+    const std::vector<Vector3d> sunk = lifted({x, y, -0.2 + 0.15 * random.next_signed()});
+    const auto found = boxes.contact->touching({sunk});
+    contacts += found.size();
+    const std::vector<BodyTouch> kept(found.begin(), found.end());
+    expect_same(kept, boxes.contact->touching_by_brute_force({sunk}, nullptr));
+  }
+  EXPECT_GT(contacts, 100u);
+}
+
 // Vertices that are NaN, or far from everything, are nowhere inside, and their lists hold nothing.
 TEST(BodyContact, LooksAtNothingThatIsNoNumber) {
   TwoBodies balls = overlapping_balls(3, 6);
