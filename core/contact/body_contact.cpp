@@ -47,6 +47,17 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
   }
 }
 
+BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const BodyContact& other)
+    : samples_(samples),
+      solids_(solids),
+      laws_(other.laws_),
+      groups_(other.groups_),
+      friction_(other.friction_),
+      damping_(other.damping_),
+      candidates_(samples, solids, groups_) {
+  set_margin(other.candidates_.margin_share());
+}
+
 /// Tests one sample with some tetrahedra, in the order of their cells and parts.
 template <class Place, class Tetrahedra, class F>
 void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWay& known, const Place& place,

@@ -108,12 +108,17 @@ class BodyContact final : public ForceTerm {
  public:
   /// throws  InputError where a law is not valid, or a pair is named twice
   BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const std::vector<ContactPair>& pairs);
+  /// The laws and the margin of another, between other samples and solids.
+  BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const BodyContact& other);
   BodyContact(const BodyContact&) = delete;  // lists refer to the groups in place
   BodyContact& operator=(const BodyContact&) = delete;
 
   const std::vector<SkinSample>& samples() const { return samples_; }
   const SkinSolids& solids() const { return solids_; }
   std::span<const ContactLaw> laws() const { return laws_; }
+  bool may_touch(std::uint32_t group, std::uint32_t other) const {
+    return groups_.law(group, other) != ContactGroups::none;
+  }
   bool has_friction() const { return friction_; }
   bool has_damping() const { return damping_; }
 

@@ -152,6 +152,21 @@ void ContactImpulses::take_back() {
   std::swap(bodies_before_, bodies_now_);
 }
 
+void ContactImpulses::change_part(ObstacleContact* obstacles, BodyContact* bodies,
+                                  std::span<const std::uint32_t> moved_to,
+                                  std::span<const std::uint32_t> moved_to_of_bodies) {
+  obstacles_ = obstacles;
+  bodies_ = bodies;
+  const auto renumber = [](auto& rows, std::span<const std::uint32_t> to) {
+    std::erase_if(rows, [to](auto& row) {
+      row.sample = row.sample < to.size() ? to[row.sample] : VertexSubset::none;
+      return row.sample == VertexSubset::none;
+    });
+  };
+  renumber(before_, moved_to);
+  renumber(bodies_before_, moved_to_of_bodies);
+}
+
 bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   if (obstacles_ == nullptr) return false;
   const EnergyChange work = obstacles_->work_of_placing(time, x);

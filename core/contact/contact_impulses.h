@@ -99,6 +99,12 @@ class ContactImpulses {
   /// before `begin`. The caller restores the velocities; obstacles are not moved.
   void take_back();
 
+  /// Continue with the contact of another part of the body, or of the whole; `moved_to` has the number there of each
+  /// sample here, VertexSubset::none of those left out. The starts of friction are kept.
+  /// pre  between steps; the laws are the same
+  void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
+                   std::span<const std::uint32_t> moved_to_of_bodies);
+
   const ContactLosses& losses() const { return losses_; }
   /// pre  between steps
   template <class Archive>

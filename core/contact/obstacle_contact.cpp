@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/box_around.h"
 #include "core/contact/way_inside.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
@@ -85,6 +84,10 @@ bool ObstacleContact::place_at(double time) {
     moved_[o] = there;
   }
   return any;
+}
+
+bool ObstacleContact::is_away(std::uint32_t o, const BoxAround& box, double by) const {
+  return is_outside(obstacles_[o].shape, {box.low - moved_[o], box.high - moved_[o]}, by);
 }
 
 EnergyChange ObstacleContact::work_of_placing(double time, std::span<const Vector3d> x) const {

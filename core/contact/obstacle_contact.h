@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/contact/box_around.h"
 #include "core/contact/contact_law.h"
 #include "core/contact/obstacle.h"
 #include "core/contact/skin_samples.h"
@@ -70,6 +71,13 @@ class ObstacleContact final : public ForceTerm {
 
   /// Put the obstacles at their places at this time [s]; true if that moved any.
   bool place_at(double time);
+  /// Put the obstacles where those of another are.
+  /// pre  they are the same obstacles
+  void place_as(const ObstacleContact& other) { moved_ = other.moved_; }
+  /// [m] The way of each from its place at the start.
+  std::span<const Eigen::Vector3d> moved() const { return moved_; }
+  /// Is all of the box farther than `by` [m] from an obstacle at its present place?
+  bool is_away(std::uint32_t obstacle, const BoxAround& box, double by) const;
   /// The change of energy if they are put there, which is the work of moving them, from differences that do not cancel.
   /// Its sizes are 0 if they pass no sample on the way.
   EnergyChange work_of_placing(double time, std::span<const Eigen::Vector3d> x) const;

@@ -4,6 +4,7 @@
 
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -96,6 +97,19 @@ class AttachmentTerm final : public ForceTerm {
   }
 
   Virial virial(std::span<const Vector3d>, std::size_t) const override { return {}; }
+  TermOfPart of_part(const VertexSubset& part) const override {
+    struct Columns {
+      std::vector<AttachedVertex> rows;
+      std::vector<double> mass;
+    };
+    const auto own = std::make_shared<Columns>();
+    own->rows = rows_of_part(rows_, pieces_of_part(*this, part), part,
+                             [](AttachedVertex& row) { return std::span(row.nodes).first(row.count); });
+    own->mass.resize(mass_.size());
+    for (std::size_t i = 0; i < part.number.size(); ++i)
+      if (part.number[i] != VertexSubset::none) own->mass[part.number[i]] = mass_[i];
+    return {own, make_attachments(own->rows, own->mass)};
+  }
 
  private:
   double stiffness(const AttachedVertex& row) const { return row.per_mass * mass_[row.nodes[0]]; }

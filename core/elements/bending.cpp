@@ -5,6 +5,7 @@
 #include "core/elements/spring_pieces.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -75,6 +76,11 @@ class BendingTerm final : public ForceTerm {
   }
 
   Virial virial(std::span<const Vector3d>, std::size_t) const override { return {}; }
+  TermOfPart of_part(const VertexSubset& part) const override {
+    const auto own = std::make_shared<std::vector<BendingEdge>>(rows_of_part(
+        edges_, pieces_of_part(*this, part), part, [](BendingEdge & edge) -> auto& { return edge.nodes; }));
+    return {own, make_bending(*own)};
+  }
 
  private:
   static Vector3d bend(const StagePlaces& at, const BendingEdge& e) {
@@ -106,6 +112,11 @@ class NeighbourPieces {
     if (e.count != 4) return;
     f(PieceSpring{0, 1, e.rest_length[0], 0.5 * stiffness_});
     f(PieceSpring{2, 3, e.rest_length[1], 0.5 * stiffness_});
+  }
+  TermOfPart of_part(const std::vector<std::uint32_t>& pieces, const VertexSubset& part) const {
+    const auto own = std::make_shared<std::vector<SecondNeighbours>>(rows_of_part(
+        edges_, pieces, part, [](SecondNeighbours& edge) { return std::span(edge.nodes).first(edge.count); }));
+    return {own, make_second_neighbours(*own, stiffness_)};
   }
 
  private:

@@ -1,6 +1,7 @@
 #include "core/elements/cell_springs.h"
 
 #include "core/elements/spring_pieces.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -28,6 +29,16 @@ class CellPieces {
   template <class F>
   void for_each(std::size_t c, const F& f) const {
     for_each_diagonal(columns_.springs[c], f);
+  }
+  TermOfPart of_part(const std::vector<std::uint32_t>& pieces, const VertexSubset& part) const {
+    struct Columns {
+      std::vector<SolidNodes> nodes;
+      std::vector<CellSprings> springs;
+    };
+    const auto own = std::make_shared<Columns>(
+        Columns{rows_of_part(columns_.nodes, pieces, part, [](SolidNodes& nodes) { return nodes.corners(); }),
+                rows_of_part(columns_.springs, pieces)});
+    return {own, make_cell_springs({own->nodes, own->springs})};
   }
 
  private:

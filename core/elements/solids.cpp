@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/elements/element_term.h"
+#include "core/elements/materials_of_part.h"
 #include "core/elements/strain_damping.h"
 #include "core/elements/with_law.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -142,16 +144,33 @@ template <class Laws>
 class Solids final : public ElementTerm<SolidCells, Laws> {
  public:
   Solids(const Laws& laws, const CellMaterials& materials, const SolidColumns& columns)
-      : ElementTerm<SolidCells, Laws>(laws, SolidCells(columns)), damping_(materials, SolidCells(columns)) {}
+      : ElementTerm<SolidCells, Laws>(laws, SolidCells(columns)),
+        materials_(materials),
+        columns_(columns),
+        damping_(materials, SolidCells(columns)) {}
 
   Virial virial(std::span<const Vector3d> x, std::size_t c) const override {
     const auto n = cells_.nodes(c);
     return share_of(laws_[c], cells_.shape(c), n.size(), CornerLines<8>({x}, n));
   }
   const TermDamping* damping() const override { return damping_.any() ? &damping_ : nullptr; }
+  TermOfPart of_part(const VertexSubset& part) const override {
+    struct Columns {
+      std::vector<SolidNodes> nodes;
+      std::vector<SolidShape> shape;
+      std::vector<MaterialNumber> material;
+    };
+    const auto pieces = pieces_of_part(*this, part);
+    const auto own = std::make_shared<Columns>(
+        Columns{rows_of_part(columns_.nodes, pieces, part, [](SolidNodes& nodes) { return nodes.corners(); }),
+                rows_of_part(columns_.shape, pieces), materials_of_part(materials_, pieces)});
+    return {own, make_solids(materials_.of_cells(own->material), {own->nodes, own->shape})};
+  }
 
  private:
   using ElementTerm<SolidCells, Laws>::cells_, ElementTerm<SolidCells, Laws>::laws_;
+  CellMaterials materials_;
+  SolidColumns columns_;
   StrainDamping<SolidCells> damping_;
 };
 

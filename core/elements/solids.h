@@ -19,6 +19,7 @@ namespace dartboard {
 struct SolidNodes {
   std::uint32_t count = 0;
   std::array<std::uint32_t, 8> at{};
+  std::span<std::uint32_t> corners() { return {at.data(), count}; }
   friend bool operator==(const SolidNodes&, const SolidNodes&) = default;
   template <class Archive>
   void state(Archive& archive) {

@@ -11,6 +11,7 @@
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
 #include "core/forces/force_term.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 
@@ -58,7 +59,8 @@ struct SpringLine {
   }
 };
 
-/// The force term of `Pieces`, which has name(), size(), nodes(piece) and for_each(piece, f(PieceSpring)).
+/// The force term of `Pieces`, which has name(), size(), nodes(piece) and for_each(piece, f(PieceSpring)); and, to be
+/// taken in parts, of_part(pieces, part).
 template <class Pieces>
 class SpringPieces final : public ForceTerm {
  public:
@@ -141,6 +143,11 @@ class SpringPieces final : public ForceTerm {
       sum += f * line.transpose();
     });
     return {(0.5 / static_cast<double>(std::max<std::size_t>(1, n.size()))) * (sum + sum.transpose())};
+  }
+  TermOfPart of_part(const VertexSubset& part) const override {
+    if constexpr (requires { pieces_.of_part(std::vector<std::uint32_t>(), part); })
+      return pieces_.of_part(pieces_of_part(*this, part), part);
+    return {};
   }
 
  private:

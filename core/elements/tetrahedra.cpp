@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 
+#include "core/elements/materials_of_part.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
+#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -24,7 +26,7 @@ template <class Laws>
 class Tetrahedra final : public ForceTerm {
  public:
   Tetrahedra(const Laws& laws, const CellMaterials& materials, const TetrahedronColumns& columns)
-      : laws_(laws), columns_(columns), damping_(make_tetrahedra_damping(materials, columns)) {}
+      : laws_(laws), materials_(materials), columns_(columns), damping_(make_tetrahedra_damping(materials, columns)) {}
 
   std::string_view pieces_name() const override { return "tetrahedra"; }
   std::size_t size() const override { return columns_.nodes.size(); }
@@ -130,6 +132,22 @@ class Tetrahedra final : public ForceTerm {
 
   const TermDamping* damping() const override { return damping_.get(); }
 
+  TermOfPart of_part(const VertexSubset& part) const override {
+    struct Columns {
+      std::vector<TetrahedronNodes> nodes;
+      std::vector<RestShape> shape;
+      std::vector<double> mass;
+      std::vector<MaterialNumber> material;
+    };
+    const auto pieces = pieces_of_part(*this, part);
+    const auto own =
+        std::make_shared<Columns>(Columns{rows_of_part(
+                                              columns_.nodes, pieces, part, [](auto& nodes) -> auto& { return nodes; }),
+                                          rows_of_part(columns_.shape, pieces), rows_of_part(columns_.mass, pieces),
+                                          materials_of_part(materials_, pieces)});
+    return {own, make_tetrahedra(materials_.of_cells(own->material), {own->nodes, own->shape, own->mass})};
+  }
+
  private:
   double volume(std::size_t c) const { return laws_.per_mass(c) * columns_.mass[c]; }
 
@@ -184,6 +202,7 @@ class Tetrahedra final : public ForceTerm {
   }
 
   Laws laws_;
+  CellMaterials materials_;
   TetrahedronColumns columns_;
   std::unique_ptr<TermDamping> damping_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/forces/force_size.h"
+#include "core/forces/rows_of_part.h"
 #include "core/forces/semidefinite.h"
 
 namespace dartboard {
@@ -156,6 +157,13 @@ void FacePressureTerm::for_each_constant_tangent(const VisitTangent& visit) cons
     for (std::size_t a = 0; a < face.count; ++a) blocks[a * (a + 3) / 2] = face.stiffness * Matrix3d::Identity();
     visit(face.corners(), std::span(blocks).first(face.count * (face.count + 1) / 2));
   }
+}
+
+TermOfPart FacePressureTerm::of_part(const VertexSubset& part) const {
+  const auto own = std::make_shared<std::vector<PressedFace>>(
+      rows_of_part(rows_, pieces_of_part(*this, part), part,
+                   [](PressedFace& face) { return std::span(face.corner).first(face.count); }));
+  return {own, std::make_unique<FacePressureTerm>(*own, pressure_)};
 }
 
 void FacePressureTerm::begin_step(std::span<const Vector3d> x) {

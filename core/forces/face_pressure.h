@@ -69,6 +69,7 @@ class FacePressureTerm final : public ForceTerm {
   void for_each_constant_tangent(const VisitTangent& visit) const override;
 
   Virial virial(std::span<const Eigen::Vector3d>, std::size_t) const override { return {}; }
+  TermOfPart of_part(const VertexSubset& part) const override;
 
   /// Remember the places of the corners now.
   void begin_step(std::span<const Eigen::Vector3d> x);

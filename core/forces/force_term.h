@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -49,7 +51,23 @@ struct VertexRange {
   bool contains(std::uint32_t vertex) const { return vertex >= first && vertex < last; }
 };
 
+/// Some of the vertices of a system, with numbers of their own.
+struct VertexSubset {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+  std::span<const std::uint32_t> number;  // of each vertex of the system in the part; `none` of those outside of it
+
+  bool has(std::uint32_t vertex) const { return number[vertex] != none; }
+};
+
+class ForceTerm;
 class TermDamping;
+
+/// A term, and the columns that it reads.
+struct TermOfPart {
+  std::shared_ptr<const void> columns;
+  std::unique_ptr<ForceTerm> term;
+};
 
 /// Forces that derive from an energy: a sum over pieces of a few vertices each.
 ///
@@ -108,6 +126,12 @@ class ForceTerm {
 
   /// The damping of its pieces (term_damping.h), which the forces above do not contain; null without damping.
   virtual const TermDamping* damping() const { return nullptr; }
+
+  /// A term of the pieces at the vertices of a part, by their numbers there, in the same order. It reads copies of this
+  /// term's columns; materials and pressures, which belong to the whole body, have to outlive it. Null of a term that
+  /// cannot be taken in parts.
+  /// pre  each piece has all of its vertices in the part, or none
+  virtual TermOfPart of_part(const VertexSubset&) const { return {}; }
 };
 
 /// The force terms of a system in addition to its springs; in most systems this is empty.

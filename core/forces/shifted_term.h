@@ -40,6 +40,7 @@ class ShiftedTerm final : public ForceTerm {
   void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override;
   void for_each_constant_tangent(const VisitTangent& visit) const override;
   Virial virial(std::span<const Eigen::Vector3d> x, std::size_t piece) const override;
+  TermOfPart of_part(const VertexSubset& part) const override { return term_.of_part({part.number.subspan(first_)}); }
 
  private:
   const ForceTerm& term_;

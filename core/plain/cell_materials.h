@@ -24,6 +24,15 @@ class CellMaterials {
   CellMaterials(const Material& one, const std::vector<Material>& several, const std::vector<MaterialNumber>& of_cell)
       : one_(&one), several_(several.empty() ? nullptr : &several), of_cell_(&of_cell) {}
 
+  /// The same materials for other cells.
+  CellMaterials of_cells(const std::vector<MaterialNumber>& of_cell) const {
+    CellMaterials other = *this;
+    other.of_cell_ = &of_cell;
+    return other;
+  }
+  /// The column of their numbers; null where there is one material for all.
+  const std::vector<MaterialNumber>* numbers() const { return is_one() ? nullptr : of_cell_; }
+
   bool is_one() const { return several_ == nullptr; }
   const Material& operator[](std::size_t cell) const { return is_one() ? *one_ : (*several_)[(*of_cell_)[cell]]; }
   std::span<const Material> all() const { return is_one() ? std::span(one_, 1) : std::span<const Material>(*several_); }

@@ -89,7 +89,7 @@ void RecordedRun::open() {
     continues_after_ = checkpoint_->steps_done();
   } else if (!plan_.folder.empty()) {
     output_.emplace(plan_.folder, scene_->probes, simulation_->dimension(), !scene_->forces.empty(),
-                    scene_->has_contact());
+                    scene_->has_contact(), scene_->sleep.has_value());
   }
 }
 

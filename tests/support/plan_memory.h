@@ -131,6 +131,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       return n.cells * (sizeof(CellKind) + number + real + number) + number + problem.mesh.nodes.size() * number +
              (n.boundary_facets + 1 + n.boundary_corners) * number;
     case Part::probes: return scene.probes.size() * number;
+    case Part::sleeping: return n.vertices * (2 * number + (scene.forces.empty() ? 0 : vector));
     case Part::gravity:
     case Part::cell_damping:
     case Part::speed_check:

@@ -79,6 +79,7 @@ BarOfScene bar_of_scene(const SceneFile& scene) {
   omit(!scene.gravity.isZero(), "Gravity is");
   omit(scene.material.damping > 0.0 || scene.material.viscosity > 0.0, "Damping and viscosity are");
   omit(!scene.events.empty(), "Events are");
+  omit(scene.sleep.has_value(), "Sleep is");
   if (box->kind == "tetrahedra" && box->pattern == "mirrored")
     made.omissions.emplace_back(
         "Cubes are cut into tetrahedra alike, \"pattern\": \"kuhn\": mirror images are not among the models.");

@@ -284,7 +284,7 @@ StableStep FrozenBody::limits() const {
   const SpringSystem system = body_->system();
   const StableStep limits = StableStepEstimate().refresh(system, body_->vertices().position);
   if (!contact_) return limits;
-  return with_contact(limits, contact_rate(system, contact_->obstacles(), contact_->bodies(), scene_.contact_share));
+  return with_contact(limits, contact_rate(system, body_->contact(), body_->body_contact(), scene_.contact_share));
 }
 
 double FrozenBody::fastest_rate() const {

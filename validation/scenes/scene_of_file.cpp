@@ -17,6 +17,8 @@ TradeoffScene scene_of_file(const SceneFile& file) {
     throw InputError(fmt::format("{}: {}: {}; expected {}", file.file, path, found, expected));
   };
   if (!(file.duration > 0.0)) fail("/duration", "is 0 s", "a motion to study");
+  if (file.sleep)
+    fail("/sleep", "changes the motion on purpose, which is no error of an integrator", "a scene without it");
   if (file.material.stiffness == 0.0 && file.material.damping > 0.0)
     fail("/material/stiffness", "is 0 N/m together with a damping", "springs, or nothing between the vertices");
   const Problem problem = make_problem(file);

@@ -14,7 +14,7 @@ namespace dartboard {
 /// chosen.
 ///
 /// With the step and integrator of the file, and events at step boundaries, the motion has the bits of a Simulation.
-/// throws  InputError for a duration of zero, for damping without stiffness, and as make_problem and
+/// throws  InputError for a duration of zero, for `sleep`, for damping without stiffness, and as make_problem and
 ///         freeze; SolverError if the motion up to an event cannot be found
 TradeoffScene scene_of_file(const SceneFile& file);
 

@@ -31,6 +31,7 @@ std::vector<Claim> claims_of(const ContactCosts& costs);
 
 Table contact_steps_table(const ContactCosts& costs);
 Table contact_forces_table(const ContactCosts& costs);
+Table sleep_table(const ContactCosts& costs);
 /// The basis of the figures.
 std::string contact_costs_note();
 

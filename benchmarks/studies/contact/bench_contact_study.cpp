@@ -30,6 +30,7 @@ Report contact_bench(const ContactBenchPlan& plan, StudyLog& log) {
   }
   check_repeats(costs.samples);
   return {.tables = {{"steps", "A step with contact, and without", contact_steps_table(costs), contact_costs_note()},
+                     {"sleep", "A step beside bodies asleep, and of the awake one alone", sleep_table(costs)},
                      {"forces", "Forces of contact, and of elements", contact_forces_table(costs)}},
           .claims = claims_of(costs)};
 }

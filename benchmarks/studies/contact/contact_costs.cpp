@@ -123,6 +123,36 @@ Situation liver_cut() {
   return {"the liver, cut through", scene, 200};
 }
 
+/// Cubes on a plane apart from each other; the first moves along it, and vibrates.
+Json cubes_on_a_plane(int count, const char* material, bool touching) {
+  Json scene = scene_of("asleep", material);
+  for (int k = 0; k < count; ++k) {
+    Json body = box(6, 6, 6);
+    const double x = 12 * spacing * (k % 10), y = 12 * spacing * (k / 10);
+    body["translate"] = {x, y, 0};
+    if (k == 0)
+      body["initial_velocity"] =
+          Json::parse(R"({"constant": [0, 0.3, 0.1], "linear": [[1, 0, 0], [0, -1, 0], [0, 0, 0.5]]})");
+    scene["bodies"].push_back(body);
+  }
+  scene["sleep"] = Json::parse(R"({"speed": 1e-3, "time": 1e-3})");
+  if (!touching) return scene;
+  scene["contact"] = contact();
+  scene["contact"]["bodies"] = "others";
+  scene["contact"]["obstacles"] = plane_at(0);
+  return scene;
+}
+constexpr int cubes = 100;
+struct Asleep {
+  const char* name;
+  const char* material;
+  bool touching;
+};
+constexpr Asleep all_asleep[] = {{"cubes of elements", elastic, false},
+                                 {"cubes of elements, with contact", elastic, true},
+                                 {"cubes of springs", springs, false},
+                                 {"cubes of springs, with contact", springs, true}};
+
 SceneFile parsed(const Json& scene) {
   return parse_scene(scene.dump(), "scene of contact", source_folder() / "benchmarks" / "meshes");
 }
@@ -190,13 +220,13 @@ ContactCounts count(const std::string& situation, const Simulation& simulation, 
 
 // ---- tasks
 
-TimedTask step_task(const std::string& name, SceneFile scene, int steps) {
+TimedTask step_task(const std::string& name, SceneFile scene, int steps, int before = 5) {
   auto simulation = std::make_shared<std::unique_ptr<Simulation>>();
   return {.name = name,
           .restore =
-              [simulation, scene = std::move(scene)] {
+              [simulation, before, scene = std::move(scene)] {
                 *simulation = std::make_unique<Simulation>(scene);
-                advance(**simulation, 5);
+                advance(**simulation, before);
               },
           .run = [simulation, steps] { advance(**simulation, steps); },
           .hash = [simulation] { return (*simulation)->body().state_hash(); }};
@@ -215,6 +245,25 @@ std::pair<std::uint64_t, std::uint64_t> add_step_tasks(const Situation& situatio
     tasks[k].run();
   }
   return {tasks[tasks.size() - 2].hash(), tasks.back().hash()};
+}
+
+/// All cubes but one asleep, and that one alone. The counts have the vertices asleep as samples.
+void add_sleep_tasks(const Asleep& asleep, int steps, std::vector<TimedTask>& tasks,
+                     const std::function<void(const ContactCounts&)>& counts_sink) {
+  constexpr int until_asleep = 15;
+  const std::string name = asleep.name;
+  const SceneFile many = parsed(cubes_on_a_plane(cubes, asleep.material, asleep.touching)),
+                  one = parsed(cubes_on_a_plane(1, asleep.material, asleep.touching));
+  Simulation simulation(many), alone(one);
+  advance(simulation, until_asleep + steps);
+  advance(alone, until_asleep + steps);
+  ContactCounts counts{.situation = name, .tetrahedra = alone.body().counts().cells};
+  counts.samples = simulation.diagnostics().sleep->asleep;
+  const auto &x = simulation.body().vertices().position, &own = alone.body().vertices().position;
+  if (counts.samples + 1 != cubes || !std::equal(own.begin(), own.end(), x.begin())) ++counts.differing;
+  counts_sink(counts);
+  tasks.push_back(step_task(name + ": step", many, steps, until_asleep));
+  tasks.push_back(step_task(name + ": step alone", one, steps, until_asleep));
 }
 
 /// A body whose forces are taken over and over, an even number of times, at two places in turn: contacts are not
@@ -285,6 +334,12 @@ std::vector<std::string> stepped_situations() {
 
 std::vector<std::string> pressed_situations() { return names_of({on_a_plane(), liver_cut(), pile(1)}); }
 
+std::vector<std::string> asleep_situations() {
+  std::vector<std::string> names;
+  for (const Asleep& one : all_asleep) names.emplace_back(one.name);
+  return names;
+}
+
 std::string cut_situation() { return liver_cut().name; }
 
 std::vector<std::string> plate_situations(std::size_t largest) {
@@ -306,6 +361,7 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
     counts_sink(counts);
   }
   add_step_tasks(pile(plan.seed), plan.steps, tasks);
+  for (const Asleep& one : all_asleep) add_sleep_tasks(one, plan.steps, tasks, counts_sink);
   run_rounds(tasks, paired, sink);
 
   tasks.clear();

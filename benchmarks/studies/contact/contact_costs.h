@@ -20,7 +20,7 @@ struct ContactCounts {
   std::size_t contacts = 0;
   int evaluations = 1;  // in each sample of forces and lists
   // Contacts that differ from those of a list with another margin, and from those of brute force where that is
-  // affordable; 1 if idle contact has changed a bit of the motion.
+  // affordable; 1 if idle contact, or the sleep of others, has changed a bit of the motion.
   std::size_t differing = 0;
   double unbalanced = 0.0;  // the sum of the forces between bodies, over the sum of their sizes
 };
@@ -35,6 +35,9 @@ std::vector<std::string> idle_situations();
 /// of up to so many tetrahedra, also have a task "SITUATION: list".
 std::vector<std::string> pressed_situations();
 std::vector<std::string> plate_situations(std::size_t largest);
+/// The situations in which all bodies but one are asleep: tasks "SITUATION: step" and, of that one by itself,
+/// "SITUATION: step alone". The samples counted are the bodies asleep, and tetrahedra those of one.
+std::vector<std::string> asleep_situations();
 /// The one that is cut through.
 std::string cut_situation();
 

@@ -58,6 +58,16 @@ std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
          "Depths are those of a column as high as the body: an edge or a corner that comes first comes deeper.\n\n";
 }
 
+/// [J/kg] The largest kinetic energy that is removed when a component is put to sleep: all of it moves at the speed.
+double removed_at_most(const SceneSleep& sleep) { return 0.5 * sleep.speed * sleep.speed; }
+
+std::string sleep_text(const SceneSleep& sleep) {
+  return fmt::format(
+      "A component is put to sleep when none of its vertices has been faster than {:.6g} m/s for {:.6g} s; at most "
+      "{:.4g} J of kinetic energy per kg are removed each time.\n\n",
+      sleep.speed, sleep.time, removed_at_most(sleep));
+}
+
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<double>& measured_ns) {
@@ -77,6 +87,7 @@ std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::op
   for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
   text += to_text(table) + "\n" + to_text(without) + "\n";
   if (plan.contact) text += contact_text(scene, *plan.contact);
+  if (scene.sleep) text += sleep_text(*scene.sleep);
   text +=
       "Bytes are those of the elements of all containers that live as long as the run, asked of the body as it was "
       "built; of a factor, its numbers.\nTimes are estimates from unit costs measured just now on arrays of this size, averaged over the run, "
@@ -139,6 +150,10 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                                    {"allowed_depth", touch.law.depth}});
     json["contact"] = std::move(contact);
   }
+  if (scene.sleep)
+    json["sleep"] = {{"speed", scene.sleep->speed},
+                     {"time", scene.sleep->time},
+                     {"removed_per_kg_at_most", removed_at_most(*scene.sleep)}};
   for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
   for (const MemoryItem& item : plan.unplanned)
     json["unplanned"].push_back({{"part", name(item.part)}, {"bytes", item.bytes}});

@@ -61,6 +61,12 @@ Table summary_of(const SimulationReport& r) {
     counts("contacts", first.contact->contacts, last.contact->contacts);
     row("deepest contact [m]", first.contact->deepest, last.contact->deepest);
   }
+  if (first.sleep && last.sleep) {
+    counts("components asleep", first.sleep->asleep, last.sleep->asleep);
+    counts("fallen asleep", first.sleep->slept, last.sleep->slept);
+    counts("woken", first.sleep->woken, last.sleep->woken);
+    row("kinetic energy removed by sleep [J]", first.sleep->removed, last.sleep->removed);
+  }
   const int dimension = r.simulation.dimension();
   row(fmt::format("boundary [{}]", boundary_unit(dimension)), first.boundary, last.boundary);
   row(fmt::format("{} [{}]", stress_name(dimension), stress_unit(dimension)), first.largest_stress,

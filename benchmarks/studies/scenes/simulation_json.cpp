@@ -32,6 +32,12 @@ nlohmann::ordered_json to_json(const Diagnostics& d, int dimension) {
     json["contacts"] = d.contact->contacts;
     json["deepest_contact"] = number(d.contact->deepest);
   }
+  if (d.sleep) {
+    json["components_asleep"] = d.sleep->asleep;
+    json["fallen_asleep"] = d.sleep->slept;
+    json["woken"] = d.sleep->woken;
+    json["removed_by_sleep"] = number(d.sleep->removed);
+  }
   return json;
 }
 

@@ -12,16 +12,17 @@ std::string_view stress_unit(int dimension) { return dimension == 3 ? "Pa" : dim
 
 std::string_view stress_name(int dimension) { return dimension > 0 ? "largest principal stress" : "largest tension"; }
 
-std::string diagnostics_header(int dimension, bool with_applied, bool with_contact) {
+std::string diagnostics_header(int dimension, bool with_applied, bool with_contact, bool with_sleep) {
   return fmt::format(
       "time [s],kinetic [J],elastic [J],gravitational [J],momentum x [kg m/s],momentum y [kg m/s],momentum z [kg m/s],"
       "angular momentum x [kg m^2/s],angular momentum y [kg m^2/s],angular momentum z [kg m^2/s],mass [kg],"
-      "vertices,edges,faces,cells,components,boundary [{}],{} [{}],operations{}{}\n",
+      "vertices,edges,faces,cells,components,boundary [{}],{} [{}],operations{}{}{}\n",
       boundary_unit(dimension), stress_name(dimension), stress_unit(dimension),
       with_applied ? ",applied forces [J]" : "",
       with_contact ? ",contact [J],lost by restitution [J],lost by friction [J],supplied at contacts [J],contacts,"
                      "deepest contact [m]"
-                   : "");
+                   : "",
+      with_sleep ? ",components asleep,fallen asleep,woken,removed by sleep [J]" : "");
 }
 
 bool is_finite(const Diagnostics& d) {
@@ -54,6 +55,10 @@ std::string diagnostics_row(const Diagnostics& d) {
       add_after(value);
     row += fmt::format(",{}", d.contact->contacts);
     add_after(d.contact->deepest);
+  }
+  if (d.sleep) {
+    row += fmt::format(",{},{},{}", d.sleep->asleep, d.sleep->slept, d.sleep->woken);
+    add_after(d.sleep->removed);
   }
   return row + "\n";
 }

@@ -33,6 +33,17 @@ struct ContactDiagnostics {
   }
 };
 
+/// The part of a row about components that are not stepped.
+struct SleepDiagnostics {
+  std::size_t asleep = 0;            // components
+  std::size_t slept = 0, woken = 0;  // so far, each component as often as it fell asleep or was woken
+  double removed = 0;                // [J] kinetic energy of those that fell asleep, so far
+  template <class Archive>
+  void state(Archive& archive) {
+    archive(asleep, slept, woken, removed);
+  }
+};
+
 struct Diagnostics {
   double time = 0;                                     // [s]
   double kinetic = 0, elastic = 0, gravitational = 0;  // [J]
@@ -47,6 +58,7 @@ struct Diagnostics {
   // less the work of all of them since
   std::optional<double> applied{};
   std::optional<ContactDiagnostics> contact{};  // where a scene has obstacles
+  std::optional<SleepDiagnostics> sleep{};      // where components of a scene fall asleep
 
   double energy() const {
     return kinetic + elastic + gravitational + applied.value_or(0.0) + (contact ? contact->energy : 0.0);
@@ -54,7 +66,7 @@ struct Diagnostics {
   template <class Archive>
   void state(Archive& archive) {
     archive(time, kinetic, elastic, gravitational, momentum, angular_momentum, mass, counts, boundary, largest_stress,
-            operations, applied, contact);
+            operations, applied, contact, sleep);
   }
 };
 
@@ -69,10 +81,11 @@ std::string_view stress_name(int dimension);
 std::string_view boundary_unit(int dimension);
 std::string_view stress_unit(int dimension);
 
-/// The names of the columns, with units, and one row, with forces applied and contact or without; real numbers with 17
-/// digits, so that they can be read back exactly, and an empty field for a number that is not finite. Both end with a
-/// line break.
-std::string diagnostics_header(int dimension = 3, bool with_applied = false, bool with_contact = false);
+/// The names of the columns, with units, and one row, with forces applied, contact and sleep or without; real numbers
+/// with 17 digits, so that they can be read back exactly, and an empty field for a number that is not finite. Both end
+/// with a line break.
+std::string diagnostics_header(int dimension = 3, bool with_applied = false, bool with_contact = false,
+                               bool with_sleep = false);
 std::string diagnostics_row(const Diagnostics& diagnostics);
 
 }  // namespace dartboard

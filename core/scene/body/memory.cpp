@@ -38,6 +38,7 @@ std::string_view name(Part part) {
     case Part::frames: return "frames";
     case Part::probes: return "probes";
     case Part::diagnostics: return "diagnostics";
+    case Part::sleeping: return "sleeping";
   }
   return "?";
 }

@@ -45,6 +45,7 @@ enum class Part {
   frames,        // time only
   probes,        // the vertices followed
   diagnostics,   // time only
+  sleeping,      // the component of each vertex
 };
 std::string_view name(Part part);
 

@@ -58,6 +58,10 @@ InitialVelocity read_velocity(const SceneValue& value) {
   return v;
 }
 
+SceneSleep read_sleep(const SceneValue& value) {
+  return {.speed = value.get<double>("speed"), .time = value.get<double>("time")};
+}
+
 SceneDrive read_drive(const SceneValue& value, const SceneFile& scene) {
   SceneDrive drive{.vertices = read_vertices(value),
                    .velocity = value.has("velocity") ? read_velocity(value.at("velocity")) : InitialVelocity{},

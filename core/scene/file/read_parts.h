@@ -14,6 +14,7 @@ BodySource read_body(const SceneValue& value, const std::filesystem::path& folde
 BodySource read_bodies(const SceneValue& list, const std::filesystem::path& folder);
 Material read_material(const SceneValue& value);
 InitialVelocity read_velocity(const SceneValue& value);
+SceneSleep read_sleep(const SceneValue& value);
 
 // `scene` has what these depend on: its duration, step, accuracy, bodies and materials
 SceneDrive read_drive(const SceneValue& value, const SceneFile& scene);

@@ -67,6 +67,7 @@ void read(const SceneValue& value, SceneFile& scene) {
                         : unstable == "substep" ? UnstableStep::substep
                                                 : UnstableStep::warn;
   scene.exact_events = value.get<std::string>("event_times") == "exact";
+  if (value.has("sleep")) scene.sleep = read_sleep(value.at("sleep"));
   for (const SceneValue& event : value.at("events").entries()) scene.events.push_back(read_event(event, scene));
   require_rules(scene, ReadUpTo::events);
   const SceneValue output = value.at("output"), expectation = value.at("expect");

@@ -173,6 +173,12 @@ struct SceneTouch {
 /// The treatment of a step that is too long to be stable.
 enum class UnstableStep { warn, refuse, substep };
 
+/// When a component that has come to rest is no longer stepped.
+struct SceneSleep {
+  double speed = 0.0;  // [m/s] no vertex is faster than this ...
+  double time = 0.0;   // [s] ... for so long
+};
+
 struct OutputPlan {
   std::optional<std::uint64_t> frame_steps{}, diagnostic_steps{}, probe_steps{};  // steps from one to the next
   std::optional<double> frame_time{}, diagnostic_time{}, probe_time{};  // [s] the same where the scene has no step yet
@@ -237,7 +243,8 @@ struct SceneFile {
   std::string integrator;          // empty until then
   std::string solver;              // of linear systems; empty for the integrator's own
   UnstableStep unstable_step;
-  bool exact_events = false;  // events happen at their times, not at the step boundaries after them
+  bool exact_events = false;        // events happen at their times, not at the step boundaries after them
+  std::optional<SceneSleep> sleep;  // no value: every component is stepped to the end
   std::vector<SceneEvent> events;
   OutputPlan output;
   std::vector<Probe> probes;

@@ -13,15 +13,16 @@
 namespace dartboard {
 namespace {
 
-/// The key that breaks a rule, empty where the rule is kept; and what it breaks it with, where the words name that.
+/// The key that breaks a rule, empty where the rule is kept; what it breaks it with, and the bound that is expected,
+/// where the words name these.
 struct Breach {
-  std::string path, other = {};
+  std::string path, other = {}, bound = {};
 };
 
 struct Rule {
   ReadUpTo part;
   Breach (*breach)(const SceneFile& scene);
-  std::string_view found, expected;  // found: {} stands for `other`
+  std::string_view found, expected;  // {} stands for `other` in the first, and for `bound` in the second
 };
 
 Breach breach_if(bool is_broken, std::string_view path) { return {is_broken ? std::string(path) : ""}; }
@@ -58,6 +59,7 @@ std::string key_that_changes_energy(const SceneFile& scene) {
   if (scene.material.viscosity > 0.0) return "/material/viscosity";
   if (!scene.driven.empty()) return "/driven";
   if (!scene.events.empty()) return "/events";
+  if (scene.sleep) return "/sleep";
   for (const SceneFile::Tissue& tissue : scene.tissues())
     if (tissue.material.damping_time > 0.0) return tissue.path + "/damping";
   for (const SceneObstacle& one : scene.obstacles) {
@@ -71,6 +73,12 @@ std::string key_that_changes_energy(const SceneFile& scene) {
     if (touch.law.restitution < 1.0) return path + "/restitution";
   }
   return "";
+}
+
+/// The breach of a /sleep/time for which a `bound` [s] is expected.
+Breach short_sleep_time(const SceneFile& scene, bool is_broken, double bound) {
+  if (!is_broken) return {};
+  return {"/sleep/time", fmt::format("{}", scene.sleep->time), fmt::format("{:.6g}", bound)};
 }
 
 /// In the order in which they are checked: the first breach is reported.
@@ -141,6 +149,19 @@ std::span<const Rule> rules_between_keys() {
        },
        "cannot be combined with /material/stiffness of 0 and a damping", "'step' in its place"},
 
+      // ---- sleep
+      {events, [](S s) { return breach_if(s.accuracy && s.sleep, "/accuracy"); },
+       "cannot be combined with /sleep, which changes motions on purpose", "'step' in its place"},
+      {events,
+       [](S s) {
+         const double gravity = s.gravity.norm(), top = s.sleep && gravity > 0.0 ? 2.0 * s.sleep->speed / gravity : 0.0;
+         return short_sleep_time(s, s.sleep && s.sleep->time <= top, top);
+       },
+       "is {} s, and a body thrown upwards is slower than /sleep/speed for longer at the top of its flight",
+       "more than 2 speed / gravity, {} s"},
+      {events, [](S s) { return short_sleep_time(s, s.sleep && s.sleep->time < s.step, s.step); }, "is {} s",
+       "at least one step, {} s"},
+
       // ---- events
       {events,
        [](S s) {
@@ -195,7 +216,8 @@ void require_rules(const SceneFile& scene, ReadUpTo part) {
     if (rule.part != part) continue;
     const Breach breach = rule.breach(scene);
     if (!breach.path.empty())
-      scene.fail(breach.path, fmt::format(fmt::runtime(rule.found), breach.other), rule.expected);
+      scene.fail(breach.path, fmt::format(fmt::runtime(rule.found), breach.other),
+                 fmt::format(fmt::runtime(rule.expected), breach.bound));
   }
 }
 

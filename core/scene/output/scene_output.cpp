@@ -97,7 +97,7 @@ const OutputSoFar& SceneOutput::so_far() {
 }
 
 SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> probes, int dimension, bool with_applied,
-                         bool with_contact)
+                         bool with_contact, bool with_sleep)
     : claim_(folder), folder_(std::move(folder)), list_(folder_ / "frames.pvd") {
   const auto begin = [this](std::ofstream& out, const char* name, const std::string& header) {
     errno = 0;
@@ -105,7 +105,7 @@ SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> pr
     out << header << std::flush;
     if (!out) throw_not_written(folder_ / name);
   };
-  begin(diagnostics_, "diagnostics.csv", diagnostics_header(dimension, with_applied, with_contact));
+  begin(diagnostics_, "diagnostics.csv", diagnostics_header(dimension, with_applied, with_contact, with_sleep));
   if (!probes.empty()) begin(probes_, "probes.csv", probes_header(probes));
 }
 

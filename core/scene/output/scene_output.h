@@ -48,7 +48,7 @@ class SceneOutput {
   /// Creates the folder, and those above it, for a body of cells of a dimension.
   /// throws  IoError if it exists and is not an empty folder, is claimed by another run, or cannot be created
   explicit SceneOutput(std::filesystem::path folder, std::span<const Probe> probes = {}, int dimension = 3,
-                       bool with_applied = false, bool with_contact = false);
+                       bool with_applied = false, bool with_contact = false, bool with_sleep = false);
 
   /// Go on in the folder of a run, from one of its checkpoints: rows and frames after that are dropped, since they will
   /// be written again.

@@ -345,6 +345,7 @@ class Planner {
     add(Part::speed_check, "no vertex is faster than light, in every sixteenth step",
         "always: no run goes on without sense");
     add(Part::step_check, "the longest stable step, at the start and after operations", unstable);
+    if (scene_.sleep) add(Part::sleeping, "components at rest, which are not stepped", "/sleep");
   }
 
   void event(std::size_t k) {

@@ -26,10 +26,6 @@ std::string place_in_words(std::span<const std::uint32_t> nodes) {
                      nodes.back());
 }
 
-std::vector<std::uint32_t> nodes_of(const SkinSample& sample) {
-  return {sample.corners().begin(), sample.corners().end()};
-}
-
 HeldVertices held_in(const SpringSystem& system) { return {system.fixed.span(), system.held_axes.span()}; }
 
 }  // namespace
@@ -82,6 +78,12 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
 SceneContact::SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes)
     : obstacles_(obstacles), bodies_(bodies), impulses_(obstacles, bodies), undoes_(undoes) {}
 
+std::vector<std::uint32_t> SceneContact::nodes_of(const SkinSample& sample) const {
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t i : sample.corners()) nodes.push_back(whole(i));
+  return nodes;
+}
+
 bool SceneContact::has_warned(ContactWarning::Kind kind, bool of_bodies) const {
   return std::ranges::any_of(warnings_,
                              [=](const ContactWarning& w) { return w.kind == kind && w.of_bodies == of_bodies; });
@@ -133,6 +135,15 @@ void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const Tou
                          .nodes = nodes_of(bodies_->samples()[found.sample]),
                          .value = found.deepest});
   look_for_lost(0.0, x);
+}
+
+void SceneContact::change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
+                               std::span<const std::uint32_t> moved_to_of_bodies,
+                               std::span<const std::uint32_t> vertices) {
+  obstacles_ = obstacles;
+  bodies_ = bodies;
+  vertices_ = vertices;
+  impulses_.change_part(obstacles, bodies, moved_to, moved_to_of_bodies);
 }
 
 void SceneContact::resume(std::span<const Vector3d> x) {
@@ -210,7 +221,7 @@ void SceneContact::look_for_speed(double time, double h, std::span<const Vector3
     warnings_.push_back({.kind = ContactWarning::Kind::too_fast,
                          .time = time,
                          .obstacle = o,
-                         .nodes = {fastest},
+                         .nodes = {whole(fastest)},
                          .value = std::sqrt(most) * h,
                          .limit = half});
     return;
@@ -268,7 +279,7 @@ void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<con
   warnings_.push_back({.kind = ContactWarning::Kind::too_fast,
                        .of_bodies = true,
                        .time = time,
-                       .nodes = {fastest},
+                       .nodes = {whole(fastest)},
                        .value = way,
                        .limit = 0.5 * least_altitude_});
 }
@@ -279,7 +290,8 @@ double SceneContact::new_work() {
   return work;
 }
 
-ContactDiagnostics SceneContact::diagnostics(std::span<const Vector3d> x) const {
+ContactDiagnostics SceneContact::diagnostics(const SimulatedBody& body) const {
+  const std::span<const Vector3d> x = body.vertices().position;
   const ContactLosses& losses = impulses_.losses();
   ContactDiagnostics d{.damped = losses.damped, .rubbed = losses.rubbed, .supplied = losses.supplied};
   const auto add = [&d](const auto& now) {
@@ -287,8 +299,8 @@ ContactDiagnostics SceneContact::diagnostics(std::span<const Vector3d> x) const 
     d.contacts += now.contacts;
     d.deepest = std::max(d.deepest, now.deepest);
   };
-  if (obstacles_ != nullptr) add(obstacles_->state_at(x));
-  if (bodies_ != nullptr) add(bodies_->state_at(x));
+  if (const ObstacleContact* obstacles = body.contact()) add(obstacles->state_at(x));
+  if (const BodyContact* bodies = body.body_contact()) add(bodies->state_at(x));
   return d;
 }
 

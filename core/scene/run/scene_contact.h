@@ -13,6 +13,7 @@
 #include "core/contact/obstacle_contact.h"
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/diagnostics.h"
+#include "core/scene/body/simulated_body.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/spring_system.h"
 
@@ -62,6 +63,12 @@ class SceneContact {
   /// The system has other parts than before, or other tetrahedra along its boundary at these places.
   void system_changed(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
+  /// Continue with another part of the body, or with the whole, as ContactImpulses::change_part. `vertices` are the
+  /// numbers of its vertices in the whole, by which warnings name them; empty for the whole.
+  /// pre  system_changed follows
+  void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
+                   std::span<const std::uint32_t> moved_to_of_bodies, std::span<const std::uint32_t> vertices);
+
   /// Continue after the state has been read, for a body at these places.
   void resume(std::span<const Eigen::Vector3d> x);
 
@@ -80,11 +87,9 @@ class SceneContact {
   /// Work done on the body since the last call [J].
   double new_work();
 
-  ContactDiagnostics diagnostics(std::span<const Eigen::Vector3d> x) const;
+  /// Of all contacts of a body at these places.
+  ContactDiagnostics diagnostics(const SimulatedBody& body) const;
   const std::vector<ContactWarning>& warnings() const { return warnings_; }
-  /// Null without obstacles.
-  const ObstacleContact* obstacles() const { return obstacles_; }
-  const BodyContact* bodies() const { return bodies_; }
   std::size_t bytes() const;
 
   template <class Archive>
@@ -94,6 +99,8 @@ class SceneContact {
 
  private:
   bool has_warned(ContactWarning::Kind kind, bool of_bodies = false) const;
+  std::vector<std::uint32_t> nodes_of(const SkinSample& sample) const;
+  std::uint32_t whole(std::uint32_t vertex) const { return vertices_.empty() ? vertex : vertices_[vertex]; }
   void look_for_depth(double time, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
   void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);
@@ -104,6 +111,7 @@ class SceneContact {
 
   ObstacleContact* obstacles_;
   BodyContact* bodies_;
+  std::span<const std::uint32_t> vertices_;  // of the part, in the whole; empty: all
   ContactImpulses impulses_;
   Terms terms_;
   bool undoes_;

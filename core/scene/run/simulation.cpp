@@ -16,6 +16,7 @@
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/run/body_in_words.h"
+#include "core/scene/run/sleeping.h"
 #include "core/scene/survey/cut_counts.h"
 #include "core/time/integrators.h"
 #include "core/time/solve/stop_request.h"
@@ -128,6 +129,7 @@ Simulation::Simulation(const SceneFile& scene)
   watch_.start(body_->system(), body_->motion(), step_);
   if (!watch_.before().ok())
     throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
+  if (scene.sleep) sleeping_ = std::make_unique<Sleeping>(*scene.sleep, step_, *body_);
 }
 
 void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets) {
@@ -164,7 +166,7 @@ std::optional<EarlyEnd> Simulation::advance() {
   const double of_pressures =
       body_->face_pressure() && result.ok() ? body_->face_pressure()->work(body_->vertices().position) : 0.0;
   const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
-  if (const auto fault = watch_.after_step(result, done_, is_last, work, body_->system(), body_->motion()))
+  if (const auto fault = watch_.after_step(result, done_, is_last, work, stepped_system(), stepped_motion()))
     return diverged(*fault);
   if (is_last) examine_coordinates();
   add_work_of_forces(of_pressures);
@@ -173,9 +175,14 @@ std::optional<EarlyEnd> Simulation::advance() {
     timeline_->happen(done_);
     const LoadChange loads = timeline_->drive(done_);
     const bool operated = this->operations() != before;
+    const bool wakes = sleeping_ && (operated                    ? sleeping_->body_changed()
+                                     : loads != LoadChange::none ? sleeping_->loads_changed()
+                                                                 : false);
     if (timeline_->sums_work()) potential_ = pull_energy(body_->system(), body_->motion().x);
+    if (wakes) step_another_part();
     if (loads == LoadChange::begins_or_ends || operated) examine_step();
-    if (loads != LoadChange::none || operated) watch_.system_changed(body_->system(), body_->motion());
+    if (!wakes && (loads != LoadChange::none || operated)) watch_.system_changed(stepped_system(), stepped_motion());
+    if (sleeping_ && sleeping_->after_step(done_)) step_another_part();
   } catch (const SolverError& error) {
     return stress_failure(error);
   }
@@ -185,12 +192,26 @@ std::optional<EarlyEnd> Simulation::advance() {
 }
 
 std::optional<Divergence> Simulation::start_failure() {
-  if (const auto fault = watch_.fault_before(body_->system(), body_->motion())) return diverged(*fault);
+  if (const auto fault = watch_.fault_before(stepped_system(), stepped_motion())) return diverged(*fault);
   return {};
 }
 
+SpringSystem Simulation::stepped_system() const { return sleeping_ ? sleeping_->system() : body_->system(); }
+Motion Simulation::stepped_motion() { return sleeping_ ? sleeping_->motion() : body_->motion(); }
+
+// The energy of components that are woken is no growth of the motion: the watch starts anew.
+void Simulation::step_another_part() {
+  integrator_->restart();
+  if (contact_) {
+    contact_->change_part(sleeping_->contact(), sleeping_->body_contact(), sleeping_->moved_samples(),
+                          sleeping_->moved_samples_of_bodies(), sleeping_->vertices());
+    contact_->system_changed(stepped_system(), stepped_motion().x);
+  }
+  watch_.start(stepped_system(), stepped_motion(), step_);
+}
+
 void Simulation::examine_step() {
-  if (contact_) contact_->system_changed(body_->system(), body_->vertices().position);
+  if (contact_) contact_->system_changed(stepped_system(), stepped_motion().x);
   guard_.examine(*body_, integrator_->scheme(), done_);
 }
 
@@ -217,9 +238,11 @@ void Simulation::examine_coordinates() {
 
 /// Reports a fault; the body goes back to the state kept last if there is one.
 Divergence Simulation::diverged(const Fault& fault, bool goes_back) {
-  Divergence d{done_, time(), fault.quantity, file_number(fault.vertex), fault.value};
+  const std::uint32_t vertex = sleeping_ ? sleeping_->whole(fault.vertex) : fault.vertex;
+  Divergence d{done_, time(), fault.quantity, file_number(vertex), fault.value};
   if (!goes_back) return d;
-  d.taken_back = taken_back_ = watch_.go_back(done_, body_->motion());
+  d.taken_back = taken_back_ = watch_.go_back(done_, stepped_motion());
+  if (sleeping_) sleeping_->give();
   if (contact_) contact_->go_to(time());
   return d;
 }
@@ -228,14 +251,22 @@ StepResult Simulation::integrate(double from, double duration) {
   const double parts = guard_.parts_of(duration);
   StepResult result;
   for (double part = 0.0; part < parts && result.ok(); ++part)
-    result = contact_ ? step_with_contact(from + duration * (part / parts), duration / parts)
-                      : integrator_->step(body_->system(), body_->motion(), duration / parts);
+    result = integrate_part(from + duration * (part / parts), duration / parts);
+  if (sleeping_) sleeping_->give();
   return result;
 }
 
+StepResult Simulation::integrate_part(double from, double duration) {
+  if (sleeping_ && sleeping_->is_all_asleep()) {
+    if (ObstacleContact* const obstacles = sleeping_->contact()) obstacles->place_at(from + duration);
+    return {};
+  }
+  return contact_ ? step_with_contact(from, duration) : integrator_->step(stepped_system(), stepped_motion(), duration);
+}
+
 StepResult Simulation::step_with_contact(double from, double duration) {
-  const SpringSystem system = body_->system();
-  const Motion motion = body_->motion();
+  const SpringSystem system = stepped_system();
+  const Motion motion = stepped_motion();
   if (contact_->begin(from, duration, system, motion)) integrator_->restart();
   StepResult result;
   try {
@@ -267,8 +298,9 @@ StepResult Simulation::step_through_events() {
     const std::size_t operations = this->operations();
     timeline_->happen_until(now);
     if (this->operations() == operations) continue;
+    if (sleeping_ && sleeping_->body_changed()) step_another_part();
     examine_step();
-    result = watch_.changed_within_step(body_->system(), body_->motion());
+    result = watch_.changed_within_step(stepped_system(), stepped_motion());
     if (!result.ok()) return result;
   }
 }
@@ -294,7 +326,7 @@ Diagnostics Simulation::diagnostics() const {
   const VertexColumns& v = body_->vertices();
   Diagnostics d;
   if (contact_) {
-    d.contact = contact_->diagnostics(v.position);
+    d.contact = contact_->diagnostics(*body_);
     system.terms = body_->terms_but_contact(system.terms);
   }
   d.time = time();
@@ -309,6 +341,7 @@ Diagnostics Simulation::diagnostics() const {
   d.boundary = body_->boundary();
   d.largest_stress = body_->largest_stress();
   d.operations = operations();
+  if (sleeping_) d.sleep = sleeping_->diagnostics();
   return d;
 }
 
@@ -318,6 +351,7 @@ MemoryReport Simulation::memory() const {
   report.push_back({Part::solver, integrator_->solver_bytes()});
   report.push_back({Part::detector, watch_.bytes()});
   if (contact_) report.push_back({Part::contact, contact_->bytes()});
+  if (sleeping_) report.push_back({Part::sleeping, sleeping_->bytes()});
   report.push_back({Part::driven, timeline_->driven_bytes() + watch_.driven_bytes()});
   report.push_back({Part::probes, body_->tracked().size_bytes()});
   for (const MemoryItem& item : timeline_->memory()) report.push_back(item);

@@ -26,6 +26,8 @@
 
 namespace dartboard {
 
+class Sleeping;
+
 /// Events that are due at a step boundary happen before the state there is examined: at the start in the constructor,
 /// then at the end of each step.
 class Simulation {
@@ -119,7 +121,11 @@ class Simulation {
 
  private:
   void count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets);
+  SpringSystem stepped_system() const;
+  Motion stepped_motion();
+  void step_another_part();
   StepResult integrate(double from, double duration);
+  StepResult integrate_part(double from, double duration);
   StepResult step_with_contact(double from, double duration);
   StepResult step_through_events();
   void state(Archive& archive);
@@ -135,6 +141,7 @@ class Simulation {
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Timeline> timeline_;
   std::unique_ptr<SceneContact> contact_;  // null without contact
+  std::unique_ptr<Sleeping> sleeping_;     // null where nothing falls asleep
   StepGuard guard_;
   MotionWatch watch_;
   FrameFields fields_;

@@ -2,6 +2,7 @@
 
 #include "core/base/archive.h"
 #include "core/scene/run/simulation.h"
+#include "core/scene/run/sleeping.h"
 
 // The state of a simulation in a checkpoint. Left out is what its constructor finds in the scene: the step, the
 // horizon, the choices of events and drives, warnings of the start.
@@ -17,6 +18,10 @@ void Simulation::state(Archive& archive) {
   archive.part("body");
   body_->state(archive);
   timeline_->state(archive);
+  if (sleeping_) {
+    sleeping_->state(archive);
+    if (archive.reads()) step_another_part();
+  }
   if (contact_) {
     archive.part("contact");
     archive(*contact_);
@@ -52,8 +57,8 @@ void Simulation::state(Archive& archive) {
     for (const SkinTriangle& triangle : contact->solids().triangles())
       if (std::ranges::any_of(triangle.nodes, is_beyond)) archive.fail("a face of the boundary is at no vertex");
   }
-  if (contact_) contact_->resume(v.position);
-  watch_.resume(system, body_->motion());
+  if (contact_) contact_->resume(stepped_motion().x);
+  watch_.resume(stepped_system(), stepped_motion());
 }
 
 }  // namespace dartboard

@@ -58,6 +58,13 @@ TEST(BarOfScene, OfSpringsHasTheRatioThatSpringsHave) {
             std::vector<std::string>{"Damping and viscosity are left out: the bar is bent by its end and let go of."});
 }
 
+TEST(BarOfScene, IsNotPutToSleep) {
+  SceneFile file = scene(Parts());
+  file.sleep = {.speed = 0.001, .time = 0.1};
+  EXPECT_EQ(bar_of_scene(file).omissions,
+            std::vector<std::string>{"Sleep is left out: the bar is bent by its end and let go of."});
+}
+
 TEST(BarOfScene, RefusesWhatIsNoBarHeldAtOneEnd) {
   Parts ball, both, some, free, soft, pulled, cube, mixed, lying;
   ball.body = R"({"generate": {"ball": {"layers": 2, "radius": 0.1}}, "translate": [1, 2, 3.2]})";

@@ -61,6 +61,19 @@ TEST(SceneOfFile, RefusesWhatIsNoMotionToStudy) {
   EXPECT_THROW(scene_of_file(parse(json)), InputError);
 }
 
+TEST(SceneOfFile, RefusesASceneWhoseComponentsArePutToSleep) {
+  Json json = exact_box();
+  json["sleep"] = {{"speed", 0.001}, {"time", 0.25}};
+  try {
+    scene_of_file(parse(json));
+    FAIL() << "it is taken";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "file: /sleep: changes the motion on purpose, which is no error of an integrator; expected a scene "
+                 "without it");
+  }
+}
+
 TEST(FindScene, TakesFilesAndNamesOfTheStudy) {
   EXPECT_EQ(find_scene("chain", "").name, "chain");
   EXPECT_THROW(find_scene("no-such-scene", ""), InputError);

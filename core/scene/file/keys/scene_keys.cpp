@@ -99,6 +99,16 @@ std::vector<SceneKey> keys_by_hand() {
                "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "
                "another from there, so that the integrator keeps its order through them; not with driven vertices or "
                "forces that begin or end"},
+      {.shape = scene, .name = "sleep", .type = object, .of = sleep,
+       .help = "when a component that has come to rest is no longer stepped; not with an accuracy. Without it all "
+               "components are stepped to the end"},
+      {.shape = sleep, .name = "speed", .type = real, .unit = "m/s", .range = positive, .required = true,
+       .help = "the component is at rest while no vertex of it is faster than this; speed^2 / 2 is the largest kinetic "
+               "energy per kg that is removed each time"},
+      {.shape = sleep, .name = "time", .type = real, .unit = "s", .range = positive, .required = true,
+       .help = "the component has to be at rest for this long before it is put to sleep: at least one step, and more "
+               "than 2 speed / gravity, since a body that is thrown upwards is slower for that long at the top of its "
+               "flight"},
       {.shape = scene, .name = "output", .type = object, .of = output, .standard = "{}", .help = "what is recorded"},
       {.shape = scene, .name = "expect", .type = object, .of = expect, .standard = "{}",
        .help = "what must be true at the end, so that the scene is its own test"},
@@ -471,7 +481,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = expect, .name = "energy_drift_at_most", .type = real, .range = not_negative,
        .help = "largest change of the total energy in any row of the diagnostics, over the largest sum of kinetic and "
                "elastic energy; only where nothing takes or supplies energy: no damping, viscosity, driven vertices, "
-               "events, or forces that begin or end"},
+               "events, sleep, or forces that begin or end"},
       {.shape = expect, .name = "places", .type = objects, .of = expected_place, .standard = "[]",
        .help = "where probes are"},
       {.shape = expect, .name = "hash", .type = text,
@@ -605,6 +615,13 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::refine, "refine",
        "Which tetrahedra become smaller ones. Mass and momentum stay; a bracing above 0 makes the body a little "
        "stiffer, and without it a vertex at a centre moves freely."},
+      {Shape::sleep, "sleep",
+       "A component is all that springs, elements and attachments hold together, and what it rests on or touches. When "
+       "all of it has been slow for long enough, its vertices keep their places, their velocities become 0, and the "
+       "kinetic energy removed is reported. It is stepped again when a body comes near (closer than an eighth of the "
+       "distance of vertices to the box around it), when an event changes any body, when a load on it changes, and when an "
+       "obstacle moves near to it. Studies that measure the accuracy of a motion refuse a "
+       "scene with this key."},
       {Shape::output, "output", "What is recorded. None of it changes a bit of the trajectory."},
       {Shape::cadence, "cadence", "A number of steps in place of a time."},
       {Shape::probe, "probe",

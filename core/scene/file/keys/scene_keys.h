@@ -53,6 +53,7 @@ enum class Shape {
   tear,
   stress,
   refine,
+  sleep,
   output,
   cadence,
   probe,

@@ -33,6 +33,11 @@ ContactCosts good_costs() {
     times.emplace_back(situation + ": step without", 1'000'000.0);
     c.counts[situation] = {.situation = situation, .tetrahedra = 1000, .samples = 900};
   }
+  for (const std::string& situation : asleep_situations()) {
+    times.emplace_back(situation + ": step", 1'090'000.0);
+    times.emplace_back(situation + ": step alone", 1'000'000.0);
+    c.counts[situation] = {.situation = situation, .tetrahedra = 1000, .samples = 99};
+  }
   std::vector<std::string> all = pressed_situations();
   const auto plates = plate_situations(largest);
   all.insert(all.end(), plates.begin(), plates.end());
@@ -71,7 +76,7 @@ TEST(BenchContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_costs());
   EXPECT_EQ(ids_of(claims, Verdict::holds),
             (Ids{"contact-cost-agreement", "contact-idle-elements", "contact-idle-springs", "contact-after-cut",
-                 "contact-growth-lists", "contact-growth-forces"}));
+                 "contact-asleep", "contact-growth-lists", "contact-growth-forces"}));
   expect_words(claims, "contact-after-cut", "<= 1", "0.900", "[0.9, 0.9] at 98.4 %");
 }
 
@@ -82,6 +87,12 @@ TEST(BenchContactClaims, FallShortOfAnIdleContactThatTakesMoreThanTwoPercentOfAS
               Ids{springs ? "contact-idle-springs" : "contact-idle-elements"})
         << situation;
   }
+}
+
+TEST(BenchContactClaims, FallShortOfSleepersThatTakeMoreThanATenthOfAStep) {
+  for (const std::string& situation : asleep_situations())
+    EXPECT_EQ(short_with([&](auto& c) { set_time(c, situation + ": step", 1'110'000.0); }), Ids{"contact-asleep"})
+        << situation;
 }
 
 TEST(BenchContactClaims, FallShortOfACutLiverWhoseContactTakesLongerThanItsElements) {

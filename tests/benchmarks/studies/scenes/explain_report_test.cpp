@@ -165,6 +165,27 @@ TEST(ExplainJson, HoldsTheFiguresOfBodiesThatTouch) {
     "depth_at_rest": 0.0014, "speed": 3.0, "depth_at_impact": 0.0035, "allowed_depth": 0.002}])"));
 }
 
+SceneFile with_sleep() {
+  SceneFile s = scene();
+  s.sleep = {.speed = 0.5, .time = 0.25};
+  return s;
+}
+
+TEST(ExplainText, SaysWhenComponentsArePutToSleepAndWhatThatRemoves) {
+  const std::string text = to_text(with_sleep(), plan(), std::nullopt);
+  EXPECT_NE(
+      text.find(left_out_table() +
+                "\nA component is put to sleep when none of its vertices has been faster than 0.5 m/s for 0.25 s; "
+                "at most 0.125 J of kinetic energy per kg are removed each time.\n\nBytes are those"),
+      std::string::npos)
+      << text;
+}
+
+TEST(ExplainJson, HoldsWhenComponentsArePutToSleep) {
+  EXPECT_EQ(to_json(with_sleep(), plan(), std::nullopt).at("sleep"),
+            Json::parse(R"({"speed": 0.5, "time": 0.25, "removed_per_kg_at_most": 0.125})"));
+}
+
 Json expected() {
   return Json::parse(R"({"scene": "box", "map": "general 3-g-map", "integrator": "rk4", "steps": 16,
     "counts": {"vertices": 11, "edges": 12, "faces": 13, "cells": 14, "darts": 15}, "bytes": 120, "ns_per_step": 40.0,

@@ -49,6 +49,14 @@ TEST(SceneReading, OfTheStepThatIsTooLong) {
   EXPECT_EQ(with("unstable_step", "\"substep\"").unstable_step, UnstableStep::substep);
 }
 
+TEST(SceneReading, OfWhenComponentsAreNoLongerStepped) {
+  const SceneFile scene = with("sleep", R"({"speed": 0.125, "time": 3})");
+  ASSERT_TRUE(scene.sleep);
+  EXPECT_EQ(scene.sleep->speed, 0.125);
+  EXPECT_EQ(scene.sleep->time, 3.0);
+  EXPECT_FALSE(read(least_scene()).sleep);
+}
+
 TEST(SceneReading, OfBodies) {
   const SceneFile file = with("body", R"({"mesh": "a.mesh", "scale": 2, "translate": [3, 4, 5]})");
   EXPECT_EQ(std::get<std::filesystem::path>(file.body.mesh), "folder/a.mesh");

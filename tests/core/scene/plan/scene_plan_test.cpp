@@ -73,6 +73,14 @@ TEST(ScenePlan, IsExactInBytesForEveryKindOfBodyWithAndWithoutAMap) {
   }
 }
 
+TEST(ScenePlan, IsExactInBytesWithSleep) {
+  Json scene = moving_box();
+  scene["sleep"] = {{"speed", 1e-3}, {"time", 0.005}};
+  expect_exact(scene, "without forces");
+  scene["forces"] = Json::parse(R"([{"sphere": {"centre": [0, 0, 0], "radius": 0.01}, "force": [0, 0, 1]}])");
+  expect_exact(scene, "with forces");
+}
+
 TEST(ScenePlan, IsExactInBytesForAChain) {
   Json scene = with_body(moving_box(), {"chain", R"({"chain": {"links": 12, "spacing": 0.125}})"});
   expect_exact(scene, "a chain");
