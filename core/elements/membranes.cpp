@@ -2,12 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <type_traits>
 
 #include "core/elements/element_term.h"
-#include "core/elements/materials_of_part.h"
 #include "core/elements/membrane_law.h"
-#include "core/forces/rows_of_part.h"
+#include "core/elements/part_of_elements.h"
 
 namespace dartboard {
 namespace {
@@ -117,22 +115,10 @@ class Membranes final : public ElementTerm<SurfaceCells<Columns>, Laws> {
     return share_of(this->laws_[c], this->cells_.points(c), n.size(), CornerLines<4>({x}, n));
   }
   TermOfPart of_part(const VertexSubset& part) const override {
-    struct Own {
-      std::remove_cvref_t<decltype(Columns::nodes)> nodes;
-      std::remove_cvref_t<decltype(Columns::shape)> shape;
-      std::vector<MaterialNumber> material;
-    };
-    const auto pieces = pieces_of_part(*this, part);
-    const auto own = std::make_shared<Own>(
-        Own{rows_of_part(columns_.nodes, pieces, part, [](auto& nodes) { return corners_of(nodes); }),
-            rows_of_part(columns_.shape, pieces), materials_of_part(materials_, pieces)});
-    return {own, make_membranes(materials_.of_cells(own->material), Columns{own->nodes, own->shape})};
+    return part_of_elements(*this, materials_, columns_, part);
   }
 
  private:
-  static std::span<std::uint32_t> corners_of(TriangleNodes& nodes) { return nodes; }
-  static std::span<std::uint32_t> corners_of(SolidNodes& nodes) { return nodes.corners(); }
-
   CellMaterials materials_;
   Columns columns_;
 };

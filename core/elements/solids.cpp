@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "core/elements/element_term.h"
-#include "core/elements/materials_of_part.h"
+#include "core/elements/part_of_elements.h"
 #include "core/elements/strain_damping.h"
 #include "core/elements/with_law.h"
-#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -155,16 +154,7 @@ class Solids final : public ElementTerm<SolidCells, Laws> {
   }
   const TermDamping* damping() const override { return damping_.any() ? &damping_ : nullptr; }
   TermOfPart of_part(const VertexSubset& part) const override {
-    struct Columns {
-      std::vector<SolidNodes> nodes;
-      std::vector<SolidShape> shape;
-      std::vector<MaterialNumber> material;
-    };
-    const auto pieces = pieces_of_part(*this, part);
-    const auto own = std::make_shared<Columns>(
-        Columns{rows_of_part(columns_.nodes, pieces, part, [](SolidNodes& nodes) { return nodes.corners(); }),
-                rows_of_part(columns_.shape, pieces), materials_of_part(materials_, pieces)});
-    return {own, make_solids(materials_.of_cells(own->material), {own->nodes, own->shape})};
+    return part_of_elements(*this, materials_, columns_, part);
   }
 
  private:

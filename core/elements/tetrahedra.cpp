@@ -2,12 +2,11 @@
 
 #include <Eigen/LU>
 
-#include "core/elements/materials_of_part.h"
+#include "core/elements/part_of_elements.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
-#include "core/forces/rows_of_part.h"
 
 namespace dartboard {
 namespace {
@@ -133,19 +132,7 @@ class Tetrahedra final : public ForceTerm {
   const TermDamping* damping() const override { return damping_.get(); }
 
   TermOfPart of_part(const VertexSubset& part) const override {
-    struct Columns {
-      std::vector<TetrahedronNodes> nodes;
-      std::vector<RestShape> shape;
-      std::vector<double> mass;
-      std::vector<MaterialNumber> material;
-    };
-    const auto pieces = pieces_of_part(*this, part);
-    const auto own =
-        std::make_shared<Columns>(Columns{rows_of_part(
-                                              columns_.nodes, pieces, part, [](auto& nodes) -> auto& { return nodes; }),
-                                          rows_of_part(columns_.shape, pieces), rows_of_part(columns_.mass, pieces),
-                                          materials_of_part(materials_, pieces)});
-    return {own, make_tetrahedra(materials_.of_cells(own->material), {own->nodes, own->shape, own->mass})};
+    return part_of_elements(*this, materials_, columns_, part);
   }
 
  private:

@@ -27,12 +27,12 @@ constexpr const char* stack = R"({"name": "stack", "step": 0.0002, "duration": 0
   "contact": {"pressure": 20000, "depth": 0.01, "bodies": "others", "restitution": 0.3, "friction": 0.4,
               "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]}})";
 
+SceneFile parsed(const char* text) { return parse_scene(text, "scene of contact", ""); }
+
 }  // namespace
 
-std::vector<SceneFile> contact_scenes() {
-  std::vector<SceneFile> scenes;
-  for (const char* text : {collision, cut, stack}) scenes.push_back(parse_scene(text, "scene of contact", ""));
-  return scenes;
-}
+SceneFile scene_of_collision() { return parsed(collision); }
+SceneFile scene_of_cut() { return parsed(cut); }
+std::vector<SceneFile> contact_scenes() { return {scene_of_collision(), scene_of_cut(), parsed(stack)}; }
 
 }  // namespace dartboard

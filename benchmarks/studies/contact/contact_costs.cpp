@@ -124,11 +124,11 @@ Situation liver_cut() {
 }
 
 /// Cubes on a plane apart from each other; the first moves along it, and vibrates.
-Json cubes_on_a_plane(int count, const char* material, bool touching) {
+Json cubes_on_a_plane(int count, int across, const char* material, bool touching) {
   Json scene = scene_of("asleep", material);
   for (int k = 0; k < count; ++k) {
-    Json body = box(6, 6, 6);
-    const double x = 12 * spacing * (k % 10), y = 12 * spacing * (k / 10);
+    Json body = box(across, across, across);
+    const double x = 2 * across * spacing * (k % 10), y = 2 * across * spacing * (k / 10);
     body["translate"] = {x, y, 0};
     if (k == 0)
       body["initial_velocity"] =
@@ -138,7 +138,7 @@ Json cubes_on_a_plane(int count, const char* material, bool touching) {
   scene["sleep"] = Json::parse(R"({"speed": 1e-3, "time": 1e-3})");
   if (!touching) return scene;
   scene["contact"] = contact();
-  scene["contact"]["bodies"] = "others";
+  scene["contact"]["bodies"] = "all";
   scene["contact"]["obstacles"] = plane_at(0);
   return scene;
 }
@@ -248,12 +248,12 @@ std::pair<std::uint64_t, std::uint64_t> add_step_tasks(const Situation& situatio
 }
 
 /// All cubes but one asleep, and that one alone. The counts have the vertices asleep as samples.
-void add_sleep_tasks(const Asleep& asleep, int steps, std::vector<TimedTask>& tasks,
+void add_sleep_tasks(const Asleep& asleep, int across, int steps, std::vector<TimedTask>& tasks,
                      const std::function<void(const ContactCounts&)>& counts_sink) {
   constexpr int until_asleep = 15;
   const std::string name = asleep.name;
-  const SceneFile many = parsed(cubes_on_a_plane(cubes, asleep.material, asleep.touching)),
-                  one = parsed(cubes_on_a_plane(1, asleep.material, asleep.touching));
+  const SceneFile many = parsed(cubes_on_a_plane(cubes, across, asleep.material, asleep.touching)),
+                  one = parsed(cubes_on_a_plane(1, across, asleep.material, asleep.touching));
   Simulation simulation(many), alone(one);
   advance(simulation, until_asleep + steps);
   advance(alone, until_asleep + steps);
@@ -361,7 +361,7 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
     counts_sink(counts);
   }
   add_step_tasks(pile(plan.seed), plan.steps, tasks);
-  for (const Asleep& one : all_asleep) add_sleep_tasks(one, plan.steps, tasks, counts_sink);
+  for (const Asleep& one : all_asleep) add_sleep_tasks(one, plan.across, plan.steps, tasks, counts_sink);
   run_rounds(tasks, paired, sink);
 
   tasks.clear();

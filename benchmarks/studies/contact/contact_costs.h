@@ -46,6 +46,7 @@ struct ContactCostPlan {
   int rounds = 12;                  // of steps; a third of them of forces
   int steps = 40;                   // in each sample
   std::size_t largest = 1'000'000;  // tetrahedra of the largest plates
+  int across = 6;                   // cells to an edge of the cubes that sleep
   std::uint64_t seed = 1;           // of the order of the tasks, and of the places in the pile
 };
 

@@ -5,6 +5,8 @@
 #include "benchmarks/paper/paper_claims.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/topology/build.h"
+#include "validation/contact/collisions.h"
+#include "validation/contact/contact_scenes.h"
 #include "validation/paper/embeddings_held.h"
 #include "validation/paper/indexed_structure.h"
 #include "validation/paper/maps/connectivity_by_marks.h"
@@ -69,11 +71,15 @@ std::vector<Claim> answer_by_trials(const Problem& problem) {
       tried_out("one-face-seldom", fans.one_face, "every inner face of the uncut body; <= 10 %, cells by mesh point"),
       tried_out("fan-separates", fans.whole_fan, "every inner face and corner of the uncut body; cells by mesh point"),
       tried_out("fan-ends", fans.ends, "the same fans; section 5.1 by its letter on plain alphas"),
+      tried_out("collisions", try_collision(scene_of_collision(), 20),
+                "two boxes that run into each other; overlaps of cells by CGAL"),
       tried_out("coverage-darts", try_coverages(bodies_of_all_sizes(problem.mesh)),
                 "balls and the paper's body; look-ups of alphas counted, within 1 %"),
       tried_out("sews-translated", translate_operations(problem, 200, seed),
                 "the paper's body; arrays against the cells left, after each operation"),
       tried_out("connectivity-marks", try_marking(problem.mesh, 2, seed), "the paper's body; cells joined by sides"),
+      tried_out("parts-collide", try_collision(scene_of_cut(), 20),
+                "a box cut in two while it runs together; overlaps of cells by CGAL"),
   };
 }
 

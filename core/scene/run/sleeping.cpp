@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 #include "core/base/bytes.h"
 #include "core/base/disjoint_sets.h"
-#include "core/forces/compensated_sum.h"
 #include "core/scene/file/step_times.h"
 
 namespace dartboard {
@@ -15,8 +15,13 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// What a way that is left is too long by, over the distance of vertices.
+constexpr double rounding = 1e-9;
 /// Boxes are near where they are closer than this share of the distance of vertices of either.
 constexpr double near_share = 0.0625;
+
+/// [m] Along the axis where they are farthest from each other; negative where they overlap.
+double apart(const BoxAround& a, const BoxAround& b) { return (a.low - b.high).cwiseMax(b.low - a.high).maxCoeff(); }
 
 /// The numbers after a change, by those before; both are given by their numbers in the whole.
 std::vector<std::uint32_t> moved(const std::vector<std::uint32_t>& before, const std::vector<std::uint32_t>& after) {
@@ -46,6 +51,7 @@ Sleeping::Sleeping(const SceneSleep& rule, double step, SimulatedBody& body)
       slow_steps_(1 + step_of_time(rule.time, step)),
       body_(body) {
   find_components();
+  make_part();
 }
 
 // ---- components
@@ -111,7 +117,8 @@ bool Sleeping::is_driven(const Component& c) const {
   });
 }
 
-void Sleeping::look_at_box(Component& c) {
+/// Returns the way of the box since the last look.
+double Sleeping::look_at_box(Component& c) {
   const BoxAround before = c.box;
   if (part_ && c.first_in_part != none) {
     c.box = box_around(part_->motion().x.subspan(c.first_in_part, c.count));
@@ -122,14 +129,18 @@ void Sleeping::look_at_box(Component& c) {
     for (const std::uint32_t i : own) c.box = {c.box.low.cwiseMin(x[i]), c.box.high.cwiseMax(x[i])};
   }
   const Vector3d low = (c.box.low - before.low).cwiseAbs(), high = (c.box.high - before.high).cwiseAbs();
-  c.near = near_share * c.size + 2.0 * low.cwiseMax(high).maxCoeff();
+  const double way = low.cwiseMax(high).maxCoeff();
+  c.near = near_share * c.size + 2.0 * way;
+  return way;
+}
+
+bool Sleeping::may_touch(const Component& a, const Component& b) const {
+  return a.group && b.group && body_.body_contact()->may_touch(*a.group, *b.group);
 }
 
 // Boxes that are not finite are near to nothing; such a run is ended by its watch.
 bool Sleeping::are_near(const Component& a, const Component& b) const {
-  if (!a.group || !b.group || !body_.body_contact()->may_touch(*a.group, *b.group)) return false;
-  const Vector3d apart = (a.box.low - b.box.high).cwiseMax(b.box.low - a.box.high);
-  return apart.maxCoeff() <= a.near + b.near;
+  return may_touch(a, b) && apart(a.box, b.box) <= a.near + b.near;
 }
 
 // ---- waking
@@ -143,20 +154,28 @@ void Sleeping::wake(Component& c) {
 
 bool Sleeping::wake_near_awake() {
   if (done_.asleep == 0 || body_.body_contact() == nullptr) return false;
-  std::vector<Component*> awake;  // those whose sleepers nearby are still to be found
-  for (Component& c : components_)
-    if (!c.asleep && c.group) {
-      look_at_box(c);
-      awake.push_back(&c);
-    }
+  std::vector<const Component*> waking;  // those whose sleepers nearby are still to be found
+  for (const std::uint32_t k : awake_) {
+    Component& c = components_[k];
+    if (!c.group) continue;
+    const double way = look_at_box(c);
+    c.free_way -= way;
+    if (c.free_way > 2.0 * way) continue;
+    c.free_way = std::numeric_limits<double>::infinity();
+    for (const Component& other : components_)
+      if (other.asleep && may_touch(c, other))
+        c.free_way = std::min(c.free_way, apart(c.box, other.box) - near_share * c.size - other.near);
+    c.free_way -= rounding * c.size;
+    if (c.free_way <= 2.0 * way) waking.push_back(&c);
+  }
   bool any = false;
-  while (!awake.empty()) {
-    const Component& by = *awake.back();
-    awake.pop_back();
+  while (!waking.empty()) {
+    const Component& by = *waking.back();
+    waking.pop_back();
     for (Component& c : components_)
       if (c.asleep && are_near(by, c)) {
         wake(c);
-        awake.push_back(&c);
+        waking.push_back(&c);
         any = true;
       }
   }
@@ -222,9 +241,8 @@ bool Sleeping::loads_changed() {
 
 void Sleeping::put_to_sleep(Component& c) {
   VertexColumns& v = body_.vertices();
-  CompensatedSum energy;
   for (const std::uint32_t i : vertices_of(c)) {
-    energy.add(0.5 * v.mass[i] * v.velocity[i].squaredNorm());
+    done_.removed += 0.5 * v.mass[i] * v.velocity[i].squaredNorm();
     v.velocity[i].setZero();
   }
   c.asleep = true;
@@ -232,14 +250,15 @@ void Sleeping::put_to_sleep(Component& c) {
   c.near = near_share * c.size;
   ++done_.asleep;
   ++done_.slept;
-  done_.removed += energy.value();
 }
 
 bool Sleeping::put_to_sleep() {
+  const auto is_ready = [this](std::uint32_t k) {
+    return components_[k].slow >= slow_steps_ && !is_driven(components_[k]);
+  };
+  if (std::ranges::none_of(awake_, is_ready)) return false;
   std::vector<Component*> ready, others;
-  for (Component& c : components_)
-    if (!c.asleep) (c.slow >= slow_steps_ && !is_driven(c) ? ready : others).push_back(&c);
-  if (ready.empty()) return false;
+  for (const std::uint32_t k : awake_) (is_ready(k) ? ready : others).push_back(&components_[k]);
   if (body_.body_contact() != nullptr) {
     for (auto* some : {&ready, &others})
       for (Component* c : *some) look_at_box(*c);
@@ -267,11 +286,13 @@ void Sleeping::give() {
 bool Sleeping::after_step(std::uint64_t n) {
   bool changed = wake_near_awake();
   changed = wake_near_moving_obstacles() || changed;
-  for (Component& c : components_)
-    if (!c.asleep) c.slow = is_slow(c) ? c.slow + 1 : 0;
+  for (const std::uint32_t k : awake_) {
+    Component& c = components_[k];
+    c.slow = is_slow(c) ? c.slow + 1 : 0;
+  }
   // a body at rest beside one that moves is not examined anew in every step
-  if (const std::uint64_t between = std::max<std::uint64_t>(1, slow_steps_ / 8); n % between == 0)
-    changed = put_to_sleep() || changed;
+  const std::uint64_t between = std::max<std::uint64_t>(1, slow_steps_ / 8);
+  if (!changed && n % between == 0) changed = put_to_sleep();
   if (changed) make_part();
   return changed;
 }
@@ -299,10 +320,15 @@ void Sleeping::make_part() {
   part_contact_.reset();
   ObstacleContact* const obstacles = body_.contact();
   BodyContact* const bodies = body_.body_contact();
+  awake_.clear();
+  for (std::uint32_t k = 0; k < components_.size(); ++k) {
+    components_[k].free_way = 0.0;
+    if (!components_[k].asleep) awake_.push_back(k);
+  }
   if (done_.asleep > 0) {
     std::vector<std::uint32_t> awake;
-    for (Component& c : components_) {
-      if (c.asleep) continue;
+    for (const std::uint32_t k : awake_) {
+      Component& c = components_[k];
       c.first_in_part = static_cast<std::uint32_t>(awake.size());
       const auto own = vertices_of(c);
       awake.insert(awake.end(), own.begin(), own.end());

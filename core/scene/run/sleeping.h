@@ -34,7 +34,7 @@ namespace dartboard {
 /// of their number), and twice the way of the boxes in a step.
 ///
 /// Boxes are coarse: a body within the hollow of another keeps it awake while it moves.
-/// cost  of a step: O(awake vertices) and, with contact between bodies, awake components times sleeping ones; where
+/// cost  of a step: O(awake vertices) and, for a component that has come nearer to a sleeper, O(components); where
 ///       something falls asleep or is woken, and after an event while something sleeps, O(body)
 class Sleeping {
  public:
@@ -89,6 +89,7 @@ class Sleeping {
     std::uint32_t first_in_part = none;   // where something sleeps, of one that is awake
     BoxAround box{{0, 0, 0}, {0, 0, 0}};  // at the last look; of a sleeper always that of its places
     double near = 0.0;                    // [m]
+    double free_way = 0.0;                // [m] that its box can move before it may be near to a sleeper
   };
 
   void find_components();
@@ -97,7 +98,8 @@ class Sleeping {
   }
   bool is_slow(const Component& c);
   bool is_driven(const Component& c) const;
-  void look_at_box(Component& c);
+  double look_at_box(Component& c);
+  bool may_touch(const Component& a, const Component& b) const;
   bool are_near(const Component& a, const Component& b) const;
   bool wake_near_awake();
   bool wake_near_moving_obstacles();
@@ -113,6 +115,7 @@ class Sleeping {
   std::vector<std::uint32_t> component_;  // by vertex
   std::vector<std::uint32_t> ordered_;    // vertices, by component
   std::vector<Component> components_;
+  std::vector<std::uint32_t> awake_;               // of them, as the part was made
   std::vector<Eigen::Vector3d> pull_, obstacles_;  // at the last look, of all vertices and obstacles
   std::vector<double> pressures_;
   std::unique_ptr<SystemPart> part_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/bytes.h"
@@ -34,7 +35,13 @@ SystemPart::SystemPart(const SpringSystem& whole, ForceTerms terms, std::vector<
       x_(vertices_.size()),
       v_(vertices_.size()),
       gravity_(whole.gravity) {
-  for (std::uint32_t k = 0; k < vertices_.size(); ++k) number_[vertices_[k]] = k;
+  for (std::uint32_t k = 0; k < vertices_.size(); ++k) {
+    number_[vertices_[k]] = k;
+    if (runs_.empty() || vertices_[k] != runs_.back().whole + runs_.back().count)
+      runs_.push_back({k, vertices_[k], 1});
+    else
+      ++runs_.back().count;
+  }
   for (std::size_t s = 0; s < whole.ends.size(); ++s) {
     const auto [i, j] = whole.ends[s];
     if (number_[i] == VertexSubset::none) continue;
@@ -74,14 +81,14 @@ void SystemPart::take(Motion whole, std::span<const Eigen::Vector3d> pull) {
 }
 
 void SystemPart::give(Motion whole) const {
-  for (std::size_t k = 0; k < vertices_.size(); ++k) {
-    whole.x[vertices_[k]] = x_[k];
-    whole.v[vertices_[k]] = v_[k];
+  for (const Run& run : runs_) {
+    std::copy_n(x_.begin() + run.first, run.count, whole.x.begin() + run.whole);
+    std::copy_n(v_.begin() + run.first, run.count, whole.v.begin() + run.whole);
   }
 }
 
 std::size_t SystemPart::bytes() const {
-  return bytes_of(vertices_, number_, ends_, springs_, undamped_, mass_, inverse_mass_, viscosity_) +
+  return bytes_of(vertices_, number_, runs_, ends_, springs_, undamped_, mass_, inverse_mass_, viscosity_) +
          bytes_of(fixed_, held_axes_, pull_, x_, v_, terms_);
 }
 

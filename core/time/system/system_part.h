@@ -39,7 +39,13 @@ class SystemPart {
   std::size_t bytes() const;
 
  private:
+  /// Vertices that follow each other here and in the whole.
+  struct Run {
+    std::uint32_t first, whole, count;
+  };
+
   std::vector<std::uint32_t> vertices_, number_;
+  std::vector<Run> runs_;
   std::vector<SpringEnds> ends_;
   std::vector<Spring> springs_;
   std::vector<UndampedSpring> undamped_;

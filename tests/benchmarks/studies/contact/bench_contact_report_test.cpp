@@ -147,7 +147,7 @@ TEST(ContactCosts, AreMeasuredInEverySituationAndFoundToAgree) {
   std::set<std::string> counted, timed;
   std::size_t touching = 0;
   measure_contact_costs(
-      {.rounds = 1, .steps = 1, .largest = 1'500},
+      {.rounds = 1, .steps = 1, .largest = 1'500, .across = 2},
       [&](const ContactCounts& n) {
         counted.insert(n.situation);
         EXPECT_GT(n.samples, 0u) << n.situation;
@@ -157,11 +157,13 @@ TEST(ContactCosts, AreMeasuredInEverySituationAndFoundToAgree) {
       },
       [&](const Sample& s) { timed.insert(s.task); });
   EXPECT_EQ(touching, pressed_situations().size() + 1);
-  EXPECT_EQ(counted.size(), idle_situations().size() + touching);
+  EXPECT_EQ(counted.size(), idle_situations().size() + asleep_situations().size() + touching);
   for (const std::string& situation : stepped_situations()) {
     EXPECT_TRUE(timed.contains(situation + ": step")) << situation;
     EXPECT_TRUE(timed.contains(situation + ": step without")) << situation;
   }
+  for (const std::string& situation : asleep_situations())
+    EXPECT_TRUE(timed.contains(situation + ": step") && timed.contains(situation + ": step alone")) << situation;
   for (const std::string& situation : plate_situations(1'500)) EXPECT_TRUE(timed.contains(situation + ": list"));
 }
 

@@ -43,7 +43,8 @@ std::vector<Case> all_cases() {
   const char* const squares = R"({"sheet": {"cells": [4, 3], "spacing": 0.1, "kind": "quadrilaterals"}})";
   const char* const springs = R"({"density": 1000, "stiffness": 60, "damping": 0.1, "viscosity": 0.2})";
   const char* const undamped = R"({"density": 1000, "stiffness": 60, "damping": 0})";
-  const char* const elastic = R"({"density": 1000, "young": 2e4, "poisson": 0.3, "damping": {"ratio": 0.1, "frequency": 20}})";
+  const char* const elastic = R"({"density": 1000, "young": 2e4, "poisson": 0.3,
+      "damping": {"ratio": 0.1, "frequency": 20}})";
   const char* const membrane = R"({"density": 1, "young": 200, "poisson": 0.3, "model": "stvk"})";
   return {
       {"damped springs", two(tetrahedra, springs)},

@@ -185,6 +185,24 @@ TEST(Sleeping, LeavesTheBitsOfWhatIsAwake) {
     }
 }
 
+// Friction starts from the forces of the step before, whatever number a place of the surface has then.
+TEST(Sleeping, LeavesTheBitsOfABodyThatSlides) {
+  Json scene = with_velocity(two_cubes(1.0), 1, {0.5, 0.1, 0});
+  scene["bodies"][1]["translate"][2] = -0.0005;
+  scene["gravity"] = {0, 0, -9.81};
+  scene["fixed"] = Json::parse(R"([{"box": {"min": [-1, -1, -1], "max": [0.5, 1, 1]}}])");
+  scene["contact"] = Json::parse(R"({"pressure": 4000, "depth": 0.002, "restitution": 0.5, "friction": 0.3,
+    "bodies": "others", "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]})");
+  Simulation with(parse(scene));
+  run(with);
+  EXPECT_EQ(asleep(with), 1u);
+  EXPECT_GT(with.diagnostics().contact->rubbed, 0.0);
+  scene.erase("sleep");
+  Simulation without(parse(scene));
+  run(without);
+  EXPECT_EQ(places_of(with, 1), places_of(without, 1));
+}
+
 // Implicit methods order their unknowns by the whole system, and end within rounding. One of several steps starts anew
 // with a step of a lower order.
 TEST(Sleeping, LeavesTheMotionOfWhatIsAwakeWithEveryIntegrator) {
