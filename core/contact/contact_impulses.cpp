@@ -120,6 +120,7 @@ bool ContactImpulses::begin(double time, double h, InverseMass inverse_mass, Fix
 
 bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                           std::span<Vector3d> v) {
+  clear_.reset();
   bool changed = false;
   if (obstacles_ != nullptr) {
     auto& frozen = obstacles_->frozen_friction_to_set();
@@ -142,7 +143,14 @@ bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed
   return damp(time + h, h / 2, inverse_mass, fixed, x, v) || changed;
 }
 
+bool ContactImpulses::is_clear(std::span<const Vector3d> x) {
+  if (x.empty()) return true;
+  if (!clear_) clear_ = obstacles_->clear_box(x);
+  return clear_.has_value();
+}
+
 void ContactImpulses::take_back() {
+  clear_.reset();
   if (obstacles_ != nullptr) obstacles_->frozen_friction_to_set().clear();
   if (bodies_ != nullptr) bodies_->frozen_friction_to_set().clear();
   losses_ = losses_at_begin_;
@@ -157,6 +165,7 @@ void ContactImpulses::change_part(ObstacleContact* obstacles, BodyContact* bodie
                                   std::span<const std::uint32_t> moved_to_of_bodies) {
   obstacles_ = obstacles;
   bodies_ = bodies;
+  clear_.reset();
   const auto renumber = [](auto& rows, std::span<const std::uint32_t> to) {
     std::erase_if(rows, [to](auto& row) {
       row.sample = row.sample < to.size() ? to[row.sample] : VertexSubset::none;
@@ -171,7 +180,7 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   if (obstacles_ == nullptr) return false;
   const EnergyChange work = obstacles_->work_of_placing(time, x);
   losses_.supplied += work.value;
-  obstacles_->place_at(time);
+  if (obstacles_->place_at(time)) clear_.reset();
   return work.sizes > 0.0;  // obstacles that move elsewhere change no force
 }
 
@@ -187,7 +196,7 @@ bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_ma
                                    std::span<const Vector3d> x, std::span<Vector3d> v) {
   bool changed = false;
   Penetration in;
-  if (obstacles_->is_clear(x)) return false;
+  if (is_clear(x)) return false;
   for (const SkinSample& s : obstacles_->samples()) {
     const Vector3d y = ObstacleContact::place_of(s, x);
     for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
@@ -242,7 +251,7 @@ bool ContactImpulses::damp_bodies(double h, InverseMass inverse_mass, Fixed fixe
 
 void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                            std::span<const Vector3d> x, std::span<const Vector3d> v) {
-  if (obstacles_->is_clear(x, v, h / 2)) return;
+  if (clear_ ? obstacles_->is_clear_after(*clear_, v, h / 2) : obstacles_->is_clear(x, v, h / 2)) return;
   Penetration in;
   auto old = before_.begin();
   const auto& samples = obstacles_->samples();

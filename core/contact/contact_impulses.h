@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -95,6 +96,11 @@ class ContactImpulses {
   bool end(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
 
+  /// The places have changed since the last `end`, other than by a step. Until the next step they are known from there.
+  void forget_places() { clear_.reset(); }
+  /// Is it certain that no sample is inside an obstacle at x, the places of the last `end`?
+  bool is_clear(std::span<const Eigen::Vector3d> x);
+
   /// To be called in place of `end` if the step was not taken: restores the sums and the start values of friction from
   /// before `begin`. The caller restores the velocities; obstacles are not moved.
   void take_back();
@@ -131,6 +137,7 @@ class ContactImpulses {
                     const Accelerations& accelerations);
   bool place_at(double time, std::span<const Eigen::Vector3d> x);
 
+  std::optional<BoxAround> clear_;  // around the present places, if no sample is inside an obstacle
   ObstacleContact* obstacles_;
   BodyContact* bodies_;
   ContactLosses losses_, losses_at_begin_;

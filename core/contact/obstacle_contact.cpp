@@ -45,6 +45,9 @@ constexpr double slack = 1e-12;
 /// The calls of `is_clear` that are not answered after one that could not say yes.
 constexpr int passed_calls = 15;
 
+/// [m] The largest coordinate of a box.
+double size_of(const BoxAround& box) { return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff(); }
+
 /// Is the whole box outside of the shape, by more than `by` and the rounding of the shape?
 bool is_outside(const ObstacleShape& shape, const BoxAround& box, double by) {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) {
@@ -119,21 +122,14 @@ bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penet
   return found.depth > 0.0;
 }
 
-bool ObstacleContact::is_clear(std::span<const Vector3d> x, std::span<const Vector3d> v, double t) const {
-  if (calls_to_pass_ > 0) {
-    --calls_to_pass_;
-    return false;
-  }
-  if (x.empty()) return true;
-  const auto size_of = [](const BoxAround& box) { return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff(); };
-  BoxAround box = box_around(x);
-  double size = size_of(box);
-  if (!v.empty()) {
-    const BoxAround speeds = box_around(v);
-    const Vector3d one = t * speeds.low, other = t * speeds.high;
-    box = {box.low + one.cwiseMin(other), box.high + one.cwiseMax(other)};
-    size += size_of({one, other});
-  }
+bool ObstacleContact::passes_call() const {
+  if (calls_to_pass_ == 0) return false;
+  --calls_to_pass_;
+  return true;
+}
+
+/// Is the box outside of all obstacles? `size` is that of the coordinates behind it.
+bool ObstacleContact::is_clear(const BoxAround& box, double size) const {
   for (std::size_t o = 0; o < obstacles_.size(); ++o) {
     const double by = slack * (size + moved_[o].cwiseAbs().maxCoeff());
     if (is_outside(obstacles_[o].shape, {box.low - moved_[o], box.high - moved_[o]}, by)) continue;
@@ -141,6 +137,26 @@ bool ObstacleContact::is_clear(std::span<const Vector3d> x, std::span<const Vect
     return false;
   }
   return true;
+}
+
+std::optional<BoxAround> ObstacleContact::clear_box(std::span<const Vector3d> x) const {
+  if (passes_call()) return {};
+  const BoxAround box = box_around(x);
+  return is_clear(box, size_of(box)) ? std::optional(box) : std::nullopt;
+}
+
+bool ObstacleContact::is_clear_after(const BoxAround& box, std::span<const Vector3d> v, double t) const {
+  if (passes_call()) return false;
+  const BoxAround speeds = box_around(v);
+  const Vector3d one = t * speeds.low, other = t * speeds.high;
+  return is_clear({box.low + one.cwiseMin(other), box.high + one.cwiseMax(other)},
+                  size_of(box) + size_of({one, other}));
+}
+
+bool ObstacleContact::is_clear(std::span<const Vector3d> x, std::span<const Vector3d> v, double t) const {
+  if (x.empty()) return true;
+  if (v.empty()) return clear_box(x).has_value();
+  return is_clear_after(box_around(x), v, t);
 }
 
 template <class F>

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -91,6 +92,11 @@ class ObstacleContact final : public ForceTerm {
   /// Is it certain that no sample is inside, with the vertices at x + t v? False if it is not known.
   /// cost  O(vertices), a tenth of asking the samples; once it is not certain, only some of the next calls find out
   bool is_clear(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v = {}, double t = 0.0) const;
+  /// The box around the vertices if it is certain that no sample is inside; and whether it still is with the vertices
+  /// at x + t v, for those in the box.
+  /// pre  not empty
+  std::optional<BoxAround> clear_box(std::span<const Eigen::Vector3d> x) const;
+  bool is_clear_after(const BoxAround& box, std::span<const Eigen::Vector3d> v, double t) const;
 
   ContactState state_at(std::span<const Eigen::Vector3d> x) const;
   /// By vertex: the largest depth [m] of a sample at the vertex, 0 outside.
@@ -137,6 +143,8 @@ class ObstacleContact final : public ForceTerm {
   template <class F>
   void for_each_contact(const Eigen::Vector3d& y, F&& f) const;
   std::span<const ContactFriction> friction_at(std::size_t piece) const;
+  bool passes_call() const;
+  bool is_clear(const BoxAround& box, double size) const;
   /// The largest over the laws, each at this share of its depth [N/m].
   double largest_stiffness(double area, double share_of_depth) const;
 

@@ -151,6 +151,7 @@ void SceneContact::resume(std::span<const Vector3d> x) {
 }
 
 void SceneContact::system_changed(const SpringSystem& system, std::span<const Vector3d> x) {
+  impulses_.forget_places();
   terms_ = terms_of(system);
   if (bodies_ != nullptr) least_altitude_ = bodies_->least_altitude(x);
 }
@@ -184,7 +185,7 @@ void SceneContact::undo(double time, Motion motion) {
 
 /// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
-  if (obstacles_->is_clear(x)) return;
+  if (impulses_.is_clear(x)) return;
   ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
   double most = 1.0;
   Penetration in;
