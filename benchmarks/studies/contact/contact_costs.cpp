@@ -128,8 +128,8 @@ Json cubes_on_a_plane(int count, int across, const char* material, bool touching
   Json scene = scene_of("asleep", material);
   for (int k = 0; k < count; ++k) {
     Json body = box(across, across, across);
-    const double x = 2 * across * spacing * (k % 10), y = 2 * across * spacing * (k / 10);
-    body["translate"] = {x, y, 0};
+    const int column = k % 10, row = k / 10;
+    body["translate"] = {2 * across * spacing * column, 2 * across * spacing * row, 0};
     if (k == 0)
       body["initial_velocity"] =
           Json::parse(R"({"constant": [0, 0.3, 0.1], "linear": [[1, 0, 0], [0, -1, 0], [0, 0, 0.5]]})");

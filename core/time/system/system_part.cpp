@@ -89,7 +89,7 @@ void SystemPart::give(Motion whole) const {
 
 std::size_t SystemPart::bytes() const {
   return bytes_of(vertices_, number_, runs_, ends_, springs_, undamped_, mass_, inverse_mass_, viscosity_) +
-         bytes_of(fixed_, held_axes_, pull_, x_, v_, terms_);
+         bytes_of(fixed_, held_axes_, pull_, x_, v_);
 }
 
 }  // namespace dartboard
