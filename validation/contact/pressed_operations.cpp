@@ -1,5 +1,6 @@
 #include "validation/contact/pressed_operations.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "core/contact/obstacle_contact.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/adapt.h"
+#include "core/mechanics/cell_nodes.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/operations/remove_volume.h"
@@ -34,12 +36,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double cube_edge = 0.05;             // [m] of a cell
-constexpr double time_step = 2e-4;             // [s]; h omega is some 0.3
-constexpr std::size_t settling = 300;          // steps before the first operation, in which the lid comes down
+constexpr double cube_edge = 0.05;             // [m]
+constexpr double time_step = 1e-4;             // [s]; h omega is 0.1 to 0.2
+constexpr std::size_t settling = 600;          // steps before the first operation, in which the boxes meet
 constexpr std::size_t between = 4;             // steps from an operation to the next
-constexpr double lid_speed = 0.05;             // [m/s]
-constexpr double gap = 0.001;                  // [m] between the boxes at first
+constexpr double lid_speed = 0.02;             // [m/s]
+constexpr double gap = 0.0002;                 // [m] between the boxes at first
 constexpr int cubes_high = 2, cubes_wide = 3;  // cubes of six cells
 
 /// Three boxes with cells of all shapes, each a little aside of the one below. `first_cell`: of each.
@@ -80,6 +82,7 @@ struct Sums {
 
 /// The energy of a contact, and the vertices on which it depends.
 struct ContactPart {
+  std::array<std::uint32_t, 4> sample{};
   std::array<std::uint32_t, 8> nodes{};
   std::size_t count = 0;
   double energy = 0.0;
@@ -97,7 +100,7 @@ class PressedStack {
       : plan_(plan),
         found_(found),
         random_(seed),
-        law_{.pressure = plan.strength * 60'000.0, .depth = 0.01, .restitution = 0.5, .friction = 0.4} {
+        law_{.pressure = 200'000.0, .depth = 0.01, .restitution = 0.5, .friction = 0.4} {
     problem_.mesh = stack_of_boxes(seed, first_cell_);
     problem_.material = {.density = 1000.0,
                          .stiffness = 0.0,
@@ -122,16 +125,16 @@ class PressedStack {
         std::vector<Obstacle>{{.shape = HalfSpace{{0, 0, 0}, {0, 0, 1}}},
                               {.shape = HalfSpace{{0, 0, height}, {0, 0, -1}}, .velocity = {0, 0, -lid_speed}}},
         skin_.samples());
+    ContactLaw weak = law_;
+    weak.pressure *= plan.strength;
     std::vector<ContactPair> pairs;
     for (std::uint32_t a = 0; a < first_cell_.size(); ++a)
-      for (std::uint32_t b = a; b < first_cell_.size(); ++b) pairs.push_back({a, b, law_});
+      for (std::uint32_t b = a; b < first_cell_.size(); ++b) pairs.push_back({a, b, weak});
     bodies_ = std::make_unique<BodyContact>(skin_.samples(), solids_.solids(), pairs);
     impulses_ = std::make_unique<ContactImpulses>(obstacles_.get(), bodies_.get());
     terms_ = {tetrahedra_.get(), obstacles_.get(), bodies_.get()};
     whole_ = body_.cell_dart.size();
-    found_.allowed = law_.depth;
-    const double altitude = least_altitude(problem_.mesh);
-    found_.least_altitude = found_.stacks == 0 ? altitude : std::min(found_.least_altitude, altitude);
+    altitude_ = least_altitude(problem_.mesh);
     ++found_.stacks;
     now_ = sums();
     most_energy_ = energy_above_floor(now_);
@@ -140,7 +143,7 @@ class PressedStack {
   PressedStack(const PressedStack&) = delete;
   PressedStack& operator=(const PressedStack&) = delete;
 
-  bool is_used_up() const { return 3 * body_.cell_dart.size() < 2 * whole_; }
+  bool is_used_up() const { return 10 * body_.cell_dart.size() < 9 * whole_; }
 
   /// Some steps; false if one fails.
   bool move(std::size_t count) {
@@ -167,13 +170,12 @@ class PressedStack {
     const std::vector<ContactPart> contacts = contact_parts();
     const Sums before = now_;
     const std::uint32_t what = random_.below(8);
-    if (what == 7) {
+    TopologyChange change;
+    if (what < 7) change = separate_something(what == 6);
+    if (change.empty()) {
       remove(before);
       return;
     }
-    TopologyChange change;
-    while (change.empty())
-      change = what < 6 ? dissociate_face(body_.map, some_dart()) : tear_fan(body_.map, some_dart());
     ++(what < 6 ? found_.dissociated : found_.torn);
     const ChangedEmbeddings changed = follow(change);
     now_ = sums();
@@ -181,17 +183,20 @@ class PressedStack {
     // What contact has at vertices that have not changed is there still, and no contact is across the cut.
     std::vector<std::uint8_t> has_changed(body_.vertices.size(), 0);
     for (const std::uint32_t k : changed.vertices) has_changed[k] = 1;
-    const auto rest_of = [&has_changed](const std::vector<ContactPart>& parts) {
-      double sum = 0.0;
-      for (const ContactPart& part : parts)
-        if (std::none_of(part.nodes.begin(), part.nodes.begin() + static_cast<std::ptrdiff_t>(part.count),
-                         [&has_changed](std::uint32_t k) { return has_changed[k] != 0; }))
-          sum += part.energy;
-      return sum;
-    };
-    if (before.contact > 0.0)
-      found_.contact =
-          max_or_nan(found_.contact, std::abs(rest_of(contact_parts()) - rest_of(contacts)) / before.contact);
+    for (const std::uint32_t f : changed.faces)
+      for (const Dart d : detail::around_face(body_.map, body_.face_dart[f]))
+        has_changed[body_.vertex(body_.map, d)] = 1;
+    const std::vector<ContactPart> after = contact_parts();
+    std::set<std::array<std::uint32_t, 4>> affected;
+    for (const auto* parts : {&contacts, &after})
+      for (const ContactPart& part : *parts)
+        if (std::any_of(part.nodes.begin(), part.nodes.begin() + static_cast<std::ptrdiff_t>(part.count),
+                        [&has_changed](std::uint32_t k) { return has_changed[k] != 0; }))
+          affected.insert(part.sample);
+    double kept = 0.0;
+    for (const ContactPart& part : after) kept += affected.contains(part.sample) ? 0.0 : part.energy;
+    for (const ContactPart& part : contacts) kept -= affected.contains(part.sample) ? 0.0 : part.energy;
+    if (before.contact > 0.0) found_.contact = max_or_nan(found_.contact, std::abs(kept) / before.contact);
     if (now_.contact > 0.0) found_.across = max_or_nan(found_.across, energy_across_cuts() / now_.contact);
   }
 
@@ -216,16 +221,26 @@ class PressedStack {
     std::set<std::pair<std::uint32_t, std::uint32_t>> judged;
     for (const JudgedOverlap& one : judged_overlaps(*bodies_, x, cells, [](auto, auto) { return true; })) {
       judged.insert({one.overlap.first, one.overlap.second});
-      found_.by_depth.add(one.overlap.depth / law_.depth, one.felt);
+      found_.by_depth.add(one.overlap.depth / altitude_, one.felt);
     }
     for (const reference::Overlap& one : reference::overlaps(x, cells))
-      if (!judged.contains({one.first, one.second})) found_.of_neighbours.add(one.depth / law_.depth, true);
+      if (!judged.contains({one.first, one.second})) found_.of_neighbours.add(one.depth / altitude_, true);
   }
 
  private:
   Dart some_dart() {
     for (;;)
       if (const Dart d{random_.below(body_.map.capacity())}; body_.map.is_live(d)) return d;
+  }
+
+  /// A change with an effect, or none where hardly a face is left to dissociate.
+  TopologyChange separate_something(bool tears) {
+    for (int tries = 0; tries < 1000; ++tries) {
+      const Dart d = some_dart();
+      if (TopologyChange change = tears ? tear_fan(body_.map, d) : dissociate_face(body_.map, d); !change.empty())
+        return change;
+    }
+    return {};
   }
 
   SpringSystem system_of_terms(ForceTerms terms) const {
@@ -265,10 +280,14 @@ class PressedStack {
     most_energy_ = std::max(most_energy_, energy_above_floor(now_));
     found_.energy = max_or_nan(found_.energy, std::abs(unaccounted_) / most_energy_);
 
-    // In each step a force is added twice, and each addition is rounded.
+    // In each step forces are added twice, and each addition is rounded; a term pushes both ways with the same numbers.
     const VertexColumns& v = body_.vertices;
     std::vector<double> force(v.size(), 0.0);
-    for (const ForceTerm* term : terms_) term->add_force_sizes({v.position}, force);
+    for (const ForceTerm* term : terms_) {
+      std::vector<Vector3d> of_term(v.size(), Vector3d::Zero());
+      term->add_forces({v.position}, of_term);
+      for (std::size_t k = 0; k < v.size(); ++k) force[k] += of_term[k].norm();
+    }
     double momentum = now_.momentum_size, angular = now_.angular_size;
     for (std::size_t k = 0; k < v.size(); ++k) {
       momentum += time_step * force[k];
@@ -348,11 +367,13 @@ class PressedStack {
         Penetration in;
         if (!obstacles_->find_penetration(o, ObstacleContact::place_of(sample, x), in)) continue;
         ContactPart& part = parts.emplace_back();
+        part.sample = sample.nodes;
         part.add(sample.corners());
         part.energy = obstacles_->laws()[o].energy(sample.area, in.depth);
       }
     for (const BodyTouch& touch : bodies_->touching({x})) {
       ContactPart& part = parts.emplace_back();
+      part.sample = skin_.samples()[touch.sample].nodes;
       part.add(skin_.samples()[touch.sample].corners());
       part.add(solids_.solids().tetrahedra()[touch.tetrahedron].nodes);
       part.energy = bodies_->laws()[touch.law].energy(touch.area, touch.depth);
@@ -398,6 +419,7 @@ class PressedStack {
   std::unique_ptr<ContactImpulses> impulses_;
   std::vector<const ForceTerm*> terms_;
   std::unique_ptr<Integrator> verlet_ = make_integrator("verlet");
+  double altitude_ = 0.0;  // [m] the least of a cell at rest
   std::size_t whole_ = 0, steps_ = 0;
   Sums now_;
   // over all steps: the sums of what is not accounted for, and of the sizes

@@ -14,8 +14,8 @@ struct PressedOperationsPlan {
   std::size_t operations = 10'000;
   std::size_t look_every = 100;  // operations from one look at overlaps to the next
   std::uint64_t seed = 1;
-  // For tests: alters the vertices unknown to the judge after an operation; the share of the pressure that contacts
-  // have; the operations that the skin does not follow.
+  // For tests: alters the vertices unknown to the judge after an operation; the share of their pressure that
+  // contacts between bodies have; the operations that the skin does not follow.
   std::function<void(std::size_t operation, VertexColumns& vertices)> meddles{};
   double strength = 1.0;
   std::function<bool(std::size_t operation)> forgets{};
@@ -43,19 +43,18 @@ struct PressedOperations {
   double energy = 0.0, momentum = 0.0, angular = 0.0;
 
   std::size_t contacts = 0;      // the most between bodies at a look
-  double allowed = 0.0;          // [m] by the law
-  double least_altitude = 0.0;   // [m] of a cell at rest
-  OverlapTally by_depth{};       // of all looks, in allowed depths: pairs of cells that are no neighbours
-  OverlapTally of_neighbours{};  // the same for those that are, around the tips of cracks
   std::size_t out_of_reach = 0;  // samples without a way out, at looks
+  // Pairs of cells that overlap, of all looks, in least altitudes of a cell: those that are no neighbours; and those
+  // that are and count for no contact, within two rings of a crack's tip or of a bend.
+  OverlapTally by_depth{}, of_neighbours{};
 
   std::size_t operations() const { return dissociated + torn + removed; }
 };
 
 /// Three boxes of neo-Hookean tetrahedra, one upon the other, between a floor and a lid that comes down, all in contact
 /// with each other and with themselves, with restitution and friction. A random face is dissociated, a fan torn or a
-/// cell removed, and some steps are taken, again and again; when a part of the stack is gone, another one takes its
-/// place. `tells` is called after each look.
+/// cell removed, and some steps are taken, again and again; when a tenth of the cells is gone, with most faces
+/// dissociated by then, another stack takes its place. `tells` is called after each look.
 ///
 /// cost  O(operations * cells)
 PressedOperations operate_under_pressure(const PressedOperationsPlan& plan,
