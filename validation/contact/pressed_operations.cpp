@@ -432,7 +432,7 @@ class PressedStack {
 PressedOperations operate_under_pressure(const PressedOperationsPlan& plan,
                                          const std::function<void(std::size_t)>& tells) {
   PressedOperations found;
-  std::uint64_t seed = plan.seed;
+  std::uint64_t seed = plan.seed * 1'000'003;
   std::unique_ptr<PressedStack> pressed;
   for (std::size_t k = 1; k <= plan.operations; ++k) {
     if (!pressed || pressed->is_used_up()) {

@@ -64,6 +64,12 @@ TEST(PressedOperations, SeeWhatAnOperationAdds) {
   EXPECT_GT(faster.sums, 1e-13);
   const PressedOperations moved = altered([](VertexColumns& v) { v.position[0].x() += 1e-6; });
   EXPECT_GT(moved.elastic, 1e-13);
+  // moved by another mass than that of the sums
+  const PressedOperations lighter = altered([](VertexColumns& v) { v.inverse_mass[0] *= 1.5; });
+  EXPECT_LE(lighter.sums, 1e-14);
+  EXPECT_GT(lighter.momentum, 1e-9);
+  EXPECT_GT(lighter.angular, 1e-9);
+  EXPECT_GT(lighter.energy, 1e-6);
 }
 
 }  // namespace
