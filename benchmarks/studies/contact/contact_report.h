@@ -9,6 +9,7 @@
 #include "benchmarks/harness/table.h"
 #include "validation/contact/contact_run.h"
 #include "validation/contact/hertz.h"
+#include "validation/contact/pressed_operations.h"
 #include "validation/contact/random_placements.h"
 #include "validation/contact/stack_at_rest.h"
 
@@ -27,6 +28,7 @@ struct ContactResults {
   };
   std::vector<Pressed> balls;
   std::optional<StackAtRest> stack;
+  std::optional<PressedOperations> operations;
 };
 
 std::vector<Claim> claims_of(const ContactResults& results);
@@ -38,5 +40,7 @@ Table depths_table(const ContactResults& results);
 Table runs_table(const std::vector<ContactRun>& runs);
 /// Hertz's force, case by case; and the stack.
 Table carried_table(const ContactResults& results);
+/// The figures of the operations in a pressed stack, with their limits.
+Table operations_table(const PressedOperations& found);
 
 }  // namespace dartboard

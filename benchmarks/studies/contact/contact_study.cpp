@@ -95,11 +95,41 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
               {"moved", results.stack->moved},
               {"ended", results.stack->ended}});
   log.advance("a stack");
+  constexpr std::size_t look_every = 100;
+  log.begin("validate contact: operations", (plan.operations + look_every - 1) / look_every);
+  const PressedOperations found =
+      operate_under_pressure({.operations = plan.operations, .look_every = look_every, .seed = plan.seed},
+                             [&log](std::size_t) { log.advance("a pressed stack"); });
+  log.sample({{"pressed_stacks", found.stacks},
+              {"dissociated", found.dissociated},
+              {"torn", found.torn},
+              {"removed", found.removed},
+              {"steps", found.steps},
+              {"looks", found.looks},
+              {"ended", found.ended},
+              {"strangers", found.strangers},
+              {"invalid", found.invalid},
+              {"elastic", found.elastic},
+              {"sums", found.sums},
+              {"contact", found.contact},
+              {"across", found.across},
+              {"reopened", found.reopened},
+              {"energy", found.energy},
+              {"momentum", found.momentum},
+              {"angular", found.angular},
+              {"contacts", found.contacts},
+              {"out_of_reach", found.out_of_reach},
+              {"deepest", found.by_depth.deepest},
+              {"pairs", depths_of(found.by_depth)},
+              {"deepest_of_neighbours", found.of_neighbours.deepest},
+              {"pairs_of_neighbours", depths_of(found.of_neighbours)}});
+  results.operations = found;
   return {.tables = {{"placements", "Bodies put into each other at random; depths over the least altitude of a cell",
                       placements_table(results)},
                      {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
                      {"runs", "Runs, looked at on the way", runs_table(results.runs)},
-                     {"carried", "What contact carries, and where it stands still", carried_table(results)}},
+                     {"carried", "What contact carries, and where it stands still", carried_table(results)},
+                     {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
           .claims = claims_of(results)};
 }
 

@@ -13,7 +13,8 @@ namespace dartboard {
 struct ContactStudyPlan {
   std::size_t placements = 100'000;  // in all
   std::size_t looks = 100;           // in each run
-  std::uint64_t seed = 1;            // seeds the placements
+  std::uint64_t seed = 1;            // seeds the placements and the operations
+  std::size_t operations = 10'000;   // in a pressed stack
   bool one_ball = false;             // pressed into a half-space; otherwise by every law, and into other cells
 };
 

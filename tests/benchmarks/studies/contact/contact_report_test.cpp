@@ -33,6 +33,15 @@ ContactResults good_results() {
   r.balls = {{{.across = 6}, {.force = 10.5, .closed_form = 10.0, .moved = 1e-9, .ended = true}},
              {{.across = 8}, {.force = 9.8, .closed_form = 10.0, .moved = 1e-9, .ended = true}}};
   r.stack = StackAtRest{.boxes = 5, .steps = 100, .drop = 0.5, .kinetic = 1e-12, .moved = 1e-8, .ended = true};
+  PressedOperations& p =
+      r.operations.emplace(PressedOperations{.stacks = 2, .dissociated = 60, .torn = 20, .removed = 20});
+  p.ended = true;
+  p.elastic = p.sums = p.contact = p.momentum = p.angular = 1e-16;
+  p.energy = 0.01;
+  p.contacts = 50;
+  p.by_depth.add(0.3, true);
+  p.by_depth.add(0.1, false);
+  p.of_neighbours.add(0.2, true);
   return r;
 }
 
@@ -48,7 +57,7 @@ const Ids moving{"contact-moving-pairs", "contact-depth", "contact-energy", "con
 
 TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_results());
-  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 10u);
+  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 11u);
   expect_words(claims, "contact-placed", "<= 0.75 altitudes", "0.2 altitudes", "of 170 placements that overlap");
   const Claim& pairs = find_claim(claims, "contact-placed-pairs");
   EXPECT_EQ(pairs.paper_value, ">= 95 %");
@@ -60,6 +69,8 @@ TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   expect_words(claims, "contact-hertz", "<= 0.1", "0.05", "the worst of 2 cases");
   expect_words(claims, "contact-stack-rests", "<= 1e-10", "2e-12", "in 100 steps");
   expect_words(claims, "contact-stack-still", "<= 1e-06 cell edges", "1e-08 cell edges", "in 100 steps");
+  expect_words(claims, "contact-pressed-operations", "<= 1 of each limit", "0.4 of each limit",
+               "in 100 operations, 20 of them removals");
 }
 
 TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
@@ -81,6 +92,20 @@ TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
     EXPECT_EQ(short_with([force](auto& r) { r.balls[1].found.force = force; }), Ids{"contact-hertz"});
   EXPECT_EQ(short_with([](auto& r) { r.stack->kinetic = 6e-11; }), Ids{"contact-stack-rests"});
   EXPECT_EQ(short_with([](auto& r) { r.stack->moved = 1.1e-6; }), Ids{"contact-stack-still"});
+  const std::function<void(PressedOperations&)> wrong[]{[](auto& p) { p.strangers = 1; },
+                                                        [](auto& p) { p.invalid = 1; },
+                                                        [](auto& p) { p.elastic = 1.1e-14; },
+                                                        [](auto& p) { p.sums = 1.1e-14; },
+                                                        [](auto& p) { p.contact = 1.1e-14; },
+                                                        [](auto& p) { p.across = 1e-30; },
+                                                        [](auto& p) { p.energy = 0.051; },
+                                                        [](auto& p) { p.momentum = 1.1e-14; },
+                                                        [](auto& p) { p.angular = 1.1e-14; },
+                                                        [](auto& p) { p.by_depth.add(0.76, true); },
+                                                        [](auto& p) { p.by_depth.add(0.76, false); }};
+  for (const auto& spoil : wrong)
+    EXPECT_EQ(short_with([&spoil](auto& r) { spoil(*r.operations); }), Ids{"contact-pressed-operations"});
+  EXPECT_EQ(short_with([](auto& r) { r.operations->of_neighbours.add(2.0, true); }), Ids{});
 }
 
 TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
@@ -97,6 +122,11 @@ TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
   EXPECT_EQ(short_with([](auto& r) { r.stack.reset(); }), stack);
   EXPECT_EQ(short_with([](auto& r) { r.stack->ended = false; }), stack);
   EXPECT_EQ(short_with([](auto& r) { r.stack->drop = 0.0; }), stack);
+  const std::function<void(ContactResults&)> without_operations[]{
+      [](auto& r) { r.operations.reset(); }, [](auto& r) { r.operations->ended = false; },
+      [](auto& r) { r.operations->contacts = 0; }, [](auto& r) { r.operations->by_depth = {}; },
+      [](auto& r) { r.operations->sums = std::numeric_limits<double>::quiet_NaN(); }};
+  for (const auto& spoil : without_operations) EXPECT_EQ(short_with(spoil), Ids{"contact-pressed-operations"});
   EXPECT_EQ(short_with([](auto& r) { r.runs[0].energy = std::numeric_limits<double>::quiet_NaN(); }),
             Ids{"contact-energy"});
 }
@@ -138,13 +168,24 @@ TEST(ContactTables, HaveARowForEachBallAndTwoForTheStack) {
                                       "0", "", "1e-10"}));
 }
 
+TEST(ContactTables, HaveTheFiguresOfOperationsAndWhatIsNearTips) {
+  const Table table = operations_table(*good_results().operations);
+  ASSERT_EQ(table.rows().size(), 16u);
+  EXPECT_EQ(table.rows()[6], (std::vector<std::string>{"energy over steps, of the largest", "0.01", "0.05"}));
+  EXPECT_EQ(table.rows()[12], (std::vector<std::string>{"unfelt", "50 %", ""}));
+  EXPECT_EQ(table.rows()[14],
+            (std::vector<std::string>{"pairs within two rings of a crack's tip, of all that overlap", "33.3 %", ""}));
+  EXPECT_EQ(table.rows()[15], (std::vector<std::string>{"deepest of these", "0.2", ""}));
+}
+
 TEST(ContactStudy, HoldsAndSaysSo) {
   StudyLog log;
-  const Report report = contact_study({.placements = 80, .looks = 6, .seed = 2, .one_ball = true}, log);
+  const Report report =
+      contact_study({.placements = 80, .looks = 6, .seed = 2, .operations = 60, .one_ball = true}, log);
   EXPECT_EQ(ids_of(report.claims, Verdict::falls_short), Ids{});
-  EXPECT_EQ(report.claims.size(), 10u);
+  EXPECT_EQ(report.claims.size(), 11u);
   EXPECT_EQ(exit_code(report), 0);
-  ASSERT_EQ(report.tables.size(), 4u);
+  ASSERT_EQ(report.tables.size(), 5u);
 }
 
 }  // namespace
