@@ -361,7 +361,6 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
     counts_sink(counts);
   }
   add_step_tasks(pile(plan.seed), plan.steps, tasks);
-  for (const Asleep& one : all_asleep) add_sleep_tasks(one, plan.across, plan.steps, tasks, counts_sink);
   run_rounds(tasks, paired, sink);
 
   tasks.clear();
@@ -369,6 +368,7 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
   for (const int across : plates_across)
     if (tetrahedra_of_plates(across) <= plan.largest)
       add_force_tasks({name_of_plates(across), plates(across)}, true, tasks, counts_sink);
+  for (const Asleep& one : all_asleep) add_sleep_tasks(one, plan.across, plan.steps, tasks, counts_sink);
   PairedOptions fewer = paired;
   fewer.rounds = std::max(1, plan.rounds / 3);
   run_rounds(tasks, fewer, sink);

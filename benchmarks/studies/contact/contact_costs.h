@@ -43,7 +43,7 @@ std::string cut_situation();
 
 struct ContactCostPlan {
   int process = 0;
-  int rounds = 12;                  // of steps; a third of them of forces
+  int rounds = 12;                  // of steps; a third of them of forces, and of steps beside sleepers
   int steps = 40;                   // in each sample
   std::size_t largest = 1'000'000;  // tetrahedra of the largest plates
   int across = 6;                   // cells to an edge of the cubes that sleep

@@ -116,7 +116,7 @@ TEST(Sleeping, IsOfAllThatAreNearEachOtherOrOfNone) {
   scene["bodies"][1]["initial_velocity"]["centre"] = {0.151, 0.05, 0.05};
   Simulation near(parse(scene));
   take_steps(near, 20);
-  EXPECT_EQ(asleep(near), 0u);
+  EXPECT_EQ(near.diagnostics().sleep->slept, 0u);
   scene["contact"]["bodies"] = "themselves";  // the two do not touch each other
   Simulation apart(parse(scene));
   take_steps(apart, 20);
