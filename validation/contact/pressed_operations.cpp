@@ -302,7 +302,7 @@ class PressedStack {
   }
 
   ChangedEmbeddings follow(const TopologyChange& change) {
-    const ChangedEmbeddings changed = adapt(body_, change);
+    ChangedEmbeddings changed = adapt(body_, change);
     changed.move_cells(mesh_cell_);
     nodes_.apply(body_, changed);
     if (!plan_.forgets || !plan_.forgets(found_.operations())) {
