@@ -167,7 +167,7 @@ std::optional<EarlyEnd> Simulation::advance() {
       body_->face_pressure() && result.ok() ? body_->face_pressure()->work(body_->vertices().position) : 0.0;
   const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
   if (const auto fault = watch_.after_step(result, done_, is_last, work, stepped_system(), stepped_motion()))
-    return diverged(*fault);
+    return diverged(of_body(*fault));
   if (is_last) examine_coordinates();
   add_work_of_forces(of_pressures);
   const std::size_t before = this->operations();
@@ -192,8 +192,14 @@ std::optional<EarlyEnd> Simulation::advance() {
 }
 
 std::optional<Divergence> Simulation::start_failure() {
-  if (const auto fault = watch_.fault_before(stepped_system(), stepped_motion())) return diverged(*fault);
+  if (const auto fault = watch_.fault_before(stepped_system(), stepped_motion())) return diverged(of_body(*fault));
   return {};
+}
+
+/// A fault of what is stepped, by the number of its vertex in the body.
+Fault Simulation::of_body(Fault fault) const {
+  if (sleeping_) fault.vertex = sleeping_->whole(fault.vertex);
+  return fault;
 }
 
 SpringSystem Simulation::stepped_system() const { return sleeping_ ? sleeping_->system() : body_->system(); }
@@ -238,8 +244,7 @@ void Simulation::examine_coordinates() {
 
 /// Reports a fault; the body goes back to the state kept last if there is one.
 Divergence Simulation::diverged(const Fault& fault, bool goes_back) {
-  const std::uint32_t vertex = sleeping_ ? sleeping_->whole(fault.vertex) : fault.vertex;
-  Divergence d{done_, time(), fault.quantity, file_number(vertex), fault.value};
+  Divergence d{done_, time(), fault.quantity, file_number(fault.vertex), fault.value};
   if (!goes_back) return d;
   d.taken_back = taken_back_ = watch_.go_back(done_, stepped_motion());
   if (sleeping_) sleeping_->give();

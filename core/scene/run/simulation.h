@@ -133,6 +133,7 @@ class Simulation {
   void add_work_of_forces(double of_pressures);
   void examine_coordinates();
   void examine_before_run();
+  Fault of_body(Fault fault) const;
   Divergence diverged(const Fault& fault, bool goes_back = true);
 
   double step_;
