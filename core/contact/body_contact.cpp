@@ -206,6 +206,36 @@ void BodyContact::raise_vertex_depths(std::span<const Vector3d> x, std::span<dou
       depth[s.nodes[0]] = std::max(depth[s.nodes[0]], t.depth);
 }
 
+/// Is the sample of an earlier touch inside still, by at least half as much, and beyond the tetrahedra along the
+/// boundary? The boundary triangles at the tetrahedron that it was inside of decide: those that are nearest to it,
+/// together, as at an edge it may be behind one of two. In a tetrahedron there that it does not touch, as beside the
+/// tip of a cut, it is not lost.
+template <class Place>
+bool BodyContact::is_deep_inside(const BodyTouch& earlier, const Place& place) const {
+  const SkinSample& sample = samples_[earlier.sample];
+  const Vector3d y = mean_of(sample, place);
+  BodyTouch touch{.sample = earlier.sample, .tetrahedron = earlier.tetrahedron};
+  KnownWay nothing;
+  if (!find_way_out(solids_, sample, y, place, std::numeric_limits<double>::infinity(), nothing, touch)) return false;
+  if (!(touch.depth > 0.5 * earlier.depth)) return false;
+  Vector3d outwards(0, 0, 0);
+  bool is_known = false;
+  for (const std::uint32_t node : solids_.tetrahedra()[touch.tetrahedron].nodes) {
+    solids_.for_each_tetrahedron_at(node, [&](std::uint32_t k) {
+      std::array<double, 4> weights{};
+      is_known = is_known || side_of(solids_.tetrahedra()[k], y, place, weights) == Side::inside;
+    });
+    solids_.for_each_triangle_at(node, [&](std::uint32_t k) {
+      const auto& corner = solids_.triangles()[k].nodes;
+      const Vector3d a = place(corner[0]) - y, b = place(corner[1]) - y, c = place(corner[2]) - y;
+      constexpr double rounding = 1.0 + 1e-9;
+      if (nearest_on_triangle(a, b, c).way.norm() <= rounding * touch.depth)
+        outwards += (b - a).cross(c - a).normalized();
+    });
+  }
+  return !is_known && outwards.dot(touch.normal) > 0.0;
+}
+
 std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
   const StagePlaces at{x};
   const PlaceNow place{at};
@@ -217,11 +247,7 @@ std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
       while (still != now.end() && still->sample < t.sample) ++still;
       if (still != now.end() && still->sample == t.sample) continue;
       if (std::ranges::find(lost_, t.sample, &BodyTouch::sample) != lost_.end()) continue;
-      // it has left: its way out leads outwards, from the triangle that it was nearest to
-      const SkinTriangle& triangle = solids_.triangles()[t.triangle];
-      const Vector3d y = mean_of(samples_[t.sample], place), a = place(triangle.nodes[0]);
-      const Vector3d outwards = (place(triangle.nodes[1]) - a).cross(place(triangle.nodes[2]) - a);
-      if ((y - a).dot(outwards) < 0.0 && -(y - a).dot(outwards) > 0.5 * t.depth * outwards.norm()) gone_.push_back(t);
+      if (is_deep_inside(t, place)) gone_.push_back(t);
     }
   }
   before_changes_ = solids_.changes();

@@ -170,7 +170,7 @@ class BodyContact final : public ForceTerm {
   std::span<const BodyFriction> frozen_friction() const { return frozen_; }
   std::vector<BodyFriction>& frozen_friction_to_set() { return frozen_; }
 
-  std::string_view pieces_name() const override { return "contact samples"; }
+  std::string_view pieces_name() const override { return "samples, triangles and tetrahedra along boundaries"; }
   std::size_t size() const override {
     return samples_.size() + solids_.triangles().size() + solids_.tetrahedra().size();
   }
@@ -199,6 +199,8 @@ class BodyContact final : public ForceTerm {
   void find_touching(const Place& place) const;
   void find_touching_now(const StagePlaces& at) const;
   void exchange_with_aside() const;
+  template <class Place>
+  bool is_deep_inside(const BodyTouch& earlier, const Place& place) const;
   /// The largest over the laws that the sample may have, each at this share of its depth [N/m].
   double largest_stiffness(std::uint32_t sample, double share_of_depth) const;
 

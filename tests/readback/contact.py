@@ -83,6 +83,16 @@ class Contact:
                 depth[nodes[0]] = max(depth[nodes[0]], d)
         return depth
 
+    def pairs(self, network):
+        """{(vertices of a place, number of the obstacle that it is in): depth}."""
+        found = {}
+        for nodes, _ in samples(network):
+            for k, obstacle in enumerate(self.obstacles):
+                there = inside(obstacle, network.frame.x[list(nodes)].mean(axis=0), network.frame.time)
+                if there:
+                    found[tuple(sorted(int(v) for v in nodes)), k] = there[0]
+        return found
+
     def row(self, networks, n, h):
         """The columns of the diagnostics after n steps: {head: (value, bound)}. Obstacles are moved by half a step
         before and after each, which does the work of their contacts."""

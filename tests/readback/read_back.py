@@ -229,6 +229,25 @@ class ReadBack(unittest.TestCase):
             most = max(most, np.count_nonzero(force[:, 2]))
         self.assertGreater(most, 4)
 
+    def test_pairs_in_contact_are_the_places_in_obstacles(self):
+        fields = {"contact_pair_" + name for name in ("sample", "face", "obstacle", "depth")}
+        for network in self.networks:
+            frame = network.frame
+            self.assertEqual(set(frame.fields) - {"TimeValue"}, fields if self.story.shows("contact") else set())
+            if not self.story.shows("contact"):
+                continue
+            expected = self.story.contact.pairs(network)
+            columns = [np.reshape(frame.fields["contact_pair_" + name], (-1, width))
+                       for name, width in (("sample", 4), ("face", 3), ("obstacle", 1), ("depth", 1))]
+            self.assertEqual([len(column) for column in columns], [len(expected)] * 4)
+            found = {}
+            for sample, face, (obstacle,), (depth,) in zip(*columns):
+                self.assertEqual(list(face), [-1, -1, -1])
+                found[tuple(sorted(int(v) for v in sample if v != -1)), int(obstacle)] = depth
+            self.assertEqual(set(found), set(expected))
+            for key, depth in expected.items():
+                self.assertLessEqual(abs(found[key] - depth), SUM * np.abs(frame.x).max())
+
     def test_springs_are_the_edges_of_the_cells_with_their_strains(self):
         if not self.story.shows("springs"):
             return

@@ -37,6 +37,7 @@ class Frame:
         for name in ("held", "displacement", "contact_force", "contact_depth", *STRESSES):
             setattr(self, name, mesh.point_data.get(name))
         self.point_names, self.cell_names = set(mesh.point_data), set(mesh.cell_data)
+        self.fields = mesh.field_data
         (self.time,) = (float(t) for t in mesh.field_data["TimeValue"].ravel())
 
 

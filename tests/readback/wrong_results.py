@@ -93,6 +93,19 @@ def column(name, value):
     return frames(lambda frame: setattr(frame, name, value(frame)))
 
 
+WIDTHS = {"sample": 4, "face": 3, "obstacle": 1, "depth": 1}
+
+
+def pairs(name, value):
+    """Changes a column of the pairs in contact, or all of them, in frames that have some."""
+    def change(frame):
+        for column_name, width in WIDTHS.items():
+            rows_of_pairs = np.reshape(frame.fields["contact_pair_" + column_name], (-1, width))
+            if len(rows_of_pairs) and name in (None, column_name):
+                frame.fields["contact_pair_" + column_name] = value(rows_of_pairs)
+    return frames(change)
+
+
 WRONG = {
     "velocities are positions": column("v", lambda f: f.x),
     "each vertex has the velocity of the next": column("v", lambda f: np.roll(f.v, -1, axis=0)),
@@ -176,6 +189,9 @@ WRONG_CONTACTS = {
         "contact_force", lambda f: f.contact_force.astype("f4").astype("f8")),
     "vertices are as deep as the deepest": column("contact_depth", lambda f: 0 * f.contact_depth + f.contact_depth.max()),
     "depths are a hundred-millionth off": column("contact_depth", lambda f: f.contact_depth * (1 + 1e-8)),
+    "pairs are deeper by a hundred-millionth": pairs("depth", lambda d: d * (1 + 1e-8)),
+    "pairs are of the next sample": pairs("sample", lambda s: np.roll(s, 1, axis=0)),
+    "a pair is missing": pairs(None, lambda column: column[:-1]),
     "the energy of contacts is elastic": rows(lambda r: exchange(r, "contact [J]", ENERGIES[1])),
     "contacts have no energy": rows(set_to("contact [J]", lambda _: "0")),
     "obstacles that move do no work": rows(set_to("supplied at contacts [J]", lambda _: "0")),

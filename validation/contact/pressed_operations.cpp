@@ -59,18 +59,6 @@ Mesh stack_of_boxes(std::uint64_t seed, std::vector<std::size_t>& first_cell) {
   return all;
 }
 
-double least_altitude(const Mesh& mesh) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const auto k = mesh.cell(c);
-    const auto x = [&](std::size_t j) -> const Vector3d& { return mesh.points[k[j % 4]]; };
-    const double six_volumes = std::abs((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)));
-    for (std::size_t j = 0; j < 4; ++j)
-      least = std::min(least, six_volumes / (x(j + 2) - x(j + 1)).cross(x(j + 3) - x(j + 1)).norm());
-  }
-  return least;
-}
-
 /// The sums over a stack, and the sums of the sizes of their terms.
 struct Sums {
   double kinetic = 0.0, elastic = 0.0, gravitational = 0.0, contact = 0.0;
@@ -134,7 +122,7 @@ class PressedStack {
     impulses_ = std::make_unique<ContactImpulses>(obstacles_.get(), bodies_.get());
     terms_ = {tetrahedra_.get(), obstacles_.get(), bodies_.get()};
     whole_ = body_.cell_dart.size();
-    altitude_ = least_altitude(problem_.mesh);
+    altitude_ = bodies_->least_altitude(body_.vertices.position);
     ++found_.stacks;
     now_ = sums();
     most_energy_ = energy_above_floor(now_);

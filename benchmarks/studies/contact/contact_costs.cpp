@@ -179,14 +179,7 @@ std::size_t count_differing(std::span<const BodyTouch> a, std::span<const BodyTo
   return differing;
 }
 
-/// Another contact of the same bodies, with lists of its own.
-std::unique_ptr<BodyContact> contact_like(const BodyContact& contact, const SceneFile& scene) {
-  std::vector<ContactPair> pairs;
-  for (const SceneTouch& touch : scene.touches) pairs.push_back({touch.first, touch.second, touch.law});
-  return std::make_unique<BodyContact>(contact.samples(), contact.solids(), pairs);
-}
-
-ContactCounts count(const std::string& situation, const Simulation& simulation, const SceneFile& scene) {
+ContactCounts count(const std::string& situation, const Simulation& simulation) {
   const SimulatedBody& body = simulation.body();
   const std::vector<Vector3d>& x = body.vertices().position;
   ContactCounts counts{.situation = situation, .tetrahedra = body.counts().cells};
@@ -199,9 +192,9 @@ ContactCounts count(const std::string& situation, const Simulation& simulation, 
     counts.samples = bodies->samples().size();
     counts.contacts += touching.size();
     counts.candidates = bodies->candidates().pair_count();
-    const auto other = contact_like(*bodies, scene);
-    other->set_margin(0.5);
-    counts.differing = count_differing(touching, other->touching({x}));
+    BodyContact other(bodies->samples(), bodies->solids(), *bodies);
+    other.set_margin(0.5);
+    counts.differing = count_differing(touching, other.touching({x}));
     if (counts.samples * bodies->solids().tetrahedra().size() <= affordable)
       counts.differing += count_differing(touching, bodies->touching_by_brute_force({x}, nullptr));
     std::vector<Vector3d> force(x.size(), Vector3d(0, 0, 0));
@@ -247,7 +240,7 @@ std::pair<std::uint64_t, std::uint64_t> add_step_tasks(const Situation& situatio
   return {tasks[tasks.size() - 2].hash(), tasks.back().hash()};
 }
 
-/// All cubes but one asleep, and that one alone. The counts have the vertices asleep as samples.
+/// All cubes but one asleep, and that one alone. The counts have the bodies asleep as samples.
 void add_sleep_tasks(const Asleep& asleep, int across, int steps, std::vector<TimedTask>& tasks,
                      const std::function<void(const ContactCounts&)>& counts_sink) {
   constexpr int until_asleep = 15;
@@ -293,7 +286,7 @@ void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTa
                      const std::function<void(const ContactCounts&)>& counts_sink) {
   const SceneFile scene = parsed(situation.scene);
   const auto s = std::make_shared<Pressed>(scene, situation.steps);
-  const ContactCounts counts = count(situation.name, s->simulation, scene);
+  const ContactCounts counts = count(situation.name, s->simulation);
   counts_sink(counts);
   s->evaluations = counts.evaluations;
   const auto add_task = [&](const char* name, bool of_contact) {
@@ -311,7 +304,8 @@ void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTa
   add_task(": contact", true);
   add_task(": elements", false);
   if (!lists) return;
-  s->own = contact_like(*s->simulation.body().body_contact(), scene);
+  const BodyContact& contact = *s->simulation.body().body_contact();
+  s->own = std::make_unique<BodyContact>(contact.samples(), contact.solids(), contact);
   tasks.push_back({situation.name + ": list", [] {},
                    [s] {
                      for (int k = 0; k < s->evaluations; ++k) {
@@ -356,7 +350,7 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
   for (const Situation& s : all_idle()) {
     const auto [with, without] = add_step_tasks(s, plan.steps, tasks);
     const SceneFile scene = parsed(s.scene);
-    ContactCounts counts = count(s.name, Simulation(scene), scene);
+    ContactCounts counts = count(s.name, Simulation(scene));
     if (with != without) ++counts.differing;
     counts_sink(counts);
   }

@@ -99,10 +99,11 @@ std::string to_text(const SimulationReport& r) {
     say("mass unaccounted for after removals: {} of the mass\n", drift_text(r.mass_drift()));
   const EventJumps& jumps = r.simulation.jumps();
   if (jumps.events > 0)
-    say("largest jump at {} that {}: mass {}, stiffness {}, momentum {}, kinetic and elastic energy {} "
+    say("largest jump at {} that {}: mass {}, stiffness {}, momentum {}, kinetic and elastic energy {}{} "
         "(relative)\n",
         counted(jumps.events, "event"), jumps.events == 1 ? "dissociates" : "dissociate", drift_text(jumps.mass),
-        drift_text(jumps.stiffness), drift_text(jumps.momentum), drift_text(jumps.energy));
+        drift_text(jumps.stiffness), drift_text(jumps.momentum), drift_text(jumps.energy),
+        jumps.contact == 0.0 ? "" : fmt::format(", energy of contacts {}", drift_text(jumps.contact)));
   say("hash of the last state {:016x}\n", r.simulation.body().state_hash());
   for (const std::string& warning : warnings_of(r.scene, r.simulation))
     if (std::ranges::find(r.warned, warning) == r.warned.end()) say("warning: {}\n", warning);

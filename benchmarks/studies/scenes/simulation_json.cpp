@@ -54,11 +54,8 @@ nlohmann::ordered_json to_json(std::span<const SelectionCount> selections) {
 }
 
 nlohmann::ordered_json to_json(const EventJumps& jumps) {
-  return {{"events", jumps.events},
-          {"mass", jumps.mass},
-          {"stiffness", jumps.stiffness},
-          {"momentum", jumps.momentum},
-          {"energy", jumps.energy}};
+  return {{"events", jumps.events},     {"mass", jumps.mass},     {"stiffness", jumps.stiffness},
+          {"momentum", jumps.momentum}, {"energy", jumps.energy}, {"contact", jumps.contact}};
 }
 
 }  // namespace dartboard

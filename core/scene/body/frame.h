@@ -18,6 +18,16 @@ struct RefinedFacet {
   std::array<std::int64_t, 3> lies_in;  // the numbers of the corners of that face, as in mesh_point
 };
 
+/// A place of the boundary inside an obstacle or a body: the mean of its points.
+struct FramePair {
+  static constexpr std::int64_t none = -1;
+
+  std::array<std::int64_t, 4> sample{none, none, none, none};  // one point, or the three or four of a face
+  std::array<std::int64_t, 3> face{none, none, none};          // of the body: the points of the nearest triangle
+  std::int64_t obstacle = none;                                // or the number of the obstacle in the scene
+  double depth = 0.0;                                          // [m]
+};
+
 /// The cells of a body where they are now. Points are its vertices: the parts of a dissociated vertex are two points.
 struct Frame {
   double time = 0.0;  // [s]
@@ -42,6 +52,7 @@ struct Frame {
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
   std::vector<Eigen::Vector3d> contact_force;         // [N] by point: of contacts, without friction and damping
   std::vector<double> contact_depth;                  // [m] by point: the depth inside an obstacle or body; 0 outside
+  std::vector<FramePair> contact_pairs;               // with obstacles, then with bodies
   std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
   std::vector<double> strain;                         // (l - L) / L by link of a chain, then by spring
 };

@@ -44,6 +44,10 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
   for (std::uint32_t& node : frame.mesh.nodes) node = place[node];
   for (RefinedFacet& facet : frame.refined_facets)
     for (std::uint32_t& point : facet.points) point = place[point];
+  for (FramePair& pair : frame.contact_pairs)
+    for (std::span<std::int64_t> points : {std::span<std::int64_t>(pair.sample), std::span<std::int64_t>(pair.face)})
+      for (std::int64_t& point : points)
+        if (point != FramePair::none) point = place[static_cast<std::size_t>(point)];
   for (auto* lines : {&frame.links, &frame.springs})
     for (auto& [a, b] : *lines) {
       a = place[a];
@@ -98,13 +102,29 @@ void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyCont
   const auto& x = frame.mesh.points;
   frame.contact_force.assign(x.size(), Eigen::Vector3d(0, 0, 0));
   frame.contact_depth.assign(x.size(), 0.0);
+  const auto pair_of = [](const SkinSample& sample, double depth) {
+    FramePair pair{.depth = depth};
+    std::ranges::copy(sample.corners(), pair.sample.begin());
+    return pair;
+  };
   if (obstacles != nullptr) {
     obstacles->add_forces({.x = x}, frame.contact_force);
     obstacles->vertex_depths(x, frame.contact_depth);
+    for (const SkinSample& sample : obstacles->samples())
+      for (std::uint32_t k = 0; k < obstacles->obstacles().size(); ++k) {
+        Penetration inside;
+        if (!obstacles->find_penetration(k, ObstacleContact::place_of(sample, x), inside)) continue;
+        frame.contact_pairs.push_back(pair_of(sample, inside.depth));
+        frame.contact_pairs.back().obstacle = k;
+      }
   }
   if (bodies == nullptr) return;
   bodies->add_forces({.x = x}, frame.contact_force);
   bodies->raise_vertex_depths(x, frame.contact_depth);
+  for (const BodyTouch& touch : bodies->touching({.x = x})) {
+    frame.contact_pairs.push_back(pair_of(bodies->samples()[touch.sample], touch.depth));
+    std::ranges::copy(bodies->solids().triangles()[touch.triangle].nodes, frame.contact_pairs.back().face.begin());
+  }
 }
 
 }  // namespace dartboard

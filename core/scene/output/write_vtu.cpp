@@ -51,14 +51,43 @@ constexpr const char* vtk_type<std::uint8_t>() {
 }
 
 template <class T>
-void append_array(std::string& out, const char* name, const T* data, std::size_t size, int components = 1) {
+std::string encoded(const T* data, std::size_t size) {
   const std::uint64_t length = size * sizeof(T);
   std::string bytes(reinterpret_cast<const char*>(&length), sizeof length);
   if (length > 0) bytes.append(reinterpret_cast<const char*>(data), length);
+  return encode_base64(bytes);
+}
+template <class T>
+void append_array(std::string& out, const char* name, const T* data, std::size_t size, int components = 1) {
   fmt::format_to(
       std::back_inserter(out),
       "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-      vtk_type<T>(), name, components, encode_base64(bytes));
+      vtk_type<T>(), name, components, encoded(data, size));
+}
+/// A field is an array of tuples of its own.
+template <class T>
+void append_field(std::string& out, const char* name, const T* data, std::size_t tuples, std::size_t components = 1) {
+  const std::string shape = components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", components);
+  fmt::format_to(
+      std::back_inserter(out),
+      "        <DataArray type=\"{}\" Name=\"{}\" {}NumberOfTuples=\"{}\" format=\"binary\">{}</DataArray>\n",
+      vtk_type<T>(), name, shape, tuples, encoded(data, tuples * components));
+}
+void append_pairs(std::string& out, std::span<const FramePair> pairs) {
+  std::vector<std::array<std::int64_t, 4>> samples;
+  std::vector<std::array<std::int64_t, 3>> faces;
+  std::vector<std::int64_t> obstacles;
+  std::vector<double> depths;
+  for (const FramePair& pair : pairs) {
+    samples.push_back(pair.sample);
+    faces.push_back(pair.face);
+    obstacles.push_back(pair.obstacle);
+    depths.push_back(pair.depth);
+  }
+  append_field(out, "contact_pair_sample", samples.empty() ? nullptr : samples[0].data(), pairs.size(), 4);
+  append_field(out, "contact_pair_face", faces.empty() ? nullptr : faces[0].data(), pairs.size(), 3);
+  append_field(out, "contact_pair_obstacle", obstacles.data(), pairs.size());
+  append_field(out, "contact_pair_depth", depths.data(), pairs.size());
 }
 template <class T>
 void append_array(std::string& out, const char* name, const std::vector<T>& values) {
@@ -84,7 +113,7 @@ bool has_columns_of_its_size(const Frame& frame) {
          is(frame.tension.size(), fields.stress, frame.links.size()) &&
          is(frame.displacement.size(), fields.displacement, points) &&
          is(frame.contact_force.size(), fields.contact, points) &&
-         is(frame.contact_depth.size(), fields.contact, points) &&
+         is(frame.contact_depth.size(), fields.contact, points) && (fields.contact || frame.contact_pairs.empty()) &&
          (frame.springs.empty() || (fields.springs && !is_chain)) &&
          is(frame.strain.size(), fields.springs, frame.links.size() + frame.springs.size());
 }
@@ -129,10 +158,8 @@ std::string to_vtu(const Frame& frame) {
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n"
       "    <FieldData>\n";
-  append_array(out, "TimeValue", &frame.time, 1);
-  // a field is an array of tuples of its own
-  const auto field = out.find("NumberOfComponents=\"1\"");
-  out.replace(field, std::string_view("NumberOfComponents=\"1\"").size(), "NumberOfTuples=\"1\"");
+  append_field(out, "TimeValue", &frame.time, 1);
+  if (frame.fields.contact) append_pairs(out, frame.contact_pairs);
   fmt::format_to(std::back_inserter(out),
                  "    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n", points,
                  types.size());

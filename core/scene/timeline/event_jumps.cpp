@@ -8,9 +8,12 @@
 namespace dartboard {
 
 KeptSums kept_sums(const SimulatedBody& body) {
-  const SpringSystem system = body.system();
+  SpringSystem system = body.system();
   const VertexColumns& v = body.vertices();
-  double size = 0.0;
+  const ForceTerms others = body.terms_but_contact(system.terms);
+  double contact = 0.0, size = 0.0;
+  for (const ForceTerm* term : system.terms.subspan(others.size())) contact += term->energy(v.position);
+  system.terms = others;
   // in extended precision: a missing share is to be found, and not the rounding by another order of summation
   long double mass = 0.0L, stiffness = 0.0L;
   for (std::size_t k = 0; k < v.size(); ++k) {
@@ -18,9 +21,12 @@ KeptSums kept_sums(const SimulatedBody& body) {
     mass += v.mass[k];
   }
   for (const Spring spring : system.springs) stiffness += spring.stiffness;
-  return {static_cast<double>(mass), static_cast<double>(stiffness),
-          kinetic_energy(system, v.velocity) + elastic_energy(system, v.position), linear_momentum(system, v.velocity),
-          size};
+  return {.mass = static_cast<double>(mass),
+          .stiffness = static_cast<double>(stiffness),
+          .energy = kinetic_energy(system, v.velocity) + elastic_energy(system, v.position),
+          .contact = contact,
+          .momentum = linear_momentum(system, v.velocity),
+          .size_of_momentum = size};
 }
 
 void EventJumps::add(const KeptSums& before, const KeptSums& after) {
@@ -30,6 +36,7 @@ void EventJumps::add(const KeptSums& before, const KeptSums& after) {
   stiffness = max_or_nan(stiffness, relative(after.stiffness - before.stiffness, before.stiffness));
   momentum = max_or_nan(momentum, relative((after.momentum - before.momentum).norm(), before.size_of_momentum));
   energy = max_or_nan(energy, relative(after.energy - before.energy, before.energy));
+  contact = max_or_nan(contact, relative(after.contact - before.contact, before.energy));
 }
 
 std::size_t apply_watched(ReadyEvent& event, const SimulatedBody& body, EventJumps& jumps) {

@@ -9,10 +9,11 @@
 
 namespace dartboard {
 
-/// Sums over a body that no dissociation changes.
+/// Sums over a body that no dissociation changes, and the energy of its contacts.
 struct KeptSums {
   double mass, stiffness;    // [kg] of all vertices, [N/m] of all springs: m = m1 + m2 and k = k1 + k2 at each split
   double energy;             // [J] kinetic and elastic
+  double contact;            // [J] of contacts: a dissociation changes it where it makes new places of the boundary
   Eigen::Vector3d momentum;  // [kg m/s]
   double size_of_momentum;   // [kg m/s] the sum of m |v|
 };
@@ -25,12 +26,13 @@ struct EventJumps {
   double stiffness = 0.0;    // relative to the stiffness before
   double momentum = 0.0;     // relative to the sum of m |v| before
   double energy = 0.0;       // kinetic and elastic, relative to their sum before
+  double contact = 0.0;      // of contacts, relative to the same sum
 
   /// Add another event. A NaN stays.
   void add(const KeptSums& before, const KeptSums& after);
   template <class Archive>
   void state(Archive& archive) {
-    archive(events, mass, stiffness, momentum, energy);
+    archive(events, mass, stiffness, momentum, energy, contact);
   }
 };
 

@@ -47,6 +47,7 @@ class SystemPart {
   std::vector<std::uint32_t> vertices_, number_;
   std::vector<Run> runs_;
   std::vector<SpringEnds> ends_;
+  // Of the two that the whole has, as the loop over damped springs rounds otherwise even without a damped one.
   std::vector<Spring> springs_;
   std::vector<UndampedSpring> undamped_;
   std::vector<double> mass_, inverse_mass_, viscosity_;

@@ -438,6 +438,19 @@ TEST(BodyContact, TellsWhatGoesOnInwards) {
   EXPECT_GT(last, 0.08);
 }
 
+// The plane of the face that a tip was nearest to goes on beyond the edge: behind it there is no body.
+TEST(BodyContact, LosesNothingThatLeavesOverAnEdge) {
+  TwoBodies two(kuhn_box(4, 4, 4, 0.25), shifted(tip(0.01), {0.9, 0.52, 0.999}), between(law_between(3, 1000.0, 0.1)));
+  bool touched = false;
+  for (int k = 0; k < 20; ++k) {
+    touched = touched || two.contact->state_at(two.x).contacts > 0;
+    EXPECT_TRUE(two.contact->find_lost(two.x).empty()) << k;
+    for (std::size_t j = two.x.size() - 4; j < two.x.size(); ++j) two.x[j] += Vector3d(0.01, 0, -0.0005);
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_EQ(two.contact->state_at(two.x).contacts, 0u);
+}
+
 TEST(BodyContact, SkipsCellsThatAreTurnedInsideOut) {
   TwoBodies two(one_tetrahedron(), shifted(tip(0.01), {0.2, 0.2, 0.2}), between(law_between(3, 1000.0, 0.5)));
   EXPECT_GT(two.contact->state_at(two.x).contacts, 0u);

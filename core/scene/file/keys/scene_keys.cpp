@@ -447,7 +447,9 @@ std::vector<SceneKey> keys_by_hand() {
                "(area) of the cells; of chains the tension [N] of each link, and 0 at vertices. 'displacement': of each vertex from where it "
                "was at rest [m], which takes 24 bytes a vertex. 'springs': every spring as a line, with its strain. "
                "'contact': of each vertex the force of obstacles and other bodies [N], without damping and friction, and how deep it is "
-               "inside [m]"},
+               "inside [m]; and as field data each pair in contact: the points whose mean is inside (contact_pair_sample, of four, -1 "
+               "for none), the points of the face of a body that is nearest (contact_pair_face) or the number of the obstacle "
+               "(contact_pair_obstacle), -1 for none, and the depth [m] (contact_pair_depth)"},
       {.shape = output, .name = "diagnostics_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
        .help = "from one row of diagnostics to the next, or {\"steps\": 10}; the first and the last state always get one"},
       {.shape = output, .name = "probes", .type = objects, .of = probe, .standard = "[]",

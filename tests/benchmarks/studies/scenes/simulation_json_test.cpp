@@ -43,9 +43,10 @@ TEST(SimulationJson, NamesTheStressOfASurfaceAsThatOfASolidAndTheTensionOfAChain
 }
 
 TEST(SimulationJson, OfJumpsHasEveryNumberUnderItsName) {
-  const EventJumps jumps{.events = 1, .mass = 2, .stiffness = 5, .momentum = 3, .energy = 4};
+  const EventJumps jumps{.events = 1, .mass = 2, .stiffness = 5, .momentum = 3, .energy = 4, .contact = 6};
   EXPECT_EQ(nlohmann::json(to_json(jumps)),
-            nlohmann::json::parse(R"({"events": 1, "mass": 2.0, "stiffness": 5.0, "momentum": 3.0, "energy": 4.0})"));
+            nlohmann::json::parse(R"({"events": 1, "mass": 2.0, "stiffness": 5.0, "momentum": 3.0, "energy": 4.0,
+                                      "contact": 6.0})"));
 }
 
 TEST(SimulationJson, HasNullForWhatIsNotFinite) {

@@ -171,6 +171,7 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   f.links = {{0, 2}};
   f.springs = {{3, 1}};
   f.refined_facets = {{.points = {0, 1, 2}, .lies_in = {0, 1, 1}}};
+  f.contact_pairs = {{.sample = {1, 2, 3, -1}, .face = {0, 1, 3}}, {.sample = {3, -1, -1, -1}, .obstacle = 2}};
   for (std::vector<double>* column :
        {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
     *column = {0, 1, 2, 3};
@@ -191,6 +192,11 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   EXPECT_EQ(f.mesh.nodes, (std::vector<std::uint32_t>{0, 3, 1}));
   EXPECT_EQ(f.links[0], (std::array<std::uint32_t, 2>{0, 2}));
   EXPECT_EQ(f.springs[0], (std::array<std::uint32_t, 2>{1, 3}));
+  EXPECT_EQ(f.contact_pairs[0].sample, (std::array<std::int64_t, 4>{3, 2, 1, -1}));
+  EXPECT_EQ(f.contact_pairs[0].face, (std::array<std::int64_t, 3>{0, 3, 1}));
+  EXPECT_EQ(f.contact_pairs[1].sample, (std::array<std::int64_t, 4>{1, -1, -1, -1}));
+  EXPECT_EQ(f.contact_pairs[1].face, (std::array<std::int64_t, 3>{-1, -1, -1}));
+  EXPECT_EQ(f.contact_pairs[1].obstacle, 2);
 }
 
 // ---- stress

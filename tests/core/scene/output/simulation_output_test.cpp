@@ -107,6 +107,8 @@ Frame full_frame() {
     frame.contact_force.emplace_back(700 + n, 800 + n, 900 + n);
     frame.contact_depth.push_back(4000 + n);
   }
+  frame.contact_pairs = {{.sample = {0, -1, -1, -1}, .obstacle = 4, .depth = 0.5},
+                         {.sample = {0, 1, 2, -1}, .face = {3, 1, 2}, .depth = 0.25}};
   return frame;
 }
 
@@ -121,6 +123,12 @@ TEST(WriteVtu, PutsEveryColumnThatIsAskedForUnderItsName) {
   EXPECT_EQ(column<double>(points, "displacement", "Float64"), flat(frame.displacement));
   EXPECT_EQ(column<double>(points, "contact_force", "Float64"), flat(frame.contact_force));
   EXPECT_EQ(column<double>(points, "contact_depth", "Float64"), frame.contact_depth);
+  const std::string whole = vtu.substr(vtu.find("<FieldData"), vtu.find("</FieldData") - vtu.find("<FieldData"));
+  EXPECT_EQ(column<std::int64_t>(whole, "contact_pair_sample", "Int64"), (Integers{0, -1, -1, -1, 0, 1, 2, -1}));
+  EXPECT_EQ(column<std::int64_t>(whole, "contact_pair_face", "Int64"), (Integers{-1, -1, -1, 3, 1, 2}));
+  EXPECT_EQ(column<std::int64_t>(whole, "contact_pair_obstacle", "Int64"), (Integers{4, -1}));
+  EXPECT_EQ(column<double>(whole, "contact_pair_depth", "Float64"), (std::vector<double>{0.5, 0.25}));
+  EXPECT_NE(whole.find("Name=\"contact_pair_face\" NumberOfComponents=\"3\" NumberOfTuples=\"2\""), std::string::npos);
   EXPECT_NE(points.find("Name=\"displacement\" NumberOfComponents=\"3\""), std::string::npos);
   EXPECT_EQ(vtu.find("\"tension\""), std::string::npos);
   const std::string bare = to_vtu(telling_frame());
@@ -210,7 +218,12 @@ TEST(WriteVtu, RefusesEachColumnOfAnotherLength) {
       [](Frame& f) { f.contact_force.pop_back(); }, [](Frame& f) { f.contact_depth.pop_back(); },
       // columns that no field requests
       [](Frame& f) { f.fields.held = false; }, [](Frame& f) { f.fields.displacement = false; },
-      [](Frame& f) { f.fields.contact = false; }};
+      [](Frame& f) { f.fields.contact = false; },
+      [](Frame& f) {
+        f.fields.contact = false;
+        f.contact_force.clear();
+        f.contact_depth.clear();
+      }};
   EXPECT_NO_THROW(to_vtu(full_frame()));
   for (const auto& shorten : shortened) {
     Frame frame = full_frame();

@@ -267,6 +267,19 @@ TEST(ContactScene, KeepsTheOrderOfEventsAtTheirTimesWithObstaclesThatMove) {
   EXPECT_NEAR(d.energy(), d.contact->supplied, 2e-3 * d.energy());
 }
 
+// The faces of a cut have their middles in the floor, too: that is the contact's energy, and not the body's.
+TEST(ContactScene, CountsWhatACutAddsToContactsApartFromTheBody) {
+  Json scene = with_events(
+      above_a_floor(), R"([{"at": 0.001, "dissociate": {"plane": {"point": [0.05, 0, 0], "normal": [1, 0, 0]}}}])");
+  scene["body"]["translate"] = {0, 0, -0.04};
+  Simulation simulation(parse(scene));
+  simulation.watch_events(true);
+  for (int n = 0; n < 6; ++n) ASSERT_FALSE(simulation.advance());
+  ASSERT_EQ(simulation.jumps().events, 1u);
+  EXPECT_LE(simulation.jumps().energy, 1e-15);
+  EXPECT_GT(simulation.jumps().contact, 0.01);
+}
+
 // ---- output
 
 TEST(ContactScene, ShowsForcesAndDepthsOfVerticesWhereTheyAreAskedFor) {
@@ -291,6 +304,26 @@ TEST(ContactScene, ShowsForcesAndDepthsOfVerticesWhereTheyAreAskedFor) {
   EXPECT_NE(vtu.find("\"contact_force\""), std::string::npos);
   EXPECT_NE(vtu.find("\"contact_depth\""), std::string::npos);
   EXPECT_EQ(to_vtu(simulation.frame({})).find("contact"), std::string::npos);
+}
+
+TEST(ContactScene, ListsThePairsInContactWhereTheyAreAskedFor) {
+  Json scene = above_a_floor();
+  scene["body"]["translate"] = {0, 0, -0.001};
+  scene["output"] = Json::parse(R"({"fields": ["contact"]})");
+  const Simulation simulation(parse(scene));
+  const Frame frame = simulation.frame();
+  EXPECT_EQ(frame.contact_pairs.size(), simulation.diagnostics().contact->contacts);
+  ASSERT_FALSE(frame.contact_pairs.empty());
+  for (const FramePair& pair : frame.contact_pairs) {
+    EXPECT_EQ(pair.obstacle, 0);
+    EXPECT_EQ(pair.face, FramePair{}.face);
+    EXPECT_NEAR(pair.depth, 0.001, 1e-17);
+    for (const std::int64_t point : pair.sample)
+      if (point != FramePair::none) {
+        EXPECT_LT(frame.mesh.points.at(static_cast<std::size_t>(point)).z(), 0.0);
+      }
+  }
+  EXPECT_TRUE(simulation.frame({}).contact_pairs.empty());
 }
 
 // ---- forecasts

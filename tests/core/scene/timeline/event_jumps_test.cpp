@@ -47,23 +47,29 @@ TEST(KeptSums, AreMassEnergyOfMotionAndOfSpringsAndMomentum) {
   EXPECT_EQ(sums.size_of_momentum, 5.0 + 1.0);
 }
 
-const KeptSums before{.mass = 4, .stiffness = 16, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8};
+const KeptSums before{
+    .mass = 4, .stiffness = 16, .energy = 10, .contact = 1, .momentum = {1, 0, 0}, .size_of_momentum = 8};
 
 TEST(EventJumps, AreRelativeToWhatWasThereBefore) {
   EventJumps jumps;
-  jumps.add(before, {.mass = 3, .stiffness = 17, .energy = 15, .momentum = {1, 3, 4}, .size_of_momentum = 100});
+  jumps.add(before,
+            {.mass = 3, .stiffness = 17, .energy = 15, .contact = 3, .momentum = {1, 3, 4}, .size_of_momentum = 100});
   EXPECT_EQ(jumps.events, 1u);
   EXPECT_EQ(jumps.mass, 1.0 / 4);
   EXPECT_EQ(jumps.stiffness, 1.0 / 16);
   EXPECT_EQ(jumps.energy, 5.0 / 10);
+  EXPECT_EQ(jumps.contact, 2.0 / 10);
   EXPECT_EQ(jumps.momentum, 5.0 / 8);
 }
 
 TEST(EventJumps, AreTheLargestOfAllEventsEachOfItsKind) {
   EventJumps jumps;
-  jumps.add(before, {.mass = 5, .stiffness = 16, .energy = 10, .momentum = {1, 0, 0}, .size_of_momentum = 8});
-  jumps.add(before, {.mass = 4, .stiffness = 12, .energy = 7.5, .momentum = {1, 0, 0}, .size_of_momentum = 8});
-  jumps.add(before, {.mass = 4, .stiffness = 16, .energy = 10, .momentum = {0, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before,
+            {.mass = 5, .stiffness = 16, .energy = 10, .contact = 1, .momentum = {1, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before,
+            {.mass = 4, .stiffness = 12, .energy = 7.5, .contact = 1, .momentum = {1, 0, 0}, .size_of_momentum = 8});
+  jumps.add(before,
+            {.mass = 4, .stiffness = 16, .energy = 10, .contact = 1, .momentum = {0, 0, 0}, .size_of_momentum = 8});
   EXPECT_EQ(jumps.events, 3u);
   EXPECT_EQ(jumps.mass, 1.0 / 4);
   EXPECT_EQ(jumps.stiffness, 4.0 / 16);
@@ -72,7 +78,8 @@ TEST(EventJumps, AreTheLargestOfAllEventsEachOfItsKind) {
 }
 
 TEST(EventJumps, AreNoneWhereNothingChangesThoughThereWasNothing) {
-  const KeptSums nothing{.mass = 0, .stiffness = 0, .energy = 0, .momentum = {0, 0, 0}, .size_of_momentum = 0};
+  const KeptSums nothing{
+      .mass = 0, .stiffness = 0, .energy = 0, .contact = 0, .momentum = {0, 0, 0}, .size_of_momentum = 0};
   EventJumps jumps;
   jumps.add(nothing, nothing);
   EXPECT_EQ(jumps.mass, 0.0);

@@ -15,6 +15,7 @@
 #include "core/scene/file/selections/selection.h"
 #include "core/scene/run/simulation.h"
 #include "tests/support/bodies/corner_body.h"
+#include "tests/support/gallery_for_tests.h"
 
 namespace dartboard::gallery_physics_test {
 namespace {
@@ -22,23 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-SceneFile gallery(const std::string& name) {
-  return read_scene(source_folder() / "benchmarks" / "scenes" / (name + ".json"));
-}
-
-const ExpectedPlace& place_of(const SceneFile& scene, const std::string& probe, bool of_part = false) {
-  for (const ExpectedPlace& place : scene.expect.places)
-    if (scene.probes[place.probe].name == probe && place.of_part == of_part) return place;
-  throw std::runtime_error(scene.name + " expects no place of " + probe);
-}
-
-void expect_place(const SceneFile& scene, const ExpectedPlace& place, const Vector3d& derived) {
-  EXPECT_LE((derived - place.position).norm(), place.within)
-      << scene.name << ", " << scene.probes[place.probe].name << (place.of_part ? ", part" : "") << ": derived "
-      << derived.transpose() << ", expected " << place.position.transpose();
-  EXPECT_FALSE(place.why.empty()) << scene.name << ": the source of the place is missing";
-}
 
 /// The position after a time, from x with v, under gravity and viscosity alone: v' = g - c v.
 Vector3d flight(const Vector3d& x, const Vector3d& v, const SceneFile& scene, double time) {
@@ -498,37 +482,6 @@ TEST(GalleryPhysics, TheMembraneHangsAsAStripOfItsYoungsModulus) {
 
 // ---- contact
 
-// A point that slides: gravity along the slope less mu times its normal force; a box is the mean of its points.
-TEST(GalleryPhysics, TheBlockSlidesAsAPointWithFriction) {
-  const SceneFile scene = gallery("block_slides");
-  const SceneObstacle& slope = scene.obstacles.at(0);
-  const Vector3d normal = std::get<HalfSpace>(slope.obstacle.shape).normal, v = scene.initial_velocity.constant;
-  const Mesh mesh = make_problem(scene).mesh;
-  Vector3d centre(0, 0, 0);
-  for (const Vector3d& x : mesh.points) centre += x / static_cast<double>(mesh.points.size());
-  const double presses = -scene.gravity.dot(normal), time = scene.duration;
-  EXPECT_NEAR(v.dot(normal), 0.0, 1e-15);
-  const Vector3d acceleration = scene.gravity + presses * normal - slope.law.friction * presses * v.normalized();
-  expect_place(scene, place_of(scene, "corner", true), centre + v * time + acceleration * (time * time / 2));
-  // and it starts as deep as its weight needs
-  const Simulation simulation(scene);
-  const ContactState state = simulation.body().contact()->state_at(simulation.body().vertices().position);
-  EXPECT_NEAR(-state.force_on.at(0).dot(normal), simulation.body().mass() * presses, 1e-4 * presses);
-}
-
-TEST(GalleryPhysics, TheSheetHangsFromTheHighestPointOfTheBall) {
-  const SceneFile scene = gallery("sheet_drapes");
-  const Ball& ball = std::get<Ball>(scene.obstacles.at(0).obstacle.shape);
-  const ExpectedPlace& crown = place_of(scene, "crown");
-  // anywhere from the surface to the depth allowed
-  EXPECT_LE(crown.within, scene.obstacles.at(0).law.depth / 2);
-  expect_place(scene, crown, ball.centre + Vector3d(0, 0, ball.radius - crown.within));
-  const Mesh mesh = make_problem(scene).mesh;
-  Vector3d centre(0, 0, 0);
-  for (const Vector3d& x : mesh.points) centre += x / static_cast<double>(mesh.points.size());
-  EXPECT_LE((centre - ball.centre).head<2>().norm(), 1e-12);
-}
-
 // A table without friction pushes only upwards: along it, a part that has landed goes on with its old velocity.
 TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
   SceneFile scene = gallery("liver_lands");
@@ -546,38 +499,6 @@ TEST(GalleryPhysics, ThePartOfTheLiverThatLandsGoesOnAlongTheTable) {
   EXPECT_LT(flown.z(), table.point.z());
   EXPECT_GT(place.position.z(), table.point.z());
   EXPECT_LT(place.position.z(), table.point.z() + 0.15);
-}
-
-// Columns on each other: each is as deep in the one below as the weight above needs, and shortened by the mean of the
-// weights on its two ends.
-TEST(GalleryPhysics, StackedBoxesAreAsDeepInEachOtherAsTheWeightAboveNeeds) {
-  const SceneFile scene = gallery("boxes_stacked");
-  struct Column {
-    double side, mass;
-  };
-  std::vector<Column> columns;
-  for (const BodySource& body : scene.bodies()) {
-    const auto& box = std::get<BoxMesh>(body.mesh);
-    const double side = box.cells[2] * box.spacing;
-    columns.push_back({side, scene.material.density * side * side * side});
-  }
-  const ContactLaw& law = scene.obstacles.at(0).law;
-  EXPECT_EQ(scene.touches.at(0).law.depth, law.depth);
-  EXPECT_EQ(scene.touches.at(0).law.pressure, law.pressure);
-  const double g = -scene.gravity.z();
-  std::vector<double> centre;
-  double z = 0.0;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    const auto [side, mass] = columns[k];
-    double above = 0.0;
-    for (std::size_t j = k + 1; j < columns.size(); ++j) above += columns[j].mass * g;
-    z -= law.depth_at_rest((above + mass * g) / (side * side));
-    const double height = side * (1.0 - (above + mass * g / 2) / (side * side) / scene.material.young);
-    centre.push_back(z + height / 2);
-    z += height;
-  }
-  expect_place(scene, place_of(scene, "middle", true), {0.05, 0.05, centre[1]});
-  expect_place(scene, place_of(scene, "top", true), {0.05, 0.05, centre[2]});
 }
 
 // The mesh is its own mirror image in the middle of the bar, so half way along nothing moves along the axis.
