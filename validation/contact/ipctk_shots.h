@@ -17,7 +17,8 @@ struct IpctkShot {
   IpctkQuestion question{};       // the places after each step, until contact has been felt at three of them
 };
 
-/// Cubes that are shot at a plate, turned at random, from `way` 0.1 to 100 in equal ratios.
+/// Cubes that are shot at the middle of a plate, turned at random, from `way` 0.1 to 100 in equal ratios. Each meets it
+/// with a corner first, which is a sample: contact is felt as soon as surfaces cross by more than rounding.
 /// pre  count > 0
 std::vector<IpctkShot> ipctk_shots(std::size_t count, std::uint64_t seed);
 

@@ -71,8 +71,8 @@ Claim claim_on_crossings(const IpctkResults& results) {
 Claim claim_on_steps(const IpctkShotsFound& shots) {
   Claim claim{.id = "contact-ipctk-steps",
               .text =
-                  "below half an altitude a step, contact is felt within two steps of ipctk's first collision, never "
-                  "before; above it runs warn",
+                  "slow shots are felt with the first collision by ipctk or a step later, none sooner; runs warn of "
+                  "fast ones",
               .paper_value = "0 otherwise",
               .measured = fmt::format("{} otherwise", shots.wrong()),
               .bound_or_interval = fmt::format("of {}, {} of them slow; {} fast ones pass unfelt",
@@ -177,7 +177,7 @@ std::string run_ipctk(const std::string& questions) {
         },
         Stderr::as_output, folder.path());
   } catch (const ProcessError& error) {
-    throw IoError(fmt::format("ipctk: {}: {}", error.what(), last));
+    throw IoError(fmt::format("ipctk: {}{}{}", error.what(), last.empty() ? "" : ": ", last));
   }
   std::ifstream answers(folder.path() / "answers.json", std::ios::binary);
   if (!answers) throw IoError(fmt::format("ipctk: it wrote no answers: {}", last));
