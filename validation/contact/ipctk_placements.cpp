@@ -28,6 +28,14 @@ double least_width(std::span<const CellCorners> cells, std::span<const Vector3d>
   return least;
 }
 
+double longest_edge(std::span<const CellCorners> cells, std::span<const Vector3d> x) {
+  double longest = 0.0;
+  for (const CellCorners& k : cells)
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < a; ++b) longest = std::max(longest, (x[k[a]] - x[k[b]]).norm());
+  return longest;
+}
+
 }  // namespace
 
 IpctkPlacements ipctk_placements(std::string bodies, const Mesh& first, const Mesh& second, const PlacementPlan& plan) {
@@ -37,6 +45,7 @@ IpctkPlacements ipctk_placements(std::string bodies, const Mesh& first, const Me
                        .question = surfaces.question(false),
                        .overlap = {},
                        .width = least_width(placed.cells(), placed.x()),
+                       .edge = longest_edge(placed.cells(), placed.x()),
                        .size = 0.0};
   for (std::size_t k = 0; k < plan.placements; ++k) {
     placed.place(-1.0);
@@ -67,11 +76,11 @@ IpctkPlacementsFound found_by_ipctk(const IpctkPlacements& placements, const Ipc
       ++found.contacts;
       const bool shallow = distance < placements.width;
       found.shallow += shallow ? 1 : 0;
-      const double more = depth - distance;
-      const bool may_be_longer = !shallow && more > 0.0;
-      if (!may_be_longer) found.apart = max_or_nan(found.apart, std::abs(more) / placements.size);
+      // the nearest depth that is right
+      const double right = shallow ? distance : std::clamp(depth, distance, std::max(distance, placements.edge));
+      found.apart = max_or_nan(found.apart, std::abs(depth - right) / placements.size);
       const double ratio = depth / distance;
-      found.longer += may_be_longer && ratio > 1.0 + 1e-9 ? 1 : 0;
+      found.longer += !shallow && ratio > 1.0 + 1e-9 ? 1 : 0;
       found.longest = max_or_nan(found.longest, ratio);
     }
   }

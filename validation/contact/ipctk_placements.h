@@ -16,6 +16,7 @@ struct IpctkPlacements {
   IpctkQuestion question;
   std::vector<double> overlap;  // by place: the deepest of two cells by CGAL, in least altitudes; 0 without one
   double width = 0.0;           // [m] the least distance of two parallel planes with a cell between them
+  double edge = 0.0;            // [m] the longest of a cell
   double size = 0.0;            // [m] the largest coordinate
 };
 
@@ -38,7 +39,7 @@ struct IpctkPlacementsFound {
   std::size_t shallow = 0;  // nearer to the surface, by ipctk, than the least width of a cell
   std::size_t longer = 0;   // of the others: deeper than the surface is far
   // The largest distance of our depths from those of ipctk, as a share of the size. A contact that is not shallow may
-  // be deeper, but not less deep.
+  // be deeper, up to the longest edge.
   double apart = 0.0;
   double longest = 1.0;  // depth over distance
 };
@@ -46,7 +47,8 @@ struct IpctkPlacementsFound {
 /// The **depth** of a contact is the distance of the nearest triangle among those at the corners of the tetrahedron
 /// that the sample is in. That triangle is the nearest of all where the nearest of all is not further than the least
 /// width: the sum of the hat functions of the tetrahedron's corners is 1 in it and 0 on a triangle without any of them,
-/// and in no cell steeper than 1 over its width; the way to the nearest triangle is within the body.
+/// and in no cell steeper than 1 over its width; the way to the nearest triangle is within the body. Otherwise the way
+/// out may be longer, but not longer than an edge: a corner of the tetrahedron is on the boundary.
 IpctkPlacementsFound found_by_ipctk(const IpctkPlacements& placements, const IpctkAnswer& answer);
 
 }  // namespace dartboard

@@ -46,11 +46,12 @@ TEST(IpctkPlacements, AreSomeInEachOtherAndSomeApart) {
   EXPECT_FALSE(p.question.in_motion);
 }
 
-// Cells of a cube of 1/2 m that is not distorted: between two opposite edges, 1/2 m over the root of 3.
-TEST(IpctkPlacements, KnowTheLeastWidthOfACell) {
+// Cells of a cube of 1/2 m that is not distorted: between two opposite edges, 1/2 m over the root of 3; a diagonal.
+TEST(IpctkPlacements, KnowTheLeastWidthAndTheLongestEdgeOfACell) {
   const Mesh box = kuhn_box(1, 1, 1, 0.5);
   const IpctkPlacements p = ipctk_placements("boxes", box, box, {.placements = 3, .seed = 1});
   EXPECT_NEAR(p.width, 0.5 / std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(p.edge, 0.5 * std::sqrt(3.0), 1e-15);
   EXPECT_GT(p.size, 0.5);
   EXPECT_LT(p.size, 2.0);
 }
@@ -99,9 +100,9 @@ TEST(IpctkPlacements, AreDisputedWhereSurfacesCrossWithoutAnOverlap) {
   EXPECT_EQ(found.false_felt, 0u);
 }
 
-/// A sample of this depth in a body of size 2, whose cells are 1 wide; ipctk finds another distance.
+/// A sample of this depth in a body of size 2, whose cells are 1 wide and 4 long; ipctk finds another distance.
 IpctkPlacementsFound compared(double depth, double distance) {
-  IpctkPlacements p{.bodies = "", .question = {}, .overlap = {0.5}, .width = 1.0, .size = 2.0};
+  IpctkPlacements p{.bodies = "", .question = {}, .overlap = {0.5}, .width = 1.0, .edge = 4.0, .size = 2.0};
   p.question.places = {{.x = {}, .samples = {{.nodes = {0}, .depth = depth}}, .felt = true}};
   return found_by_ipctk(p, {.crossing = {true}, .squares = {{distance * distance}}, .free = {}});
 }
@@ -114,12 +115,15 @@ TEST(IpctkPlacements, CompareDepthsWithDistances) {
   EXPECT_EQ(compared(5.0, 0.5).apart, 2.25);
 }
 
-TEST(IpctkPlacements, AllowLongerWaysButNoShorterOnesBeyondTheWidthOfACell) {
+TEST(IpctkPlacements, AllowLongerWaysUpToAnEdgeButNoShorterOnesBeyondTheWidthOfACell) {
   const IpctkPlacementsFound longer = compared(3.0, 1.5), equal = compared(1.5, 1.5), shorter = compared(1.5, 3.0);
   EXPECT_EQ(longer.apart, 0.0);
   EXPECT_EQ(longer.longer, 1u);
   EXPECT_EQ(longer.longest, 2.0);
   EXPECT_EQ(longer.shallow, 0u);
+  EXPECT_EQ(compared(5.0, 1.5).apart, 0.5);
+  EXPECT_EQ(compared(5.0, 5.0).apart, 0.0);
+  EXPECT_EQ(compared(5.0, 4.5).apart, 0.25);
   EXPECT_EQ(equal.longer, 0u);
   EXPECT_EQ(equal.longest, 1.0);
   EXPECT_EQ(shorter.apart, 0.75);
