@@ -48,7 +48,10 @@ IpctkPlacements ipctk_placements(std::string bodies, const Mesh& first, const Me
                        .edge = longest_edge(placed.cells(), placed.x()),
                        .size = 0.0};
   for (std::size_t k = 0; k < plan.placements; ++k) {
-    placed.place(-1.0);
+    if (k % 2 == 0)
+      placed.place(-1.0);
+    else
+      placed.shift(0.2);
     double deepest = 0.0;
     for (const JudgedOverlap& one : placed.overlaps()) deepest = std::max(deepest, one.overlap.depth);
     made.overlap.push_back(deepest / placed.least_altitude());

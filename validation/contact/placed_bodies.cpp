@@ -61,6 +61,11 @@ void PlacedBodies::place(double shallowest) {
   for (const std::uint32_t k : b.vertices) x_[k] = here - depth * out + turn * (rest_[k] - there);
 }
 
+void PlacedBodies::shift(double share) {
+  const Vector3d way = share * least_altitude() * random_.next_in_ball();
+  for (const std::uint32_t k : shapes_[1].vertices) x_[k] += way;
+}
+
 /// A corner, a place on an edge or one within a face of a triangle of the boundary.
 Vector3d PlacedBodies::place_on(const Shape& shape) {
   const auto& t = shape.triangles[random_.below(shape.triangles.size())];

@@ -32,6 +32,8 @@ class PlacedBodies {
   /// first, turned so that the outward directions at both are opposite. `shallowest` least altitudes deep to one, each
   /// depth as often; below 0 the two places are apart.
   void place(double shallowest = 0.0);
+  /// Move the second on, by less than `share` of the least altitude: so little that lists and ways out are used again.
+  void shift(double share);
   /// The overlaps of cells of the first with cells of the second, and whether they are felt.
   std::vector<JudgedOverlap> overlaps() const;
 

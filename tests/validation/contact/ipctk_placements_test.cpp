@@ -56,6 +56,20 @@ TEST(IpctkPlacements, KnowTheLeastWidthAndTheLongestEdgeOfACell) {
   EXPECT_LT(p.size, 2.0);
 }
 
+TEST(IpctkPlacements, AreEverySecondTimeThoseBeforeMovedOnALittle) {
+  const IpctkPlacements p = placed();
+  const double a_little = 0.3 * p.width;  // a fifth of an altitude is less
+  for (std::size_t k = 1; k < p.question.places.size(); k += 2) {
+    const auto &before = p.question.places[k - 1].x, &after = p.question.places[k].x;
+    EXPECT_EQ(after.front(), before.front());
+    const Vector3d moved = after.back() - before.back();
+    EXPECT_GT(moved.norm(), 0.0);
+    EXPECT_LT(moved.norm(), a_little);
+    EXPECT_LT((after[after.size() - 2] - before[before.size() - 2] - moved).norm(), 1e-15);
+  }
+  EXPECT_GT((p.question.places[2].x.back() - p.question.places[1].x.back()).norm(), a_little);
+}
+
 // The depth is that of the nearest triangle of the whole body, searched here one by one.
 TEST(IpctkPlacements, HaveTheBodyThatASampleIsInsideOf) {
   const IpctkPlacements p = placed();
