@@ -188,6 +188,47 @@ n=0
   EXPECT_TRUE(fs::is_empty(folder_ / "scratch"));
 }
 
+TEST_F(Endings, WithoutIpctkItSaysWhatWasTriedAndWhatIsExpected) {
+  fs::create_directories(folder_ / "bin");
+  const std::vector<std::string> arguments{"validate", "contact", "--quick", "--with", "ipctk"};
+  EXPECT_EQ(ended(start(arguments, (folder_ / "bin").string())), 3);
+  EXPECT_NE(text("errors.txt").find("--with ipctk: no `python3` answers with its version (cannot start `python3 "),
+            std::string::npos)
+      << text("errors.txt");
+  EXPECT_EQ(text("printed.txt"), "");
+  // one without the module
+  std::ofstream(folder_ / "bin" / "python3") << "#!/bin/sh\necho \"No module named 'ipctk'\" >&2\nexit 1\n";
+  fs::permissions(folder_ / "bin" / "python3", fs::perms::owner_all);
+  EXPECT_EQ(ended(start(arguments, (folder_ / "bin").string())), 3);
+  for (const char* words : {"reference/ipctk/certify.py --version` ended with status 1, expected 0: No module named "
+                            "'ipctk')",
+                            "expected one on the PATH that imports ipctk (pip install ipctk)"})
+    EXPECT_NE(text("errors.txt").find(words), std::string::npos) << text("errors.txt");
+  EXPECT_EQ(text("printed.txt"), "");
+}
+
+TEST_F(Endings, AnIpctkThatAnswersNothingIsAnIoErrorAndLeavesNoFiles) {
+  fs::create_directories(folder_ / "bin");
+  fs::create_directories(folder_ / "scratch");
+  std::ofstream(folder_ / "bin" / "python3") << R"(#!/bin/sh
+if [ "$3" = --version ]; then echo "ipctk 0.1"; exit 0; fi
+[ "$1 ${2##*/} $3 $4" = "-B certify.py questions.json answers.json" ] && [ -s "$3" ] && echo "{}" > "$4"
+)";
+  fs::permissions(folder_ / "bin" / "python3", fs::perms::owner_all);
+  setenv("TMPDIR", (folder_ / "scratch").c_str(), 1);
+  const pid_t child = start({"validate", "contact", "--quick", "--with", "ipctk"}, (folder_ / "bin").string());
+  unsetenv("TMPDIR");
+  EXPECT_EQ(ended(child), 3);
+  EXPECT_NE(text("errors.txt").find("ipctk: its answers: no \"answers\"; expected 1 in a list"), std::string::npos)
+      << text("errors.txt");
+  EXPECT_TRUE(fs::is_empty(folder_ / "scratch"));
+}
+
+TEST_F(Endings, AnUnknownWitnessOfContactIsRefused) {
+  EXPECT_EQ(ended(start({"validate", "contact", "--quick", "--with", "calculix"})), 2);
+  EXPECT_NE(text("errors.txt").find("--with"), std::string::npos) << text("errors.txt");
+}
+
 TEST_F(Endings, WithoutAFolderResultsAreLeftWhereOneStands) {
   EXPECT_EQ(ended(start({"validate", "solvers", "--quick", "--only", "accuracy"})), 0) << text("errors.txt");
   const fs::path results = folder_ / "dartboard-results";

@@ -1,14 +1,17 @@
 #include <optional>
+#include <string>
 
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/contact/contact_study.h"
+#include "benchmarks/studies/contact/ipctk_study.h"
 
 namespace dartboard {
 
 void add_validate_contact(CLI::App& validate, Outcome& outcome) {
   struct Options : StudyOptions {
     std::optional<std::size_t> placements;
+    std::string with;
   };
   auto* verb = validate.add_subcommand(
       "contact",
@@ -18,12 +21,21 @@ void add_validate_contact(CLI::App& validate, Outcome& outcome) {
                                                 .seed = "the random placements and operations",
                                                 .keeps_folder = false});
   verb->add_option("--placements", options->placements, "of bodies in each other [100000; 400 with --quick]");
+  verb->add_option("--with", options->with,
+                   "another program that judges contacts, too: ipctk, which `python3` imports (pip install ipctk)")
+      ->check(CLI::IsMember({"ipctk"}));
   verb->callback([options, &outcome] {
-    const ContactStudyPlan plan{.placements = options->placements.value_or(options->quick ? 400 : 100'000),
-                                .looks = options->quick ? 10u : 100u,
-                                .seed = options->seed,
-                                .operations = options->quick ? 200u : 10'000u,
-                                .one_ball = options->quick};
+    ContactStudyPlan plan{.placements = options->placements.value_or(options->quick ? 400 : 100'000),
+                          .looks = options->quick ? 10u : 100u,
+                          .seed = options->seed,
+                          .operations = options->quick ? 200u : 10'000u,
+                          .one_ball = options->quick,
+                          .certified = options->quick ? 200u : 2000u,
+                          .shots = options->quick ? 30u : 100u};
+    if (!options->with.empty()) {
+      plan.ipctk_version = ipctk_version();
+      plan.ipctk = run_ipctk;
+    }
     run_study(
         *options, {.label = "contact", .keeps_folder = false}, [&](StudyLog& log) { return contact_study(plan, log); },
         outcome);

@@ -12,10 +12,6 @@
 namespace dartboard {
 namespace {
 
-// Contact is felt at vertices and in the middles of faces: edges that cross, and a corner in a face between these,
-// overlap by a part of a face before a sample is inside: a third of its height each, which exceeds the least altitude
-// of a cell by the variation among cells.
-constexpr double most_unfelt = 0.75;
 // A sample is in contact with one cell, so that for some of the pairs found there the contact lies in a neighbour cell.
 constexpr double least_share = 0.95;
 constexpr std::size_t deep_class = 3;  // from 0.6 of the least altitude on

@@ -15,6 +15,11 @@
 
 namespace dartboard {
 
+// The deepest overlap that need not be felt, in least altitudes of a cell. Contact is felt at vertices and in the
+// middles of faces: edges that cross, and a corner in a face between these, overlap by a part of a face before a sample
+// is inside: a third of its height each, which exceeds the least altitude of a cell by the variation among cells.
+constexpr double most_unfelt = 0.75;
+
 struct ContactResults {
   struct Placed {
     std::string bodies;

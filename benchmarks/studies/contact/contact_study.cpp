@@ -1,11 +1,16 @@
 #include "benchmarks/studies/contact/contact_study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "benchmarks/studies/contact/contact_report.h"
+#include "benchmarks/studies/contact/ipctk_study.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "validation/contact/contact_scenes.h"
 
@@ -28,12 +33,56 @@ nlohmann::json depths_of(const OverlapTally& tally) {
   return {{"overlaps", tally.overlaps}, {"unfelt", tally.missed}, {"deepest_unfelt", tally.deepest_missed}};
 }
 
+IpctkResults ask_ipctk(const ContactStudyPlan& plan, StudyLog& log) {
+  IpctkResults results;
+  const auto bodies = pairs();
+  log.begin("validate contact: ipctk", bodies.size() + 2);
+  const std::size_t each = std::max<std::size_t>(1, plan.certified / bodies.size());
+  for (const Pair& pair : bodies) {
+    const IpctkPlacements placed =
+        ipctk_placements(pair.bodies, pair.first, pair.second, {.placements = each, .seed = plan.seed});
+    const IpctkPlacementsFound& found = results.placements.emplace_back(certified(placed, plan.ipctk));
+    log.sample({{"ipctk", pair.bodies},
+                {"placements", found.placements},
+                {"crossing", found.crossing},
+                {"disputed", found.disputed},
+                {"false_felt", found.false_felt},
+                {"quiet", found.quiet},
+                {"deepest_quiet", found.deepest_quiet},
+                {"contacts", found.contacts},
+                {"shallow", found.shallow},
+                {"longer", found.longer},
+                {"longest", found.longest},
+                {"apart", found.apart}});
+    log.advance(pair.bodies);
+  }
+  const std::vector<IpctkShot> shots = ipctk_shots(plan.shots, plan.seed);
+  log.advance("shots");
+  results.shots = certified(shots, plan.ipctk);
+  log.sample({{"ipctk", "shots"},
+              {"shots", results.shots.shots},
+              {"slow", results.shots.slow},
+              {"fast", results.shots.fast},
+              {"hits", results.shots.hits},
+              {"at_once", results.shots.at_once},
+              {"passes", results.shots.passes},
+              {"early", results.shots.early},
+              {"late", results.shots.late},
+              {"false_warnings", results.shots.false_warnings},
+              {"silent", results.shots.silent}});
+  log.advance("collisions of shots");
+  return results;
+}
+
 }  // namespace
 
 Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
   // in parts, to show progress
   constexpr std::size_t part = 250;
   ContactResults results;
+  // before what takes long, since another program may fail
+  std::optional<IpctkResults> by_ipctk;
+  if (plan.ipctk) by_ipctk = ask_ipctk(plan, log);
   const auto bodies = pairs();
   const std::size_t each = std::max<std::size_t>(1, plan.placements / bodies.size());
   log.begin("validate contact: placements", bodies.size() * ((each + part - 1) / part));
@@ -124,13 +173,27 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
               {"deepest_of_neighbours", found.of_neighbours.deepest},
               {"pairs_of_neighbours", depths_of(found.of_neighbours)}});
   results.operations = found;
-  return {.tables = {{"placements", "Bodies put into each other at random; depths over the least altitude of a cell",
-                      placements_table(results)},
-                     {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
-                     {"runs", "Runs, looked at on the way", runs_table(results.runs)},
-                     {"carried", "What contact carries, and where it stands still", carried_table(results)},
-                     {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
-          .claims = claims_of(results)};
+  Report report{
+      .tables = {{"placements", "Bodies put into each other at random; depths over the least altitude of a cell",
+                  placements_table(results)},
+                 {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
+                 {"runs", "Runs, looked at on the way", runs_table(results.runs)},
+                 {"carried", "What contact carries, and where it stands still", carried_table(results)},
+                 {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
+      .claims = claims_of(results)};
+  if (by_ipctk) {
+    std::ranges::copy(claims_of(*by_ipctk), std::back_inserter(report.claims));
+    report.tables.push_back(
+        {"ipctk",
+         fmt::format("Surfaces put to each other at random, by ipctk {}; lengths as above, apart over "
+                     "the size",
+                     plan.ipctk_version),
+         ipctk_table(*by_ipctk)});
+    report.tables.push_back({"ipctk_shots", "Shots at a plate: the first step that collides, by ipctk, and contact",
+                             ipctk_shots_table(by_ipctk->shots)});
+    report.facts["ipctk"] = plan.ipctk_version;
+  }
+  return report;
 }
 
 }  // namespace dartboard

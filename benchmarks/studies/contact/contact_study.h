@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
@@ -16,6 +18,10 @@ struct ContactStudyPlan {
   std::uint64_t seed = 1;            // seeds the placements and the operations
   std::size_t operations = 10'000;   // in a pressed stack
   bool one_ball = false;             // pressed into a half-space; otherwise by every law, and into other cells
+  // Makes the answers to questions, as run_ipctk does; empty: ipctk is not asked.
+  std::function<std::string(const std::string& questions)> ipctk{};
+  std::string ipctk_version{};
+  std::size_t certified = 2000, shots = 100;  // placements in all, and shots, that ipctk judges
 };
 
 Report contact_study(const ContactStudyPlan& plan, StudyLog& log);

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include "benchmarks/harness/processes.h"
+#include "benchmarks/harness/scratch_folder.h"
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
 #include "validation/statics/static_problem.h"
@@ -19,34 +16,11 @@
 namespace dartboard {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Seven digits are printed: a number is rounded by 5e-7 of itself at most, and a displacement by as much. As much again
 // is left for linear solutions; for large ones three times that, as CalculiX iterates to a residual of 1e-9 of the
 // forces in it, ten times over.
 constexpr double bound_small = 1e-6, bound_large = 2e-6;
 constexpr double least_bend = 0.5;  // [m] counts as large
-
-/// A new folder, gone when it goes out of scope.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "dartboard-calculix-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw IoError(fmt::format("{}: cannot be made: {}", name, std::generic_category().message(errno)));
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 Claim claim_on(std::span<const CalculixAnswer> answers, bool large) {
   double worst = 0.0, least = INFINITY;
@@ -109,7 +83,7 @@ std::string calculix_version() {
 }
 
 std::string run_calculix(const std::string& deck) {
-  const ScratchFolder folder;
+  const ScratchFolder folder("calculix");
   {
     std::ofstream file(folder.path() / "beam.inp", std::ios::binary);
     file << deck;

@@ -6,8 +6,10 @@
 
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "benchmarks/studies/contact/contact_study.h"
+#include "core/plain/error.h"
 #include "tests/support/claims_for_tests.h"
 
 namespace dartboard::contact_report_test {
@@ -178,14 +180,50 @@ TEST(ContactTables, HaveTheFiguresOfOperationsAndWhatIsNearTips) {
   EXPECT_EQ(table.rows()[15], (std::vector<std::string>{"deepest of these", "0.2", ""}));
 }
 
-TEST(ContactStudy, HoldsAndSaysSo) {
+/// Answers in the name of ipctk that are of the right form, and wrong: surfaces cross everywhere.
+std::string wrong_answers_to(const std::string& questions) {
+  nlohmann::json all = nlohmann::json::object();
+  const nlohmann::json asked = nlohmann::json::parse(questions);
+  for (const auto& question : asked.at("questions")) {
+    const auto& places = question.at("places");
+    nlohmann::json squares = nlohmann::json::array(), answer = nlohmann::json::object();
+    for (const auto& place : places) squares.push_back(std::vector<double>(place.at("samples").size(), 1.0));
+    answer["crossing"] = std::vector<bool>(places.size(), true);
+    answer["squares"] = squares;
+    answer["free"] = std::vector<bool>(question.at("in_motion").get<bool>() ? places.size() - 1 : 0, false);
+    all["answers"].push_back(answer);
+  }
+  return all.dump();
+}
+
+TEST(ContactStudy, HoldsButWhereIpctkSaysOtherwise) {
   StudyLog log;
-  const Report report =
-      contact_study({.placements = 80, .looks = 6, .seed = 2, .operations = 60, .one_ball = true}, log);
-  EXPECT_EQ(ids_of(report.claims, Verdict::falls_short), Ids{});
-  EXPECT_EQ(report.claims.size(), 11u);
-  EXPECT_EQ(exit_code(report), 0);
-  ASSERT_EQ(report.tables.size(), 5u);
+  const Report report = contact_study({.placements = 80,
+                                       .looks = 6,
+                                       .seed = 2,
+                                       .operations = 60,
+                                       .one_ball = true,
+                                       .ipctk = wrong_answers_to,
+                                       .ipctk_version = "0.1",
+                                       .certified = 20,
+                                       .shots = 3},
+                                      log);
+  EXPECT_EQ(ids_of(report.claims, Verdict::holds).size(), 11u);
+  EXPECT_EQ(ids_of(report.claims, Verdict::falls_short),
+            (Ids{"contact-ipctk-depths", "contact-ipctk-crossings", "contact-ipctk-steps"}));
+  EXPECT_EQ(exit_code(report), 1);
+  ASSERT_EQ(report.tables.size(), 7u);
+  EXPECT_EQ(report.tables[5].name, "ipctk");
+  ASSERT_EQ(report.tables[5].table.rows().size(), 4u);
+  EXPECT_EQ(report.tables[5].table.rows()[0][1], "5");
+  EXPECT_EQ(report.tables[6].table.rows()[0][1], "1");
+  EXPECT_EQ(report.facts.at("ipctk"), "0.1");
+}
+
+TEST(ContactStudy, EndsAtOnceWhereIpctkAnswersNothing) {
+  StudyLog log;
+  const ContactStudyPlan plan{.ipctk = [](const std::string&) { return "{}"; }, .certified = 4, .shots = 1};
+  EXPECT_THROW(contact_study(plan, log), IoError);
 }
 
 }  // namespace
