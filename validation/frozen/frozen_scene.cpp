@@ -274,9 +274,9 @@ void FrozenBody::look_at_contact() {
 
 StepResult FrozenBody::step(Integrator& integrator, const SpringSystem& system, double time, double h) {
   const Motion motion = body_->motion();
-  if (contact_ && contact_->begin(time, h, system, motion)) integrator.restart();
+  if (contact_ && contact_->begin(time, h, system, motion)) integrator.motion_changed();
   const StepResult result = integrator.step(system, motion, h);
-  if (contact_ && result.ok() && contact_->end(time, h, system, motion)) integrator.restart();
+  if (contact_ && result.ok() && contact_->end(time, h, system, motion)) integrator.motion_changed();
   return result;
 }
 

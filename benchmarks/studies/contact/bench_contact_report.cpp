@@ -14,6 +14,7 @@ namespace {
 constexpr double most_idle = 1.02;      // of a step without contact
 constexpr double most_after_cut = 1.0;  // of the forces of the elements
 constexpr double most_asleep = 1.1;     // of a step of what is awake
+constexpr double most_factored = 0.1;   // of the steps
 /// The sum of some thousand forces by their roundings.
 constexpr double most_unbalanced = 1e-13;
 
@@ -78,6 +79,25 @@ Claim growth_claim(const ContactCosts& c, const std::string& task, const std::st
                            what, c.counts.at(plates.front()).tetrahedra, c.counts.at(plates.back()).tetrahedra),
                fmt::format("exponent <= {:.3f}", bound), fmt::format("{:.3f}", f.median), to_string(f.interval),
                at_most(f, bound));
+}
+
+// Counts, which have no interval.
+Claim factors_claim(const ContactCosts& c) {
+  std::string measured, iterations;
+  Met met = c.factors.empty() ? Met::no : Met::yes;
+  for (const ContactFactors& f : c.factors) {
+    const double share = static_cast<double>(f.factorisations) / static_cast<double>(f.steps);
+    measured += fmt::format("{}{:.3f}", measured.empty() ? "" : " / ", share);
+    iterations +=
+        fmt::format("{}{:.1f} and {:.1f}", iterations.empty() ? "" : " / ", f.with_changes(), f.without_changes());
+    if (!(f.changes > 0 && share <= most_factored)) met = Met::no;
+  }
+  return claim(
+      "contact-kept-factor",
+      "backward Euler on boxes that lie on each other / a liver that is pressed / balls that roll: new factors "
+      "per step, while contacts come and go",
+      fmt::format("<= {:g}", most_factored), measured,
+      fmt::format("{} iterations in steps with a change and without", iterations), met);
 }
 
 std::string limit_of(const std::string& situation) {
@@ -155,6 +175,19 @@ Table sleep_table(const ContactCosts& c) {
   return table;
 }
 
+Table factors_table(const ContactCosts& c) {
+  Table table({{"scene"},
+               {"steps", Align::right},
+               {"contacts that come or go", Align::right},
+               {"factors", Align::right},
+               {"iterations in a step with a change", Align::right},
+               {"in another", Align::right}});
+  for (const ContactFactors& f : c.factors)
+    table.add_row({f.scene, std::to_string(f.steps), std::to_string(f.changes), std::to_string(f.factorisations),
+                   fmt::format("{:.1f}", f.with_changes()), fmt::format("{:.1f}", f.without_changes())});
+  return table;
+}
+
 Table contact_forces_table(const ContactCosts& c) {
   Table table({{"situation"},
                {"tetrahedra", Align::right},
@@ -221,6 +254,7 @@ std::vector<Claim> claims_of(const ContactCosts& c) {
                    "99 of 100 cubes asleep, of elements without contact / with contact, of springs without "
                    "/ with: a step over that of the awake one by itself",
                    asleep_situations(), ": step alone", most_asleep));
+  claims.push_back(factors_claim(c));
   claims.push_back(growth_claim(c, ": list", "lists"));
   claims.push_back(growth_claim(c, ": contact", "forces"));
   if (!right)

@@ -8,6 +8,7 @@
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/table.h"
 #include "benchmarks/studies/contact/contact_costs.h"
+#include "benchmarks/studies/contact/contact_factors.h"
 
 namespace dartboard {
 
@@ -17,6 +18,7 @@ struct ContactCosts {
   std::map<std::string, ContactCounts> counts;
   std::size_t largest = 0;  // tetrahedra of the largest plates
   int steps = 1;            // in each sample of steps
+  std::vector<ContactFactors> factors{};
 
   /// The exponent of the growth with the number of tetrahedra, fitted in each process.
   Figure exponent(const std::string& task) const;
@@ -32,6 +34,7 @@ std::vector<Claim> claims_of(const ContactCosts& costs);
 Table contact_steps_table(const ContactCosts& costs);
 Table contact_forces_table(const ContactCosts& costs);
 Table sleep_table(const ContactCosts& costs);
+Table factors_table(const ContactCosts& costs);
 /// The basis of the figures.
 std::string contact_costs_note();
 

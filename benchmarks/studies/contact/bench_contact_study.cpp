@@ -29,8 +29,16 @@ Report contact_bench(const ContactBenchPlan& plan, StudyLog& log) {
     log.advance();
   }
   check_repeats(costs.samples);
+  const std::vector<std::string> scenes = factor_scenes();
+  log.begin("factors", scenes.size());
+  for (const std::string& scene : scenes) {
+    costs.factors.push_back(count_factors(scene, plan.quick ? 0.2 : 0.8));
+    log.sample(costs.factors.back());
+    log.advance(scene);
+  }
   return {.tables = {{"steps", "A step with contact, and without", contact_steps_table(costs), contact_costs_note()},
                      {"sleep", "A step beside bodies asleep, and of the awake one alone", sleep_table(costs)},
+                     {"factors", "A factor that is kept while contacts come and go", factors_table(costs)},
                      {"forces", "Forces of contact, and of elements", contact_forces_table(costs)}},
           .claims = claims_of(costs)};
 }

@@ -272,7 +272,7 @@ StepResult Simulation::integrate_part(double from, double duration) {
 StepResult Simulation::step_with_contact(double from, double duration) {
   const SpringSystem system = stepped_system();
   const Motion motion = stepped_motion();
-  if (contact_->begin(from, duration, system, motion)) integrator_->restart();
+  if (contact_->begin(from, duration, system, motion)) integrator_->motion_changed();
   StepResult result;
   try {
     result = integrator_->step(system, motion, duration);
@@ -284,7 +284,7 @@ StepResult Simulation::step_with_contact(double from, double duration) {
     contact_->undo(from, motion);
     return result;
   }
-  if (contact_->end(from, duration, system, motion)) integrator_->restart();
+  if (contact_->end(from, duration, system, motion)) integrator_->motion_changed();
   return result;
 }
 

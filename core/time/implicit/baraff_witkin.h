@@ -16,10 +16,7 @@ class BaraffWitkin : public ImplicitIntegrator {
   explicit BaraffWitkin(const ImplicitOptions& options = {}) : ImplicitIntegrator(options) {}
 
   const Scheme& scheme() const override;
-  void restart() override {
-    ImplicitIntegrator::restart();
-    terms_.forget();
-  }
+  void motion_changed() override { terms_.forget(); }
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   std::size_t bytes() const override { return ImplicitIntegrator::bytes() + bytes_of(right_, solution_); }
 

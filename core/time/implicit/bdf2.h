@@ -18,10 +18,7 @@ class Bdf2 : public ImplicitIntegrator {
   const Scheme& scheme() const override;
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   std::size_t bytes() const override { return ImplicitIntegrator::bytes() + last_.bytes() + start_.bytes(); }
-  void restart() override {
-    ImplicitIntegrator::restart();
-    last_h_ = 0.0;
-  }
+  void motion_changed() override { last_h_ = 0.0; }
   void state(Archive& archive) override {
     ImplicitIntegrator::state(archive);
     archive(last_, last_h_);

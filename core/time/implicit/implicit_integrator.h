@@ -12,11 +12,16 @@ namespace dartboard {
 /// An integrator whose steps solve stages.
 ///
 /// `restart` keeps the factor: the next step finds what has changed, and updates the factor where that is cheaper.
+/// Where only the motion has changed, as by a contact, a kept factor goes on without a look at it.
 class ImplicitIntegrator : public Integrator {
  public:
   explicit ImplicitIntegrator(const ImplicitOptions& options) : stage_(options) {}
 
-  void restart() override { stage_.system_changed(); }
+  void restart() override {
+    stage_.system_changed();
+    motion_changed();
+  }
+  void motion_changed() override {}
   void state(Archive& archive) override {
     Integrator::state(archive);
     archive(stage_);

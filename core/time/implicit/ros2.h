@@ -17,10 +17,7 @@ class Ros2 : public ImplicitIntegrator {
   explicit Ros2(const ImplicitOptions& options = {}) : ImplicitIntegrator(options) {}
 
   const Scheme& scheme() const override;
-  void restart() override {
-    ImplicitIntegrator::restart();
-    terms_.forget();
-  }
+  void motion_changed() override { terms_.forget(); }
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   std::size_t bytes() const override {
     return ImplicitIntegrator::bytes() + bytes_of(right_, k1x_, k1v_, kx_, kv_, rx_, rv_);

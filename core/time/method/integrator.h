@@ -88,6 +88,9 @@ class Integrator {
 
   /// Forget what was kept from earlier steps: the system has changed.
   virtual void restart() {}
+  /// Forget what was kept of the motion and of forces: velocities have changed between two steps, or constant forces.
+  /// The system has not: what is known of its matrices may stay.
+  virtual void motion_changed() { restart(); }
 
   /// Writes or reads what the bits of the next steps depend on besides the system and the motion. What the next step
   /// computes again from these, or overwrites, is left out.

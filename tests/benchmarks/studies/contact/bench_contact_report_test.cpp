@@ -55,6 +55,14 @@ ContactCosts good_costs() {
     tetrahedra *= 10;
   }
   c.samples = timed_samples(times);
+  for (const std::string& scene : factor_scenes())
+    c.factors.push_back({.scene = scene,
+                         .steps = 100,
+                         .changing = 40,
+                         .changes = 50,
+                         .factorisations = 10,
+                         .iterations = 1000,
+                         .iterations_of_changing = 500});
   return c;
 }
 
@@ -76,7 +84,9 @@ TEST(BenchContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_costs());
   EXPECT_EQ(ids_of(claims, Verdict::holds),
             (Ids{"contact-cost-agreement", "contact-idle-elements", "contact-idle-springs", "contact-after-cut",
-                 "contact-asleep", "contact-growth-lists", "contact-growth-forces"}));
+                 "contact-asleep", "contact-kept-factor", "contact-growth-lists", "contact-growth-forces"}));
+  expect_words(claims, "contact-kept-factor", "<= 0.1", "0.100 / 0.100 / 0.100",
+               "12.5 and 8.3 / 12.5 and 8.3 / 12.5 and 8.3 iterations in steps with a change and without");
   expect_words(claims, "contact-after-cut", "<= 1", "0.900", "[0.9, 0.9] at 98.4 %");
 }
 
@@ -97,6 +107,26 @@ TEST(BenchContactClaims, FallShortOfSleepersThatTakeMoreThanATenthOfAStep) {
 
 TEST(BenchContactClaims, FallShortOfACutLiverWhoseContactTakesLongerThanItsElements) {
   EXPECT_EQ(short_with([](auto& c) { set_time(c, cut_situation() + ": contact", 1.01e9); }), Ids{"contact-after-cut"});
+}
+
+TEST(BenchContactClaims, FallShortOfFactorsThatAreNotKept) {
+  const Ids id{"contact-kept-factor"};
+  for (std::size_t k = 0; k < factor_scenes().size(); ++k) {
+    EXPECT_EQ(short_with([k](auto& c) { c.factors[k].factorisations = 11; }), id);
+    EXPECT_EQ(short_with([k](auto& c) { c.factors[k].changes = 0; }), id);
+  }
+  EXPECT_EQ(short_with([](auto& c) { c.factors.clear(); }), id);
+}
+
+TEST(ContactFactors, AreKeptWhileContactsComeAndGo) {
+  const ContactFactors counts = count_factors("boxes_stacked", 0.1);
+  EXPECT_EQ(counts.steps, 50u);
+  EXPECT_GE(counts.changes, counts.changing);
+  EXPECT_GT(counts.changing, 5u);
+  EXPECT_LT(counts.changing, 45u);
+  EXPECT_LE(counts.factorisations, 5u);
+  EXPECT_GT(counts.iterations_of_changing, counts.changing);
+  EXPECT_GT(counts.iterations, counts.iterations_of_changing);
 }
 
 TEST(BenchContactClaims, FallShortOfGrowthFasterThanNLogN) {
@@ -133,7 +163,7 @@ TEST(BenchContactClaims, AreNotJudgedByThreeProcesses) {
   ContactCosts c = good_costs();
   std::erase_if(c.samples, [](const Sample& s) { return s.process >= 3; });
   const auto claims = claims_of(c);
-  EXPECT_EQ(ids_of(claims, Verdict::undecided).size(), claims.size() - 1);
+  EXPECT_EQ(ids_of(claims, Verdict::undecided).size(), claims.size() - 2);  // the others are counts
   EXPECT_EQ(exit_code(claims), 0);
 }
 

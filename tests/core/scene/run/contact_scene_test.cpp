@@ -269,8 +269,8 @@ TEST(ContactScene, KeepsTheOrderOfEventsAtTheirTimesWithObstaclesThatMove) {
 
 // The faces of a cut have their middles in the floor, too: that is the contact's energy, and not the body's.
 TEST(ContactScene, CountsWhatACutAddsToContactsApartFromTheBody) {
-  Json scene = with_events(
-      above_a_floor(), R"([{"at": 0.001, "dissociate": {"plane": {"point": [0.05, 0, 0], "normal": [1, 0, 0]}}}])");
+  Json scene = with_events(above_a_floor(),
+                           R"([{"at": 0.001, "dissociate": {"plane": {"point": [0.05, 0, 0], "normal": [1, 0, 0]}}}])");
   scene["body"]["translate"] = {0, 0, -0.04};
   Simulation simulation(parse(scene));
   simulation.watch_events(true);
@@ -278,6 +278,25 @@ TEST(ContactScene, CountsWhatACutAddsToContactsApartFromTheBody) {
   ASSERT_EQ(simulation.jumps().events, 1u);
   EXPECT_LE(simulation.jumps().energy, 1e-15);
   EXPECT_GT(simulation.jumps().contact, 0.01);
+}
+
+// Contacts are in the pattern of the matrix whether they touch or not, and change velocities, not the system.
+TEST(ContactScene, KeepsAFactorWhileContactsComeAndGo) {
+  Json scene = thrown();
+  scene["contact"]["friction"] = 0;
+  scene["integrator"] = "backward-euler";
+  scene["step"] = 0.001;
+  Simulation kept(parse(scene));
+  scene["solver"] = "fresh-factor";
+  Simulation fresh(parse(scene));
+  run(kept);
+  run(fresh);
+  ASSERT_EQ(kept.work().steps, 50u);
+  EXPECT_GT(kept.diagnostics().contact->damped, 0.0);
+  EXPECT_LE(kept.work().factorisations, 10u);
+  EXPECT_GE(fresh.work().factorisations, 50u);
+  const auto &x = kept.body().vertices().position, &y = fresh.body().vertices().position;
+  for (std::size_t k = 0; k < x.size(); ++k) EXPECT_LE((x[k] - y[k]).norm(), 1e-9);
 }
 
 // ---- output
