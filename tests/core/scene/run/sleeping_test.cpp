@@ -273,40 +273,35 @@ TEST(Sleeping, EndsWithTheLossOfASupport) {
   EXPECT_LT(lowest(places_of(simulation, 1)), before - 0.02);
 }
 
+/// How far up the lowest vertex of a cube has come at the end that slept until shortly before 1.4 s [m].
+double risen_since_asleep(const Json& scene) {
+  Simulation simulation(parse(scene));
+  take_steps(simulation, 2790);
+  EXPECT_EQ(asleep(simulation), 1u);
+  const double before = lowest(places_of(simulation, 0));
+  run(simulation);
+  return lowest(places_of(simulation, 0)) - before;
+}
+
 TEST(Sleeping, EndsWhenItsFloorIsTakenAway) {
   Json scene = on_a_floor();
   scene["contact"]["obstacles"][0]["velocity"] = {0, 0, -0.3};
   scene["contact"]["obstacles"][0]["from"] = 1.4;
-  Simulation simulation(parse(scene));
-  take_steps(simulation, 2790);
-  ASSERT_EQ(asleep(simulation), 1u);
-  const double before = lowest(places_of(simulation, 0));
-  run(simulation);
-  EXPECT_LT(lowest(places_of(simulation, 0)), before - 0.01);
+  EXPECT_LT(risen_since_asleep(scene), -0.01);
 }
 
 TEST(Sleeping, EndsWhenAForceBegins) {
   Json scene = on_a_floor();
   scene["forces"] =
       Json::parse(R"([{"plane": {"point": [0, 0, 0.1], "normal": [0, 0, 1]}, "force": [0, 0, 30], "from": 1.4}])");
-  Simulation simulation(parse(scene));
-  take_steps(simulation, 2790);
-  ASSERT_EQ(asleep(simulation), 1u);
-  const double before = lowest(places_of(simulation, 0));
-  run(simulation);
-  EXPECT_GT(lowest(places_of(simulation, 0)), before + 0.01);
+  EXPECT_GT(risen_since_asleep(scene), 0.01);
 }
 
 TEST(Sleeping, EndsWhenADriveBegins) {
   Json scene = on_a_floor();
   scene["driven"] =
       Json::parse(R"([{"plane": {"point": [0, 0, 0.1], "normal": [0, 0, 1]}, "velocity": [0, 0, 0.3], "from": 1.4}])");
-  Simulation simulation(parse(scene));
-  take_steps(simulation, 2790);
-  ASSERT_EQ(asleep(simulation), 1u);
-  const double before = lowest(places_of(simulation, 0));
-  run(simulation);
-  EXPECT_GT(lowest(places_of(simulation, 0)), before + 0.01);
+  EXPECT_GT(risen_since_asleep(scene), 0.01);
 }
 
 TEST(Sleeping, EndsWithAnEventWithinAStep) {
