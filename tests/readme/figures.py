@@ -15,6 +15,7 @@ STEPS = "results/2026-11-26-xeon-paper/samples.jsonl"
 TOPOLOGY = RUN + "topology/samples.jsonl"
 OPERATIONS = RUN + "operations/samples.jsonl"
 STEP = "results/2026-11-27-xeon-step/samples.jsonl"
+CONTACT = "results/2026-11-27-xeon-contact-costs/samples.jsonl"
 ABLATION = RUN + "ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
@@ -69,6 +70,47 @@ def step_over_graph(body):
     """Four springs at a time."""
     return ratio([r for r in lines(STEP) if r.get("task", "").startswith(body)], body + ": lanes", body + ": graph")
 
+
+
+def timed_contact():
+    return [r for r in lines(CONTACT) if "task" in r]
+
+
+def with_contact(situation, task="step", baseline="step without"):
+    pair = situation + ": " + task, situation + ": " + baseline
+    return ratio([r for r in timed_contact() if r["task"] in pair], *pair)
+
+
+def growth_of_contact(task):
+    """The exponents of a task, fitted in each process, and that of n log n."""
+    counts = {r["situation"]: r for r in lines(CONTACT) if r.get("situation", "").startswith("plates of ")}
+    logs = [math.log(n["tetrahedra"]) for n in counts.values()]
+    names = list(counts)
+
+    def slope(values):
+        x, y = sum(logs) / len(logs), sum(values) / len(values)
+        return sum((a - x) * (b - y) for a, b in zip(logs, values)) / sum((a - x) ** 2 for a in logs)
+
+    slopes = []
+    for process in by_process(timed_contact()):
+        rounds = collections.defaultdict(dict)
+        for row in process:
+            rounds[row["round"]][row["task"]] = row["cpu_ns"]
+        first = names[0] + ": " + task
+        slopes.append(slope([math.log(median([r[name + ": " + task] / r[first] for r in rounds.values() if first in r])
+                                      * counts[names[0]]["evaluations"] / counts[name]["evaluations"]) for name in names]))
+    return figure(slopes), slope([x + math.log(x) for x in logs])
+
+
+def pair_of_contact(plates):
+    """ns for a candidate pair."""
+    n = next(r for r in lines(CONTACT) if r.get("situation") == plates)
+    return time(timed_contact(), plates + ": contact").median / n["evaluations"] / n["candidates"]
+
+
+def iterations_with_changes(scene):
+    n = next(r for r in lines(CONTACT) if r.get("factor_scene") == scene)
+    return n["iterations_of_changing"] / n["changing"] * (n["steps"] - n["changing"]) / (n["iterations"] - n["iterations_of_changing"])
 
 
 def ms(task):
@@ -300,6 +342,24 @@ FIGURES = [
     (RESULTS, "a million tetrahedra in shuffled order take {} [{}, {}] (target", [STEP],
      lambda: all_of(step_over_graph("10^6 shuffled")) + judged([step_over_graph("10^6 shuffled")], 0.25, "falls short")),
 
+    (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
+     lambda: all_of(with_contact("elements far from a plane"), three) + all_of(with_contact("elements far from themselves"), three)
+     + judged([with_contact("elements far from themselves")], 1.02, "falls short")),
+    (RESULTS, "springs {} [{}, {}] and {} [{}, {}] (target 1.02: all", [CONTACT],
+     lambda: all_of(with_contact("springs far from a plane"), three) + all_of(with_contact("springs far from themselves"), three)
+     + judged([with_contact("springs far from a plane")], 1.02, "falls short")),
+    (RESULTS, "After a full cut, contact takes {} [{}, {}] of the time", [CONTACT],
+     lambda: all_of(with_contact("the liver, cut through", "contact", "elements"))
+     + judged([with_contact("the liver, cut through", "contact", "elements")], 1.0, "falls short")),
+    (RESULTS, "lists grow with the exponent {} and forces with {}, where n log n has {}:", [CONTACT],
+     lambda: tuple(three(x) for x in (growth_of_contact("list")[0].median, growth_of_contact("contact")[0].median,
+                                      growth_of_contact("list")[1]))
+     + judged([growth_of_contact("list")[0], growth_of_contact("contact")[0]], growth_of_contact("list")[1], "falls short")),
+    (RESULTS, "as a pair takes {} times longer", [CONTACT],
+     lambda: (two(pair_of_contact("plates of 998784") / pair_of_contact("plates of 9600")),)),
+    (RESULTS, "a solution needs {}, {} and {} times the", [CONTACT],
+     lambda: [three(iterations_with_changes(scene)) for scene in ("boxes_stacked", "liver_pressed", "balls_roll")]),
+
     (RESULTS, "the vertex orbit falls short: it is {} [{}, {}] times as fast as CGAL's (target 20)", [TOPOLOGY],
      lambda: all_of(faster_than("CGAL", "liver564", "vertex-orbit"))
      + judged([faster_than("CGAL", "liver564", "vertex-orbit")], 20, "falls short", at_least=True)),
@@ -461,6 +521,8 @@ NO_MEASUREMENT = [
     (RESULTS, "(target 0.58) and", ("benchmarks/studies/step/bench_step_report.cpp", "most_damped = 0.58")),
     (RESULTS, "without (target 0.50)", ("benchmarks/studies/step/bench_step_report.cpp", "most_undamped = 0.50")),
     (RESULTS, "(target 0.25): more is to be had", ("benchmarks/studies/step/bench_step_report.cpp", "most_shuffled = 0.25")),
+    (RESULTS, "(target 1.02: all fall short)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_idle = 1.02")),
+    (RESULTS, "of neo-Hookean forces (target 1)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_after_cut = 1.0")),
     (RESULTS, "times as fast as CGAL's (target 20)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
     (RESULTS, "ns a dart (target 3: cannot tell)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
     (RESULTS, "on 48,000 tetrahedra", NAME),
