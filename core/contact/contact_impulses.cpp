@@ -113,7 +113,7 @@ bool ContactImpulses::begin(double time, double h, InverseMass inverse_mass, Fix
                             std::span<Vector3d> v, const Accelerations& accelerations) {
   losses_at_begin_ = losses_;
   bool changed = place_at(time, x);
-  changed = damp(time, h / 2, inverse_mass, fixed, x, v) || changed;
+  changed = damp(Sweep::forward, time, h / 2, inverse_mass, fixed, x, v) || changed;
   changed = place_at(time + h / 2, x) || changed;
   return set_friction(time, h, inverse_mass, fixed, x, v, accelerations) || changed;
 }
@@ -140,7 +140,7 @@ bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed
     frozen.clear();
   }
   changed = place_at(time + h, x) || changed;
-  return damp(time + h, h / 2, inverse_mass, fixed, x, v) || changed;
+  return damp(Sweep::backward, time + h, h / 2, inverse_mass, fixed, x, v) || changed;
 }
 
 bool ContactImpulses::is_clear(std::span<const Vector3d> x) {
@@ -184,22 +184,32 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   return work.sizes > 0.0;  // obstacles that move elsewhere change no force
 }
 
-bool ContactImpulses::damp(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
-                           std::span<Vector3d> v) {
-  const bool samples =
-                 obstacles_ != nullptr && obstacles_->has_damping() && damp_samples(time, h, inverse_mass, fixed, x, v),
-             bodies = bodies_ != nullptr && bodies_->has_damping() && damp_bodies(h, inverse_mass, fixed, x, v);
-  return samples || bodies;
+bool ContactImpulses::damp(Sweep sweep, double time, double h, InverseMass inverse_mass, Fixed fixed,
+                           std::span<const Vector3d> x, std::span<Vector3d> v) {
+  const auto samples = [&] {
+    return obstacles_ != nullptr && obstacles_->has_damping() &&
+           damp_samples(sweep, time, h, inverse_mass, fixed, x, v);
+  };
+  const auto bodies = [&] {
+    return bodies_ != nullptr && bodies_->has_damping() && damp_bodies(sweep, h, inverse_mass, fixed, x, v);
+  };
+  const bool first = sweep == Sweep::forward ? samples() : bodies(),
+             second = sweep == Sweep::forward ? bodies() : samples();
+  return first || second;
 }
 
-bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
+bool ContactImpulses::damp_samples(Sweep sweep, double time, double h, InverseMass inverse_mass, Fixed fixed,
                                    std::span<const Vector3d> x, std::span<Vector3d> v) {
   bool changed = false;
   Penetration in;
   if (is_clear(x)) return false;
-  for (const SkinSample& s : obstacles_->samples()) {
+  const auto& all = obstacles_->samples();
+  const std::size_t samples = all.size(), obstacles = damping_ratio_.size();
+  for (std::size_t k = 0; k < samples; ++k) {
+    const SkinSample& s = all[in_sweep(sweep, k, samples)];
     const Vector3d y = ObstacleContact::place_of(s, x);
-    for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
+    for (std::size_t l = 0; l < obstacles; ++l) {
+      const auto o = static_cast<std::uint32_t>(in_sweep(sweep, l, obstacles));
       if (damping_ratio_[o] == 0.0 || !obstacles_->find_penetration(o, y, in)) continue;
       const double mobility = mobility_along(s, in.normal, inverse_mass, fixed);
       if (mobility == 0.0) continue;
@@ -223,10 +233,12 @@ bool ContactImpulses::damp_samples(double time, double h, InverseMass inverse_ma
   return changed;
 }
 
-bool ContactImpulses::damp_bodies(double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
-                                  std::span<Vector3d> v) {
+bool ContactImpulses::damp_bodies(Sweep sweep, double h, InverseMass inverse_mass, Fixed fixed,
+                                  std::span<const Vector3d> x, std::span<Vector3d> v) {
   bool changed = false;
-  for (const BodyTouch& t : bodies_->touching({x})) {
+  const auto touching = bodies_->touching({x});
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    const BodyTouch& t = touching[in_sweep(sweep, k, touching.size())];
     const double ratio = damping_ratio_of_bodies_[t.law];
     if (ratio == 0.0) continue;
     const ContactSite site = bodies_->normal_site(t);
@@ -238,9 +250,9 @@ bool ContactImpulses::damp_bodies(double h, InverseMass inverse_mass, Fixed fixe
                  impulse = -speed * gone / mobility;
     if (impulse == 0.0) continue;
     double driven = 0.0;
-    for (std::size_t k = 0; k < site.count; ++k)
-      if (mobility_of(site.nodes[k], inverse_mass, fixed) == 0.0)
-        driven += site.weights[k] * v[site.nodes[k]].dot(t.normal);
+    for (std::size_t n = 0; n < site.count; ++n)
+      if (mobility_of(site.nodes[n], inverse_mass, fixed) == 0.0)
+        driven += site.weights[n] * v[site.nodes[n]].dot(t.normal);
     push(site, impulse * t.normal, inverse_mass, fixed, v);
     losses_.damped += 0.5 * speed * speed * gone * (2.0 - gone) / mobility;
     losses_.supplied -= impulse * driven;

@@ -54,9 +54,10 @@ class HeldVertices {
 ///     step                             conservative, with constant obstacles and friction forces
 ///     restart if end(t + h, ...)       friction is taken away; obstacles to t + h; half of the damping
 ///
-/// **Damping**, per sample and obstacle in this order: the normal speed relative to the obstacle decays exactly, at
-/// frozen places, as exp(- c(d) h / 2 / m) with m the mass that an impulse at the sample moves, 1 / (sum of 1 / m_i
-/// over its n nodes / n^2): never past zero, however stiff.
+/// **Damping**, per sample and obstacle in this order before the step and in the opposite one after it, so that both
+/// halves together are symmetric in time and of order 2 where c is smooth: the normal speed relative to the obstacle
+/// decays exactly, at frozen places, as exp(- c(d) h / 2 / m) with m the mass that an impulse at the sample moves, 1 /
+/// (sum of 1 / m_i over its n nodes / n^2): never past zero, however stiff.
 ///
 /// **Friction** is a constant force during the step. It is chosen so that the tangential speed relative to the
 /// obstacle, predicted for the end of the step by the accelerations at its beginning, is zero: - m (v_t / h + a_t); or
@@ -121,12 +122,16 @@ class ContactImpulses {
   std::size_t bytes() const;
 
  private:
+  enum class Sweep : std::uint8_t { forward, backward };
+  static std::size_t in_sweep(Sweep sweep, std::size_t k, std::size_t count) {
+    return sweep == Sweep::forward ? k : count - 1 - k;
+  }
   bool has_friction() const;
-  bool damp(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+  bool damp(Sweep sweep, double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
             std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+  bool damp_samples(Sweep sweep, double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                     std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_bodies(double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+  bool damp_bodies(Sweep sweep, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                    std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
   void find_rubbing_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                             std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);

@@ -104,8 +104,8 @@ void judge(OrderStudy& study, double floor, const OrderOptions& options) {
 
 OrderStudy study_order(const OrderStage& stage, const IntegratorEntry& entry, const OrderOptions& options) {
   const auto integrator = entry.make();
-  OrderStudy study{std::string(entry.name), stage.which, integrator->scheme().order, {}, false, 0.0, 0.0, ""};
-  if (stage.which == OrderCase::unaligned_cut) study.theory = 1;
+  const double theory = stage.which == OrderCase::unaligned_cut ? 1.0 : integrator->scheme().order;
+  OrderStudy study{std::string(entry.name), stage.which, theory, {}, false, 0.0, 0.0, ""};
   if (!stage.certified.accepted) {
     study.reason = "the reference is not certified";
     return study;

@@ -38,7 +38,7 @@ struct OrderPoint {
 struct OrderStudy {
   std::string integrator;
   OrderCase which = OrderCase::undamped;
-  int theory = 1;  // the expected order
+  double theory = 1;  // the expected order
   std::vector<OrderPoint> points;
   bool holds = false;           // three successive orders, in x and in v, within the tolerance of the theory
   double p_x = 0.0, p_v = 0.0;  // of those three, the ones farthest from theory; else of the last ones in the window

@@ -20,6 +20,8 @@ namespace {
 
 constexpr double asymptotic_h_omega = 0.25;  // the longest steps whose order counts against a method
 constexpr double half_an_order = 0.5;
+constexpr std::size_t errors_to_fit = 5;
+constexpr double fitted_tolerance = 0.3;  // of orders through contact
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The floor of velocities, relative to the largest root mean square of them, over that of positions in edges.
@@ -71,6 +73,41 @@ std::optional<LastOrders> last_orders(const OrderStudy& study, const OrderOption
   return found;
 }
 
+/// The orders with which the last successive errors in the window fall, by least squares.
+struct FittedOrders {
+  std::size_t errors = 0;                    // without three there are no orders
+  double x = 0.0, v = 0.0, deviation = 0.0;  // the larger of the two standard errors
+  bool counts = false;                       // against the method: the last halvings are of short steps
+};
+
+FittedOrders fitted_orders(const OrderStudy& study) {
+  std::vector<const OrderPoint*> last;
+  for (const OrderPoint& p : study.points) {
+    if (p.regime == Regime::floor) continue;
+    p.regime == Regime::pre_asymptotic || p.regime == Regime::asymptotic ? last.push_back(&p) : last.clear();
+  }
+  FittedOrders fit{.errors = last.size()};
+  if (last.size() < 3) return fit;
+  const auto n = static_cast<double>(last.size());
+  const double spread = n * (n * n - 1.0) / 12.0;  // sum of squares of 0 .. n - 1 about their mean
+  const auto fall = [&](auto error_of) {
+    double mean = 0.0, slope = 0.0, left = 0.0;
+    for (const OrderPoint* p : last) mean += std::log2(error_of(*p)) / n;
+    for (std::size_t k = 0; k < last.size(); ++k)
+      slope += (static_cast<double>(k) - 0.5 * (n - 1.0)) * (std::log2(error_of(*last[k])) - mean) / spread;
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      const double line = mean + slope * (static_cast<double>(k) - 0.5 * (n - 1.0));
+      left += std::pow(std::log2(error_of(*last[k])) - line, 2);
+    }
+    fit.deviation = max_or_nan(fit.deviation, std::sqrt(left / (n - 2.0) / spread));
+    return -slope;
+  };
+  fit.x = fall([](const OrderPoint& p) { return p.errors.x; });
+  fit.v = fall([](const OrderPoint& p) { return p.errors.v; });
+  fit.counts = last[last.size() - 3]->h_omega <= asymptotic_h_omega;
+  return fit;
+}
+
 std::string reason_for_open(const OrderStudy& study, const OrderOptions& options) {
   if (study.points.empty()) return "no run";
   const OrderPoint& last = study.points.back();
@@ -87,13 +124,6 @@ std::string reason_for_open(const OrderStudy& study, const OrderOptions& options
 }
 
 }  // namespace
-
-void require_smooth(const TradeoffScene& scene) {
-  if (scene.has_contact())
-    throw InputError(fmt::format(
-        "{}: /contact: has kinks, across which no method shows its order; expected none: 'tradeoff' measures errors",
-        scene.frozen->file.file));
-}
 
 SceneOrder answer_of(OrderStudy judged, const OrderOptions& options) {
   SceneOrder result{.study = std::move(judged)};
@@ -122,11 +152,43 @@ SceneOrder answer_of(OrderStudy judged, const OrderOptions& options) {
   return result;
 }
 
+SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact, const OrderOptions& options) {
+  SceneOrder result{.study = std::move(judged)};
+  OrderStudy& study = result.study;
+  const FittedOrders fit = fitted_orders(study);
+  if (fit.errors < errors_to_fit) {
+    study.reason = reason_for_open(study, options);
+    return result;
+  }
+  study.holds = false;
+  study.p_x = fit.x;
+  study.p_v = fit.v;
+  const std::string shows =
+      fmt::format("order {:.2f} in x and {:.2f} in v, fitted to {} errors", fit.x, fit.v, fit.errors);
+  const double fitted = std::min(fit.x, fit.v), least = study.theory - fitted_tolerance;
+  study.reason = shows;
+  if (!contact.is_promised()) {
+    study.reason += "; none is promised";
+  } else if (fitted >= least) {
+    result.answer = OrderAnswer::shown;
+    study.reason.clear();
+  } else if (fit.counts && fitted + 2.0 * fit.deviation < least) {
+    result.answer = OrderAnswer::missed;
+  }
+  return result;
+}
+
 SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& reference, const IntegratorEntry& entry,
                          const CpuClock& clock, const SceneOrderOptions& options) {
   const auto integrator = entry.make();
-  OrderStudy study{std::string(entry.name), OrderCase::undamped, integrator->scheme().order, {}, false, 0.0, 0.0, ""};
+  const ContactOrder contact = scene.has_contact() ? contact_order(scene.frozen->file) : ContactOrder{};
+  const double order = std::min<double>(integrator->scheme().order, contact.most);
+  OrderStudy study{std::string(entry.name), OrderCase::undamped, order, {}, false, 0.0, 0.0, ""};
   OrderOptions judging = options.order;
+  if (!takes(scene, entry.name)) study.reason = "contact between bodies has kinks";
+  if (!(10.0 * reference.floor < judging.most_error))
+    study.reason = fmt::format("the reference resolves no errors below {:.1e} edges", reference.floor);
+  if (!study.reason.empty()) return {std::move(study), OrderAnswer::open};
   judging.velocity_floor = floor_of_velocities(scene, reference);
   if (integrator->scheme().implicit) judging.solved_to = ImplicitOptions{}.tolerance;
   const RoundingFloor rounding = rounding_floor(scene, integrator->scheme());
@@ -143,8 +205,10 @@ SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& refer
       point.diagnosis = to_string(run.result);
     study.points.push_back(std::move(point));
     judge(study, std::max(reference.floor, std::max(1.0, reference.gain) * rounding.at(run.h)), judging);
-    SceneOrder found = answer_of(study, judging);
+    SceneOrder found =
+        scene.has_contact() ? answer_through_contact(study, contact, judging) : answer_of(study, judging);
     if (found.answer == OrderAnswer::shown || study.points.back().regime == Regime::floor) return found;
+    if (!contact.is_promised() && fitted_orders(study).errors >= errors_to_fit) return found;
     if (2 * run.cpu_ns > most_ns || halvings == options.most_halvings) {
       if (found.answer == OrderAnswer::open) found.study.reason += "; more steps would take too long";
       return found;

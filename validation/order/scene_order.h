@@ -2,6 +2,7 @@
 // The orders that integrators show on a user's scene, compared with the reference that there is for it.
 
 #include "validation/order/convergence_order.h"
+#include "validation/scenes/contact_order.h"
 #include "validation/scenes/scene_reference.h"
 
 namespace dartboard {
@@ -24,11 +25,17 @@ struct SceneOrderOptions {
   int most_halvings = 16;
 };
 
-/// throws  InputError "FILE: /contact: ..." for a scene with contact, whose kinks no method crosses with its order
-void require_smooth(const TradeoffScene& scene);
+/// The answer of runs that are judged (`judge`) on a scene with contact: there the error of each run depends on where
+/// in its steps samples come and go, so that orders of single halvings scatter.
+///
+/// A line is fitted to the last successive errors in the window, five at least. An order is shown where it falls with
+/// that of the study (`theory`) less 0.3, or faster; missed where it is lower by two standard errors more, and steps
+/// are short. Where contact promises none, the answer is open, with the orders.
+SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact, const OrderOptions& options);
 
 /// Halve the steps in every interval between events and checkpoints, until the order of the method has shown itself,
-/// the errors reach the floor, or the next run would take too long.
+/// the errors reach the floor, or the next run would take too long. No run is made where the reference resolves no
+/// error in the window.
 ///
 /// The floor of positions is the larger of the reference's and of what rounding leaves of the method. That of
 /// velocities assumes that the positions are off in oscillations of the fastest rate.

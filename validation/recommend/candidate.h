@@ -47,10 +47,10 @@ struct Candidate {
   std::string pruned;    // why it was left out before or after its pilots; empty when it was not
   bool untried = false;  // there was no time left for its pilots: nothing shows that it is worse
   Confidence confidence = Confidence::none;
-  bool full_length = false;  // pilots over the whole duration confirm it
-  double seen_part = 1.0;    // of the duration, by the longest pilots; the rest is predicted
-  double growth_rate = 0.0;  // [1/s] of errors, where they were seen to grow as those of chaotic motions do; else 0
-  int order = 1;
+  bool full_length = false;     // pilots over the whole duration confirm it
+  double seen_part = 1.0;       // of the duration, by the longest pilots; the rest is predicted
+  double growth_rate = 0.0;     // [1/s] of errors, where they were seen to grow as those of chaotic motions do; else 0
+  int order = 1;                // of the method, or what contact leaves of it
   double observed_order = 0.0;  // for an adaptive one, the power of the tolerance
   double limit_h = 0.0;         // [s] the predicted limit of stability; infinite when there is none
 

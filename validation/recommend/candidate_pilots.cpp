@@ -183,6 +183,59 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
   }
 }
 
+void pilot_whole(Candidate& c, Pilots& pilots, double h, double error) {
+  constexpr int most_refused = 8;
+  constexpr double least_order = 0.3;  // of errors that can be said to fall
+  const TradeoffScene& scene = pilots.scene();
+  std::vector<PilotRun> runs;
+  std::vector<double> change;
+  int refused = 0;
+  bool at_once = false;  // the longest steps are accurate enough by far
+  for (auto steps = whole_steps(scene, h);; steps *= 2) {
+    if (!runs.empty() && 2.0 * runs.back().cpu_s > pilots.left_s()) break;
+    PilotRun run = pilots.run(c, scene, {.steps = steps});
+    if (run.run.result.code == StepCode::budget) break;
+    if (!run.run.result.ok() || !(distance_from_start(scene, run.run) < farthest_flight(scene))) {
+      runs.clear();  // a step too large: begin again with half of it
+      change.clear();
+      if (++refused == most_refused) break;
+      continue;
+    }
+    runs.push_back(std::move(run));
+    if (runs.size() >= 2) change.push_back(max_or_nan(differences(scene, runs[runs.size() - 2].run, runs.back().run)));
+    at_once = change.size() == 1 && 10.0 * change[0] <= error;
+    // the finer run is off by less than that where the errors fall by half or better
+    if (at_once || (change.size() >= 2 && change.back() <= error)) break;
+    if (runs.back().cpu_s > 1.5 * pilots.cheapest_s()) {
+      c.pruned = fmt::format("with h = {:.2g} s it takes {:.1e} s, against {:.1e} s", runs.back().run.h,
+                             runs.back().cpu_s, pilots.cheapest_s());
+      return;
+    }
+  }
+  if ((change.size() < 2 && !at_once) || !(change.back() > 0.0)) {
+    c.untried = !runs.empty();
+    c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
+    return;
+  }
+  c.observed_order = at_once ? 1.0 : std::log2(change.front() / change.back()) / static_cast<double>(change.size() - 1);
+  if (!(c.observed_order >= least_order)) {
+    c.pruned = fmt::format("its errors do not fall with the step: {:.1e} edges from h = {:.2g} s, {:.1e} from {:.2g}",
+                           change.front(), runs.front().run.h, change.back(), runs[runs.size() - 2].run.h);
+    return;
+  }
+  c.confidence = at_once              ? Confidence::sufficient
+                 : shows_its_order(c) ? Confidence::asymptotic
+                                      : Confidence::pre_asymptotic;
+  c.slope = at_once ? 1.0 : slope_of(c);
+  std::vector<const PilotRun*> all;
+  for (const PilotRun& run : runs) all.push_back(&run);
+  take_errors(c, scene, all, 1.0);
+  take_cost(c, runs.back());
+  if (c.implicit)
+    c.step_slope = std::clamp(std::log2(runs[runs.size() - 2].step_cost / runs.back().step_cost), 0.0, 1.0);
+  c.full_length = true;
+}
+
 void pilot_tolerances(Candidate& c, Pilots& pilots, double error) {
   const TradeoffScene& scene = pilots.scene();
   double tolerance = std::clamp(10.0 * error, 1e-12, 1e-2);

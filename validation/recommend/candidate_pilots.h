@@ -29,6 +29,12 @@ void pilot_prefix(Candidate& candidate, Pilots& pilots, double h, double step_s,
 /// where steps follow the motion, a part says little about the rest.
 void pilot_tolerances(Candidate& candidate, Pilots& pilots, double error);
 
+/// Where there is contact, which no part of a run foresees: pilots over the whole duration, from the longest steps on,
+/// until their errors meet the one that is asked for, or until they cost more than the best so far.
+///
+/// A method is left out where the errors do not fall with the step: the motion is as sensitive as that.
+void pilot_whole(Candidate& candidate, Pilots& pilots, double h, double error);
+
 enum class Longer : std::uint8_t { confirmed, skipped, unstable };
 
 /// Where the prefix was a small part of a long scene: two pilots with its coarsest steps, over as much more as there is

@@ -11,6 +11,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/recommend/candidate_pilots.h"
+#include "validation/scenes/contact_order.h"
 #include "validation/solvers/break_even.h"
 
 namespace dartboard {
@@ -25,6 +26,8 @@ constexpr double swept_stage = 3.0;
 constexpr double doubt = 4.0;
 // The part of the least time for pilots that explicit methods leave to implicit ones.
 constexpr double for_implicit = 0.25;
+// RecommendOptions::pilot_part and most_pilot_s where pilots are whole runs.
+constexpr double pilots_through_contact = 10.0, most_pilot_through_contact_s = 600.0;
 
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -68,6 +71,9 @@ class Search {
 
   Recommendation run() {
     auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
+    std::erase_if(schemes, [this](const Scheme& s) { return !takes(scene_, s.name); });
+    // an order that contact does not leave is not worth its stages
+    if (contact_.most < 3.0) std::ranges::stable_sort(schemes, {}, &Scheme::stages);
     // where there may be no time for all, the cheapest by the law come first; for motions that last, the law is a worse
     // guide than their symplectic method
     if (options_.budget_s > 0.0 && r_.features.damping_ratio > 0.0)
@@ -79,7 +85,7 @@ class Search {
       for (const Scheme& other : schemes)
         if (first && other.implicit && is_promising(other)) try_implicit(other);
     }
-    if (options_.adaptive)
+    if (options_.adaptive && !scene_.has_contact())
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)
@@ -110,7 +116,7 @@ class Search {
     Candidate c;
     c.contender = scheme.name;
     c.implicit = scheme.implicit;
-    c.order = scheme.order;
+    c.order = std::max(1, static_cast<int>(std::min<double>(scheme.order, contact_.most)));
     c.rounding = rounding_floor(scene_, scheme);
     return c;
   }
@@ -141,6 +147,8 @@ class Search {
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
+    else if (scene_.has_contact())
+      pilot_whole(c, *pilots_, h, sought());
     else
       pilot_prefix(c, *pilots_, h, step_s, sought());
     if (c.usable()) solve(c);
@@ -226,6 +234,7 @@ class Search {
 
   /// Run longer pilots of the best two, as long as they can be afforded.
   void confirm() {
+    if (scene_.has_contact()) return;  // its pilots are as long as they can be
     std::vector<std::string> tried;
     for (int round = 0; round < 12; ++round) {
       Candidate* next = nullptr;
@@ -246,6 +255,7 @@ class Search {
 
   /// Time the best two again: their pilots were timed only once each, in passing.
   void time_the_best() {
+    if (scene_.has_contact()) return;  // steps take longer while bodies touch
     for (std::size_t k = 0; k < std::min<std::size_t>(2, r_.candidates.size()); ++k) {
       Candidate& c = r_.candidates[k];
       if (!c.usable() || c.adaptive || c.implicit || c.predicted_cost > 1.5 * r_.candidates[0].predicted_cost) continue;
@@ -287,6 +297,7 @@ class Search {
   }
 
   const TradeoffScene& scene_;
+  const ContactOrder contact_ = scene_.has_contact() ? contact_order(scene_.frozen->file) : ContactOrder{};
   double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
   const CpuClock& clock_;
   const RecommendOptions& options_;
@@ -314,11 +325,12 @@ std::vector<std::string> Recommendation::untried() const {
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
                          const RecommendOptions& options) {
   if (!(error > 0.0)) throw InputError("the requested error must be positive");
-  if (scene.has_contact())
-    throw InputError(fmt::format(
-        "{}: /contact: changes motions after the part that short runs see; expected none: 'tradeoff' measures whole runs",
-        scene.frozen->file.file));
-  return Search(scene, error, clock, options).run();
+  RecommendOptions allowed = options;
+  if (scene.has_contact()) {
+    allowed.pilot_part = pilots_through_contact;
+    allowed.most_pilot_s = most_pilot_through_contact_s;
+  }
+  return Search(scene, error, clock, allowed).run();
 }
 
 }  // namespace dartboard

@@ -48,7 +48,11 @@ struct Recommendation {
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); methods
 /// that have had none by then are left out and reported (`untried`). They may differ from run to run.
 ///
-/// throws  InputError unless error > 0, and for a scene with contact
+/// Through contact a part of a motion foresees nothing: all pilots are whole runs (`pilot_whole`), no method chooses
+/// its steps, and the recommendation may take ten times as long as the run. Nothing is recommended where no errors
+/// fall with the step, as in chaotic piles.
+///
+/// throws  InputError unless error > 0
 Recommendation recommend(const TradeoffScene& scene, double error, const CpuClock& clock,
                          const RecommendOptions& options = {});
 

@@ -28,7 +28,7 @@ std::vector<Entry> scene_entries() {
     const SceneFile scene = read_scene(gallery_folder() / (name + ".json"));
     entries.push_back({name, scene.about,
                        std::string("simulate, explain, ") + (scene.has_contact() ? "" : "explain-dt, ") +
-                           "scene --check, gallery, tradeoff" + (scene.has_contact() ? "" : ", recommend")});
+                           "scene --check, gallery, tradeoff, recommend"});
   }
   for (const TradeoffEntry& s : tradeoff_scenes())
     entries.push_back({std::string(s.name), std::string(s.what), "tradeoff, recommend"});

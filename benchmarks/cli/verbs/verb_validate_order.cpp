@@ -18,8 +18,7 @@ void add_validate_order(CLI::App& validate, Outcome& outcome) {
       {.quick = "fewer halvings and steps, a wider window of errors; on scenes, shorter runs", .keeps_folder = false});
   verb->add_option(
       "SCENE", options->plan.scenes,
-      "instead of the study's own scenes: scene files (.json) without contact, names of the gallery, or of " +
-          study_scene_names());
+      "instead of the study's own scenes: scene files (.json), names of the gallery, or of " + study_scene_names());
   verb->add_option("--integrator", options->plan.integrators, "only these [all]");
   verb->callback([options, &outcome] {
     options->plan.quick = options->quick;

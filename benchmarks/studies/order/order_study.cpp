@@ -88,6 +88,7 @@ void observe(const TradeoffScene& scene, const OrderPlan& plan, StudyLog& log, S
   SceneOrderOptions options;
   options.order.most_error = most_error(plan);
   if (plan.quick) options.most_s = 1.0;
+  if (scene.has_contact()) found.contact = contact_order(scene.frozen->file);
   for (const IntegratorEntry* entry : entries) {
     found.orders.push_back(observe_order(scene, found.reference, *entry, thread_cpu_ns, options));
     log.advance(entry->name);
@@ -110,7 +111,6 @@ Report scene_order_study(const OrderPlan& plan, StudyLog& log) {
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     found.push_back({.name = std::filesystem::path(plan.scenes[k]).stem().string(), .reference = {}});
     unless_unsolved(k, [&] { scenes[k] = find_scene(plan.scenes[k], source_folder() / "benchmarks" / "meshes"); });
-    require_smooth(scenes[k]);
   }
   for (std::size_t k = 0; k < scenes.size(); ++k) unless_unsolved(k, [&] { observe(scenes[k], plan, log, found[k]); });
   Report report;

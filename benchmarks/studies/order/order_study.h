@@ -19,7 +19,7 @@ struct OrderPlan {
 /// With scenes, the orders that integrators show on these; else on the study's own, compared with the exact maps, and
 /// what goes with it.
 ///
-/// throws  InputError for an unknown integrator, for a scene with contact, and as find_scene
+/// throws  InputError for an unknown integrator, and as find_scene
 Report order_study(const OrderPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

@@ -115,9 +115,6 @@ std::span<const Rule> rules_between_keys() {
        "cannot be combined with /body/generate/chain, which has no surface", "cells"},
 
       // ---- contact
-      {events, [](S s) { return breach_if(s.accuracy && s.has_contact(), "/accuracy"); },
-       "cannot be combined with /contact, which changes motions after the part that short runs see",
-       "'step' in its place"},
       {events,
        [](S s) {
          const bool is_broken = !s.touches.empty() && s.integrator == "energy-momentum";

@@ -22,7 +22,7 @@ using namespace moving;
 // ---- answers
 
 /// Runs whose steps halve from h omega = 1/2 on.
-SceneOrder answer(int theory, const std::vector<double>& x, const std::vector<double>& v, double floor = 1e-14,
+SceneOrder answer(double theory, const std::vector<double>& x, const std::vector<double>& v, double floor = 1e-14,
                   double longest = 0.5) {
   OrderStudy study;
   study.theory = theory;
@@ -194,17 +194,92 @@ TEST(SceneOrder, StaysOpenWhereMoreStepsWouldTakeTooLong) {
   EXPECT_TRUE(found.study.reason.ends_with("; more steps would take too long")) << found.study.reason;
 }
 
-TEST(SceneOrder, IsNotObservedThroughContact) {
-  const TradeoffScene scene = scene_with(
-      R"({"contact": {"pressure": 500, "depth": 0.02, "obstacles": [{"plane": {"point": [0, 0, -1], "normal": [0, 0, 1]}}]}})");
-  try {
-    require_smooth(scene);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "file: /contact: has kinks, across which no method shows its order; expected none: 'tradeoff' "
-                 "measures errors");
+// ---- contact
+
+/// The answer where contact leaves `most` of an order, with an error that alternates by `scatter`.
+SceneOrder answer_of_contact(double most, double order, double scatter, std::size_t count = 8, double longest = 0.5) {
+  OrderStudy study;
+  study.theory = most;
+  for (std::size_t k = 0; k < count; ++k) {
+    OrderPoint point;
+    point.steps = 16u << k;
+    point.h_omega = longest * std::exp2(-static_cast<double>(k));
+    point.errors.x = point.errors.v =
+        1e-3 * std::exp2(-order * static_cast<double>(k)) * std::exp2(k % 2 == 0 ? scatter : -scatter);
+    study.points.push_back(point);
   }
+  judge(study, 1e-14, {});
+  return answer_through_contact(study, {most, "an energy"}, {});
+}
+
+TEST(OrderThroughContact, IsShownByALineThroughErrorsThatScatter) {
+  const SceneOrder shown = answer_of_contact(2, 2.0, 0.5);
+  EXPECT_EQ(shown.answer, OrderAnswer::shown);
+  EXPECT_NEAR(shown.study.p_x, 2.0, 0.1);
+  EXPECT_EQ(shown.study.reason, "");
+  EXPECT_EQ(answer_of_contact(2, 3.0, 0.5).answer, OrderAnswer::shown);  // smooth errors are larger as yet
+  EXPECT_EQ(answer_of_contact(2, 1.75, 0.0).answer, OrderAnswer::shown);
+}
+
+TEST(OrderThroughContact, IsMissedWhereTheLineIsLowerByMoreThanItsOwnError) {
+  const SceneOrder missed = answer_of_contact(2, 1.25, 0.0);
+  EXPECT_EQ(missed.answer, OrderAnswer::missed);
+  EXPECT_EQ(missed.study.reason, "order 1.25 in x and 1.25 in v, fitted to 8 errors");
+  EXPECT_EQ(answer_of_contact(2, 1.25, 2.5).answer, OrderAnswer::open);
+  EXPECT_EQ(answer_of_contact(2, 1.25, 0.0, 5, 4.0).answer, OrderAnswer::open);  // long steps
+}
+
+TEST(OrderThroughContact, IsOpenWhereNoneIsPromisedOrTooFewErrorsAreSeen) {
+  const SceneOrder none = answer_of_contact(0, 1.0, 0.0);
+  EXPECT_EQ(none.answer, OrderAnswer::open);
+  EXPECT_EQ(none.study.reason, "order 1.00 in x and 1.00 in v, fitted to 8 errors; none is promised");
+  EXPECT_EQ(answer_of_contact(2, 2.0, 0.0, 4).answer, OrderAnswer::open);
+}
+
+/// A soft box that falls on a plane and leaves it again.
+TradeoffScene bouncing_box(const char* contact) {
+  Json json = moving_box();
+  json["body"]["translate"] = {0, 0, 0.001};
+  json["material"] = Json::parse(R"({"density": 1000, "young": 30000, "poisson": 0.3})");
+  json["initial_velocity"] = {0.1, 0, -0.3};
+  json["duration"] = 0x1p-4;
+  json["contact"] = Json::parse(R"({"pressure": 4000, "depth": 0.02,
+                                    "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]})");
+  json["contact"].merge_patch(Json::parse(contact));
+  return scene_of_file(parse(json));
+}
+
+SceneReference converged(const TradeoffScene& scene, std::uint64_t steps, double floor) {
+  SceneReference reference{.kind = ReferenceKind::self_converged, .floor = floor};
+  reference.states = run_timed(scene, *make_integrator("blanes-moan-4"), {.steps = steps}, no_clock).states;
+  return reference;
+}
+
+// Half of the damping before a step and half after it are symmetric in time: of order 2, where that of each sample
+// after the same others both times leaves order 1.
+TEST(SceneOrder, IsThatOfTheSchemeThroughContactThatLosesSpeed) {
+  const TradeoffScene scene = bouncing_box(R"({"exponent": 4, "restitution": 0.5})");
+  const SceneOrder found = observe_order(scene, converged(scene, 8192, 1e-8), entry("verlet"), no_clock);
+  EXPECT_EQ(found.answer, OrderAnswer::shown) << found.study.reason;
+  EXPECT_EQ(found.study.theory, 2.0);
+  EXPECT_NEAR(found.study.p_x, 2.0, 0.1);
+}
+
+TEST(SceneOrder, IsThatOfTheExponentForMethodsOfHigherOrder) {
+  const TradeoffScene scene = bouncing_box(R"({"exponent": 3})");
+  const SceneOrder found = observe_order(scene, converged(scene, 4096, 1e-12), entry("rk4"), no_clock);
+  EXPECT_EQ(found.answer, OrderAnswer::shown) << found.study.reason;
+  EXPECT_EQ(found.study.theory, 3.0);
+}
+
+TEST(SceneOrder, IsNotLookedForBelowWhatTheReferenceResolves) {
+  const TradeoffScene scene = scene_with("{}");
+  SceneReference reference = reference_of(scene, no_clock);
+  reference.floor = 2e-3;
+  const SceneOrder found = observe_order(scene, reference, entry("verlet"), no_clock);
+  EXPECT_EQ(found.answer, OrderAnswer::open);
+  EXPECT_EQ(found.study.reason, "the reference resolves no errors below 2.0e-03 edges");
+  EXPECT_TRUE(found.study.points.empty());
 }
 
 }  // namespace

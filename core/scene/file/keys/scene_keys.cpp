@@ -72,12 +72,12 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "attachments", .type = objects, .of = attachment, .standard = "[]",
        .help = "vertices that springs hold to a body or to the places where they are at rest"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
-       .help = "contact of bodies with obstacles, with each other and with themselves; not of chains, and not with an "
-               "accuracy. Without it bodies pass through each other and through themselves"},
+       .help = "contact of bodies with obstacles, with each other and with themselves; not of chains. "
+               "Without it bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator if "
-               "it is not named; not with contact. The choice rests on timings: it may differ from machine to machine "
+               "it is not named, by whole runs where there is contact. The choice rests on timings: it may differ from machine to machine "
                "and from run to run, and the hash with it; 'simulate' prints the 'integrator' and 'step' that settle "
                "it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,

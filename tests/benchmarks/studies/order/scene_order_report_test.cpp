@@ -70,6 +70,32 @@ TEST(SceneOrderClaims, AreUndecidedWhereTheMotionLeavesOneOpen) {
   EXPECT_EQ(exit_code(claims), 0);
 }
 
+TEST(SceneOrderClaims, SayWhatContactLeavesOfTheOrders) {
+  auto with = scenes();
+  with[0].contact = {1.5, "speed that is lost, with exponent 3"};
+  const std::vector<Claim> claims = claims_of(with);
+  EXPECT_EQ(claims[0].verdict, Verdict::holds);
+  EXPECT_EQ(
+      claims[0].text,
+      "every integrator shows its order on bar, in x and in v; order 1.5 at most through speed that is lost, with "
+      "exponent 3");
+  expect_words(claims, "order-on-bar", "five errors or more fall with it, or faster, within 0.3", "2 of 2 integrators",
+               "reference: by two codes");
+  EXPECT_EQ(to_json(with, claims)["references"][0]["contact"]["most"], 1.5);
+}
+
+TEST(SceneOrderClaims, AreUndecidedWhereContactPromisesNone) {
+  auto with = scenes();
+  with[0].contact = {0.0, "bodies, whose nearest face changes"};
+  for (SceneOrder& one : with[0].orders) one = order("verlet", OrderAnswer::open, "order 1.00 in x");
+  const std::vector<Claim> claims = claims_of(with);
+  EXPECT_EQ(claims[0].verdict, Verdict::undecided);
+  EXPECT_EQ(
+      claims[0].reason,
+      "no order is promised through bodies, whose nearest face changes; verlet: order 1.00 in x; verlet: order 1.00 "
+      "in x");
+}
+
 TEST(SceneOrderClaims, AreNotTestedWithoutAReference) {
   const std::vector<SceneOrders> without{{.name = "two bars", .reference = {}, .failure = "it diverges"}};
   const std::vector<Claim> claims = claims_of(without);
