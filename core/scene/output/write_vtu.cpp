@@ -5,7 +5,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/meshes/text/base64.h"
@@ -50,28 +52,33 @@ constexpr const char* vtk_type<std::uint8_t>() {
   return "UInt8";
 }
 
+/// Nine bytes, the length and the first of the data, are three groups of base64: the others follow from where they lie.
 template <class T>
-std::string encoded(const T* data, std::size_t size) {
+void append_encoded(std::string& out, const T* data, std::size_t size) {
   const std::uint64_t length = size * sizeof(T);
-  std::string bytes(reinterpret_cast<const char*>(&length), sizeof length);
-  if (length > 0) bytes.append(reinterpret_cast<const char*>(data), length);
-  return encode_base64(bytes);
+  const std::string_view bytes(reinterpret_cast<const char*>(data), length);
+  std::array<char, sizeof length + 1> begin;
+  std::memcpy(begin.data(), &length, sizeof length);
+  if (length > 0) begin.back() = bytes[0];
+  append_base64(out, {begin.data(), length > 0 ? begin.size() : sizeof length});
+  if (length > 0) append_base64(out, bytes.substr(1));
+  out += "</DataArray>\n";
 }
 template <class T>
 void append_array(std::string& out, const char* name, const T* data, std::size_t size, int components = 1) {
-  fmt::format_to(
-      std::back_inserter(out),
-      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-      vtk_type<T>(), name, components, encoded(data, size));
+  fmt::format_to(std::back_inserter(out),
+                 "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">",
+                 vtk_type<T>(), name, components);
+  append_encoded(out, data, size);
 }
 /// A field is an array of tuples of its own.
 template <class T>
 void append_field(std::string& out, const char* name, const T* data, std::size_t tuples, std::size_t components = 1) {
   const std::string shape = components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", components);
-  fmt::format_to(
-      std::back_inserter(out),
-      "        <DataArray type=\"{}\" Name=\"{}\" {}NumberOfTuples=\"{}\" format=\"binary\">{}</DataArray>\n",
-      vtk_type<T>(), name, shape, tuples, encoded(data, tuples * components));
+  fmt::format_to(std::back_inserter(out),
+                 "        <DataArray type=\"{}\" Name=\"{}\" {}NumberOfTuples=\"{}\" format=\"binary\">", vtk_type<T>(),
+                 name, shape, tuples);
+  append_encoded(out, data, tuples * components);
 }
 void append_pairs(std::string& out, std::span<const FramePair> pairs) {
   std::vector<std::array<std::int64_t, 4>> samples;
@@ -128,6 +135,10 @@ std::string to_vtu(const Frame& frame) {
 
   std::vector<std::int64_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
+  const std::size_t lines = frame.links.size() + frame.springs.size();
+  connectivity.reserve(mesh.nodes.size() + 2 * lines);
+  offsets.reserve(cells + lines);
+  types.reserve(cells + lines);
   for (std::size_t c = 0; c < cells; ++c) {
     const VtkCell cell = vtk_cell(mesh.kinds[c]);
     const auto nodes = mesh.cell(c);
