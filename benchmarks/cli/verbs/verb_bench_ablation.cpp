@@ -34,7 +34,8 @@ void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto options = study_options(*verb, {.quick = "fewer rounds, fewer processes", .seed = "the order of the tasks"});
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks", options->seed}},
-                   .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh"}};
+                   .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh",
+                                   source_folder() / "benchmarks/scenes/liver_cut.json"}};
     run_study(
         *options, {.label = "ablation", .facts = facts},
         [&](StudyLog& log) {

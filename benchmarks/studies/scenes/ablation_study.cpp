@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/checkout/source_folder.h"
+#include "benchmarks/studies/scenes/output_tasks.h"
 #include "benchmarks/studies/scenes/plain_loop.h"
 #include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
@@ -237,6 +238,18 @@ TimedTask scene_task(const AblationVariant& variant, int steps) {
           .hash = [simulation] { return (*simulation)->body().state_hash(); }};
 }
 
+/// No timing without agreement.
+void require_agreement(const std::vector<TimedTask>& tasks, std::size_t count) {
+  std::uint64_t first = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    tasks[k].restore();
+    tasks[k].run();
+    if (k == 0) first = tasks[k].hash();
+    if (tasks[k].hash() != first)
+      throw SolverError(fmt::format("'{}' leaves another state than '{}'", tasks[k].name, tasks[0].name));
+  }
+}
+
 }  // namespace
 
 void study_ablation(const AblationOptions& options, const std::function<void(const Sample&)>& sink) {
@@ -247,21 +260,18 @@ void study_ablation(const AblationOptions& options, const std::function<void(con
   tasks.push_back(scene_task(simulation, options.steps));
   for (const char* loop : {"watched loop", "loop and detector", "loop", "plain loop"})
     tasks.push_back(loop_task(loop, variants.front().scene, options.steps));
-  // no timing without agreement
-  std::uint64_t first = 0;
-  for (const TimedTask& task : tasks) {
-    task.restore();
-    task.run();
-    if (&task == tasks.data()) first = task.hash();
-    if (task.hash() != first)
-      throw SolverError(fmt::format("'{}' leaves another state than '{}'", task.name, tasks.front().name));
-  }
+  require_agreement(tasks, tasks.size());
   // few steps per sample, and many rounds: the differences here are less than a hundredth
   run_rounds(tasks, {.rounds = 3 * options.rounds, .process = options.process, .seed = options.seed}, sink);
 
   tasks.clear();
   for (const AblationVariant& variant : variants) tasks.push_back(scene_task(variant, options.steps));
-  run_rounds(tasks, {.rounds = options.rounds, .warmup = 1, .process = options.process, .seed = options.seed}, sink);
+  const PairedOptions paired{.rounds = options.rounds, .warmup = 1, .process = options.process, .seed = options.seed};
+  run_rounds(tasks, paired, sink);
+
+  tasks = output_tasks();
+  require_agreement(tasks, 2);  // the third moves nothing
+  run_rounds(tasks, paired, sink);
 }
 
 }  // namespace dartboard

@@ -55,7 +55,8 @@ struct AblationOptions {
 
 /// Time all variants and loops in this process.
 ///
-/// throws  SolverError if the loops of the staircase do not leave the same bits: nothing is timed in that case
+/// throws  SolverError if the loops of the staircase do not leave the same bits, or a scene with its output and its
+///         integrator alone: these are not timed in that case
 void study_ablation(const AblationOptions& options, const std::function<void(const Sample&)>& sink);
 
 }  // namespace dartboard

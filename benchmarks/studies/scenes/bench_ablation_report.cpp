@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "benchmarks/studies/scenes/ablation_study.h"
+#include "benchmarks/studies/scenes/output_tasks.h"
 
 namespace dartboard {
 namespace {
@@ -68,6 +69,16 @@ Table staircase_table(const AblationFigures& r) {
   return table;
 }
 
+Table output_table(const AblationFigures& r) {
+  Table table({{"task"}, {"ms", Align::right}, {"over the integrator", Align::right}, {"interval", Align::right}});
+  for (const std::string& task : {output_run, output_integrator, output_bytes}) {
+    const Ratio ratio = paired_ratio(r.samples, task, output_integrator);
+    table.add_row({task, fmt::format("{:.3g}", times_of(r.samples, task).cpu_median / 1e6),
+                   fmt::format("{:.3f}", ratio.cpu.median), to_string(ratio.cpu.interval)});
+  }
+  return table;
+}
+
 std::string features_note() {
   return "Each feature in a scene of the paper's body, undamped and at rest but for a spin where bare. Ratios are "
          "paired within rounds, intervals are over processes. The map and the watch on stress are those of events that "
@@ -107,6 +118,12 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
       claim.reason = fmt::format("'{}' does less than '{}' and is slower: no lower bound", pair.baseline, pair.task);
     claims.push_back(std::move(claim));
   }
+  const Ratio output = paired_ratio(r.samples, output_run, output_integrator);
+  claims.push_back(
+      target("output-liver-cut", fmt::format("{} over the same steps of its integrator alone", output_run), "<= 1.5",
+             fmt::format("{:.3f}", output.cpu.median), to_string(output.cpu.interval), at_most(output.cpu, 1.5),
+             fmt::format("stresses of its frames, and their files; their bytes alone, copied, take {:.3f} of that",
+                         paired_ratio(r.samples, output_bytes, output_integrator).cpu.median)));
   return claims;
 }
 

@@ -33,6 +33,8 @@ std::vector<Claim> claims_of(const AblationFigures& figures);
 
 Table features_table(const AblationFigures& figures);
 Table staircase_table(const AblationFigures& figures);
+/// A scene with all that it writes, and the least that this could take.
+Table output_table(const AblationFigures& figures);
 /// The basis of the figures.
 std::string features_note();
 

@@ -57,7 +57,8 @@ Report ablation_bench(const AblationBenchPlan& plan, StudyLog& log) {
       claim.reason = fmt::format("{} short processes cannot judge half a per cent: leave out --quick", processes);
     }
   return {.tables = {{"features", "Features on and off", features_table(results), features_note()},
-                     {"staircase", "The bare scene, with less and less around its loop", staircase_table(results)}},
+                     {"staircase", "The bare scene, with less and less around its loop", staircase_table(results)},
+                     {"output", "A scene with its output, from its first step to its last", output_table(results)}},
           .claims = std::move(claims),
           .pictures = {{"ablation", ablation_plot(results)}}};
 }

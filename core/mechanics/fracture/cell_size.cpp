@@ -18,25 +18,29 @@ bool is_before(const Vector3d& a, const Vector3d& b) {
   return a.z() < b.z();
 }
 
+/// The corners in that order. Addresses are exchanged without branches, which could not be predicted.
 template <std::size_t n>
-std::array<Vector3d, n> in_order(std::span<const Vector3d> corners) {
-  std::array<Vector3d, n> x;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t at = k;
-    for (; at > 0 && is_before(corners[k], x[at - 1]); --at) x[at] = x[at - 1];
-    x[at] = corners[k];
-  }
+std::array<const Vector3d*, n> in_order(std::span<const Vector3d> corners) {
+  std::array<const Vector3d*, n> x;
+  for (std::size_t k = 0; k < n; ++k) x[k] = &corners[k];
+  for (std::size_t end = n - 1; end > 0; --end)
+    for (std::size_t k = 0; k < end; ++k) {
+      const Vector3d *const a = x[k], *const b = x[k + 1];
+      const bool exchanged = is_before(*b, *a);
+      x[k] = exchanged ? b : a;
+      x[k + 1] = exchanged ? a : b;
+    }
   return x;
 }
 
 double triangle_area(std::span<const Vector3d> corners) {
   const auto x = in_order<3>(corners);
-  return 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  return 0.5 * (*x[1] - *x[0]).cross(*x[2] - *x[0]).norm();
 }
 
 double tetrahedron_volume(std::span<const Vector3d> corners) {
   const auto x = in_order<4>(corners);
-  return std::abs((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0])) / 6.0;
+  return std::abs((*x[1] - *x[0]).cross(*x[2] - *x[0]).dot(*x[3] - *x[0])) / 6.0;
 }
 
 /// The area of a quadrilateral, which may be skew: the length of its vector area, half of the product of its diagonals.

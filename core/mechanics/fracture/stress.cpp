@@ -22,6 +22,7 @@ namespace {
 
 // The iterative solver: the closed form loses half the digits where two eigenvalues are close.
 using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+constexpr const char* unsolved = "the eigenvalues of a stress were not found";
 
 // The lower triangle suffices until the sum is complete; the growth of the volume is summed in the upper corner.
 void add_lower(Eigen::Matrix3d& sum, const Eigen::Matrix3d& term) {
@@ -222,7 +223,7 @@ StressError::StressError(std::uint32_t which)
 PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
   if (!stress.allFinite()) throw SolverError("the principal directions of a stress that is not finite");
   const EigenSolver solver(stress);
-  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalues of a stress were not found");
+  if (solver.info() != Eigen::Success) throw SolverError(unsolved);
   Eigen::Vector3d direction = solver.eigenvectors().col(2).normalized();
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -233,7 +234,7 @@ PrincipalStress principal_stress(const Eigen::Matrix3d& stress) {
 StressMeasures measures_of(const Eigen::Matrix3d& stress) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!stress.allFinite()) return {infinity, infinity, infinity};
-  const EigenSolver solver(stress);
+  const EigenSolver solver(stress, Eigen::EigenvaluesOnly);
   if (solver.info() != Eigen::Success) return {infinity, infinity, infinity};
   const Eigen::Vector3d& s = solver.eigenvalues();  // ascending
   const double magnitude = std::max(-s[0], s[2]);
@@ -248,7 +249,9 @@ double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses) {
   double largest = stresses.empty() ? 0.0 : -std::numeric_limits<double>::infinity();
   for (const Eigen::Matrix3d& sigma : stresses) {
     if (!sigma.allFinite()) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, principal_stress(sigma).value);
+    const EigenSolver solver(sigma, Eigen::EigenvaluesOnly);
+    if (solver.info() != Eigen::Success) throw SolverError(unsolved);
+    largest = std::max(largest, solver.eigenvalues()[2]);
   }
   return largest;
 }

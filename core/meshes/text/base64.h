@@ -10,6 +10,8 @@ namespace dartboard {
 
 /// Bytes as base64 text, padded.
 std::string encode_base64(std::string_view bytes);
+/// Add that to a text.
+void append_base64(std::string& text, std::string_view bytes);
 
 /// The bytes of a base64 text, ignoring white space; no value when it is malformed. Padding may also stand inside: some
 /// writers encode the length of a block and the block itself one after the other.

@@ -400,6 +400,7 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
     append(all.mesh_point, frame.mesh_point);
     append(all.displacement, frame.displacement);
     append(all.tension, frame.tension);
+    if (part.body.get() == &leading()) all.largest_stress = frame.largest_stress;
     for (const auto column : stresses) {
       append(all.*column, frame.*column);
       if (fields.stress) (all.*column).resize(all.mesh.points.size(), 0.0);  // chains have tensions

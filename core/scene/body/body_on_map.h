@@ -15,6 +15,7 @@
 #include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/cell_nodes.h"
 #include "core/mechanics/element_shapes.h"
+#include "core/mechanics/fracture/cell_size.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/mechanics/refine.h"
@@ -184,10 +185,11 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       if constexpr (n == 2) {
         sum += (position(body_.map.template alpha<0>(d)) - position(d)).norm();
       } else {
-        const auto around = detail::around_face(body_.map, d);
+        const auto next = [this](Dart at) { return body_.map.template alpha<0, 1>(at); };
+        const Eigen::Vector3d& corner = position(d);
         Eigen::Vector3d twice(0, 0, 0);
-        for (std::size_t k = 1; k + 1 < around.size(); ++k)
-          twice += (position(around[k]) - position(d)).cross(position(around[k + 1]) - position(d));
+        for (Dart a = next(d), b = next(a); b != d; a = b, b = next(b))
+          twice += (position(a) - corner).cross(position(b) - corner);
         sum += 0.5 * twice.norm();
       }
     }
@@ -205,11 +207,10 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
 
   Frame frame(const FrameFields& fields) const override {
     Frame frame;
-    for (std::uint32_t c = 0; c < body_.cell_dart.size(); ++c) {
-      add_cell_of(body_, c, frame.mesh);
-      frame.mesh_cell.push_back(mesh_cell_[c]);
-      frame.component.push_back(components_.label(c));
-    }
+    add_cells(frame.mesh);
+    frame.mesh_cell = mesh_cell_;
+    frame.component.reserve(mesh_cell_.size());
+    for (std::uint32_t c = 0; c < mesh_cell_.size(); ++c) frame.component.push_back(components_.label(c));
     if constexpr (n == 3) add_refined_facets(frame);
     frame.material = body_.cell_material;
     VolumeRoom room;
@@ -283,6 +284,25 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
     attachments_.shrink_to_fit();
     pressed_.shrink_to_fit();
+  }
+
+  /// The cells as add_cell_of has them, from the rows of a view where one has them all.
+  void add_cells(Mesh& mesh) const {
+    const std::size_t count = body_.cell_dart.size();
+    mesh.kinds.reserve(count);
+    mesh.first.reserve(count + 1);
+    mesh.nodes.reserve(count * (n == 2 || Map::tetrahedral ? 4 : 8));
+    for (std::uint32_t c = 0; c < count; ++c)
+      if (nodes_.nodes.size() == count) {
+        auto corners = nodes_.nodes[c];
+        if (body_.cell_inside_out[c] == 0) std::swap(corners[0], corners[1]);
+        mesh.add_cell(CellKind::tetrahedron, corners);
+      } else if (solids_.nodes.size() == count) {
+        const SolidNodes& corners = solids_.nodes[c];
+        mesh.add_cell(kind_of_corners(n, corners.count), std::span(corners.at).first(corners.count));
+      } else {
+        add_cell_of(body_, c, mesh);
+      }
   }
 
   void add_refined_facets(Frame& frame) const {

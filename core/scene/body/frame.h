@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/plain/mesh.h"
@@ -48,6 +49,8 @@ struct Frame {
   // [Pa] (of a surface [N/m], of a chain next to other bodies 0) by point of a body with cells; infinite where a stress
   // is not finite
   std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
+  // not written to files: the largest_stress of the body, where these are all that it is the largest of
+  std::optional<double> largest_stress;
   std::vector<double> tension;                        // [N] of chains, by link; negative where it is pressed together
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest
   std::vector<Eigen::Vector3d> contact_force;         // [N] by point: of contacts, without friction and damping

@@ -71,12 +71,15 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
   if (fields.stress && !is_chain) {
     std::vector<Eigen::Matrix3d> stress;
     vertex_stresses(ends, springs, volumes, x, stress, system.terms);
+    double largest = -std::numeric_limits<double>::infinity();
     for (const Eigen::Matrix3d& sigma : stress) {
       const StressMeasures measures = measures_of(sigma);
       frame.largest_principal_stress.push_back(measures.largest_principal);
       frame.largest_stress_magnitude.push_back(measures.largest_magnitude);
       frame.von_mises_stress.push_back(measures.von_mises);
+      largest = std::max(largest, measures.largest_principal);
     }
+    if (std::isfinite(largest)) frame.largest_stress = largest;
   }
   if (fields.springs && !is_chain) frame.springs.assign(ends.begin(), ends.end());
   const bool has_tensions = fields.stress && is_chain;

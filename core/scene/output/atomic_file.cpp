@@ -16,11 +16,17 @@ void throw_not_written(const std::filesystem::path& path) {
 }
 
 void write_whole(const std::filesystem::path& path, std::string_view contents) {
+  write_whole(path, [contents](std::ostream& out) {
+    out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+  });
+}
+
+void write_whole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& put) {
   namespace fs = std::filesystem;
   const fs::path beside = path.parent_path() / fmt::format(".{}.part", path.filename().string());
   errno = 0;
   std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-  stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+  put(stream);
   stream.close();
   std::error_code error;
   if (stream) fs::rename(beside, path, error);

@@ -2,6 +2,8 @@
 // Writing of files that appear whole or not at all.
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace dartboard {
@@ -10,6 +12,9 @@ namespace dartboard {
 ///
 /// throws  IoError if it cannot be written
 void write_whole(const std::filesystem::path& path, std::string_view contents);
+/// The contents are what `put` writes.
+/// pre     `put` does not throw
+void write_whole(const std::filesystem::path& path, const std::function<void(std::ostream&)>& put);
 
 /// throws  IoError "PATH: cannot be written: ..." with the reason that the system gave last
 /// pre     errno was set to 0 before the file was written

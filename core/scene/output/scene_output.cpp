@@ -111,10 +111,9 @@ SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> pr
 
 void SceneOutput::write(const Frame& frame) {
   const std::string name = frame_name(list_.size()).string();
-  const std::string text = to_vtu(frame);
-  write_whole(folder_ / name, text);
+  const std::uint64_t bytes = write_vtu(folder_ / name, frame);
   list_.add({frame.time, name});
-  so_far_.frame_bytes.push_back(text.size());
+  so_far_.frame_bytes.push_back(bytes);
 }
 
 void SceneOutput::write(const Diagnostics& diagnostics) {

@@ -5,7 +5,13 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <ostream>
 #include <span>
+#include <sstream>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/meshes/text/base64.h"
@@ -50,30 +56,69 @@ constexpr const char* vtk_type<std::uint8_t>() {
   return "UInt8";
 }
 
+/// A text on its way to a stream, in blocks.
+class Text {
+ public:
+  explicit Text(std::ostream& out) : out_(out) { block_.reserve(2 * most); }
+
+  std::back_insert_iterator<std::string> end() { return std::back_inserter(block_); }
+  Text& operator+=(std::string_view more) {
+    block_ += more;
+    return *this;
+  }
+  void add_base64(std::string_view bytes) {
+    constexpr std::size_t piece = most / 4 * 3;
+    for (; bytes.size() > piece; bytes.remove_prefix(piece)) add_piece(bytes.substr(0, piece));
+    add_piece(bytes);
+  }
+  /// Returns the number of bytes written.
+  std::uint64_t flush() {
+    out_.write(block_.data(), static_cast<std::streamsize>(block_.size()));
+    written_ += block_.size();
+    block_.clear();
+    return written_;
+  }
+
+ private:
+  static constexpr std::size_t most = 32768;
+
+  void add_piece(std::string_view bytes) {
+    append_base64(block_, bytes);
+    if (block_.size() >= most) flush();
+  }
+
+  std::ostream& out_;
+  std::string block_;
+  std::uint64_t written_ = 0;
+};
+
+/// Nine bytes, the length and the first of the data, are three groups of base64: the others follow from where they lie.
 template <class T>
-std::string encoded(const T* data, std::size_t size) {
+void append_encoded(Text& out, const T* data, std::size_t size) {
   const std::uint64_t length = size * sizeof(T);
-  std::string bytes(reinterpret_cast<const char*>(&length), sizeof length);
-  if (length > 0) bytes.append(reinterpret_cast<const char*>(data), length);
-  return encode_base64(bytes);
+  const std::string_view bytes(reinterpret_cast<const char*>(data), length);
+  std::array<char, sizeof length + 1> begin;
+  std::memcpy(begin.data(), &length, sizeof length);
+  if (length > 0) begin.back() = bytes[0];
+  out.add_base64({begin.data(), length > 0 ? begin.size() : sizeof length});
+  if (length > 0) out.add_base64(bytes.substr(1));
+  out += "</DataArray>\n";
 }
 template <class T>
-void append_array(std::string& out, const char* name, const T* data, std::size_t size, int components = 1) {
-  fmt::format_to(
-      std::back_inserter(out),
-      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-      vtk_type<T>(), name, components, encoded(data, size));
+void append_array(Text& out, const char* name, const T* data, std::size_t size, int components = 1) {
+  fmt::format_to(out.end(), "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">",
+                 vtk_type<T>(), name, components);
+  append_encoded(out, data, size);
 }
 /// A field is an array of tuples of its own.
 template <class T>
-void append_field(std::string& out, const char* name, const T* data, std::size_t tuples, std::size_t components = 1) {
+void append_field(Text& out, const char* name, const T* data, std::size_t tuples, std::size_t components = 1) {
   const std::string shape = components == 1 ? "" : fmt::format("NumberOfComponents=\"{}\" ", components);
-  fmt::format_to(
-      std::back_inserter(out),
-      "        <DataArray type=\"{}\" Name=\"{}\" {}NumberOfTuples=\"{}\" format=\"binary\">{}</DataArray>\n",
-      vtk_type<T>(), name, shape, tuples, encoded(data, tuples * components));
+  fmt::format_to(out.end(), "        <DataArray type=\"{}\" Name=\"{}\" {}NumberOfTuples=\"{}\" format=\"binary\">",
+                 vtk_type<T>(), name, shape, tuples);
+  append_encoded(out, data, tuples * components);
 }
-void append_pairs(std::string& out, std::span<const FramePair> pairs) {
+void append_pairs(Text& out, std::span<const FramePair> pairs) {
   std::vector<std::array<std::int64_t, 4>> samples;
   std::vector<std::array<std::int64_t, 3>> faces;
   std::vector<std::int64_t> obstacles;
@@ -90,10 +135,10 @@ void append_pairs(std::string& out, std::span<const FramePair> pairs) {
   append_field(out, "contact_pair_depth", depths.data(), pairs.size());
 }
 template <class T>
-void append_array(std::string& out, const char* name, const std::vector<T>& values) {
+void append_array(Text& out, const char* name, const std::vector<T>& values) {
   append_array(out, name, values.data(), values.size());
 }
-void append_array(std::string& out, const char* name, const std::vector<Eigen::Vector3d>& values) {
+void append_array(Text& out, const char* name, const std::vector<Eigen::Vector3d>& values) {
   append_array(out, name, values.empty() ? nullptr : values[0].data(), 3 * values.size(), 3);
 }
 
@@ -118,16 +163,21 @@ bool has_columns_of_its_size(const Frame& frame) {
          is(frame.strain.size(), fields.springs, frame.links.size() + frame.springs.size());
 }
 
-}  // namespace
+void require_columns_of_its_size(const Frame& frame) {
+  if (!has_columns_of_its_size(frame))
+    throw InputError(fmt::format("a frame of {} points and {} cells with columns of other lengths",
+                                 frame.mesh.points.size(), frame.mesh.cell_count()));
+}
 
-std::string to_vtu(const Frame& frame) {
+std::uint64_t put_vtu(const Frame& frame, std::ostream& stream) {
   const Mesh& mesh = frame.mesh;
   const std::size_t points = mesh.points.size(), cells = mesh.cell_count();
-  if (!has_columns_of_its_size(frame))
-    throw InputError(fmt::format("a frame of {} points and {} cells with columns of other lengths", points, cells));
-
   std::vector<std::int64_t> connectivity, offsets;
   std::vector<std::uint8_t> types;
+  const std::size_t lines = frame.links.size() + frame.springs.size();
+  connectivity.reserve(mesh.nodes.size() + 2 * lines);
+  offsets.reserve(cells + lines);
+  types.reserve(cells + lines);
   for (std::size_t c = 0; c < cells; ++c) {
     const VtkCell cell = vtk_cell(mesh.kinds[c]);
     const auto nodes = mesh.cell(c);
@@ -153,14 +203,15 @@ std::string to_vtu(const Frame& frame) {
   tension.resize(types.size(), 0.0);
   strain.insert(strain.end(), frame.strain.begin(), frame.strain.end());
 
-  std::string out =
+  Text out(stream);
+  out +=
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "  <UnstructuredGrid>\n"
       "    <FieldData>\n";
   append_field(out, "TimeValue", &frame.time, 1);
   if (frame.fields.contact) append_pairs(out, frame.contact_pairs);
-  fmt::format_to(std::back_inserter(out),
+  fmt::format_to(out.end(),
                  "    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n", points,
                  types.size());
   append_array(out, "Points", mesh.points);
@@ -193,9 +244,23 @@ std::string to_vtu(const Frame& frame) {
   if (fields.stress && !frame.links.empty()) append_array(out, "tension", tension);
   if (fields.springs) append_array(out, "strain", strain);
   out += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
-  return out;
+  return out.flush();
 }
 
-void write_vtu(const std::filesystem::path& path, const Frame& frame) { write_whole(path, to_vtu(frame)); }
+}  // namespace
+
+std::string to_vtu(const Frame& frame) {
+  require_columns_of_its_size(frame);
+  std::ostringstream text;
+  put_vtu(frame, text);
+  return std::move(text).str();
+}
+
+std::uint64_t write_vtu(const std::filesystem::path& path, const Frame& frame) {
+  require_columns_of_its_size(frame);
+  std::uint64_t bytes = 0;
+  write_whole(path, [&](std::ostream& out) { bytes = put_vtu(frame, out); });
+  return bytes;
+}
 
 }  // namespace dartboard

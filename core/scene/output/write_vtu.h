@@ -1,6 +1,7 @@
 #pragma once
 // Frames as VTK XML unstructured grids, which ParaView and meshio read.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -19,7 +20,8 @@ namespace dartboard {
 /// throws  InputError if the columns of the frame are not as long as its points and cells
 std::string to_vtu(const Frame& frame);
 
+/// Returns the number of bytes. The text is written in blocks, and never held as a whole.
 /// throws  IoError if the file cannot be written; as to_vtu
-void write_vtu(const std::filesystem::path& path, const Frame& frame);
+std::uint64_t write_vtu(const std::filesystem::path& path, const Frame& frame);
 
 }  // namespace dartboard

@@ -9,6 +9,13 @@
 namespace dartboard {
 namespace {
 
+/// Hands out a frame; returns the largest stress, where the frame has it.
+std::optional<double> hand_out_frame(const Simulation& simulation, RunWatcher& watcher) {
+  const Frame frame = simulation.frame();
+  watcher.frame(frame);
+  return frame.largest_stress;
+}
+
 /// Hands out the state after the last step taken in every form in which it has not been due.
 void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
                        const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunProgress& progress) {
@@ -46,9 +53,9 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
   if (continued != nullptr) {
     progress = *continued;
   } else {
-    progress.first = progress.last = simulation.diagnostics();
+    const std::optional<double> stress = hand_out_frame(simulation, watcher);
+    progress.first = progress.last = simulation.diagnostics(stress);
     progress.drift = EnergyDrift(progress.first);
-    watcher.frame(simulation.frame());
     watcher.diagnostics(progress.first);
     watcher.probes(simulation.probes());
   }
@@ -74,12 +81,13 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
     result.interrupted = n < end && watcher.interrupts();
     const bool is_over = n == simulation.step_count();
     const auto due = [&](const std::optional<std::uint64_t>& every) { return is_over || (every && n % *every == 0); };
+    std::optional<double> stress;
     if (due(plan.frame_steps)) {
-      watcher.frame(simulation.frame());
+      stress = hand_out_frame(simulation, watcher);
       progress.frame_time = simulation.time();
     }
     if (due(plan.diagnostic_steps)) {
-      progress.last = simulation.diagnostics();
+      progress.last = simulation.diagnostics(stress);
       progress.diagnostics_time = simulation.time();
       progress.drift.add(progress.last);
       watcher.diagnostics(progress.last);

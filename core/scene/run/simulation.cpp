@@ -326,7 +326,7 @@ void Simulation::add_work_of_forces(double of_pressures) {
     applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_ - of_pressures;
 }
 
-Diagnostics Simulation::diagnostics() const {
+Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const {
   SpringSystem system = body_->system();
   const VertexColumns& v = body_->vertices();
   Diagnostics d;
@@ -344,7 +344,7 @@ Diagnostics Simulation::diagnostics() const {
   d.mass = body_->mass();
   d.counts = body_->counts();
   d.boundary = body_->boundary();
-  d.largest_stress = body_->largest_stress();
+  d.largest_stress = largest_stress ? *largest_stress : body_->largest_stress();
   d.operations = operations();
   if (sleeping_) d.sleep = sleeping_->diagnostics();
   return d;

@@ -93,7 +93,8 @@ class Simulation {
   std::span<const ContactWarning> contact_warnings() const;
   /// The paths of the events that have been due and have never changed anything.
   std::vector<std::string> idle_events() const { return timeline_->idle_events(); }
-  Diagnostics diagnostics() const;
+  /// `largest_stress` is that of the body as it is now, where it is known.
+  Diagnostics diagnostics(std::optional<double> largest_stress = {}) const;
   /// A frame with the fields that the scene asks for, or with others; its points in the order of the mesh's file.
   /// pre  displacement is asked for only if the scene does
   Frame frame() const { return frame(fields_); }

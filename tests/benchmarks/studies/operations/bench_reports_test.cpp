@@ -8,6 +8,7 @@
 #include "benchmarks/studies/operations/operation_study.h"
 #include "benchmarks/studies/scenes/ablation_study.h"
 #include "benchmarks/studies/scenes/bench_ablation_report.h"
+#include "benchmarks/studies/scenes/output_tasks.h"
 #include "benchmarks/studies/topology/bench_topology_report.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
 #include "tests/support/claims_for_tests.h"
@@ -254,7 +255,10 @@ AblationFigures good_ablation() {
                              {"loop", 1'002'000},
                              {"loop and detector", 1'004'000},
                              {"watched loop", 1'006'000},
-                             {"simulation", 1'008'000}});
+                             {"simulation", 1'008'000},
+                             {output_run, 1'490'000},
+                             {output_integrator, 1'000'000},
+                             {output_bytes, 10'000}});
   for (const AblationVariant& variant : ablation_variants()) f.bytes[variant.name] = {.total = 100, .tetrahedra = 1};
   return f;
 }
@@ -271,7 +275,7 @@ void set_task(AblationFigures& f, const std::string& task, std::int64_t ns) {
 TEST(BenchAblationClaims, HoldWhenEverythingIsAsPromised) {
   EXPECT_EQ(ids_of(claims_of(good_ablation()), Verdict::holds),
             (Ids{"bare-scene-speed", "bare-scene-holds-no-dart", "unasked-damping-bytes", "unasked-terms-time",
-                 "detector-time", "speed-check-time", "unasked-events-and-output-time"}));
+                 "detector-time", "speed-check-time", "unasked-events-and-output-time", "output-liver-cut"}));
 }
 
 TEST(BenchAblationClaims, FallShortOfASceneSlowerThanItsLoop) {
@@ -295,6 +299,10 @@ TEST(BenchAblationClaims, FallShortOfTheStairThatTakesMoreThanHalfAPercent) {
 TEST(BenchAblationClaims, FallShortOfABareSceneThatHoldsAnythingNotAskedFor) {
   EXPECT_EQ(ablation_short_with([](auto& f) { f.bytes["bare"].not_asked_for = 1; }), Ids{"bare-scene-holds-no-dart"});
   EXPECT_EQ(ablation_short_with([](auto& f) { f.bytes["bare"].damping = 8; }), Ids{"unasked-damping-bytes"});
+}
+
+TEST(BenchAblationClaims, FallShortOfASceneWhoseOutputTakesMoreThanHalfOfItsIntegrator) {
+  EXPECT_EQ(ablation_short_with([](auto& f) { set_task(f, output_run, 1'510'000); }), Ids{"output-liver-cut"});
 }
 
 TEST(BenchAblationClaims, SayNothingOfAStairWhoseLowerTaskIsTheSlowerOne) {

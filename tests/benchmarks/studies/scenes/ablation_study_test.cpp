@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "benchmarks/studies/scenes/output_tasks.h"
 #include "benchmarks/studies/scenes/plain_loop.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/scene/body/simulated_body.h"
@@ -136,6 +137,8 @@ TEST(Ablation, HandsOutEachTaskOfEachRoundAndItsLoopsAgree) {
   EXPECT_EQ(hashes["bare + frames"], hashes["bare"]);
   EXPECT_EQ(hashes["bare + diagnostics"], hashes["bare"]);
   EXPECT_NE(hashes["bare + damping"], hashes["bare"]);
+  for (const std::string& task : {output_run, output_integrator, output_bytes}) EXPECT_EQ(count[task], 1) << task;
+  EXPECT_EQ(hashes[output_run], hashes[output_integrator]);
 }
 
 }  // namespace

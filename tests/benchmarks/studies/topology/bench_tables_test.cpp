@@ -5,6 +5,7 @@
 #include "benchmarks/studies/operations/bench_operations_report.h"
 #include "benchmarks/studies/scenes/ablation_study.h"
 #include "benchmarks/studies/scenes/bench_ablation_report.h"
+#include "benchmarks/studies/scenes/output_tasks.h"
 #include "benchmarks/studies/topology/bench_topology_report.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
 #include "tests/support/claims_for_tests.h"
@@ -199,8 +200,10 @@ AblationFigures ablation() {
     f.bytes[variant.name] = {.total = static_cast<std::size_t>(next / 1e2), .tetrahedra = 10};
     next += 1e5;
   }
-  for (const char* loop : {"plain loop", "loop", "loop and detector", "watched loop", "simulation"}) {
-    ns.emplace_back(loop, next);
+  for (const std::string& task :
+       {std::string("plain loop"), std::string("loop"), std::string("loop and detector"), std::string("watched loop"),
+        std::string("simulation"), output_run, output_integrator, output_bytes}) {
+    ns.emplace_back(task, next);
     next += 1e5;
   }
   f.samples = timed_samples(ns);
@@ -256,6 +259,19 @@ TEST(BenchAblationTable, HasTheStairsFromTheSceneToThePlainLoop) {
                    fmt::format("us per step: {:.2f}", ns_of(f, pair.task) / 20 / 1e3),
                    "of a step: " + percent(ratio_of(f, pair))}));
     EXPECT_TRUE(row[5].starts_with(fmt::format("interval: [{:+.2f}, ", 100 * (ratio_of(f, pair) - 1)))) << row[5];
+  }
+}
+
+TEST(BenchAblationTable, HasASceneWithItsOutputOverItsIntegrator) {
+  const AblationFigures f = ablation();
+  const Table table = output_table(f);
+  EXPECT_EQ(alignment(table), "lrrr");
+  ASSERT_EQ(table.rows().size(), 3u);
+  for (const auto& [k, task] : {std::pair(0u, output_run), {1u, output_integrator}, {2u, output_bytes}}) {
+    const double ratio = ratio_of(f, {"", task, output_integrator});
+    EXPECT_EQ(labelled(table, k), (Row{"task: " + task, fmt::format("ms: {:.3g}", ns_of(f, task) / 1e6),
+                                       fmt::format("over the integrator: {:.3f}", ratio),
+                                       "interval: " + to_string(median_interval(std::vector<double>(7, ratio)))}));
   }
 }
 

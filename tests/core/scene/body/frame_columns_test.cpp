@@ -226,6 +226,7 @@ TEST(FrameStress, IsThatOfTheDiagnostics) {
     stretch_by(*body, {1.25, 0.875, 1.5});
     const Frame f = body->frame(all);
     EXPECT_EQ(*std::ranges::max_element(f.largest_principal_stress), body->largest_stress());
+    EXPECT_EQ(f.largest_stress, body->largest_stress());
     // each vertex has its own: the measures of the stress with its number
     std::vector<Eigen::Matrix3d> stress;
     const SpringSystem system = body->system();
@@ -240,12 +241,20 @@ TEST(FrameStress, IsThatOfTheDiagnostics) {
   }
 }
 
+TEST(FrameStress, OfAFrameServesItsDiagnostics) {
+  const Simulation simulation(showing(moving_box(), R"(["stress"])"));
+  EXPECT_EQ(simulation.diagnostics(simulation.frame().largest_stress).largest_stress,
+            simulation.diagnostics().largest_stress);
+  EXPECT_EQ(simulation.diagnostics(7.0).largest_stress, 7.0);
+}
+
 TEST(FrameStress, IsInfiniteWhereItIsNotFiniteAndNowhereElse) {
   for (const bool on_map : {false, true}) {
     const auto body = body_of(hexahedron_box(4, 1, 1, 0.5), on_map);
     for (Vector3d& x : body->motion().x)
       if (x.x() == 2.0) x.x() = infinity;
     const Frame f = body->frame(all);
+    EXPECT_FALSE(f.largest_stress.has_value());  // the body is asked again
     for (std::size_t k = 0; k < f.mesh.points.size(); ++k) {
       const bool near = f.mesh.points[k].x() >= 1.5;  // at the end, or a spring from there
       for (const auto* column : {&f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress})

@@ -63,6 +63,16 @@ TEST(WriteVtu, IsReadBackWithEveryBit) {
   }
 }
 
+TEST(WriteVtu, WritesAFrameOfManyBlocksAsItsTextIs) {
+  const Frame frame = frame_of(kuhn_box(9, 8, 7, 0.1, 0.2, 3));
+  const std::string text = to_vtu(frame);
+  EXPECT_EQ(parse_mesh(text, MeshFormat::vtu, "text").mesh.nodes, frame.mesh.nodes);
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path);
+  EXPECT_EQ(write_vtu(folder.path / "frame.vtu", frame), text.size());
+  EXPECT_EQ(text_of(folder.path / "frame.vtu"), text);
+}
+
 TEST(Frame, HasTheCellsOfTheMeshRightHandedInTheirOrder) {
   for (const Mesh& mesh : {kuhn_box(2, 1, 2, 0.1, 0.2, 3), mixed_box(2, 2, 2, 0.7), hexahedron_box(1, 2, 1, 0.5)}) {
     const Frame frame = frame_of(mesh);
@@ -107,6 +117,22 @@ TEST(Base64Writer, GivesTheExamplesOfTheStandard) {  // RFC 4648, section 10
   std::string all;
   for (int c = 0; c < 256; ++c) all += static_cast<char>(c);
   EXPECT_EQ(decode_base64(encode_base64(all)), all);
+}
+
+TEST(Base64Writer, GivesEveryLengthThatIsReadBack) {
+  std::string bytes;
+  for (int k = 0; k < 40; ++k) {
+    EXPECT_EQ(encode_base64(bytes).size(), (bytes.size() + 2) / 3 * 4);
+    EXPECT_EQ(decode_base64(encode_base64(bytes)), bytes) << k;
+    bytes += static_cast<char>(255 - 37 * k);
+  }
+}
+
+TEST(Base64Writer, AddsToATextWhatItIsByItself) {
+  std::string text = "before";
+  append_base64(text, "foob");
+  append_base64(text, "foobar");
+  EXPECT_EQ(text, "beforeZm9vYg==Zm9vYmFy");
 }
 
 TEST(PvdFile, IsWholeAfterEveryFrameAndListsThemWithTheirTimes) {

@@ -263,6 +263,7 @@ TEST(BodiesOfDimensions, AreListedInOneFrameWithTheirNumbersMaterialsAndComponen
   run(simulation);
   const Frame frame = simulation.frame();
   EXPECT_EQ(frame.mesh.cell_count(), 48u + 18u);
+  EXPECT_EQ(frame.largest_stress, simulation.body().largest_stress());
   ASSERT_EQ(frame.links.size(), 5u);
   for (std::size_t p = 0; p < frame.mesh_point.size(); ++p) EXPECT_EQ(frame.mesh_point[p], static_cast<int>(p));
   for (std::size_t c = 0; c < frame.mesh_cell.size(); ++c) EXPECT_EQ(frame.mesh_cell[c], c);
