@@ -185,8 +185,7 @@ TEST(List, OfScenesNamesEverythingThatCanBeRunAndTheVerbsThatTakeIt) {
   EXPECT_NE(verbs_of("liver_cut").find("simulate"), std::string::npos);
   EXPECT_NE(verbs_of("liver_cut").find("tradeoff"), std::string::npos);
   EXPECT_NE(verbs_of("chain_hanging").find("recommend"), std::string::npos);
-  EXPECT_NE(verbs_of("block_slides").find("tradeoff"), std::string::npos);
-  EXPECT_EQ(verbs_of("block_slides").find("recommend"), std::string::npos);
+  EXPECT_NE(verbs_of("block_slides").find("recommend"), std::string::npos);
   EXPECT_EQ(verbs_of("smooth"), "tradeoff, recommend");
   EXPECT_NE(verbs_of("liver").find("reproduce"), std::string::npos);
 }

@@ -250,7 +250,8 @@ TradeoffScene bouncing_box(const char* contact) {
 }
 
 SceneReference converged(const TradeoffScene& scene, std::uint64_t steps, double floor) {
-  SceneReference reference{.kind = ReferenceKind::self_converged, .floor = floor};
+  SceneReference reference;
+  reference.floor = floor;
   reference.states = run_timed(scene, *make_integrator("blanes-moan-4"), {.steps = steps}, no_clock).states;
   return reference;
 }

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/studies/order/order_study.h"
 #include "core/plain/error.h"
 #include "tests/support/claims_for_tests.h"
@@ -145,11 +144,9 @@ TEST_F(SceneOrderStudy, LeavesASceneUntestedWhoseMotionCannotBeFollowed) {
   EXPECT_TRUE(report.claims[0].reason.starts_with("no reference: ")) << report.claims[0].reason;
 }
 
-TEST_F(SceneOrderStudy, RefusesAWrongIntegratorAndContactBeforeItMeasures) {
+TEST_F(SceneOrderStudy, RefusesAWrongIntegratorBeforeItMeasures) {
   StudyLog log;
   EXPECT_THROW(order_study({.integrators = {"verlte"}, .scenes = {"chain"}}, log), InputError);
-  const std::string sliding = (source_folder() / "benchmarks/scenes/block_slides.json").string();
-  EXPECT_THROW(order_study({.scenes = {"chain", sliding}}, log), InputError);
 }
 
 }  // namespace
