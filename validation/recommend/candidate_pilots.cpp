@@ -194,7 +194,10 @@ void pilot_whole(Candidate& c, Pilots& pilots, double h, double error) {
   for (auto steps = whole_steps(scene, h);; steps *= 2) {
     if (!runs.empty() && 2.0 * runs.back().cpu_s > pilots.left_s()) break;
     PilotRun run = pilots.run(c, scene, {.steps = steps});
-    if (run.run.result.code == StepCode::budget) break;
+    if (run.run.result.code == StepCode::budget) {
+      c.untried = true;
+      break;
+    }
     if (!run.run.result.ok() || !(distance_from_start(scene, run.run) < farthest_flight(scene))) {
       runs.clear();  // a step too large: begin again with half of it
       change.clear();
@@ -212,11 +215,12 @@ void pilot_whole(Candidate& c, Pilots& pilots, double h, double error) {
       return;
     }
   }
-  if ((change.size() < 2 && !at_once) || !(change.back() > 0.0)) {
-    c.untried = !runs.empty();
-    c.pruned = runs.empty() ? "its pilots fail" : "its pilots take too long";
+  if ((change.size() < 2 && !at_once) || !std::isfinite(change.back())) {
+    c.untried = c.untried || !runs.empty();
+    c.pruned = c.untried ? "its pilots take too long" : "its pilots fail";
     return;
   }
+  c.untried = false;
   c.observed_order = at_once ? 1.0 : std::log2(change.front() / change.back()) / static_cast<double>(change.size() - 1);
   if (!(c.observed_order >= least_order)) {
     c.pruned = fmt::format("its errors do not fall with the step: {:.1e} edges from h = {:.2g} s, {:.1e} from {:.2g}",

@@ -12,6 +12,7 @@
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/ticking_clock_for_tests.h"
+#include "validation/recommend/pilots.h"
 #include "validation/recommend/recommendation_audit.h"
 #include "validation/scenes/scene_of_file.h"
 
