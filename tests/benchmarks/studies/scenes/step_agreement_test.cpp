@@ -46,10 +46,13 @@ void expect_one_limit(SceneFile scene) {
   EXPECT_EQ(stability_limit(scheme, features_of(studied, ticking()), studied.duration),
             Simulation(quiet).step_limit().stable)
       << scene.file;
-  // bodies after events may only shorten it, but are bracketed anew: to the last bit it is not the same bracket
-  EXPECT_LE(stability_limit(scheme, features_of(scene_of_file(scene), ticking()), scene.duration),
-            StableStepEstimate::excess * limit.stable)
-      << scene.file;
+  // bodies after events may only shorten it, but are bracketed anew: to the last bit it is not the same bracket;
+  // through contact, events that look at the body take an accurate run, half a minute for some scenes
+  if (is_explained) {
+    EXPECT_LE(stability_limit(scheme, features_of(scene_of_file(scene), ticking()), scene.duration),
+              StableStepEstimate::excess * limit.stable)
+        << scene.file;
+  }
   if (!std::isfinite(limit.stable)) return;
   for (const double factor : {1.0, 1.0 + 1e-15, 1.5}) {
     SceneFile other = scene;
