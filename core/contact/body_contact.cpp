@@ -20,17 +20,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The place of a vertex, within a step if there is one.
+/// The place of a vertex, as a function.
 struct PlaceNow {
   const StagePlaces& at;
-  Vector3d operator()(std::uint32_t i) const { return at.w.empty() ? at.x[i] : Vector3d(at.x[i] + at.t * at.w[i]); }
-};
-/// The place of a vertex after it has moved on.
-struct PlaceAfter {
-  const StagePlaces& at;
-  std::span<const Vector3d> step;
-  double scale;
-  Vector3d operator()(std::uint32_t i) const { return PlaceNow{at}(i) + scale * step[i]; }
+  Vector3d operator()(std::uint32_t i) const { return at.place(i); }
 };
 
 }  // namespace
@@ -59,10 +52,11 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
 }
 
 /// Tests one sample with some tetrahedra, in the order of their cells and parts.
-template <class Place, class Tetrahedra, class F>
-void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWay& known, const Place& place,
+template <class Tetrahedra, class F>
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWay& known, const StagePlaces& at,
                           const F& found) const {
   const SkinSample& sample = samples_[s];
+  const PlaceNow place{at};
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = s};
   for (const std::uint32_t t : tetrahedra) {
@@ -81,9 +75,8 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWa
   }
 }
 
-template <class Place>
-void BodyContact::find_touching(const Place& place) const {
-  candidates_.make_sure(place, follows_);
+void BodyContact::find_touching(const StagePlaces& at) const {
+  candidates_.make_sure(at, follows_);
   if (known_ways_.size() != samples_.size() || journey_ != candidates_.journey()) {
     known_ways_.assign(samples_.size(), {});
     journey_ = candidates_.journey();
@@ -91,13 +84,17 @@ void BodyContact::find_touching(const Place& place) const {
   touching_.clear();
   lost_.clear();
   inverted_ = 0;
+  if (candidates_.none_can_have_met()) {
+    follows_ = false;
+    return;
+  }
   const auto list = candidates_.tetrahedra();
   for (const CandidatePairs::Row& row : candidates_.rows()) {
     near_.clear();
     for (std::size_t pair = row.first; pair < row.first + row.count; ++pair)
       if (candidates_.can_have_met(pair)) near_.push_back(list[pair]);
     if (near_.empty()) continue;
-    look_at(row.sample, near_, known_ways_[row.sample], place, [this](const BodyTouch& touch) {
+    look_at(row.sample, near_, known_ways_[row.sample], at, [this](const BodyTouch& touch) {
       (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
     });
   }
@@ -115,7 +112,7 @@ void BodyContact::exchange_with_aside() const {
 void BodyContact::find_touching_now(const StagePlaces& at) const {
   if (!at.w.empty()) {
     if (!searched_.empty() && !put_aside_) exchange_with_aside();
-    find_touching(PlaceNow{at});
+    find_touching(at);
     return;
   }
   if (searched_changes_ == solids_.changes() && !at.x.empty() && searched_.size() == at.x.size() &&
@@ -123,8 +120,11 @@ void BodyContact::find_touching_now(const StagePlaces& at) const {
     if (put_aside_) exchange_with_aside();
     return;
   }
-  find_touching(PlaceNow{at});
-  searched_.assign(at.x.begin(), at.x.end());
+  find_touching(at);
+  if (candidates_.none_can_have_met())
+    searched_.clear();  // to look once more costs no more than to compare places
+  else
+    searched_.assign(at.x.begin(), at.x.end());
   searched_changes_ = solids_.changes();
   put_aside_ = false;
 }
@@ -150,7 +150,7 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
     for (const std::uint32_t t : order)
       if (may_touch(tetrahedra[t])) may.push_back(t);
     KnownWay nothing;
-    look_at(s, may, nothing, PlaceNow{at}, [&](const BodyTouch& touch) {
+    look_at(s, may, nothing, at, [&](const BodyTouch& touch) {
       if (touch.triangle != BodyTouch::none) touches.push_back(touch);
       if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
     });
@@ -210,8 +210,8 @@ void BodyContact::raise_vertex_depths(std::span<const Vector3d> x, std::span<dou
 /// boundary? The boundary triangles at the tetrahedron that it was inside of decide: those that are nearest to it,
 /// together, as at an edge it may be behind one of two. In a tetrahedron there that it does not touch, as beside the
 /// tip of a cut, it is not lost.
-template <class Place>
-bool BodyContact::is_deep_inside(const BodyTouch& earlier, const Place& place) const {
+bool BodyContact::is_deep_inside(const BodyTouch& earlier, const StagePlaces& at) const {
+  const PlaceNow place{at};
   const SkinSample& sample = samples_[earlier.sample];
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = earlier.sample, .tetrahedron = earlier.tetrahedron};
@@ -238,7 +238,6 @@ bool BodyContact::is_deep_inside(const BodyTouch& earlier, const Place& place) c
 
 std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
   const StagePlaces at{x};
-  const PlaceNow place{at};
   const auto now = touching(at);
   gone_.assign(lost_.begin(), lost_.end());
   if (before_changes_ == solids_.changes()) {
@@ -247,7 +246,7 @@ std::span<const BodyTouch> BodyContact::find_lost(std::span<const Vector3d> x) {
       while (still != now.end() && still->sample < t.sample) ++still;
       if (still != now.end() && still->sample == t.sample) continue;
       if (std::ranges::find(lost_, t.sample, &BodyTouch::sample) != lost_.end()) continue;
-      if (is_deep_inside(t, place)) gone_.push_back(t);
+      if (is_deep_inside(t, at)) gone_.push_back(t);
     }
   }
   before_changes_ = solids_.changes();
@@ -326,7 +325,6 @@ void BodyContact::add_discrete_forces(const StagePlaces&, std::span<Vector3d>) c
 }
 
 void BodyContact::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
-  const PlaceNow place{at};
   const auto add = [size](const ContactSite& site, double force) {
     for (std::size_t k = 0; k < site.count; ++k) size[site.nodes[k]] += std::abs(site.weights[k]) * force;
   };
@@ -334,7 +332,7 @@ void BodyContact::add_force_sizes(const StagePlaces& at, std::span<double> size)
     // the depth is a difference of coordinates, and its rounding turns the line
     const ContactSite site = normal_site(t);
     double coordinates = 0.0;
-    for (std::size_t k = 0; k < site.count; ++k) coordinates = std::max(coordinates, place(site.nodes[k]).norm());
+    for (std::size_t k = 0; k < site.count; ++k) coordinates = std::max(coordinates, at.place(site.nodes[k]).norm());
     const double force = laws_[t.law].force(t.area, t.depth);
     add(site, force + 4.0 * (laws_[t.law].stiffness(t.area, t.depth) + force / t.depth) * coordinates);
   }
@@ -353,10 +351,12 @@ double BodyContact::energy(std::span<const Vector3d> x, std::size_t first, std::
 EnergyChange BodyContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
   EnergyChange sum;
   // by sample and law: the depth before and after
-  searched_.clear();
-  find_touching(PlaceNow{at});
+  find_touching(at);
   earlier_.assign(touching_.begin(), touching_.end());
-  find_touching(PlaceAfter{at, step, scale});
+  searched_.clear();
+  after_.resize(at.x.size());
+  for (std::uint32_t i = 0; i < after_.size(); ++i) after_[i] = at.place(i) + scale * step[i];
+  find_touching({after_});
   const auto add = [&](const BodyTouch* before, const BodyTouch* after) {
     const BodyTouch& any = before != nullptr ? *before : *after;
     const ContactLaw& law = laws_[any.law];
@@ -364,7 +364,7 @@ EnergyChange BodyContact::energy_change(const StagePlaces& at, std::span<const V
     const double force = law.mean_force(any.area, d0, d1);
     double coordinates = 0.0;
     for (const std::uint32_t i : samples_[any.sample].corners())
-      coordinates = std::max(coordinates, PlaceNow{at}(i).norm());
+      coordinates = std::max(coordinates, at.place(i).norm());
     sum.value += force * (d1 - d0);
     sum.sizes += force * (std::abs(d1 - d0) + 4.0 * coordinates);
   };
@@ -462,8 +462,8 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 
 std::size_t BodyContact::bytes() const {
   return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
-         bytes_of(searched_, touching_aside_, lost_aside_, near_, known_ways_, asked_, by_triangle_) + groups_.bytes() +
-         candidates_.bytes();
+         bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, known_ways_, asked_, by_triangle_) +
+         groups_.bytes() + candidates_.bytes();
 }
 
 }  // namespace dartboard

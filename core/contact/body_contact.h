@@ -135,6 +135,9 @@ class BodyContact final : public ForceTerm {
 
   /// The contacts in the order of samples, without those out of reach; valid until the next call of any function.
   std::span<const BodyTouch> touching(const StagePlaces& at) const;
+  /// [m] How far two places can go from x, relative to each other, until a sample may be inside a body; 0: not known.
+  /// cost  O(nodes of skin tetrahedra): less than to search
+  double room_at(std::span<const Eigen::Vector3d> x) const { return follows_ ? 0.0 : candidates_.room_at({x}); }
   /// The samples out of reach at the same places, without triangle and depth.
   std::span<const BodyTouch> out_of_reach() const { return lost_; }
   /// The same two by testing every sample with every tetrahedron: the oracle of lists.
@@ -152,6 +155,8 @@ class BodyContact final : public ForceTerm {
   /// The samples that have moved inwards beyond all candidates since the last call, or are out of reach, with the last
   /// known depth, which is less than the present one. After a change of the skin only samples out of reach are found.
   std::span<const BodyTouch> find_lost(std::span<const Eigen::Vector3d> x);
+  /// Has the last call seen nothing that a later one can find lost?
+  bool has_none_to_lose() const { return before_.empty(); }
   /// The contacts that `touching` or `find_lost` found last; valid if no other function was called since.
   std::span<const BodyTouch> found_touching() const { return touching_; }
 
@@ -192,15 +197,13 @@ class BodyContact final : public ForceTerm {
   std::size_t bytes() const;
 
  private:
-  template <class Place, class Tetrahedra, class F>
-  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, KnownWay& known, const Place& place,
+  template <class Tetrahedra, class F>
+  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, KnownWay& known, const StagePlaces& at,
                const F& found) const;
-  template <class Place>
-  void find_touching(const Place& place) const;
+  void find_touching(const StagePlaces& at) const;
   void find_touching_now(const StagePlaces& at) const;
   void exchange_with_aside() const;
-  template <class Place>
-  bool is_deep_inside(const BodyTouch& earlier, const Place& place) const;
+  bool is_deep_inside(const BodyTouch& earlier, const StagePlaces& at) const;
   /// The largest over the laws that the sample may have, each at this share of its depth [N/m].
   double largest_stiffness(std::uint32_t sample, double share_of_depth) const;
 
@@ -216,6 +219,7 @@ class BodyContact final : public ForceTerm {
   // The places that were searched last, with `changes()` then; empty if there are none. What was found there is put
   // aside while places within a step are searched.
   mutable std::vector<Eigen::Vector3d> searched_;
+  mutable std::vector<Eigen::Vector3d> after_;  // the places after a step whose change of energy is taken
   mutable std::uint64_t searched_changes_ = 0;
   mutable bool put_aside_ = false;
   mutable std::vector<BodyTouch> touching_aside_, lost_aside_;

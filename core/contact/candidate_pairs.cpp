@@ -23,6 +23,8 @@ constexpr double most_cells = 512.0;
 constexpr double most_empty = 4.0;
 /// The allowance for rounding in a margin, relative to the size of the coordinates.
 constexpr double slack = 0x1p-30;
+/// The most vertices between two nodes of tetrahedra that are looked at with them.
+constexpr std::uint32_t most_between = 16;
 /// A tetrahedron with less than this share of the volume of the cube around it is flat.
 constexpr double flat = 1e-6;
 
@@ -86,15 +88,75 @@ void CandidatePairs::set_margin(double share) {
 /// The nodes of tetrahedra, once for each state of the skin.
 void CandidatePairs::watch() {
   if (made_ > 0 && changes_ == solids_.changes()) return;
-  watched_.clear();
   place_of_node_.assign(solids_.node_count(), SkinSolids::none);
   for (const SkinTetrahedron& t : solids_.tetrahedra())
-    for (const std::uint32_t i : t.nodes) {
-      if (place_of_node_[i] != SkinSolids::none) continue;
-      place_of_node_[i] = static_cast<std::uint32_t>(watched_.size());
-      watched_.push_back(i);
+    for (const std::uint32_t i : t.nodes) place_of_node_[i] = 0;
+  watched_.clear();
+  std::uint32_t places = 0;
+  for (std::uint32_t i = 0; i < place_of_node_.size(); ++i) {
+    if (place_of_node_[i] == SkinSolids::none) continue;
+    if (watched_.empty() || i - (watched_.back().first + watched_.back().count) > most_between) {
+      watched_.push_back({i, 0, places});
     }
-  where_.resize(watched_.size());
+    Run& run = watched_.back();
+    run.count = i + 1 - run.first;
+    place_of_node_[i] = run.place + run.count - 1;
+    places = run.place + run.count;
+  }
+  where_.resize(places);
+}
+
+BoxAround CandidatePairs::ways_from(const std::vector<Vector3d>& from, const StagePlaces& to) const {
+  BoxAround ways;
+  for (const Run& run : watched_) add_ways(ways, std::span(from).subspan(run.place, run.count), to, run.first);
+  return ways;
+}
+
+bool CandidatePairs::holds(const StagePlaces& at) {
+  if (changes_ != solids_.changes() || sample_count_ != samples_.size() || made_ == 0) return false;
+  moved_together_ = where_.empty() ? 0.0 : ways_from(where_, at).diagonal();
+  return moved_together_ < margin_;
+}
+
+double CandidatePairs::room_at(const StagePlaces& at) {
+  return holds(at) ? std::max(0.0, std::min(least_gap_, margin_) - moved_together_) : 0.0;
+}
+
+void CandidatePairs::make_sure(const StagePlaces& at, bool follows) {
+  if (!holds(at)) {
+    watch();
+    copy_places(at, where_);
+    make();
+  }
+  if (follows)
+    follow(at);
+  else
+    last_.clear();
+}
+
+/// Returns whether all of them are finite.
+bool CandidatePairs::copy_places(const StagePlaces& at, std::vector<Vector3d>& to) const {
+  double sum = 0.0;
+  for (const Run& run : watched_)
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      Vector3d& place = to[run.place + k];
+      place = at.place(run.first + k);
+      sum += place.sum();
+    }
+  return std::isfinite(sum);
+}
+
+void CandidatePairs::follow(const StagePlaces& at) {
+  if (last_.size() == where_.size() && last_changes_ == changes_) {
+    if (!last_.empty()) travelled_ += ways_from(last_, at).diagonal();
+  } else {
+    last_.resize(where_.size());
+    last_changes_ = changes_;
+    travelled_ = 0.0;
+    ++journey_;
+  }
+  // what is not a number is in no box
+  if (!copy_places(at, last_)) travelled_ = std::numeric_limits<double>::infinity();
 }
 
 std::size_t CandidatePairs::bucket_of(double x, double y, double z) const {
@@ -191,10 +253,9 @@ void CandidatePairs::make() {
     }
   }
   cell_size_ = count > 0.0 && sizes > 0.0 ? sizes / count : 1.0;
-  const double margin = share_ * cell_size_;
-  limit_ = 0.25 * margin * margin;
+  margin_ = least_gap_ = share_ * cell_size_;
   for (Box& box : boxes_) {
-    const double by = margin + rounding_of(box);
+    const double by = margin_ + rounding_of(box);
     box.low.array() -= by;
     box.high.array() += by;
   }
@@ -224,8 +285,10 @@ void CandidatePairs::make() {
     found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     rows_.push_back({s, static_cast<std::uint32_t>(tetrahedra_.size()), static_cast<std::uint32_t>(found_.size())});
     tetrahedra_.insert(tetrahedra_.end(), found_.begin(), found_.end());
-    for (const std::uint32_t t : found_)
+    for (const std::uint32_t t : found_) {
       gaps_.push_back(static_cast<float>((1.0 - 1e-6) * gap_between(y, tetrahedra[t])));
+      least_gap_ = std::min(least_gap_, static_cast<double>(gaps_.back()));
+    }
   }
 }
 

@@ -1,16 +1,17 @@
 #pragma once
-// Which samples are near which tetrahedra: a list with a margin, valid until a vertex has moved by half of it.
+// Which samples are near which tetrahedra: a list with a margin, valid until two vertices have moved by it relative to
+// each other.
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "core/contact/box_around.h"
 #include "core/contact/skin_samples.h"
 #include "core/contact/skin_solids.h"
+#include "core/forces/force_term.h"
 
 namespace dartboard {
 
@@ -69,17 +70,14 @@ class CandidatePairs {
   void set_margin(double share);
   double margin_share() const { return share_; }
 
-  /// Make the list anew if a vertex has moved by half of the margin since, or the skin has changed. `follows`: the
-  /// travel of the places is needed.
+  /// Make the list anew if two vertices may have moved by the margin relative to each other since, or the skin has
+  /// changed. `follows`: the travel of the places is needed.
   /// cost  O(nodes of tetrahedra) where it holds
-  template <class At>
-  void make_sure(const At& place, bool follows = false) {
-    if (!holds(place)) make_from(place);
-    if (follows)
-      follow(place);
-    else
-      last_.clear();
-  }
+  void make_sure(const StagePlaces& at, bool follows = false);
+  /// [m] How far two places can go from `at`, relative to each other, until a sample may be inside a tetrahedron; 0 if
+  /// that is not known, as where the list does not hold.
+  /// cost  O(nodes of tetrahedra)
+  double room_at(const StagePlaces& at);
   /// [m] At least the distance by which two places have moved relative to each other, from one to the other of all
   /// calls that follow: since they began to, or the skin has changed, which begins another journey.
   double travelled() const { return travelled_; }
@@ -89,6 +87,7 @@ class CandidatePairs {
   /// Whether the sample and the tetrahedron of a pair can have come together at the places of the last `make_sure`:
   /// they have not moved by as much as they were apart.
   bool can_have_met(std::size_t pair) const { return gaps_[pair] <= moved_together_; }
+  bool none_can_have_met() const { return moved_together_ < least_gap_; }
   std::size_t pair_count() const { return tetrahedra_.size(); }
   /// The number of times a list has been made.
   std::uint64_t times_made() const { return made_; }
@@ -98,44 +97,14 @@ class CandidatePairs {
   struct Box {
     Eigen::Vector3d low, high;
   };
-  template <class At>
-  bool holds(const At& place) {
-    if (changes_ != solids_.changes() || sample_count_ != samples_.size() || made_ == 0) return false;
-    double most = 0.0;
-    for (std::size_t k = 0; k < watched_.size(); ++k) {
-      const double square = (place(watched_[k]) - where_[k]).squaredNorm();
-      if (!(square < limit_)) return false;
-      most = std::max(most, square);
-    }
-    moved_together_ = 2.0 * std::sqrt(most);
-    return true;
-  }
-  template <class At>
-  void make_from(const At& place) {
-    watch();
-    for (std::size_t k = 0; k < watched_.size(); ++k) where_[k] = place(watched_[k]);
-    make();
-  }
-  template <class At>
-  void follow(const At& place) {
-    const bool goes_on = last_.size() == watched_.size() && last_changes_ == changes_;
-    if (!goes_on) {
-      last_.resize(watched_.size());
-      last_changes_ = changes_;
-      travelled_ = 0.0;
-      ++journey_;
-    }
-    double most = 0.0, sum = 0.0;
-    for (std::size_t k = 0; k < watched_.size(); ++k) {
-      const Eigen::Vector3d now = place(watched_[k]);
-      const double square = goes_on ? (now - last_[k]).squaredNorm() : 0.0;
-      most = std::max(most, square);
-      sum += square;  // the maximum loses what is not a number
-      last_[k] = now;
-    }
-    travelled_ += 2.0 * std::sqrt(most);
-    if (!std::isfinite(sum)) travelled_ = std::numeric_limits<double>::infinity();
-  }
+  /// Vertices that follow each other.
+  struct Run {
+    std::uint32_t first, count, place;  // place: of the first, among all
+  };
+  BoxAround ways_from(const std::vector<Eigen::Vector3d>& from, const StagePlaces& to) const;
+  bool holds(const StagePlaces& at);
+  bool copy_places(const StagePlaces& at, std::vector<Eigen::Vector3d>& to) const;
+  void follow(const StagePlaces& at);
   void watch();
   void make();
   void put_into_grid();
@@ -151,11 +120,12 @@ class CandidatePairs {
   std::vector<std::uint32_t> tetrahedra_;
   // [m] by pair: at most the distance between the two when the list was made, 0 where it is not known
   std::vector<float> gaps_;
-  double moved_together_ = 0.0;  // [m] the largest way of two vertices since
-  // nodes of tetrahedra, their places when the list was made; the squared distance they may move [m^2]
-  std::vector<std::uint32_t> watched_;
+  double moved_together_ = 0.0;  // [m] at least the largest way of two vertices since, relative to each other
+  double margin_ = 0.0;          // [m] that it may have
+  double least_gap_ = 0.0;       // [m] the least of `gaps_`; the margin without a pair
+  // nodes of tetrahedra, and a few between them; their places when the list was made
+  std::vector<Run> watched_;
   std::vector<Eigen::Vector3d> where_;
-  double limit_ = 0.0;
   std::uint64_t changes_ = 0, made_ = 0;
   std::size_t sample_count_ = 0;
   // their places at the last call that follows; empty if it did not
@@ -165,7 +135,7 @@ class CandidatePairs {
 
   // scratch
   MayTouch may_touch_;
-  std::vector<std::uint32_t> place_of_node_;  // in watched_
+  std::vector<std::uint32_t> place_of_node_;  // in where_
   std::vector<Box> boxes_;                    // of tetrahedra, with the margin
   std::vector<std::uint32_t> bucket_first_, bucket_entry_, everywhere_, found_;
   double cell_size_ = 0.0;

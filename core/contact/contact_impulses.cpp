@@ -120,7 +120,7 @@ bool ContactImpulses::begin(double time, double h, InverseMass inverse_mass, Fix
 
 bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                           std::span<Vector3d> v) {
-  clear_.reset();
+  forget_places();
   bool changed = false;
   if (obstacles_ != nullptr) {
     auto& frozen = obstacles_->frozen_friction_to_set();
@@ -149,8 +149,13 @@ bool ContactImpulses::is_clear(std::span<const Vector3d> x) {
   return clear_.has_value();
 }
 
+double ContactImpulses::room_at(std::span<const Vector3d> x) {
+  if (!room_) room_ = bodies_->room_at(x);
+  return *room_;
+}
+
 void ContactImpulses::take_back() {
-  clear_.reset();
+  forget_places();
   if (obstacles_ != nullptr) obstacles_->frozen_friction_to_set().clear();
   if (bodies_ != nullptr) bodies_->frozen_friction_to_set().clear();
   losses_ = losses_at_begin_;
@@ -165,7 +170,7 @@ void ContactImpulses::change_part(ObstacleContact* obstacles, BodyContact* bodie
                                   std::span<const std::uint32_t> moved_to_of_bodies) {
   obstacles_ = obstacles;
   bodies_ = bodies;
-  clear_.reset();
+  forget_places();
   const auto renumber = [](auto& rows, std::span<const std::uint32_t> to) {
     std::erase_if(rows, [to](auto& row) {
       row.sample = row.sample < to.size() ? to[row.sample] : VertexSubset::none;
@@ -235,6 +240,7 @@ bool ContactImpulses::damp_samples(Sweep sweep, double time, double h, InverseMa
 
 bool ContactImpulses::damp_bodies(Sweep sweep, double h, InverseMass inverse_mass, Fixed fixed,
                                   std::span<const Vector3d> x, std::span<Vector3d> v) {
+  if (are_apart(x)) return false;
   bool changed = false;
   const auto touching = bodies_->touching({x});
   for (std::size_t k = 0; k < touching.size(); ++k) {
@@ -289,6 +295,7 @@ void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass in
 
 void ContactImpulses::find_rubbing_bodies(double h, InverseMass inverse_mass, Fixed fixed, std::span<const Vector3d> x,
                                           std::span<const Vector3d> v) {
+  if (const double room = room_at(x); room > 0.0 && 0.5 * h * box_around(v).diagonal() < room) return;
   depth_.clear();
   for (const BodyTouch& t : bodies_->touching({x})) depth_.emplace_back(t.sample, t.depth);
   auto old = bodies_before_.begin();

@@ -98,9 +98,14 @@ class ContactImpulses {
            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
 
   /// The places have changed since the last `end`, other than by a step. Until the next step they are known from there.
-  void forget_places() { clear_.reset(); }
+  void forget_places() {
+    clear_.reset();
+    room_.reset();
+  }
   /// Is it certain that no sample is inside an obstacle at x, the places of the last `end`?
   bool is_clear(std::span<const Eigen::Vector3d> x);
+  /// Is it certain that no sample is inside a body there?
+  bool are_apart(std::span<const Eigen::Vector3d> x) { return room_at(x) > 0.0; }
 
   /// To be called in place of `end` if the step was not taken: restores the sums and the start values of friction from
   /// before `begin`. The caller restores the velocities; obstacles are not moved.
@@ -142,7 +147,10 @@ class ContactImpulses {
                     const Accelerations& accelerations);
   bool place_at(double time, std::span<const Eigen::Vector3d> x);
 
+  double room_at(std::span<const Eigen::Vector3d> x);
+
   std::optional<BoxAround> clear_;  // around the present places, if no sample is inside an obstacle
+  std::optional<double> room_;      // [m] between bodies, at the present places
   ObstacleContact* obstacles_;
   BodyContact* bodies_;
   ContactLosses losses_, losses_at_begin_;

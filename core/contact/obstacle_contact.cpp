@@ -177,31 +177,29 @@ ContactState ObstacleContact::state_at(std::span<const Vector3d> x) const {
   ContactState state;
   state.force_on.assign(obstacles_.size(), Vector3d(0, 0, 0));
   CompensatedSum energy;
-  for (std::uint32_t k = 0; k < samples_.size(); ++k) {
+  for_each_touch(x, [&](std::uint32_t k, std::uint32_t o, const Penetration& in) {
     const double area = samples_[k].area;
-    for_each_contact(mean_of(samples_[k], x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t o) {
-      ++state.contacts;
-      state.area += area;
-      energy.add(law.energy(area, in.depth));
-      state.force_on[o] -= law.force(area, in.depth) * in.normal;
-      state.deepest_share = std::max(state.deepest_share, in.depth / law.depth);
-      if (in.depth <= state.deepest) return;
-      state.deepest = in.depth;
-      state.sample = k;
-      state.obstacle = o;
-    });
-  }
+    const ContactLaw& law = laws_[o];
+    ++state.contacts;
+    state.area += area;
+    energy.add(law.energy(area, in.depth));
+    state.force_on[o] -= law.force(area, in.depth) * in.normal;
+    state.deepest_share = std::max(state.deepest_share, in.depth / law.depth);
+    if (in.depth <= state.deepest) return;
+    state.deepest = in.depth;
+    state.sample = k;
+    state.obstacle = o;
+  });
   state.energy = energy.value();
   return state;
 }
 
 void ObstacleContact::vertex_depths(std::span<const Vector3d> x, std::span<double> depth) const {
   std::ranges::fill(depth, 0.0);
-  for (const SkinSample& s : samples_)
-    if (s.count == 1)
-      for_each_contact(mean_of(s, x), [&](const ContactLaw&, const Penetration& in, std::uint32_t) {
-        depth[s.nodes[0]] = std::max(depth[s.nodes[0]], in.depth);
-      });
+  for_each_touch(x, [&](std::uint32_t k, std::uint32_t, const Penetration& in) {
+    const SkinSample& s = samples_[k];
+    if (s.count == 1) depth[s.nodes[0]] = std::max(depth[s.nodes[0]], in.depth);
+  });
 }
 
 double ObstacleContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {

@@ -89,6 +89,17 @@ class ObstacleContact final : public ForceTerm {
   /// The same; false, and `found` is not set, if y is not inside: a few comparisons.
   bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
 
+  /// Calls visit(sample, obstacle, penetration) for each sample inside an obstacle, in this order.
+  template <class F>
+  void for_each_touch(std::span<const Eigen::Vector3d> x, const F& visit) const {
+    Penetration found;
+    for (std::uint32_t k = 0; k < samples_.size(); ++k) {
+      const Eigen::Vector3d y = place_of(samples_[k], x);
+      for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
+        if (find_penetration(o, y, found)) visit(k, o, found);
+    }
+  }
+
   /// Is it certain that no sample is inside, with the vertices at x + t v? False if it is not known.
   /// cost  O(vertices), a tenth of asking the samples; once it is not certain, only some of the next calls find out
   bool is_clear(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v = {}, double t = 0.0) const;

@@ -21,6 +21,7 @@ struct StagePlaces {
   std::span<const Eigen::Vector3d> w{};  // [m/s]; empty: t is not used
   double t = 0.0;                        // [s]
 
+  Eigen::Vector3d place(std::uint32_t i) const { return w.empty() ? x[i] : Eigen::Vector3d(x[i] + t * w[i]); }
   /// From vertex i to vertex j.
   Eigen::Vector3d line(std::uint32_t i, std::uint32_t j) const {
     if (w.empty()) return x[j] - x[i];

@@ -350,15 +350,13 @@ class PressedStack {
   std::vector<ContactPart> contact_parts() const {
     const std::vector<Vector3d>& x = body_.vertices.position;
     std::vector<ContactPart> parts;
-    for (const SkinSample& sample : skin_.samples())
-      for (std::uint32_t o = 0; o < obstacles_->obstacles().size(); ++o) {
-        Penetration in;
-        if (!obstacles_->find_penetration(o, ObstacleContact::place_of(sample, x), in)) continue;
-        ContactPart& part = parts.emplace_back();
-        part.sample = sample.nodes;
-        part.add(sample.corners());
-        part.energy = obstacles_->laws()[o].energy(sample.area, in.depth);
-      }
+    obstacles_->for_each_touch(x, [&](std::uint32_t k, std::uint32_t obstacle, const Penetration& in) {
+      const SkinSample& sample = skin_.samples()[k];
+      ContactPart& part = parts.emplace_back();
+      part.sample = sample.nodes;
+      part.add(sample.corners());
+      part.energy = obstacles_->laws()[obstacle].energy(sample.area, in.depth);
+    });
     for (const BodyTouch& touch : bodies_->touching({x})) {
       ContactPart& part = parts.emplace_back();
       part.sample = skin_.samples()[touch.sample].nodes;

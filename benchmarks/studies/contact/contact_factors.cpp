@@ -26,12 +26,9 @@ TouchList touches_of(const SimulatedBody& body) {
   std::uint32_t obstacle_count = 0;
   if (const ObstacleContact* obstacles = body.contact()) {
     obstacle_count = static_cast<std::uint32_t>(obstacles->obstacles().size());
-    for (std::uint32_t s = 0; s < obstacles->samples().size(); ++s)
-      for (std::uint32_t o = 0; o < obstacle_count; ++o) {
-        Penetration inside;
-        if (obstacles->find_penetration(o, ObstacleContact::place_of(obstacles->samples()[s], x), inside))
-          touches.emplace_back(s, o);
-      }
+    obstacles->for_each_touch(x, [&touches](std::uint32_t sample, std::uint32_t obstacle, const Penetration&) {
+      touches.emplace_back(sample, obstacle);
+    });
   }
   if (const BodyContact* bodies = body.body_contact())
     for (const BodyTouch& touch : bodies->touching({.x = x}))

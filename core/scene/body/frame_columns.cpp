@@ -113,13 +113,10 @@ void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyCont
   if (obstacles != nullptr) {
     obstacles->add_forces({.x = x}, frame.contact_force);
     obstacles->vertex_depths(x, frame.contact_depth);
-    for (const SkinSample& sample : obstacles->samples())
-      for (std::uint32_t k = 0; k < obstacles->obstacles().size(); ++k) {
-        Penetration inside;
-        if (!obstacles->find_penetration(k, ObstacleContact::place_of(sample, x), inside)) continue;
-        frame.contact_pairs.push_back(pair_of(sample, inside.depth));
-        frame.contact_pairs.back().obstacle = k;
-      }
+    obstacles->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t obstacle, const Penetration& inside) {
+      frame.contact_pairs.push_back(pair_of(obstacles->samples()[sample], inside.depth));
+      frame.contact_pairs.back().obstacle = obstacle;
+    });
   }
   if (bodies == nullptr) return;
   bodies->add_forces({.x = x}, frame.contact_force);

@@ -188,20 +188,15 @@ void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
   if (impulses_.is_clear(x)) return;
   ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
   double most = 1.0;
-  Penetration in;
-  for (const SkinSample& sample : obstacles_->samples()) {
-    const Vector3d y = ObstacleContact::place_of(sample, x);
-    for (std::uint32_t o = 0; o < obstacles_->obstacles().size(); ++o) {
-      if (!obstacles_->find_penetration(o, y, in)) continue;
-      const double allowed = obstacles_->laws()[o].depth;
-      if (!(in.depth > most * allowed)) continue;
-      most = in.depth / allowed;
-      worst.obstacle = o;
-      worst.nodes = nodes_of(sample);
-      worst.value = in.depth;
-      worst.limit = allowed;
-    }
-  }
+  obstacles_->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t obstacle, const Penetration& in) {
+    const double allowed = obstacles_->laws()[obstacle].depth;
+    if (!(in.depth > most * allowed)) return;
+    most = in.depth / allowed;
+    worst.obstacle = obstacle;
+    worst.nodes = nodes_of(obstacles_->samples()[sample]);
+    worst.value = in.depth;
+    worst.limit = allowed;
+  });
   if (!worst.nodes.empty()) warnings_.push_back(std::move(worst));
 }
 
@@ -242,7 +237,7 @@ ContactWarning SceneContact::inside_body(ContactWarning::Kind kind, double time,
 
 void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::out_of_reach, true)) return;
+  if (has_warned(Kind::out_of_reach, true) || (bodies_->has_none_to_lose() && impulses_.are_apart(x))) return;
   const auto lost = bodies_->find_lost(x);
   if (lost.empty()) return;
   warnings_.push_back(inside_body(Kind::out_of_reach, time, lost.front()));
@@ -252,7 +247,7 @@ void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
 /// Warns of the sample that is deepest, relative to its law.
 void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::too_deep, true)) return;
+  if (has_warned(Kind::too_deep, true) || impulses_.are_apart(x)) return;
   double most = 1.0;
   std::optional<ContactWarning> worst;
   // the search for samples out of reach has found them already
@@ -270,10 +265,10 @@ void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3
 // The relative speed of two places is at most that between opposite corners of a box around all velocities.
 void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<const Vector3d> v) {
   if (v.empty()) return;
-  const auto [low, high] = box_around(v);
-  const double way = (high - low).norm() * h;
+  const BoxAround speeds = box_around(v);
+  const double way = speeds.diagonal() * h;
   if (!(way > 0.5 * least_altitude_)) return;
-  const Vector3d middle = 0.5 * (low + high);
+  const Vector3d middle = 0.5 * (speeds.low + speeds.high);
   std::uint32_t fastest = 0;
   for (std::uint32_t i = 1; i < v.size(); ++i)
     if ((v[i] - middle).squaredNorm() > (v[fastest] - middle).squaredNorm()) fastest = i;

@@ -3,23 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#define DARTBOARD_LANES 1
-// Only these functions use AVX2, whatever the flags of the build; FMA is not among them, as it would change bits.
-#define DARTBOARD_AVX2 __attribute__((target("avx2")))
-#define DARTBOARD_AVX2_INLINE __attribute__((target("avx2"), always_inline)) inline
-#endif
+#include "core/base/avx2.h"
 
 namespace dartboard {
 
-#ifdef DARTBOARD_LANES
+#ifdef DARTBOARD_HAS_AVX2
 namespace {
 
-bool has_avx2() {
-  __builtin_cpu_init();
-  return __builtin_cpu_supports("avx2") != 0;
-}
 bool lanes_are_on = has_avx2();
 
 struct ThreeColumns {

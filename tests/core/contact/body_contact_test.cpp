@@ -225,6 +225,43 @@ TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
   }
 }
 
+// Each vertex goes less than half of the room, in the worst directions: towards the other body.
+TEST(BodyContact, HasRoomForWaysOnWhichNothingTouches) {
+  for (const double gap : {0.01, 0.03, 0.06}) {
+    TwoBodies boxes = stacked(2, -gap, law_between(3, 1000.0, 0.1));
+    EXPECT_EQ(boxes.contact->room_at(boxes.x), 0.0);  // nothing has been looked for
+    EXPECT_TRUE(boxes.contact->touching({boxes.x}).empty());
+    const double room = boxes.contact->room_at(boxes.x);
+    EXPECT_GT(room, 0.5 * gap);
+    EXPECT_LE(room, gap);
+    for (const double share : {0.3, 0.499, 0.6, 1.2}) {
+      std::vector<Vector3d> nearer = boxes.x;
+      for (std::size_t i = 0; i < nearer.size(); ++i)
+        nearer[i][2] += i < nearer.size() / 2 ? share * gap : -share * gap;
+      if (boxes.contact->room_at(nearer) > 0.0) {
+        EXPECT_LT(2.0 * share * gap, room);
+      }
+      EXPECT_EQ(boxes.contact->touching_by_brute_force({nearer}, nullptr).empty(), share < 0.5);
+      EXPECT_EQ(boxes.contact->touching({nearer}).empty(), share < 0.5);
+    }
+  }
+}
+
+// No vertex comes nearer to another.
+TEST(BodyContact, KeepsItsListWhileBodiesMoveTogether) {
+  TwoBodies boxes = stacked(2, -0.02, law_between(3, 1000.0, 0.1));
+  boxes.contact->touching({boxes.x});
+  const double room = boxes.contact->room_at(boxes.x);
+  const std::uint64_t made = boxes.contact->candidates().times_made();
+  for (Vector3d& x : boxes.x) x += Vector3d(3, -4, 5);
+  EXPECT_TRUE(boxes.contact->touching({boxes.x}).empty());
+  EXPECT_NEAR(boxes.contact->room_at(boxes.x), room, 1e-14);
+  EXPECT_EQ(boxes.contact->candidates().times_made(), made);
+  for (std::size_t i = 0; i < boxes.x.size() / 2; ++i) boxes.x[i][2] += 1.0;
+  boxes.contact->touching({boxes.x});
+  EXPECT_EQ(boxes.contact->candidates().times_made(), made + 1);
+}
+
 // As in a run: each place a little further than the last, and the nearest triangle another one now and then. Most are
 // known to be the nearest still, and the others are found.
 TEST(BodyContact, KnowsTheWaysOutOfPlacesThatHaveMovedALittle) {
