@@ -46,6 +46,16 @@ std::uint64_t fewest_steps(const TradeoffScene& scene, double h_omega) {
   return static_cast<std::uint64_t>(each * intervals);
 }
 
+/// The last points in the window that follow each other, less those at the floor behind them.
+std::vector<const OrderPoint*> last_in_window(const OrderStudy& study) {
+  std::vector<const OrderPoint*> last;
+  for (const OrderPoint& p : study.points) {
+    if (p.regime == Regime::floor) continue;
+    p.regime == Regime::pre_asymptotic || p.regime == Regime::asymptotic ? last.push_back(&p) : last.clear();
+  }
+  return last;
+}
+
 /// The last orders in the window that follow each other.
 struct LastOrders {
   double x, v;         // the least in x, and in v
@@ -53,12 +63,8 @@ struct LastOrders {
   bool counts = true;  // against the method
 };
 std::optional<LastOrders> last_orders(const OrderStudy& study, const OrderOptions& options) {
-  std::vector<const OrderPoint*> last;
-  for (const OrderPoint& p : study.points) {
-    if (p.regime == Regime::floor) continue;
-    const bool counts = (p.regime == Regime::pre_asymptotic || p.regime == Regime::asymptotic) && p.has_order;
-    counts ? last.push_back(&p) : last.clear();
-  }
+  std::vector<const OrderPoint*> last = last_in_window(study);
+  if (!last.empty() && !last.front()->has_order) last.erase(last.begin());  // there was no run to compare with
   const auto wanted = static_cast<std::size_t>(options.successive);
   if (last.size() < wanted) return {};
   LastOrders found{infinity, infinity, infinity, -infinity};
@@ -81,11 +87,7 @@ struct FittedOrders {
 };
 
 FittedOrders fitted_orders(const OrderStudy& study) {
-  std::vector<const OrderPoint*> last;
-  for (const OrderPoint& p : study.points) {
-    if (p.regime == Regime::floor) continue;
-    p.regime == Regime::pre_asymptotic || p.regime == Regime::asymptotic ? last.push_back(&p) : last.clear();
-  }
+  const std::vector<const OrderPoint*> last = last_in_window(study);
   FittedOrders fit{.errors = last.size()};
   if (last.size() < 3) return fit;
   const auto n = static_cast<double>(last.size());
@@ -181,7 +183,7 @@ SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact
 SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& reference, const IntegratorEntry& entry,
                          const CpuClock& clock, const SceneOrderOptions& options) {
   const auto integrator = entry.make();
-  const ContactOrder contact = scene.has_contact() ? contact_order(scene.frozen->file) : ContactOrder{};
+  const ContactOrder contact = contact_order(scene);
   const double order = std::min<double>(integrator->scheme().order, contact.most);
   OrderStudy study{std::string(entry.name), OrderCase::undamped, order, {}, false, 0.0, 0.0, ""};
   OrderOptions judging = options.order;
@@ -208,7 +210,7 @@ SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& refer
     SceneOrder found =
         scene.has_contact() ? answer_through_contact(study, contact, judging) : answer_of(study, judging);
     if (found.answer == OrderAnswer::shown || study.points.back().regime == Regime::floor) return found;
-    if (!contact.is_promised() && fitted_orders(study).errors >= errors_to_fit) return found;
+    if (!contact.is_promised() && last_in_window(study).size() >= errors_to_fit) return found;
     if (2 * run.cpu_ns > most_ns || halvings == options.most_halvings) {
       if (found.answer == OrderAnswer::open) found.study.reason += "; more steps would take too long";
       return found;

@@ -67,6 +67,22 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   }
 }
 
+/// Set what the pilots of a part of the scene show. `at_once`: the longest steps are accurate enough by far, and no order
+/// is known.
+void take_pilots(Candidate& c, const TradeoffScene& scene, const std::vector<PilotRun>& runs, double part,
+                 bool at_once) {
+  c.confidence = at_once              ? Confidence::sufficient
+                 : shows_its_order(c) ? Confidence::asymptotic
+                                      : Confidence::pre_asymptotic;
+  c.slope = at_once ? 1.0 : slope_of(c);
+  std::vector<const PilotRun*> all;
+  for (const PilotRun& run : runs) all.push_back(&run);
+  take_errors(c, scene, all, part);
+  take_cost(c, runs.back());
+  if (c.implicit)
+    c.step_slope = std::clamp(std::log2(runs[runs.size() - 2].step_cost / runs.back().step_cost), 0.0, 1.0);
+}
+
 /// Errors as large as the motion itself grow no more, neither with time nor with the step: they are of no use. After an
 /// event that gives numbers to other points there is no size to compare with.
 bool saturated(const TradeoffScene& scene, const std::vector<double>& errors, const TimedRun& run) {
@@ -168,19 +184,8 @@ void pilot_prefix(Candidate& c, Pilots& pilots, double h, double step_s, double 
     return;
   }
   if (at_once) c.observed_order = 1.0;
-  c.confidence = at_once              ? Confidence::sufficient
-                 : shows_its_order(c) ? Confidence::asymptotic
-                                      : Confidence::pre_asymptotic;
-  c.slope = at_once ? 1.0 : slope_of(c);
-  std::vector<const PilotRun*> all;
-  for (const PilotRun& run : runs) all.push_back(&run);
-  take_errors(c, scene, all, part);
+  take_pilots(c, scene, runs, part, at_once);
   c.seen_part = part;
-  take_cost(c, runs.back());
-  if (c.implicit) {
-    const PilotRun& before = runs[runs.size() - 2];
-    c.step_slope = std::clamp(std::log2(before.step_cost / runs.back().step_cost), 0.0, 1.0);
-  }
 }
 
 void pilot_whole(Candidate& c, Pilots& pilots, double h, double error) {
@@ -227,16 +232,7 @@ void pilot_whole(Candidate& c, Pilots& pilots, double h, double error) {
                            change.front(), runs.front().run.h, change.back(), runs[runs.size() - 2].run.h);
     return;
   }
-  c.confidence = at_once              ? Confidence::sufficient
-                 : shows_its_order(c) ? Confidence::asymptotic
-                                      : Confidence::pre_asymptotic;
-  c.slope = at_once ? 1.0 : slope_of(c);
-  std::vector<const PilotRun*> all;
-  for (const PilotRun& run : runs) all.push_back(&run);
-  take_errors(c, scene, all, 1.0);
-  take_cost(c, runs.back());
-  if (c.implicit)
-    c.step_slope = std::clamp(std::log2(runs[runs.size() - 2].step_cost / runs.back().step_cost), 0.0, 1.0);
+  take_pilots(c, scene, runs, 1.0, at_once);
   c.full_length = true;
 }
 

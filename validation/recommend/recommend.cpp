@@ -297,7 +297,7 @@ class Search {
   }
 
   const TradeoffScene& scene_;
-  const ContactOrder contact_ = scene_.has_contact() ? contact_order(scene_.frozen->file) : ContactOrder{};
+  const ContactOrder contact_ = contact_order(scene_);
   double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
   const CpuClock& clock_;
   const RecommendOptions& options_;

@@ -23,4 +23,8 @@ ContactOrder contact_order(const SceneFile& file) {
   return found;
 }
 
+ContactOrder contact_order(const TradeoffScene& scene) {
+  return scene.frozen ? contact_order(scene.frozen->file) : ContactOrder{};
+}
+
 }  // namespace dartboard

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/scene/file/scene_file.h"
+#include "validation/scenes/tradeoff_scenes.h"
 
 namespace dartboard {
 
@@ -24,5 +25,7 @@ struct ContactOrder {
 ///     friction               order 1            it is constant during a step
 ///     blocks, bodies         none               the depth has kinks where the nearest face changes
 ContactOrder contact_order(const SceneFile& file);
+/// No limit for a scene that is not from a file.
+ContactOrder contact_order(const TradeoffScene& scene);
 
 }  // namespace dartboard

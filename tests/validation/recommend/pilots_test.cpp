@@ -126,6 +126,21 @@ TEST(PilotPrefix, SeesTheOrderOfAMethodAndItsErrors) {
   EXPECT_FALSE(c.coarser.empty());
 }
 
+// Steps so short that rounding is all that two runs differ by.
+TEST(PilotWhole, LeavesAMethodOutWhoseErrorsDoNotFall) {
+  const TradeoffScene scene = chain_scene(8, 8.0);
+  const CpuClock clock = [t = std::int64_t{0}]() mutable { return t += 1'000'000; };
+  RecommendOptions options;
+  options.most_pilot_s = 1.0;
+  Pilots pilots(scene, clock, options, clock());
+  Candidate c = candidate("rk4", false);
+  c.order = 4;
+  pilot_whole(c, pilots, 2e-3 / scene.fastest_rate, 1e-300);
+  EXPECT_TRUE(c.pruned.starts_with("its errors do not fall with the step: ")) << c.pruned;
+  EXPECT_FALSE(c.untried);
+  EXPECT_FALSE(c.full_length);
+}
+
 TEST(FirstPart, EndsEarlierAndHasTheEventsBeforeItsEnd) {
   TradeoffScene scene = chain_scene(4, 8.0, 4);
   const double t = scene.duration;
