@@ -1,4 +1,6 @@
+#include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
@@ -23,6 +25,7 @@ void add_measure_step(CLI::App& app) {
   verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
   verb->add_option("--largest", options->largest);
   verb->add_option("--seed", options->seed);
+  verb->add_option("--mesh", options->meshes)->take_all();
   verb->callback([options] {
     const auto print = [](const auto& sample) { tell("{}\n", json_text(nlohmann::json(sample))); };
     options->compare ? compare_steps(*options, print) : measure_step_costs(*options, print);
@@ -34,15 +37,23 @@ void add_measure_step(CLI::App& app) {
 void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "step", "An RK4 step over springs, compared with the naive graph and with the limits of the processor.");
-  auto options = study_options(*verb, {.quick = "bodies of up to 10^5 tetrahedra, fewer processes",
-                                       .seed = "the order of the tasks, shuffled meshes and velocities"});
+  struct Options : StudyOptions {
+    std::vector<std::filesystem::path> meshes;
+  };
+  auto options = study_options<Options>(*verb, {.quick = "bodies of up to 10^5 tetrahedra, fewer processes",
+                                                .seed = "the order of the tasks, shuffled meshes and velocities"});
+  verb->add_option(
+      "MESH", options->meshes,
+      "files of tetrahedra: their bodies follow the others, in the order of the file, cut finer until there "
+      "are 10^5");
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks, shuffled meshes, velocities", options->seed}},
                    .input_files = {paper_body("liver").mesh}};
+    facts.input_files.insert(facts.input_files.end(), options->meshes.begin(), options->meshes.end());
     run_study(
         *options, {.label = "step-costs", .facts = facts},
         [&](StudyLog& log) {
-          return step_bench({options->quick, options->seed}, log);
+          return step_bench({options->quick, options->seed, options->meshes}, log);
         },
         outcome);
   });

@@ -16,7 +16,11 @@ namespace dartboard {
 struct StepCosts {
   std::vector<Sample> samples;
   std::map<std::string, StepCounts> counts;
-  std::size_t largest = 0;  // tetrahedra of the largest boxes
+  std::size_t largest = 0;            // tetrahedra of the largest boxes
+  std::vector<std::string> meshes{};  // bodies of files, after the others
+
+  /// In the order of tables.
+  std::vector<std::string> bodies() const;
 
   bool timed(const std::string& body, const char* task) const;
   /// Several threads are compared by the wall clock, others by processor time.

@@ -11,10 +11,14 @@ namespace dartboard {
 
 Report step_bench(const StepBenchPlan& plan, StudyLog& log) {
   const int processes = plan.quick ? 3 : 8, rounds = plan.quick ? 5 : 20;
-  StepCosts costs{.samples = {}, .counts = {}, .largest = plan.quick ? std::size_t{100'000} : 1'000'000};
+  StepCosts costs{.samples = {},
+                  .counts = {},
+                  .largest = plan.quick ? std::size_t{100'000} : 1'000'000,
+                  .meshes = step_meshes(plan.meshes)};
   const auto measure = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"measure-step", "--largest", std::to_string(costs.largest), "--seed",
                                        std::to_string(plan.seed)};
+    for (const std::filesystem::path& mesh : plan.meshes) arguments.insert(arguments.end(), {"--mesh", mesh.string()});
     arguments.insert(arguments.end(), more.begin(), more.end());
     run_self(arguments, [&](std::string_view line) {
       const auto json = nlohmann::json::parse(line);

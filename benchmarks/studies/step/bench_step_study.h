@@ -3,6 +3,8 @@
 // allows.
 
 #include <cstdint>
+#include <filesystem>
+#include <vector>
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
@@ -10,8 +12,9 @@
 namespace dartboard {
 
 struct StepBenchPlan {
-  bool quick = false;      // bodies of up to 10^5 tetrahedra, fewer processes and rounds
-  std::uint64_t seed = 1;  // seeds the order of the tasks, shuffled meshes and velocities
+  bool quick = false;                           // bodies of up to 10^5 tetrahedra, fewer processes and rounds
+  std::uint64_t seed = 1;                       // seeds the order of the tasks, shuffled meshes and velocities
+  std::vector<std::filesystem::path> meshes{};  // of further bodies
 };
 
 Report step_bench(const StepBenchPlan& plan, StudyLog& log);

@@ -10,13 +10,17 @@
 #include <utility>
 
 #include "benchmarks/paper/paper_bodies.h"
+#include "benchmarks/studies/step/finer_mesh.h"
 #include "benchmarks/studies/step/machine_limits.h"
 #include "core/base/thread_team.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/meshes/mesh_io.h"
+#include "core/meshes/touching.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/time/integrators.h"
+#include "core/time/system/accelerations.h"
 #include "core/time/system/force_shares.h"
 #include "core/time/system/spring_lanes.h"
 #include "validation/contenders/contenders.h"
@@ -38,6 +42,8 @@ constexpr std::size_t most_for_arrays = 20'000;
 /// Springs that a sample takes through a step, so that small bodies take as long as large ones.
 constexpr std::size_t springs_in_sample = 150'000;
 constexpr double copied_in_sample = 40e6;  // bytes
+constexpr double spacing = 0.1;            // [m] the edge of a cube
+const Material box_material{.density = 1000.0, .stiffness = 5.0, .damping = 0.005, .viscosity = 0.5};
 constexpr std::size_t roots_in_sample = 1024 * 1024;
 /// For bounds of rounding, which grow with the exponential of the number of steps.
 constexpr int steps_compared = 4;
@@ -76,9 +82,9 @@ Mesh shuffled(const Mesh& mesh, std::uint64_t seed) {
 /// Cubes of a kilogramme each, the lowest layer of points held, damped, in a viscous medium; h omega is about 0.3.
 Problem box_problem(const Box& box, bool in_shuffled_order, std::uint64_t seed) {
   Problem problem;
-  problem.mesh = kuhn_box(box.x, box.y, box.z, 0.1);
+  problem.mesh = kuhn_box(box.x, box.y, box.z, spacing);
   if (in_shuffled_order) problem.mesh = shuffled(problem.mesh, seed);
-  problem.material = {.density = 1000.0, .stiffness = 5.0, .damping = 0.005, .viscosity = 0.5};
+  problem.material = box_material;
   problem.h = 1e-2;
   SplitMix64 random(seed);
   for (std::uint32_t i = 0; i < problem.mesh.points.size(); ++i) {
@@ -89,21 +95,54 @@ Problem box_problem(const Box& box, bool in_shuffled_order, std::uint64_t seed) 
   return problem;
 }
 
+/// The mesh of a file, of so many tetrahedra at least, in the order of the file.
+Mesh mesh_of_file(const std::filesystem::path& file, std::size_t least) {
+  Mesh mesh = read_mesh(file).mesh;
+  if (mesh.dimension() != 3) throw InputError(fmt::format("{}: is a surface, expected tetrahedra", file.string()));
+  split_touching_points(mesh);
+  try {
+    return finer_mesh_of(std::move(mesh), least);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+/// As heavy and as stiff as a box of as many cubes; slow enough for its worst cells.
+Problem mesh_problem(const std::filesystem::path& file, std::size_t least, std::uint64_t seed) {
+  Problem problem;
+  problem.mesh = mesh_of_file(file, least);
+  double volume = 0.0;
+  for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c) volume += signed_measure(problem.mesh, c);
+  const double scale = spacing * std::cbrt(static_cast<double>(problem.mesh.cell_count()) / (6.0 * volume));
+  for (Vector3d& point : problem.mesh.points) point *= scale;
+  problem.material = box_material;
+  SplitMix64 random(seed);
+  for (std::size_t i = 0; i < problem.mesh.points.size(); ++i)
+    problem.initial_velocity.push_back(0.01 * random.next_in_ball());
+  const auto body = make_simulated_body(problem, false);
+  problem.h = 0.3 / frequency_bound(body->system());
+  return problem;
+}
+
 Problem paper_problem(bool damped) {
   Problem problem = paper_body("liver").make();
   if (!damped) problem.material.damping = 0.0;
   return problem;
 }
 
-std::vector<StepBody> bodies_up_to(std::size_t largest, std::uint64_t seed) {
+std::vector<StepBody> bodies_of(const StepCostPlan& plan) {
   std::vector<StepBody> bodies;
   for (const bool damped : {true, false})
     bodies.push_back({paper_step_body(damped), 1856, [damped] { return paper_problem(damped); }});
   for (const Box& box : boxes)
     for (const bool in_shuffled_order : {false, true})
-      if (box.about <= largest)
+      if (box.about <= plan.largest)
         bodies.push_back({step_box(box.about, in_shuffled_order), box.about,
-                          [=] { return box_problem(box, in_shuffled_order, seed); }});
+                          [=, seed = plan.seed] { return box_problem(box, in_shuffled_order, seed); }});
+  const std::vector<std::string> names = step_meshes(plan.meshes);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    bodies.push_back({names[k], plan.least_of_mesh,
+                      [=, file = plan.meshes[k]] { return mesh_problem(file, plan.least_of_mesh, plan.seed); }});
   return bodies;
 }
 
@@ -304,13 +343,23 @@ std::string step_box(std::size_t tetrahedra, bool in_shuffled_order) {
 
 std::vector<std::string> step_bodies(std::size_t largest) {
   std::vector<std::string> names;
-  for (const StepBody& body : bodies_up_to(largest, 1)) names.push_back(body.name);
+  for (const StepBody& body : bodies_of({.largest = largest})) names.push_back(body.name);
+  return names;
+}
+
+std::vector<std::string> step_meshes(const std::vector<std::filesystem::path>& meshes) {
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : meshes) {
+    names.push_back(file.stem().string());
+    if (std::ranges::count(names, names.back()) > 1)
+      throw InputError(fmt::format("two meshes are called '{}', expected different names", names.back()));
+  }
   return names;
 }
 
 void compare_steps(const StepCostPlan& plan, const std::function<void(const StepCounts&)>& sink) {
   const MannerBefore before;
-  for (const StepBody& each : bodies_up_to(plan.largest, plan.seed)) {
+  for (const StepBody& each : bodies_of(plan)) {
     Stepped body(each);
     body.counts.differing = count_differing(body);
     sink(body.counts);
@@ -319,7 +368,7 @@ void compare_steps(const StepCostPlan& plan, const std::function<void(const Step
 
 void measure_step_costs(const StepCostPlan& plan, const std::function<void(const Sample&)>& sink) {
   const MannerBefore before;
-  for (const StepBody& each : bodies_up_to(plan.largest, plan.seed)) {
+  for (const StepBody& each : bodies_of(plan)) {
     const int rounds = each.about < 1'000'000 ? plan.rounds : std::max(1, plan.rounds / 5);
     measure_body(Stepped(each), {.rounds = rounds, .warmup = 1, .process = plan.process, .seed = plan.seed}, sink);
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -41,18 +42,25 @@ std::string paper_step_body(bool damped);
 /// The box of about so many tetrahedra, a power of ten from 10^3 to 10^6, its points and cells along the grid or
 /// shuffled.
 std::string step_box(std::size_t tetrahedra, bool shuffled);
-/// Both bodies of the paper, and boxes of up to so many tetrahedra.
+/// Both bodies of the paper, and boxes of up to so many tetrahedra. A mesh of others is made finer until it has 10^5.
 std::vector<std::string> step_bodies(std::size_t largest);
 
 struct StepCostPlan {
   int process = 0;
-  int rounds = 20;                  // a fifth of them for the largest boxes
-  std::size_t largest = 1'000'000;  // tetrahedra
-  std::uint64_t seed = 1;           // of the order of the tasks, of shuffled meshes and of velocities
+  int rounds = 20;                              // a fifth of them for the largest boxes
+  std::size_t largest = 1'000'000;              // tetrahedra
+  std::uint64_t seed = 1;                       // of the order of the tasks, of shuffled meshes and of velocities
+  std::vector<std::filesystem::path> meshes{};  // of further bodies, called as their files
+  std::size_t least_of_mesh = 100'000;          // tetrahedra, to which these are cut
 };
+
+/// The names of the bodies of these files.
+/// throws  InputError where two have the same
+std::vector<std::string> step_meshes(const std::vector<std::filesystem::path>& meshes);
 
 /// Compare the ways to step each body: those over columns must end in the same bits, and keep to the rounding bound of
 /// the graph (validation/contenders/motion_agreement.h).
+/// throws  IoError and InputError for a mesh that cannot be read, or has other cells than tetrahedra
 void compare_steps(const StepCostPlan& plan, const std::function<void(const StepCounts&)>& sink);
 
 /// Take turns in this process, body by body, and report every sample.

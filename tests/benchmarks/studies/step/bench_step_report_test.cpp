@@ -8,7 +8,9 @@
 #include <functional>
 #include <set>
 
+#include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/step/machine_limits.h"
+#include "core/plain/error.h"
 #include "tests/support/claims_for_tests.h"
 #include "tests/support/timings_for_tests.h"
 
@@ -200,6 +202,27 @@ TEST(StepCosts, AreMeasuredForEachBodyWhoseMotionsAgree) {
     EXPECT_FALSE(c.timed(body, threads)) << body;
   }
   EXPECT_EQ(find_claim(claims_of(c), "step-agreement").verdict, Verdict::holds);
+}
+
+TEST(StepCosts, AreMeasuredForMeshesOfFilesCutFiner) {
+  const std::vector<std::filesystem::path> meshes{paper_body("liver").mesh};
+  ASSERT_EQ(step_meshes(meshes), std::vector<std::string>{"liver564"});
+  StepCosts c{.samples = {}, .counts = {}, .largest = 0, .meshes = step_meshes(meshes)};
+  const StepCostPlan plan{.rounds = 2, .largest = 0, .meshes = meshes, .least_of_mesh = 1857};
+  compare_steps(plan, [&](const StepCounts& n) { c.counts[n.body] = n; });
+  ASSERT_TRUE(c.counts.contains("liver564"));
+  EXPECT_EQ(c.counts.at("liver564").tetrahedra, 8u * 1856u);
+  EXPECT_EQ(c.counts.at("liver564").differing, 0u);
+  measure_step_costs(plan, [&](const Sample& s) { c.samples.push_back(s); });
+  EXPECT_TRUE(c.timed("liver564", one));
+  EXPECT_EQ(c.bodies().back(), "liver564");
+  const auto rows = steps_table(c).rows();
+  EXPECT_EQ(rows.back().front(), "liver564");
+}
+
+TEST(StepCosts, AreNamedByFilesOfDifferentNames) {
+  EXPECT_THROW(step_meshes({"a/liver.mesh", "b/liver.msh"}), InputError);
+  EXPECT_EQ(step_meshes({"a/liver.mesh", "b/torso.msh"}), (std::vector<std::string>{"liver", "torso"}));
 }
 
 TEST(StepCosts, CountNoBytesOfDampingWhereThereIsNone) {
