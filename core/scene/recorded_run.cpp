@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/counted.h"
+#include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/run/scene_warnings.h"
 
@@ -18,7 +19,7 @@ class RecordedRun::Recorder : public RunWatcher {
   Recorder(RecordedRun& run, RunWatcher& next) : run_(run), next_(next) {}
 
   void frame(const Frame& frame) override {
-    if (run_.output_) run_.output_->write(frame);
+    if (run_.output_) threads_in_use() > 1 ? run_.output_->write_later(frame) : run_.output_->write(frame);
     next_.frame(frame);
   }
   void diagnostics(const Diagnostics& diagnostics) override {
@@ -91,6 +92,7 @@ void RecordedRun::open() {
     output_.emplace(plan_.folder, scene_->probes, simulation_->dimension(), !scene_->forces.empty(),
                     scene_->has_contact(), scene_->sleep.has_value());
   }
+  if (output_) output_->compress(scene_->output.compressor);
 }
 
 void RecordedRun::run() {
@@ -103,6 +105,7 @@ void RecordedRun::run(RunWatcher& watcher) {
   Recorder recorder(*this, watcher);
   result_ = run_scene(*simulation_, scene_->output, recorder, plan_.most_steps,
                       checkpoint_ ? &checkpoint_->progress() : nullptr);
+  if (output_) output_->finish();
   judge();
 }
 

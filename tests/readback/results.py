@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import xml.etree.ElementTree as ElementTree
+import zlib
 
 import meshio
 import numpy as np
@@ -76,12 +77,29 @@ def table(path):
 
 def decoded(path, name):
     """An array of a .vtu file by its name, decoded by hand: meshio interprets a file, this reads its content."""
-    for array in ElementTree.parse(path).getroot().iter("DataArray"):
+    root = ElementTree.parse(path).getroot()
+    for array in root.iter("DataArray"):
         if array.get("Name") == name:
+            if root.get("compressor"):
+                assert root.get("compressor") == "vtkZLibDataCompressor"
+                return array, inflated(array.text)
             data = base64.b64decode(array.text)
             assert len(data) == 8 + int.from_bytes(data[:8], "little")
             return array, data[8:]
     raise KeyError(name)
+
+
+def inflated(text):
+    """The number of blocks, their size, that of the last one, and how long each is; then the blocks, in base64 of their own."""
+    count = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
+    head = (8 * (3 + count) + 2) // 3 * 4
+    _, size, last, *lengths = np.frombuffer(base64.b64decode(text[:head]), "<u8")
+    blocks, data = base64.b64decode(text[head:]), b""
+    for length in lengths:
+        data += zlib.decompress(blocks[:length])
+        blocks = blocks[length:]
+    assert not blocks and len(lengths) == count and len(data) % size == last
+    return data
 
 
 def fnv1a(words, fold):

@@ -70,11 +70,19 @@ Table staircase_table(const AblationFigures& r) {
 }
 
 Table output_table(const AblationFigures& r) {
-  Table table({{"task"}, {"ms", Align::right}, {"over the integrator", Align::right}, {"interval", Align::right}});
-  for (const std::string& task : {output_run, output_integrator, output_bytes}) {
+  Table table({{"task"},
+               {"ms of its thread", Align::right},
+               {"over the integrator", Align::right},
+               {"interval", Align::right},
+               {"ms by the clock", Align::right},
+               {"over the integrator", Align::right},
+               {"interval", Align::right}});
+  for (const std::string& task : {output_run, output_run_by_two, output_integrator, output_bytes}) {
     const Ratio ratio = paired_ratio(r.samples, task, output_integrator);
-    table.add_row({task, fmt::format("{:.3g}", times_of(r.samples, task).cpu_median / 1e6),
-                   fmt::format("{:.3f}", ratio.cpu.median), to_string(ratio.cpu.interval)});
+    const Times times = times_of(r.samples, task);
+    table.add_row({task, fmt::format("{:.3g}", times.cpu_median / 1e6), fmt::format("{:.3f}", ratio.cpu.median),
+                   to_string(ratio.cpu.interval), fmt::format("{:.3g}", times.wall_median / 1e6),
+                   fmt::format("{:.3f}", ratio.wall.median), to_string(ratio.wall.interval)});
   }
   return table;
 }
@@ -118,12 +126,15 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
       claim.reason = fmt::format("'{}' does less than '{}' and is slower: no lower bound", pair.baseline, pair.task);
     claims.push_back(std::move(claim));
   }
-  const Ratio output = paired_ratio(r.samples, output_run, output_integrator);
+  const Figure output = paired_ratio(r.samples, output_run_by_two, output_integrator).wall;
   claims.push_back(
-      target("output-liver-cut", fmt::format("{} over the same steps of its integrator alone", output_run), "<= 1.5",
-             fmt::format("{:.3f}", output.cpu.median), to_string(output.cpu.interval), at_most(output.cpu, 1.5),
-             fmt::format("stresses of its frames, and their files; their bytes alone, copied, take {:.3f} of that",
-                         paired_ratio(r.samples, output_bytes, output_integrator).cpu.median)));
+      target("output-liver-cut",
+             fmt::format("{} over the same steps of its integrator alone, by the clock", output_run_by_two), "<= 1.5",
+             fmt::format("{:.3f}", output.median), to_string(output.interval), at_most(output, 1.5),
+             fmt::format("stresses of its frames, and their files; by one thread {:.3f}, their bytes alone, copied, "
+                         "{:.3f} of the integrator",
+                         paired_ratio(r.samples, output_run, output_integrator).wall.median,
+                         paired_ratio(r.samples, output_bytes, output_integrator).wall.median)));
   return claims;
 }
 

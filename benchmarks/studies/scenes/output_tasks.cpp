@@ -10,6 +10,7 @@
 
 #include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/scratch_folder.h"
+#include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/recorded_run.h"
@@ -95,14 +96,23 @@ std::vector<TimedTask> output_tasks() {
   whole.run.run();
   const auto from = std::make_shared<std::string>(bytes_in(whole.run.folder()), 'A');
   const auto to = std::make_shared<std::string>(from->size(), 'B');
-  return {{.name = output_run,
-           .restore =
-               [written, scene] {
-                 written->reset();
-                 *written = std::make_unique<Written>(scene);
-               },
-           .run = [written] { (*written)->run.run(); },
-           .hash = [written] { return (*written)->run.simulation().body().state_hash(); }},
+  const auto run_by = [&](const std::string& name, unsigned threads) {
+    return TimedTask{.name = name,
+                     .restore =
+                         [written, scene] {
+                           written->reset();
+                           *written = std::make_unique<Written>(scene);
+                         },
+                     .run =
+                         [written, threads] {
+                           const unsigned before = use_threads(threads);
+                           (*written)->run.run();
+                           use_threads(before);
+                         },
+                     .hash = [written] { return (*written)->run.simulation().body().state_hash(); }};
+  };
+  return {run_by(output_run, 1),
+          run_by(output_run_by_two, 2),
           {.name = output_integrator,
            .restore =
                [stretches, integrator, scene, steps] {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/meshes/bytes/decompress.h"
+#include "core/meshes/bytes/compressed_block.h"
 #include "core/meshes/text/base64.h"
 #include "core/meshes/text/text_scanner.h"
 

@@ -57,6 +57,10 @@ OutputPlan read_output(const SceneValue& value) {
                  .displacement = has_field("displacement"),
                  .springs = has_field("springs"),
                  .contact = has_field("contact")};
+  if (const auto name = value.get<std::string>("compressed"); name == "zlib")
+    plan.compressor = Compressor::zlib;
+  else if (name == "lz4")
+    plan.compressor = Compressor::lz4;
   return plan;
 }
 

@@ -125,15 +125,13 @@ OutputPlan OutputPlan::in_steps_of(double step) const {
     const double in_reach = std::min(*time, 2.0 * most_steps * step);
     return std::optional(std::max<std::uint64_t>(1, step_of_time(in_reach, step)));
   };
-  return {.frame_steps = steps(frame_steps, frame_time),
-          .diagnostic_steps = steps(diagnostic_steps, diagnostic_time),
-          .probe_steps = steps(probe_steps, probe_time),
-          .frame_time = {},
-          .diagnostic_time = {},
-          .probe_time = {},
-          .checkpoint_time = {},
-          .checkpoint_steps = steps(checkpoint_steps, checkpoint_time),
-          .fields = fields};
+  OutputPlan plan = *this;
+  plan.frame_steps = steps(frame_steps, frame_time);
+  plan.diagnostic_steps = steps(diagnostic_steps, diagnostic_time);
+  plan.probe_steps = steps(probe_steps, probe_time);
+  plan.checkpoint_steps = steps(checkpoint_steps, checkpoint_time);
+  plan.frame_time = plan.diagnostic_time = plan.probe_time = plan.checkpoint_time = std::nullopt;
+  return plan;
 }
 
 bool Expectation::empty() const {

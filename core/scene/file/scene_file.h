@@ -16,6 +16,7 @@
 #include "core/base/time_table.h"
 #include "core/contact/contact_law.h"
 #include "core/contact/obstacle.h"
+#include "core/meshes/bytes/compressed_block.h"
 #include "core/plain/diagonals.h"
 #include "core/plain/material.h"
 #include "core/scene/file/actions/action.h"
@@ -184,7 +185,8 @@ struct OutputPlan {
   std::optional<double> frame_time{}, diagnostic_time{}, probe_time{};  // [s] the same where the scene has no step yet
   std::optional<double> checkpoint_time{};                              // [s] from one to the next
   std::optional<std::uint64_t> checkpoint_steps{};
-  FrameFields fields{};  // that frames hold
+  FrameFields fields{};                    // that frames hold
+  std::optional<Compressor> compressor{};  // of the arrays in their files
 
   /// The same plan with times turned into steps.
   /// pre  step > 0

@@ -80,17 +80,21 @@ void TextSoFar::extend(const fs::path& file, std::uint64_t to) {
 SceneOutput::SceneOutput(FolderClaim claim, fs::path folder, OutputSoFar so_far, std::span<const Probe> probes)
     : claim_(std::move(claim)),
       folder_(std::move(folder)),
-      list_(continued_list(folder_, so_far, !probes.empty())),
+      frames_(std::make_unique<Frames>(Frames{folder_, continued_list(folder_, so_far, !probes.empty())})),
+      frame_count_(so_far.frame_bytes.size()),
       so_far_(std::move(so_far)) {
+  frames_->bytes = so_far_.frame_bytes;
   cut(folder_ / "diagnostics.csv", so_far_.diagnostics.bytes, diagnostics_);
   if (!probes.empty()) cut(folder_ / "probes.csv", so_far_.probes.bytes, probes_);
   std::error_code ignored;  // frames left over are written again, or stay unlisted
-  for (std::size_t k = list_.size(); fs::remove(folder_ / frame_name(k), ignored); ++k) {
+  for (std::size_t k = frame_count_; fs::remove(folder_ / frame_name(k), ignored); ++k) {
   }
 }
 
 const OutputSoFar& SceneOutput::so_far() {
-  so_far_.list.extend(folder_ / "frames.pvd", list_.entries_end());
+  finish();
+  so_far_.frame_bytes = frames_->bytes;
+  so_far_.list.extend(folder_ / "frames.pvd", frames_->list.entries_end());
   so_far_.diagnostics.extend(folder_ / "diagnostics.csv", static_cast<std::uint64_t>(diagnostics_.tellp()));
   if (probes_.is_open()) so_far_.probes.extend(folder_ / "probes.csv", static_cast<std::uint64_t>(probes_.tellp()));
   return so_far_;
@@ -98,7 +102,9 @@ const OutputSoFar& SceneOutput::so_far() {
 
 SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> probes, int dimension, bool with_applied,
                          bool with_contact, bool with_sleep)
-    : claim_(folder), folder_(std::move(folder)), list_(folder_ / "frames.pvd") {
+    : claim_(folder),
+      folder_(std::move(folder)),
+      frames_(std::make_unique<Frames>(Frames{folder_, PvdFile(folder_ / "frames.pvd")})) {
   const auto begin = [this](std::ofstream& out, const char* name, const std::string& header) {
     errno = 0;
     out.open(folder_ / name, std::ios::binary);
@@ -109,11 +115,27 @@ SceneOutput::SceneOutput(std::filesystem::path folder, std::span<const Probe> pr
   if (!probes.empty()) begin(probes_, "probes.csv", probes_header(probes));
 }
 
+void SceneOutput::Frames::write(const Frame& frame) {
+  const std::string name = frame_name(list.size()).string();
+  const std::uint64_t size = write_vtu(folder / name, frame, compressor);
+  list.add({frame.time, name});
+  bytes.push_back(size);
+}
+
 void SceneOutput::write(const Frame& frame) {
-  const std::string name = frame_name(list_.size()).string();
-  const std::uint64_t bytes = write_vtu(folder_ / name, frame);
-  list_.add({frame.time, name});
-  so_far_.frame_bytes.push_back(bytes);
+  finish();
+  frames_->write(frame);
+  ++frame_count_;
+}
+
+void SceneOutput::write_later(const Frame& frame) {
+  finish();
+  writing_ = std::async(std::launch::async, [frames = frames_.get(), copy = frame] { frames->write(copy); });
+  ++frame_count_;
+}
+
+void SceneOutput::finish() {
+  if (writing_.valid()) writing_.get();
 }
 
 void SceneOutput::write(const Diagnostics& diagnostics) {

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,22 +64,41 @@ class SceneOutput {
   /// cost  reads what the tables have gained since the last call
   const OutputSoFar& so_far();
 
+  /// From now on the arrays of frames are compressed.
+  void compress(std::optional<Compressor> compressor) { frames_->compressor = compressor; }
+
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);
+  /// The same by another thread, once the last frame is written: what that one has thrown is thrown here.
+  void write_later(const Frame& frame);
+  /// Wait for the last frame. Without it, what is thrown when it is written is lost.
+  void finish();
   void write(const Diagnostics& diagnostics);
   void write(const ProbeRow& row);
 
   const std::filesystem::path& folder() const { return folder_; }
-  std::size_t frame_count() const { return list_.size(); }
+  /// Those that are written, or being written.
+  std::size_t frame_count() const { return frame_count_; }
 
  private:
   void write_row(std::ofstream& out, const char* name, const std::string& row) const;
 
+  /// What is written into while another thread writes a frame.
+  struct Frames {
+    std::filesystem::path folder;
+    PvdFile list;
+    std::optional<Compressor> compressor{};
+    std::vector<std::uint64_t> bytes{};  // of each
+    void write(const Frame& frame);
+  };
+
   FolderClaim claim_;
   std::filesystem::path folder_;
-  PvdFile list_;
+  std::unique_ptr<Frames> frames_;
+  std::size_t frame_count_ = 0;
   std::ofstream diagnostics_, probes_;
   OutputSoFar so_far_;
+  std::future<void> writing_{};  // ends before the files are closed
 };
 
 }  // namespace dartboard

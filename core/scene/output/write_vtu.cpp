@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -56,11 +57,14 @@ constexpr const char* vtk_type<std::uint8_t>() {
   return "UInt8";
 }
 
-/// A text on its way to a stream, in blocks.
+/// A text on its way to a stream, in blocks. `compressor` is that of arrays.
 class Text {
  public:
-  explicit Text(std::ostream& out) : out_(out) { block_.reserve(2 * most); }
+  Text(std::ostream& out, std::optional<Compressor> compressor) : out_(out), compressor_(compressor) {
+    block_.reserve(2 * most);
+  }
 
+  const std::optional<Compressor>& compressor() const { return compressor_; }
   std::back_insert_iterator<std::string> end() { return std::back_inserter(block_); }
   Text& operator+=(std::string_view more) {
     block_ += more;
@@ -88,15 +92,32 @@ class Text {
   }
 
   std::ostream& out_;
+  std::optional<Compressor> compressor_;
   std::string block_;
   std::uint64_t written_ = 0;
 };
+
+/// The number of blocks, their size, that of a smaller last one, and the compressed size of each; then the blocks.
+void append_compressed_blocks(Text& out, std::string_view bytes, Compressor compressor) {
+  constexpr std::size_t size = 1 << 17;
+  std::vector<std::uint64_t> lengths{(bytes.size() + size - 1) / size, size, bytes.size() % size};
+  std::string blocks;
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(size, bytes.size())))
+    lengths.push_back(append_compressed(compressor, bytes.substr(0, size), blocks));
+  out.add_base64({reinterpret_cast<const char*>(lengths.data()), lengths.size() * sizeof lengths[0]});
+  out.add_base64(blocks);
+}
 
 /// Nine bytes, the length and the first of the data, are three groups of base64: the others follow from where they lie.
 template <class T>
 void append_encoded(Text& out, const T* data, std::size_t size) {
   const std::uint64_t length = size * sizeof(T);
   const std::string_view bytes(reinterpret_cast<const char*>(data), length);
+  if (out.compressor()) {
+    append_compressed_blocks(out, bytes, *out.compressor());
+    out += "</DataArray>\n";
+    return;
+  }
   std::array<char, sizeof length + 1> begin;
   std::memcpy(begin.data(), &length, sizeof length);
   if (length > 0) begin.back() = bytes[0];
@@ -169,7 +190,7 @@ void require_columns_of_its_size(const Frame& frame) {
                                  frame.mesh.points.size(), frame.mesh.cell_count()));
 }
 
-std::uint64_t put_vtu(const Frame& frame, std::ostream& stream) {
+std::uint64_t put_vtu(const Frame& frame, std::optional<Compressor> compressor, std::ostream& stream) {
   const Mesh& mesh = frame.mesh;
   const std::size_t points = mesh.points.size(), cells = mesh.cell_count();
   std::vector<std::int64_t> connectivity, offsets;
@@ -203,12 +224,14 @@ std::uint64_t put_vtu(const Frame& frame, std::ostream& stream) {
   tension.resize(types.size(), 0.0);
   strain.insert(strain.end(), frame.strain.begin(), frame.strain.end());
 
-  Text out(stream);
-  out +=
+  Text out(stream, compressor);
+  fmt::format_to(
+      out.end(),
       "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
       "  <UnstructuredGrid>\n"
-      "    <FieldData>\n";
+      "    <FieldData>\n",
+      compressor ? fmt::format(" compressor=\"{}\"", vtk_name(*compressor)) : "");
   append_field(out, "TimeValue", &frame.time, 1);
   if (frame.fields.contact) append_pairs(out, frame.contact_pairs);
   fmt::format_to(out.end(),
@@ -249,17 +272,17 @@ std::uint64_t put_vtu(const Frame& frame, std::ostream& stream) {
 
 }  // namespace
 
-std::string to_vtu(const Frame& frame) {
+std::string to_vtu(const Frame& frame, std::optional<Compressor> compressor) {
   require_columns_of_its_size(frame);
   std::ostringstream text;
-  put_vtu(frame, text);
+  put_vtu(frame, compressor, text);
   return std::move(text).str();
 }
 
-std::uint64_t write_vtu(const std::filesystem::path& path, const Frame& frame) {
+std::uint64_t write_vtu(const std::filesystem::path& path, const Frame& frame, std::optional<Compressor> compressor) {
   require_columns_of_its_size(frame);
   std::uint64_t bytes = 0;
-  write_whole(path, [&](std::ostream& out) { bytes = put_vtu(frame, out); });
+  write_whole(path, [&](std::ostream& out) { bytes = put_vtu(frame, compressor, out); });
   return bytes;
 }
 

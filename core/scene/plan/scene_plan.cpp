@@ -367,7 +367,10 @@ class Planner {
           fmt::format("cells, their masses{} and the boundary by vertex numbers",
                       problem_.materials.empty() ? "" : ", materials"),
           "/output: frames show the cells, diagnostics report mass and boundary");
-    add(Part::frames, "the cells where they are" + fields_in_words(),
+    const auto& compressor = scene_.output.compressor;
+    add(Part::frames,
+        "the cells where they are" + fields_in_words() +
+            (compressor ? fmt::format(", compressed by {}", *compressor == Compressor::zlib ? "zlib" : "LZ4") : ""),
         output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
       add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");

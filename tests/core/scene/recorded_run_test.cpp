@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
@@ -46,6 +47,45 @@ TEST_F(RecordedRuns, WriteFramesAndTablesIntoTheirFolder) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / name)) << name;
   const std::string rows = text("run/diagnostics.csv");
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 11);
+}
+
+// Frames are written by another thread where there is one.
+TEST_F(RecordedRuns, WriteTheSameFilesWithAnyNumberOfThreads) {
+  RecordedRun alone(parse(cut_box()), {.folder = folder_ / "alone"});
+  alone.run();
+  const unsigned before = use_threads(2);
+  {
+    RecordedRun together(parse(cut_box()), {.folder = folder_ / "together"});
+    together.run();
+    EXPECT_EQ(together.frame_count(), 3u);
+  }
+  use_threads(before);
+  for (const char* name :
+       {"frame_000000.vtu", "frame_000001.vtu", "frame_000002.vtu", "frames.pvd", "diagnostics.csv", "checkpoint"})
+    EXPECT_EQ(text(std::string("alone/") + name), text(std::string("together/") + name)) << name;
+}
+
+TEST_F(RecordedRuns, CompressTheirFramesAsTheSceneAsks) {
+  Json json = cut_box();
+  for (const char* how : {"no", "zlib", "lz4"}) {
+    json["output"]["compressed"] = how;
+    RecordedRun run(parse(json), {.folder = folder_ / how});
+    run.run();
+  }
+  EXPECT_EQ(text("no/frame_000002.vtu").find("compressor"), std::string::npos);
+  EXPECT_NE(text("zlib/frame_000002.vtu").find("compressor=\"vtkZLibDataCompressor\""), std::string::npos);
+  EXPECT_NE(text("lz4/frame_000002.vtu").find("compressor=\"vtkLZ4DataCompressor\""), std::string::npos);
+}
+
+TEST_F(RecordedRuns, ThrowWhatAnotherThreadHasThrown) {
+  Json json = cut_box();
+  json["output"].erase("checkpoint");
+  const unsigned before = use_threads(2);
+  RecordedRun run(parse(json), {.folder = folder_ / "run"});
+  run.open();
+  std::filesystem::create_directory(folder_ / "run" / "frame_000002.vtu");  // the last of three
+  EXPECT_THROW(run.run(), IoError);
+  use_threads(before);
 }
 
 TEST_F(RecordedRuns, LeaveNothingBehindForAWrongScene) {

@@ -450,6 +450,9 @@ std::vector<SceneKey> keys_by_hand() {
                "inside [m]; and as field data each pair in contact: the points whose mean is inside (contact_pair_sample, of four, -1 "
                "for none), the points of the face of a body that is nearest (contact_pair_face) or the number of the obstacle "
                "(contact_pair_obstacle), -1 for none, and the depth [m] (contact_pair_depth)"},
+      {.shape = output, .name = "compressed", .type = choice, .choices = {"no", "zlib", "lz4"}, .standard = "\"no\"",
+       .help = "how the arrays in the files of frames are compressed: 'zlib' is read by ParaView and meshio; 'lz4' is several "
+               "times faster, and read by ParaView"},
       {.shape = output, .name = "diagnostics_every", .type = real_or_object, .of = cadence, .unit = "s", .range = positive,
        .help = "from one row of diagnostics to the next, or {\"steps\": 10}; the first and the last state always get one"},
       {.shape = output, .name = "probes", .type = objects, .of = probe, .standard = "[]",

@@ -1,5 +1,6 @@
 #include "core/scene/output/write_vtu.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -61,6 +62,24 @@ TEST(WriteVtu, IsReadBackWithEveryBit) {
     EXPECT_EQ(read.mesh.nodes, frame.mesh.nodes);
     EXPECT_TRUE(read.notices.empty()) << read.notices[0];  // nothing was inverted
   }
+}
+
+// Arrays of no, of less than one, and of several blocks of 128 KiB.
+TEST(WriteVtu, IsReadBackWithEveryBitWhereItIsCompressed) {
+  for (const Compressor compressor : {Compressor::zlib, Compressor::lz4})
+    for (const Mesh& mesh : {Mesh{}, mixed_box(2, 2, 2, 0.7), kuhn_box(22, 20, 17, 0.1, 0.2, 3)}) {
+      const Frame frame = mesh.points.empty() ? Frame{} : frame_of(mesh);
+      const std::string text = to_vtu(frame, compressor);
+      EXPECT_NE(text.find(fmt::format(" compressor=\"{}\"", vtk_name(compressor))), text.npos);
+      if (mesh.points.empty()) continue;  // a file without a cell is no mesh
+      const LoadedMesh read = parse_mesh(text, MeshFormat::vtu, "text");
+      EXPECT_EQ(read.mesh.points, frame.mesh.points);
+      EXPECT_EQ(read.mesh.kinds, frame.mesh.kinds);
+      EXPECT_EQ(read.mesh.nodes, frame.mesh.nodes);
+      if (mesh.cell_count() > 1000) {
+        EXPECT_LT(text.size(), to_vtu(frame).size() / 2);
+      }
+    }
 }
 
 TEST(WriteVtu, WritesAFrameOfManyBlocksAsItsTextIs) {

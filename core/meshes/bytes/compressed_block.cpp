@@ -1,10 +1,11 @@
-#include "core/meshes/bytes/decompress.h"
+#include "core/meshes/bytes/compressed_block.h"
 
 #include <lz4.h>
 #include <lzma.h>
 #include <zlib.h>
 
 #include <limits>
+#include <new>
 
 namespace dartboard {
 namespace {
@@ -37,10 +38,18 @@ bool inflate_lzma(std::string_view block, char* to, std::size_t size) {
 }  // namespace
 
 std::optional<Compressor> compressor_of_vtk(std::string_view name) {
-  if (name == "vtkZLibDataCompressor") return Compressor::zlib;
-  if (name == "vtkLZ4DataCompressor") return Compressor::lz4;
-  if (name == "vtkLZMADataCompressor") return Compressor::lzma;
+  for (const Compressor one : {Compressor::zlib, Compressor::lz4, Compressor::lzma})
+    if (name == vtk_name(one)) return one;
   return std::nullopt;
+}
+
+std::string_view vtk_name(Compressor compressor) {
+  switch (compressor) {
+    case Compressor::zlib: return "vtkZLibDataCompressor";
+    case Compressor::lz4: return "vtkLZ4DataCompressor";
+    case Compressor::lzma: break;
+  }
+  return "vtkLZMADataCompressor";
 }
 
 // Deflate: 258 bytes for two bits. LZ4: 255 for a byte of a length. LZMA: a match of 273 bytes takes 14 decisions of at
@@ -63,6 +72,33 @@ bool decompress(Compressor compressor, std::string_view block, std::size_t size,
   }
   if (!whole) out.resize(before);
   return whole;
+}
+
+// The fastest of each: coordinates shrink little, whatever the effort, and numbers of cells much with any.
+std::size_t append_compressed(Compressor compressor, std::string_view block, std::string& out) {
+  const std::size_t before = out.size();
+  std::size_t size = 0;
+  switch (compressor) {
+    case Compressor::zlib: {
+      uLongf written = compressBound(block.size());
+      out.resize(before + written);
+      const int status = compress2(reinterpret_cast<Bytef*>(out.data() + before), &written,
+                                   reinterpret_cast<const Bytef*>(block.data()), block.size(), Z_BEST_SPEED);
+      size = status == Z_OK ? written : 0;
+      break;
+    }
+    case Compressor::lz4: {
+      const int most = LZ4_compressBound(static_cast<int>(block.size()));
+      out.resize(before + static_cast<std::size_t>(most));
+      size = static_cast<std::size_t>(
+          LZ4_compress_default(block.data(), out.data() + before, static_cast<int>(block.size()), most));
+      break;
+    }
+    case Compressor::lzma: break;
+  }
+  if (size == 0) throw std::bad_alloc();  // no other cause is left: there is room for the largest result
+  out.resize(before + size);
+  return size;
 }
 
 }  // namespace dartboard
