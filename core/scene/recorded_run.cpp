@@ -21,6 +21,7 @@ class RecordedRun::Recorder : public RunWatcher {
     if (run_.output_) run_.output_->write(frame);
     next_.frame(frame);
   }
+  bool takes_frames() const override { return run_.output_ || next_.takes_frames(); }
   void diagnostics(const Diagnostics& diagnostics) override {
     if (run_.output_) run_.output_->write(diagnostics);
     next_.diagnostics(diagnostics);
