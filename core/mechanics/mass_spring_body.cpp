@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/elements/membrane_law.h"
 #include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
 #include "core/topology/build.h"
+#include "core/topology/cells_with_places.h"
 #include "core/topology/storage/hash.h"
 
 namespace dartboard {
@@ -154,10 +156,15 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   body.map = std::move(built.map);
   const Map& map = body.map;
   const auto point_of = [&](Dart d) { return built.point[Map::template slot<0>(d)]; };
+  const auto attach = [&map](auto& embedding, auto cell, std::span<const Dart> places, std::size_t number) {
+    if constexpr (held == Held::by_every_dart)
+      embedding.attach_places(map, places, static_cast<std::uint32_t>(number));
+    else
+      embedding.attach(map, cell, static_cast<std::uint32_t>(number));
+  };
 
   // volumes: mass, and the share of it that each of their nodes gets
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    body.cell.attach(map, {Dart{built.first_dart[c]}}, static_cast<std::uint32_t>(c));
     const double measure = signed_measure(mesh, c);
     body.cell_mass.push_back(materials[c].density * std::abs(measure));
     body.cell_inside_out.push_back(measure < 0.0);
@@ -165,6 +172,11 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
             body.cell_mass[c], "more than 0 kg and finite");
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
     body.cell_dart.push_back({built.first_dart[c]});
+  }
+  {
+    std::size_t c = 0;  // the darts of the cells are in the order of the cells
+    for_each_cell_with_places<Map::dimension>(
+        map, [&](auto cell, std::span<const Dart> places) { attach(body.cell, cell, places, c++); });
   }
   if (std::ranges::any_of(materials.all(), has_springs_of_young)) {
     body.edge_share.resize(map.template slot_count<1>(), 1.0);
@@ -178,12 +190,12 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     });
   }
 
-  for_each_cell<0>(map, [&](Vertex v) {
+  for_each_cell_with_places<0>(map, [&](Vertex v, std::span<const Dart> places) {
     VertexColumns& columns = body.vertices;
     const std::uint32_t p = point_of(v.dart);
-    body.vertex.attach(map, v, static_cast<std::uint32_t>(columns.size()));
+    attach(body.vertex, v, places, columns.size());
     add_element(columns, VertexColumns::embedded(), columns.size());
-    body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(v));
+    body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(places));
     columns.position.back() = mesh.points[p];
     columns.velocity.back().setZero();
     if (!problem.initial_velocity.empty()) columns.velocity.back() = problem.initial_velocity[p];
@@ -218,17 +230,19 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   }
   body.vertices.hold(problem.held_axes);
 
-  for_each_cell<1>(map, [&](Edge e) {
+  for_each_cell_with_places<1>(map, [&](Edge e, std::span<const Dart> places) {
     const double length = (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
-    body.edge.attach(map, e, static_cast<std::uint32_t>(body.springs.size()));
-    body.springs.push_back(body.spring_of(e, length));
+    attach(body.edge, e, places, body.springs.size());
+    body.springs.push_back(body.spring_of(places, length));
     body.edge_dart.push_back(e.dart);
   });
   if constexpr (Map::dimension == 3)
-    for_each_cell<2>(map, [&](Face f) {
-      body.face.attach(map, f, static_cast<std::uint32_t>(body.face_dart.size()));
+    for_each_cell_with_places<2>(map, [&](Face f, std::span<const Dart> places) {
+      attach(body.face, f, places, body.face_dart.size());
       body.face_dart.push_back(f.dart);
     });
+  // operations take three marks at once: with their memory here the bytes of the body are those that it comes to
+  { const Mark of_coverage(map), of_cell(map), of_cells_around(map); }
   return body;
 }
 

@@ -73,9 +73,7 @@ MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& bu
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
 
 LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text, const MeshReading& reading) {
-  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-  const bool ends_with_line = text.empty() || text.back() == '\n';
-  LoadedMesh loaded = builder.finish(std::move(format), std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1)));
+  LoadedMesh loaded = builder.finish(std::move(format), text);
   if (reading.weld) weld_points(loaded, *reading.weld, builder.cell_file(), builder.cell_lines());
   check_and_repair(loaded, builder.cell_file(), builder.cell_lines(), reading.keep_crossed);
   return loaded;

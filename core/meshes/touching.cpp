@@ -7,6 +7,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/point_sets.h"
 
 namespace dartboard {
 namespace {
@@ -15,82 +16,119 @@ using Pair = std::array<std::uint32_t, 2>;
 
 Pair ascending(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The edges of all cells, one after the other.
-struct CellEdges {
-  std::vector<Pair> ends;               // ascending points
-  std::vector<std::uint32_t> first{0};  // by cell
+/// The edges of a kind of cell, in the order of its faces.
+struct EdgesOfKind {
+  std::vector<std::array<std::uint8_t, 2>> ends;  // local nodes
+  std::array<std::array<std::uint8_t, 8>, 8> number{};
+  static constexpr std::uint8_t no_edge = 255;
+};
 
-  explicit CellEdges(const Mesh& mesh) {
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-      const auto node = mesh.cell(c);
-      const auto begin = static_cast<std::ptrdiff_t>(ends.size());
-      for (const std::vector<int>& cycle : faces_of(mesh.kinds[c]))
-        for (std::size_t k = 0; k < cycle.size(); ++k) {
-          const Pair edge = ascending(node[static_cast<std::size_t>(cycle[k])],
-                                      node[static_cast<std::size_t>(cycle[(k + 1) % cycle.size()])]);
-          if (std::find(ends.begin() + begin, ends.end(), edge) == ends.end()) ends.push_back(edge);
+const EdgesOfKind& edges_of(CellKind kind) {
+  static const auto all = [] {
+    std::array<EdgesOfKind, 6> kinds;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      EdgesOfKind& edges = kinds[k];
+      for (auto& row : edges.number) row.fill(EdgesOfKind::no_edge);
+      for (const std::vector<int>& cycle : faces_of(static_cast<CellKind>(k)))
+        for (std::size_t j = 0; j < cycle.size(); ++j) {
+          const auto a = static_cast<std::uint8_t>(cycle[j]),
+                     b = static_cast<std::uint8_t>(cycle[(j + 1) % cycle.size()]);
+          if (edges.number[a][b] != EdgesOfKind::no_edge) continue;
+          edges.number[a][b] = edges.number[b][a] = static_cast<std::uint8_t>(edges.ends.size());
+          edges.ends.push_back({a, b});
         }
-      first.push_back(static_cast<std::uint32_t>(ends.size()));
     }
-  }
-  std::uint32_t number(std::uint32_t cell, const Pair& edge) const {
-    std::uint32_t k = first[cell];
-    while (ends[k] != edge) ++k;
-    return k;
-  }
-};
+    return kinds;
+  }();
+  return all[static_cast<std::size_t>(kind)];
+}
 
-/// A facet that joins cells: a face of volumes or an edge of polygons, as the cycle of its points.
-struct Facet {
-  std::array<std::uint32_t, 4> key;  // its points, ascending
-  std::array<std::uint32_t, 4> cycle;
-  std::uint32_t corners, cell;
-};
+/// The corners and edges of all cells, one cell after the other, in sets that facets join.
+struct JoinedCells {
+  const Mesh& mesh;
+  std::vector<std::uint32_t> first_edge{0};  // by cell
+  DisjointSets corners, edges;
 
-std::vector<Facet> facets_by_points(const Mesh& mesh) {
-  std::vector<Facet> facets;
-  const auto add = [&facets](std::uint32_t cell, std::initializer_list<std::uint32_t> points) {
-    Facet f{{~0u, ~0u, ~0u, ~0u}, {}, static_cast<std::uint32_t>(points.size()), cell};
-    std::copy(points.begin(), points.end(), f.key.begin());
-    f.cycle = f.key;
-    std::sort(f.key.begin(), f.key.end());
-    facets.push_back(f);
-  };
-  for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+  explicit JoinedCells(const Mesh& joined)
+      : mesh(joined), corners(joined.nodes.size()), edges((number_edges(), first_edge.back())) {
+    PointSets<4> facets(mesh.points.size(), mesh.nodes.size());  // each with its last cell
+    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c)
+      for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
+        const std::size_t n = cycle.size();
+        if (dimension(mesh.kinds[c]) == 3)
+          meet(facets, c, cycle);
+        else
+          for (std::size_t k = 0; k < n; ++k) meet(facets, c, std::array{cycle[k], cycle[(k + 1) % n]});
+      }
+  }
+
+  /// The points at the ends of an edge of a cell, ascending.
+  Pair ends(std::size_t c, std::size_t edge) const {
+    const auto [a, b] = edges_of(mesh.kinds[c]).ends[edge];
+    return ascending(mesh.cell(c)[a], mesh.cell(c)[b]);
+  }
+
+ private:
+  void number_edges() {
+    first_edge.reserve(mesh.cell_count() + 1);
+    for (const CellKind kind : mesh.kinds)
+      first_edge.push_back(first_edge.back() + static_cast<std::uint32_t>(edges_of(kind).ends.size()));
+  }
+
+  void meet(PointSets<4>& facets, std::uint32_t c, std::span<const int> cycle) {
     const auto node = mesh.cell(c);
-    const bool solid = dimension(mesh.kinds[c]) == 3;
-    for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
-      const auto at = [&](std::size_t k) { return node[static_cast<std::size_t>(cycle[k % cycle.size()])]; };
-      if (!solid)
-        for (std::size_t k = 0; k < cycle.size(); ++k) add(c, {at(k), at(k + 1)});
-      else if (cycle.size() == 3)
-        add(c, {at(0), at(1), at(2)});
-      else
-        add(c, {at(0), at(1), at(2), at(3)});
+    std::array<std::uint32_t, 4> points{};
+    for (std::size_t k = 0; k < cycle.size(); ++k) points[k] = node[static_cast<std::size_t>(cycle[k])];
+    std::uint32_t& last = facets.number_of(PointSets<4>::set_of({points.data(), cycle.size()}));
+    if (last != PointSets<4>::none) join(c, cycle, last);
+    last = c;
+  }
+
+  void join(std::uint32_t c, std::span<const int> cycle, std::uint32_t other) {
+    const auto node = mesh.cell(c), there = mesh.cell(other);
+    const EdgesOfKind &edges_here = edges_of(mesh.kinds[c]), &edges_there = edges_of(mesh.kinds[other]);
+    std::array<std::size_t, 4> place{};  // in the other cell
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+      place[k] = static_cast<std::size_t>(
+          std::find(there.begin(), there.end(), node[static_cast<std::size_t>(cycle[k])]) - there.begin());
+      corners.join(mesh.first[c] + static_cast<std::uint32_t>(cycle[k]),
+                   mesh.first[other] + static_cast<std::uint32_t>(place[k]));
+    }
+    for (std::size_t k = 0; k < cycle.size(); ++k) {
+      const std::size_t next = (k + 1) % cycle.size();
+      const std::uint8_t here = edges_here
+                                    .number[static_cast<std::size_t>(cycle[k])][static_cast<std::size_t>(cycle[next])],
+                         opposite = edges_there.number[place[k]][place[next]];
+      // the faces of crossed cells may have the same points and other edges
+      if (opposite != EdgesOfKind::no_edge) edges.join(first_edge[c] + here, first_edge[other] + opposite);
     }
   }
-  std::sort(facets.begin(), facets.end(),
-            [](const Facet& a, const Facet& b) { return a.key != b.key ? a.key < b.key : a.cell < b.cell; });
-  return facets;
+};
+
+/// The points, ascending, whose corners are several sets.
+std::vector<std::uint32_t> points_of_several_sets(JoinedCells& cells) {
+  std::vector<std::uint8_t> sets(cells.mesh.points.size(), 0);
+  for (std::uint32_t k = 0; k < cells.mesh.nodes.size(); ++k)
+    if (std::uint8_t& count = sets[cells.mesh.nodes[k]]; count < 2 && cells.corners.set_of(k) == k) ++count;
+  std::vector<std::uint32_t> several;
+  for (std::uint32_t p = 0; p < sets.size(); ++p)
+    if (sets[p] > 1) several.push_back(p);
+  return several;
 }
 
-std::uint32_t corner_of(const Mesh& mesh, std::uint32_t cell, std::uint32_t point) {
-  std::uint32_t k = mesh.first[cell];
-  while (mesh.nodes[k] != point) ++k;
-  return k;
-}
-
-/// The values, ascending, that belong to more than one set.
-template <class Value>
-std::vector<Value> of_several_sets(const std::vector<Value>& values, DisjointSets& sets) {
-  std::vector<std::pair<Value, std::uint32_t>> pairs;
-  for (std::uint32_t k = 0; k < values.size(); ++k)
-    if (sets.set_of(k) == k) pairs.push_back({values[k], k});
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<Value> several;
-  for (std::size_t k = 1; k < pairs.size(); ++k)
-    if (pairs[k].first == pairs[k - 1].first && (several.empty() || several.back() != pairs[k].first))
-      several.push_back(pairs[k].first);
+/// The same for edges.
+std::vector<Pair> edges_of_several_sets(JoinedCells& cells) {
+  PointSets<2> met(cells.mesh.points.size(), cells.edges.count());
+  std::vector<Pair> several;
+  for (std::uint32_t c = 0; c < cells.mesh.cell_count(); ++c)
+    for (std::uint32_t k = cells.first_edge[c]; k < cells.first_edge[c + 1]; ++k) {
+      if (cells.edges.set_of(k) != k) continue;
+      const Pair edge = cells.ends(c, k - cells.first_edge[c]);
+      std::uint32_t& sets = met.number_of(edge);
+      sets = sets == PointSets<2>::none ? 1 : sets + 1;
+      if (sets == 2) several.push_back(edge);
+    }
+  std::sort(several.begin(), several.end());
   return several;
 }
 
@@ -107,21 +145,9 @@ std::string first_three(std::string_view what, const Items& items, Show&& show) 
 
 TouchingCells split_touching_points(Mesh& mesh) {
   TouchingCells touching;
-  const CellEdges edges(mesh);
-  DisjointSets corners(mesh.nodes.size()), sides(edges.ends.size());
-  const std::vector<Facet> facets = facets_by_points(mesh);
-  for (std::size_t k = 1; k < facets.size(); ++k) {
-    const Facet &a = facets[k - 1], &b = facets[k];
-    if (a.key != b.key) continue;
-    for (std::uint32_t j = 0; j < a.corners; ++j) {
-      const std::uint32_t p = a.cycle[j], q = a.cycle[(j + 1) % a.corners];
-      corners.join(corner_of(mesh, a.cell, p), corner_of(mesh, b.cell, p));
-      const Pair edge = ascending(p, q);
-      sides.join(edges.number(a.cell, edge), edges.number(b.cell, edge));
-    }
-  }
-  touching.points = of_several_sets(mesh.nodes, corners);
-  touching.edges = of_several_sets(edges.ends, sides);
+  JoinedCells cells(mesh);
+  touching.points = points_of_several_sets(cells);
+  touching.edges = edges_of_several_sets(cells);
   if (touching.points.empty()) return touching;
 
   std::vector<bool> several(mesh.points.size(), false), taken(mesh.points.size(), false);
@@ -129,7 +155,7 @@ TouchingCells split_touching_points(Mesh& mesh) {
   std::map<std::uint32_t, std::uint32_t> point_of_set;
   std::vector<std::uint32_t> nodes = mesh.nodes;
   for (std::uint32_t k = 0; k < nodes.size(); ++k) {
-    const std::uint32_t p = mesh.nodes[k], set = corners.set_of(k);
+    const std::uint32_t p = mesh.nodes[k], set = cells.corners.set_of(k);
     if (!several[p]) continue;
     if (set == k) {
       if (taken[p]) {

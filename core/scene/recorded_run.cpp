@@ -22,6 +22,7 @@ class RecordedRun::Recorder : public RunWatcher {
     if (run_.output_) threads_in_use() > 1 ? run_.output_->write_later(frame) : run_.output_->write(frame);
     next_.frame(frame);
   }
+  bool takes_frames() const override { return run_.output_ || next_.takes_frames(); }
   void diagnostics(const Diagnostics& diagnostics) override {
     if (run_.output_) run_.output_->write(diagnostics);
     next_.diagnostics(diagnostics);

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
+#include <string_view>
+#include <type_traits>
 
 #include "core/base/cell_limits.h"
+#include "core/base/point_sets.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 #include "core/topology/sew.h"
@@ -45,7 +49,8 @@ const Template& template_of(CellKind kind) {
   return all[static_cast<std::size_t>(kind)];
 }
 
-/// The facets met so far, found again by their nodes: a chain per smallest node, no sorting and no hashing.
+/// The facets met so far of cells of any kind, found again by their nodes: a chain per smallest node, no sorting and no
+/// hashing.
 class FacetMatcher {
  public:
   // The cycle of a facet's nodes from the smallest one, towards its smaller neighbour: equal for equal facets.
@@ -98,6 +103,12 @@ void require_cell(const Mesh& mesh, std::size_t c) {
   }
 }
 
+[[noreturn]] void throw_third_cell(std::size_t first, std::size_t second, std::size_t third, std::string_view part,
+                                   std::span<const std::uint32_t> points) {
+  throw InputError(fmt::format("cells {}, {} and {} share the {} of points {}: at most two may", first, second, third,
+                               part, fmt::join(points, ", ")));
+}
+
 }  // namespace
 
 template <class Map>
@@ -148,13 +159,39 @@ void remove_cell(Map& map, Dart d) {
   }
 }
 
+namespace {
+
+/// Sew the faces of the tetrahedron that was added last, with the darts from `first` on, to those met before.
+/// `faces` holds the first dart of each.
+void sew_faces(BuiltMap<TetMap>& built, PointSets<3>& faces, std::size_t c, std::uint32_t first) {
+  const auto point = [&built](std::uint32_t d) { return built.point[TetMap::slot<0>({d})]; };
+  for (std::uint32_t dart = first; dart < first + 24; dart += 6) {
+    const std::array<std::uint32_t, 3> nodes{point(dart), point(dart + 2), point(dart + 4)};
+    std::uint32_t& met = faces.number_of(PointSets<3>::set_of(nodes));
+    if (met == PointSets<3>::none) {
+      met = dart;
+      continue;
+    }
+    if (const Dart second = built.map.alpha<3>({met}); second.index != met)
+      throw_third_cell(met / 24, second.index / 24, c, "face", nodes);
+    // the dart here that lies on the node and edge of the other face's first dart
+    const std::uint32_t from = point(met), to = point(met + 1);
+    std::uint32_t match = dart;
+    while (!(point(match) == from && point(match ^ 1u) == to)) ++match;
+    built.map.link<3>(Dart{met}, Dart{match});  // the whole face follows
+  }
+}
+
+}  // namespace
+
 template <class Map>
 BuiltMap<Map> build_map(const Mesh& mesh) {
   constexpr int n = Map::dimension;
   BuiltMap<Map> built;
   const std::size_t cells = mesh.cell_count();
   built.first_dart.reserve(cells);
-  FacetMatcher matcher(mesh.points.size(), 4 * cells);
+  using Facets = std::conditional_t<Map::tetrahedral, PointSets<3>, FacetMatcher>;
+  Facets facets(mesh.points.size(), (Map::tetrahedral ? 3 : 4) * cells);
   for (std::size_t c = 0; c < cells; ++c) {
     const CellKind kind = mesh.kinds[c];
     if (dimension(kind) != n || (Map::tetrahedral && kind != CellKind::tetrahedron))
@@ -170,25 +207,27 @@ BuiltMap<Map> build_map(const Mesh& mesh) {
     built.point.resize(built.map.template slot_count<0>());
     for (std::uint32_t p = 0; p < t.node.size(); ++p) built.point[Map::template slot<0>({first + p})] = cell[t.node[p]];
 
-    for (std::size_t f = 0; f + 1 < t.facet_first.size(); ++f) {
-      const std::uint32_t begin = t.facet_first[f], size = t.facet_first[f + 1] - begin;
-      std::array<std::uint32_t, 4> nodes{};
-      const std::size_t corners = n == 2 ? 2 : size / 2;
-      for (std::size_t k = 0; k < corners; ++k) nodes[k] = cell[t.node[begin + (n == 2 ? k : 2 * k)]];
-      auto* met = matcher.meet(FacetMatcher::key(nodes.data(), corners), static_cast<std::uint32_t>(c), first + begin);
-      if (met == nullptr) continue;
-      if (met->second_cell != none)
-        throw InputError(
-            fmt::format("cells {}, {} and {} share the {} of points {}: at most two may", met->cell, met->second_cell,
-                        c, n == 2 ? "edge" : "face",
-                        fmt::join(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(corners), ", ")));
-      met->second_cell = static_cast<std::uint32_t>(c);
-      // the dart here that lies on the node and edge of the other facet's first dart
-      const auto point = [&](std::uint32_t d) { return built.point[Map::template slot<0>({d})]; };
-      const std::uint32_t from = point(met->dart), to = point(met->dart + 1);
-      std::uint32_t match = first + begin;
-      while (!(point(match) == from && point(match ^ 1u) == to)) ++match;
-      sew<n>(built.map, Dart{met->dart}, Dart{match});
+    if constexpr (Map::tetrahedral) {
+      sew_faces(built, facets, c, first);
+      continue;
+    } else {
+      for (std::size_t f = 0; f + 1 < t.facet_first.size(); ++f) {
+        const std::uint32_t begin = t.facet_first[f], size = t.facet_first[f + 1] - begin;
+        std::array<std::uint32_t, 4> nodes{};
+        const std::size_t corners = n == 2 ? 2 : size / 2;
+        for (std::size_t k = 0; k < corners; ++k) nodes[k] = cell[t.node[begin + (n == 2 ? k : 2 * k)]];
+        auto* met = facets.meet(FacetMatcher::key(nodes.data(), corners), static_cast<std::uint32_t>(c), first + begin);
+        if (met == nullptr) continue;
+        if (met->second_cell != none)
+          throw_third_cell(met->cell, met->second_cell, c, n == 2 ? "edge" : "face", std::span(nodes).first(corners));
+        met->second_cell = static_cast<std::uint32_t>(c);
+        // the dart here that lies on the node and edge of the other facet's first dart
+        const auto point = [&](std::uint32_t d) { return built.point[Map::template slot<0>({d})]; };
+        const std::uint32_t from = point(met->dart), to = point(met->dart + 1);
+        std::uint32_t match = first + begin;
+        while (!(point(match) == from && point(match ^ 1u) == to)) ++match;
+        sew<n>(built.map, Dart{met->dart}, Dart{match});
+      }
     }
   }
   return built;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -26,7 +25,10 @@ namespace dartboard {
 namespace {
 
 MapSummary summary_of(const Mesh& mesh) {
-  return mesh.dimension() == 2 ? summarize(build_map<Map2>(mesh).map) : summarize(build_map<Map3>(mesh).map);
+  if (mesh.dimension() == 2) return summarize(build_map<Map2>(mesh).map);
+  const auto is_tetrahedron = [](CellKind kind) { return kind == CellKind::tetrahedron; };
+  return std::ranges::all_of(mesh.kinds, is_tetrahedron) ? summarize(build_map<TetMap>(mesh).map)
+                                                         : summarize(build_map<Map3>(mesh).map);
 }
 
 using Cells = std::vector<std::uint32_t>;
@@ -45,16 +47,20 @@ std::string hash_of(const Mesh& mesh) {
 nlohmann::ordered_json regions_of(const LoadedMesh& loaded) {
   auto regions = nlohmann::ordered_json::array();
   for (const CellTags& tags : loaded.tags) {
-    std::map<std::int32_t, std::size_t> cells;
-    for (const std::int32_t value : tags.values) ++cells[value];
+    std::vector<std::int32_t> sorted = tags.values;
+    if (!std::ranges::is_sorted(sorted)) std::ranges::sort(sorted);
     auto values = nlohmann::ordered_json::array();
-    for (const auto& [value, count] : cells) {
-      if (values.size() == most_values) break;
-      nlohmann::ordered_json row{{"value", value}, {"cells", count}};
-      if (const auto name = tags.names.find(value); name != tags.names.end()) row["name"] = name->second;
-      values.push_back(std::move(row));
+    std::size_t distinct = 0;
+    for (auto at = sorted.begin(); at != sorted.end(); ++distinct) {
+      const auto end = std::find_if(at, sorted.end(), [value = *at](std::int32_t other) { return other != value; });
+      if (values.size() < most_values) {
+        nlohmann::ordered_json row{{"value", *at}, {"cells", static_cast<std::size_t>(end - at)}};
+        if (const auto name = tags.names.find(*at); name != tags.names.end()) row["name"] = name->second;
+        values.push_back(std::move(row));
+      }
+      at = end;
     }
-    regions.push_back({{"name", tags.name}, {"distinct", cells.size()}, {"values", std::move(values)}});
+    regions.push_back({{"name", tags.name}, {"distinct", distinct}, {"values", std::move(values)}});
   }
   return regions;
 }

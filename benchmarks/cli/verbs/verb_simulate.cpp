@@ -50,6 +50,7 @@ class Watcher : public RunWatcher {
  public:
   Watcher(std::vector<RunWatcher*> pictures, Progress& progress, std::uint64_t steps_per_report)
       : pictures_(std::move(pictures)), progress_(progress), steps_per_report_(steps_per_report) {}
+  bool takes_frames() const override { return false; }
   bool interrupts() override { return Interrupt::asked(); }
   void stepped(const Simulation& simulation) override {
     for (RunWatcher* picture : pictures_) picture->stepped(simulation);

@@ -21,6 +21,12 @@ constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t narrow_line(std::size_t line) { return static_cast<std::uint32_t>(std::min<std::size_t>(line, none)); }
 
+std::size_t last_line_of(std::string_view text) {
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  const bool ends_with_line = text.empty() || text.back() == '\n';
+  return std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1));
+}
+
 }  // namespace
 
 MeshBuilder::MeshBuilder(std::string point_file, std::string cell_file)
@@ -194,17 +200,17 @@ std::string MeshBuilder::straightened_notice(int dimension) const {
                        : fmt::format("took {} by their corners: edges of a body are straight", fmt::join(parts, ", "));
 }
 
-LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
+LoadedMesh MeshBuilder::finish(std::string format, std::string_view text) {
   int dimension = 0;
   for (std::size_t c = 0; c < kinds_.size(); ++c)
     if (!is_left_out(c)) dimension = std::max(dimension, dartboard::dimension(kinds_[c]));
   if (dimension == 0)
-    fail_at(cell_file_, last_line, "the file has no cells", "at least one triangle, quadrilateral or volume");
+    fail_at(cell_file_, last_line_of(text), "the file has no cells", "at least one triangle, quadrilateral or volume");
   CountsByKind counts{};
   for (std::size_t c = 0; c < kinds_.size(); ++c)
     if (dartboard::dimension(kinds_[c]) == dimension && !is_left_out(c)) ++counts[static_cast<std::size_t>(kinds_[c])];
   if (const std::string beyond = beyond_a_map(counts); !beyond.empty())
-    fail_at(cell_file_, last_line, fmt::format("found {}", beyond), "fewer cells");
+    fail_at(cell_file_, last_line_of(text), fmt::format("found {}", beyond), "fewer cells");
   const auto by_number = number_points();
 
   notice_sections();
@@ -212,6 +218,9 @@ LoadedMesh MeshBuilder::finish(std::string format, std::size_t last_line) {
   Mesh& mesh = loaded.mesh;
   std::vector<bool> used(points_.size(), false);
   std::vector<std::uint32_t> cell, places;
+  mesh.kinds.reserve(kinds_.size());
+  mesh.first.reserve(kinds_.size() + 1);
+  mesh.nodes.reserve(cell_points_.size());
   std::size_t first = 0;
   for (std::size_t c = 0; c < kinds_.size(); ++c) {
     const auto numbers = std::span(cell_points_).subspan(first, static_cast<std::size_t>(node_count(kinds_[c])));

@@ -68,10 +68,11 @@ class MeshBuilder {
   /// The tags of cells, by their places in the order in which they were added.
   CellTagsBuilder& tags() { return tags_; }
 
-  /// The mesh of the cells with the highest dimension, with its notices; `last_line` is where "no cells" is reported.
+  /// The mesh of the cells with the highest dimension, with its notices; "no cells" is reported in the last line of
+  /// `text`.
   ///
   /// throws  IoError for an undefined or twice defined point, and a mesh without cells
-  LoadedMesh finish(std::string format, std::size_t last_line);
+  LoadedMesh finish(std::string format, std::string_view text);
   /// The line of each cell of the finished mesh.
   const std::vector<std::uint32_t>& cell_lines() const { return cell_lines_; }
 

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "core/base/point_sets.h"
 #include "core/meshes/formats/weld_points.h"
 #include "core/meshes/text/text_scanner.h"
 
@@ -64,78 +67,85 @@ void check_nodes(const Examined& e) {
   }
 }
 
-// --- shared cells, faces and edges: sets of up to N points, sorted so that equal ones become neighbours
+// --- shared cells, faces and edges: sets of up to N points
 
 template <std::size_t N>
-struct Key {
-  std::array<std::uint32_t, N> points;  // ascending, filled up with the largest number
-  std::uint32_t cell;
-  auto operator<=>(const Key&) const = default;
+struct Repeated {
+  std::array<std::uint32_t, N> points;
+  std::vector<std::uint32_t> cells;  // ascending
 };
 
+/// Of the sets of points that belong to `count` cells the first in order; `for_each_set` lists all as f(points, cell),
+/// the cells ascending.
 template <std::size_t N>
-void append_key(std::vector<Key<N>>& keys, const auto& points, std::size_t cell) {
-  Key<N> key{.points = {}, .cell = static_cast<std::uint32_t>(cell)};
-  key.points.fill(std::numeric_limits<std::uint32_t>::max());
-  std::copy(points.begin(), points.end(), key.points.begin());
-  std::sort(key.points.begin(), key.points.end());
-  keys.push_back(key);
-}
-
-/// The first `count` neighbours with the same points, or the end.
-template <std::size_t N>
-auto find_repeated(std::vector<Key<N>>& keys, std::size_t count) {
-  std::sort(keys.begin(), keys.end());
-  auto at = keys.begin();
-  for (; static_cast<std::size_t>(keys.end() - at) >= count; ++at)
-    if (at->points == (at + static_cast<std::ptrdiff_t>(count) - 1)->points) return at;
-  return keys.end();
+std::optional<Repeated<N>> find_repeated(const Mesh& mesh, std::uint32_t count, auto&& for_each_set) {
+  using Sets = PointSets<N>;
+  std::optional<Repeated<N>> least;
+  {
+    Sets sets(mesh.points.size(), mesh.nodes.size());
+    for_each_set([&](std::span<const std::uint32_t> points, std::uint32_t) {
+      const auto set = Sets::set_of(points);
+      std::uint32_t& cells = sets.number_of(set);
+      cells = cells == Sets::none ? 1 : cells + 1;
+      if (cells == count && (!least || set < least->points)) least = {set, {}};
+    });
+  }
+  if (least)
+    for_each_set([&](std::span<const std::uint32_t> points, std::uint32_t cell) {
+      if (Sets::set_of(points) == least->points) least->cells.push_back(cell);
+    });
+  return least;
 }
 
 void check_repeated_cells(const Examined& e) {
-  std::vector<Key<8>> keys;
-  keys.reserve(e.mesh.cell_count());
-  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) append_key(keys, e.mesh.cell(c), c);
-  const auto at = find_repeated(keys, 2);
-  if (at != keys.end())
-    e.fail((at + 1)->cell, fmt::format("has the same points as {}", e.cell(at->cell)), "every cell once");
+  const auto for_each_cell = [&mesh = e.mesh](auto&& f) {
+    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) f(mesh.cell(c), c);
+  };
+  const auto check = [&e](const auto& found) {
+    if (found)
+      e.fail(found->cells[1], fmt::format("has the same points as {}", e.cell(found->cells[0])), "every cell once");
+  };
+  if (std::ranges::all_of(e.mesh.kinds, [](CellKind kind) { return node_count(kind) <= 4; }))
+    check(find_repeated<4>(e.mesh, 2, for_each_cell));
+  else
+    check(find_repeated<8>(e.mesh, 2, for_each_cell));
 }
 
 template <std::size_t N>
-void refuse_third(const Examined& e, std::vector<Key<N>>& keys, std::string_view part, std::string_view whole) {
-  const auto at = find_repeated(keys, 3);
-  if (at == keys.end()) return;
+void refuse_third(const Examined& e, const std::optional<Repeated<N>>& found, std::string_view part,
+                  std::string_view whole) {
+  if (!found) return;
   std::vector<std::size_t> points;
-  for (const std::uint32_t p : at->points)
-    if (p != std::numeric_limits<std::uint32_t>::max()) points.push_back(e.point(p));
-  e.fail((at + 2)->cell,
-         fmt::format("shares the {} of points {} with {} and {}", part, fmt::join(points, ", "), e.cell(at->cell),
-                     e.cell((at + 1)->cell)),
+  for (const std::uint32_t p : found->points)
+    if (p != PointSets<N>::none) points.push_back(e.point(p));
+  e.fail(found->cells[2],
+         fmt::format("shares the {} of points {} with {} and {}", part, fmt::join(points, ", "),
+                     e.cell(found->cells[0]), e.cell(found->cells[1])),
          fmt::format("at most two {} at every {}", whole, part));
 }
 
 void check_faces(const Examined& e) {
-  std::vector<Key<4>> keys;
-  keys.reserve(e.mesh.nodes.size());
-  std::vector<std::uint32_t> points;
-  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c)
-    for (const auto& face : faces_of(e.mesh.kinds[c])) {
-      points.clear();
-      for (int k : face) points.push_back(e.mesh.cell(c)[static_cast<std::size_t>(k)]);
-      append_key(keys, points, c);
+  const auto for_each_face = [&mesh = e.mesh](auto&& f) {
+    std::array<std::uint32_t, 4> points{};
+    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+      const auto nodes = mesh.cell(c);
+      for (const auto& face : faces_of(mesh.kinds[c])) {
+        for (std::size_t k = 0; k < face.size(); ++k) points[k] = nodes[static_cast<std::size_t>(face[k])];
+        f(std::span(points).first(face.size()), c);
+      }
     }
-  refuse_third(e, keys, "face", "volumes");
+  };
+  refuse_third(e, find_repeated<4>(e.mesh, 3, for_each_face), "face", "volumes");
 }
 
 void check_edges(const Examined& e) {
-  std::vector<Key<2>> keys;
-  keys.reserve(e.mesh.nodes.size());
-  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
-    const auto nodes = e.mesh.cell(c);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      append_key(keys, std::array{nodes[k], nodes[(k + 1) % nodes.size()]}, c);
-  }
-  refuse_third(e, keys, "edge", "polygons");
+  const auto for_each_edge = [&mesh = e.mesh](auto&& f) {
+    for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
+      const auto nodes = mesh.cell(c);
+      for (std::size_t k = 0; k < nodes.size(); ++k) f(std::array{nodes[k], nodes[(k + 1) % nodes.size()]}, c);
+    }
+  };
+  refuse_third(e, find_repeated<2>(e.mesh, 3, for_each_edge), "edge", "polygons");
 }
 
 // --- geometry
@@ -146,8 +156,8 @@ double longest_edge(const Mesh& mesh, std::size_t c) {
   const auto p = [&](int k) -> const Eigen::Vector3d& { return mesh.points[nodes[static_cast<std::size_t>(k)]]; };
   for (const auto& face : faces_of(mesh.kinds[c]))
     for (std::size_t k = 0; k < face.size(); ++k)
-      longest = std::max(longest, (p(face[(k + 1) % face.size()]) - p(face[k])).norm());
-  return longest;
+      longest = std::max(longest, (p(face[(k + 1) % face.size()]) - p(face[k])).squaredNorm());
+  return std::sqrt(longest);
 }
 
 /// The order of the nodes in the mirror image of a cell, which has the same faces.

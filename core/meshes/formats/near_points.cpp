@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace dartboard {
@@ -37,7 +38,13 @@ double width_of_boxes(std::span<const Eigen::Vector3d> points, double near, doub
 void for_near_points(std::span<const Eigen::Vector3d> points, double near, double spacing,
                      const std::function<void(std::uint32_t, std::uint32_t, double)>& found) {
   const double width = width_of_boxes(points, near, spacing);
-  std::unordered_map<Box, std::vector<std::uint32_t>, BoxHash> boxes;
+  struct Held {
+    std::uint32_t first, last;
+  };
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::unordered_map<Box, Held, BoxHash> boxes;
+  boxes.reserve(points.size());
+  std::vector<std::uint32_t> next(points.size(), none);  // in the same box
   for (std::uint32_t k = 0; k < points.size(); ++k) {
     const Eigen::Vector3d& at = points[k];
     // a point is in its own box alone, and searches the one or two along each axis that its neighbours can be in
@@ -56,10 +63,11 @@ void for_near_points(std::span<const Eigen::Vector3d> points, double near, doubl
       }
       const auto there = is_new ? boxes.find(box) : boxes.end();
       if (there == boxes.end()) continue;
-      for (const std::uint32_t other : there->second)
+      for (std::uint32_t other = there->second.first; other != none; other = next[other])
         if (const double distance = (at - points[other]).norm(); distance <= near) found(other, k, distance);
     }
-    boxes[box_of(at)].push_back(k);
+    const auto [own, is_first] = boxes.try_emplace(box_of(at), Held{k, k});
+    if (!is_first) next[std::exchange(own->second.last, k)] = k;
   }
 }
 
@@ -73,6 +81,7 @@ double seam_distance(std::span<const Eigen::Vector3d> points, double shortest_ed
 
 CellEdge shortest_edge(const Mesh& mesh) {
   CellEdge shortest{std::numeric_limits<double>::infinity(), 0, 0, 0};
+  double square = shortest.length;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     const auto nodes = mesh.cell(c);
     for (const auto& face : faces_of(mesh.kinds[c]))
@@ -80,8 +89,10 @@ CellEdge shortest_edge(const Mesh& mesh) {
         const std::uint32_t a = nodes[static_cast<std::size_t>(face[k])],
                             b = nodes[static_cast<std::size_t>(face[(k + 1) % face.size()])];
         if (a == b) continue;
-        if (const double length = (mesh.points[b] - mesh.points[a]).norm(); length < shortest.length)
-          shortest = {length, c, a, b};
+        const double squared = (mesh.points[b] - mesh.points[a]).squaredNorm();
+        if (!(squared < square)) continue;
+        square = squared;
+        if (const double length = std::sqrt(squared); length < shortest.length) shortest = {length, c, a, b};
       }
   }
   return shortest;

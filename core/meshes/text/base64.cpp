@@ -1,5 +1,6 @@
 #include "core/meshes/text/base64.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -7,22 +8,24 @@
 namespace dartboard {
 namespace {
 
+constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 /// The letters of every twelve bits.
 constexpr auto two_letters = [] {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::array<std::array<char, 2>, 4096> all{};
   for (std::size_t bits = 0; bits < all.size(); ++bits) all[bits] = {letters[bits >> 6], letters[bits & 63u]};
   return all;
 }();
 
-/// The six bits of a character, or -1.
-int six_bits(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  return c == '/' ? 63 : -1;
-}
+/// The six bits of each character, or -1.
+constexpr auto six_bits = [] {
+  std::array<std::int8_t, 256> bits{};
+  bits.fill(-1);
+  for (std::size_t k = 0; k < 64; ++k) bits[static_cast<unsigned char>(letters[k])] = static_cast<std::int8_t>(k);
+  return bits;
+}();
+
+std::int32_t bits_of(char c) { return six_bits[static_cast<unsigned char>(c)]; }
 
 }  // namespace
 
@@ -74,7 +77,7 @@ bool Base64Reader::decode_group() {
       group <<= 6;
       continue;
     }
-    const int bits = six_bits(c);
+    const std::int32_t bits = bits_of(c);
     if (bits < 0 || padding != 0) return false;
     group = group << 6 | static_cast<std::uint32_t>(bits);
   }
@@ -84,12 +87,38 @@ bool Base64Reader::decode_group() {
   return true;
 }
 
+std::size_t Base64Reader::decode_plain_groups(std::size_t most, char* to) {
+  const std::size_t groups = std::min(most, (text_.size() - at_) / 4);
+  const char* from = text_.data() + at_;
+  std::size_t k = 0;
+  for (; k < groups; ++k, from += 4, to += 3) {
+    const std::int32_t group =
+        bits_of(from[0]) << 18 | bits_of(from[1]) << 12 | bits_of(from[2]) << 6 | bits_of(from[3]);
+    if (group < 0) break;  // one of them is -1
+    to[0] = static_cast<char>(group >> 16);
+    to[1] = static_cast<char>(group >> 8 & 0xFF);
+    to[2] = static_cast<char>(group & 0xFF);
+  }
+  at_ += 4 * k;
+  return k;
+}
+
 bool Base64Reader::take(std::size_t count, std::string& out) {
   if (count > most_left()) return false;
-  out.reserve(out.size() + count);
+  std::size_t size = out.size();
+  out.resize(size + count);
   for (; count > 0; --count) {
-    if (first_ == end_ && !decode_group()) return false;
-    out += group_[first_++];
+    if (first_ == end_) {
+      const std::size_t groups = decode_plain_groups(count / 3, out.data() + size);
+      size += 3 * groups;
+      count -= 3 * groups;
+      if (count == 0) break;
+      if (!decode_group()) {
+        out.resize(size);
+        return false;
+      }
+    }
+    out[size++] = group_[first_++];
   }
   return true;
 }

@@ -33,6 +33,8 @@ class Base64Reader {
  private:
   void skip_blank();
   bool decode_group();
+  /// Decode groups of four letters, without white space or padding, up to the first that is not one; their number.
+  std::size_t decode_plain_groups(std::size_t most, char* to);
 
   std::string_view text_;
   std::size_t at_ = 0;

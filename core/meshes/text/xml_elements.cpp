@@ -116,8 +116,9 @@ std::vector<XmlElement> read_xml(std::string_view text, const std::string& file,
   XML_SetElementHandler(parser.get(), on_start, on_end);
   XML_SetStartDoctypeDeclHandler(parser.get(), on_document_type);
 
-  // Expat counts in int, so a large text comes in parts, the last of which says that it is the last
-  constexpr std::size_t part = std::size_t{1} << 28;
+  // Expat copies what it is given and counts in int, so a large text comes in parts, the last of which says that it is
+  // the last
+  constexpr std::size_t part = std::size_t{1} << 20;
   for (std::size_t at = 0;; at += part) {
     const std::string_view now = text.substr(at, part);
     const bool is_final = text.size() - at <= part;

@@ -9,8 +9,9 @@
 namespace dartboard {
 namespace {
 
-/// Hands out a frame; returns the largest stress, where the frame has it.
+/// Hands out a frame, if it is taken; returns the largest stress, where the frame has it.
 std::optional<double> hand_out_frame(const Simulation& simulation, RunWatcher& watcher) {
+  if (!watcher.takes_frames()) return std::nullopt;
   const Frame frame = simulation.frame();
   watcher.frame(frame);
   return frame.largest_stress;
@@ -21,9 +22,10 @@ void hand_out_the_rest(const Simulation& simulation, const OutputPlan& plan,
                        const std::optional<std::uint64_t>& probe_steps, RunWatcher& watcher, RunProgress& progress) {
   const std::uint64_t n = simulation.steps_done();
   const auto lacks = [n](const std::optional<std::uint64_t>& every) { return n > 0 && !(every && n % *every == 0); };
-  if (lacks(plan.frame_steps)) watcher.frame(simulation.frame());
+  std::optional<double> stress;
+  if (lacks(plan.frame_steps)) stress = hand_out_frame(simulation, watcher);
   if (lacks(plan.diagnostic_steps)) {
-    progress.last = simulation.diagnostics();
+    progress.last = simulation.diagnostics(stress);
     progress.drift.add(progress.last);
     watcher.diagnostics(progress.last);
   }

@@ -14,6 +14,8 @@ class RunWatcher {
  public:
   virtual ~RunWatcher() = default;
   virtual void frame(const Frame&) {}
+  /// Where not, no frame is made.
+  virtual bool takes_frames() const { return true; }
   virtual void diagnostics(const Diagnostics&) {}
   virtual void probes(const ProbeRow&) {}
   /// A state that the run can be continued from: the output until then is that of an uninterrupted run until

@@ -4,12 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "core/meshes/generators/mesh_generators.h"
+#include "tests/support/meshes/random_cells.h"
+#include "tests/support/meshes_for_tests.h"
 
 namespace dartboard::mesh_facts_test {
 namespace {
@@ -109,6 +114,61 @@ TEST(MeshFacts, OfASheetWithAHoleHaveTwoBoundaryCurves) {
     if (c != 4) mesh.add_cell(CellKind::quadrilateral, sheet.cell(c));
   EXPECT_EQ(facts_of(mesh).boundary_parts, 2u);
   EXPECT_NEAR(facts_of(mesh).measure, 8.0, close);
+}
+
+/// Edges in a tree, and the boundary by its facets in another.
+void expect_facts_of_trees(const Mesh& mesh) {
+  std::set<std::set<std::uint32_t>> edges;
+  std::map<std::set<std::uint32_t>, int> facets;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
+      std::set<std::uint32_t> face;
+      for (std::size_t k = 0; k < cycle.size(); ++k) {
+        const std::uint32_t a = mesh.cell(c)[static_cast<std::size_t>(cycle[k])],
+                            b = mesh.cell(c)[static_cast<std::size_t>(cycle[(k + 1) % cycle.size()])];
+        edges.insert({a, b});
+        face.insert(a);
+        if (dimension(mesh.kinds[c]) == 2) ++facets[{a, b}];
+      }
+      if (dimension(mesh.kinds[c]) == 3) ++facets[face];
+    }
+  std::vector<double> lengths;
+  for (const auto& edge : edges) lengths.push_back((mesh.points[*edge.rbegin()] - mesh.points[*edge.begin()]).norm());
+  std::ranges::sort(lengths);
+  const std::size_t n = lengths.size();
+  const MeshFacts found = facts_of(mesh);
+  EXPECT_EQ(found.least_edge, lengths.front());
+  EXPECT_EQ(found.largest_edge, lengths.back());
+  EXPECT_EQ(found.median_edge, n % 2 == 1 ? lengths[n / 2] : 0.5 * (lengths[n / 2 - 1] + lengths[n / 2]));
+
+  // parts: facets of one cell, joined where they share an edge (in a surface a point)
+  const std::size_t common = mesh.dimension() == 3 ? 2 : 1;
+  std::vector<std::vector<std::set<std::uint32_t>>> joined;
+  for (const auto& met : facets) {
+    const std::set<std::uint32_t>& facet = met.first;
+    if (met.second != 1) continue;
+    std::vector<std::set<std::uint32_t>> own{facet};
+    std::erase_if(joined, [&](const auto& part) {
+      const bool touches = std::ranges::any_of(part, [&](const auto& other) {
+        return std::ranges::count_if(other, [&](std::uint32_t p) { return facet.contains(p); }) >=
+               static_cast<std::ptrdiff_t>(common);
+      });
+      if (touches) own.insert(own.end(), part.begin(), part.end());
+      return touches;
+    });
+    joined.push_back(std::move(own));
+  }
+  EXPECT_EQ(found.boundary_parts, joined.size());
+}
+
+TEST(MeshFacts, OfScatteredCellsAreThoseOfTrees) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const double share = 0.15 + 0.1 * seed;
+    expect_facts_of_trees(random_cells_of(kuhn_grid(3, 2, 2, 1.0, 0.1, seed), share, seed));
+    expect_facts_of_trees(random_cells_of(triangle_sheet(5, 4, 1.0), share, seed));
+  }
+  expect_facts_of_trees(mixed_cells());
 }
 
 }  // namespace

@@ -5,11 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <numeric>
+#include <set>
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
+#include "tests/support/meshes/random_cells.h"
 
 namespace dartboard::touching_test {
 namespace {
@@ -144,6 +149,67 @@ TEST(TouchingCells, AreNamedInWordsUpToThree) {
   at_point.points = {7};
   EXPECT_EQ(to_string(at_point, {}).find("cells touch at 1 point without sharing a face (point 7); each"), 0u)
       << to_string(at_point, {});
+}
+
+/// The points and edges that are several vertices or edges of the map of a mesh.
+template <class Map>
+void expect_touching_as_in_the_map(const Mesh& mesh) {
+  const auto built = build_map<Map>(mesh);
+  const auto point = [&built](Dart d) { return built.point[Map::template slot<0>(d)]; };
+  std::map<std::uint32_t, int> vertices;
+  std::map<std::array<std::uint32_t, 2>, int> edges;
+  for_each_cell<0>(built.map, [&](Vertex v) { ++vertices[point(v.dart)]; });
+  for_each_cell<1>(built.map, [&](Edge e) {
+    const std::uint32_t a = point(e.dart), b = point(built.map.template alpha<0>(e.dart));
+    ++edges[{std::min(a, b), std::max(a, b)}];
+  });
+  TouchingCells expected;
+  for (const auto& [p, count] : vertices)
+    if (count > 1) expected.points.push_back(p);
+  for (const auto& [e, count] : edges)
+    if (count > 1) expected.edges.push_back(e);
+  std::size_t copies = 0;
+  for (const auto& [p, count] : vertices) copies += static_cast<std::size_t>(count - 1);
+  Mesh split = mesh;
+  const TouchingCells found = split_touching_points(split);
+  EXPECT_EQ(found.points, expected.points);
+  EXPECT_EQ(found.edges, expected.edges);
+  EXPECT_EQ(found.copied.size(), copies);
+  EXPECT_EQ(split.points.size(), mesh.points.size() + copies);
+  // the lowest cell at a point keeps it
+  std::vector<bool> met(mesh.points.size(), false);
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k) {
+    EXPECT_TRUE(met[mesh.nodes[k]] || split.nodes[k] == mesh.nodes[k]);
+    met[mesh.nodes[k]] = true;
+  }
+}
+
+TEST(TouchingCells, AreThoseOfTheMap) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const double share = 0.15 + 0.08 * seed;
+    expect_touching_as_in_the_map<TetMap>(random_cells_of(kuhn_box(3, 3, 2, 1.0), share, seed));
+    expect_touching_as_in_the_map<Map3>(random_cells_of(hexahedron_box(3, 3, 3, 1.0), share, seed));
+    expect_touching_as_in_the_map<Map3>(random_cells_of(mixed_box(3, 2, 2, 1.0), share, seed));
+    expect_touching_as_in_the_map<Map2>(random_cells_of(triangle_sheet(4, 4, 1.0), share, seed));
+  }
+}
+
+// Two corners of the second cube are swapped: the face between them has the same points, but other edges.
+TEST(TouchingCells, MayBeCrossed) {
+  Mesh mesh = hexahedron_box(2, 1, 1, 1.0);
+  const auto face = [&mesh](std::size_t c) {
+    return std::set<std::uint32_t>(mesh.cell(c).begin(), mesh.cell(c).end());
+  };
+  std::vector<std::uint32_t> shared;
+  std::ranges::set_intersection(face(0), face(1), std::back_inserter(shared));
+  ASSERT_EQ(shared.size(), 4u);
+  const auto second = mesh.nodes.begin() + mesh.first[1];
+  std::swap(*std::find(second, mesh.nodes.end(), shared[0]), *std::find(second, mesh.nodes.end(), shared[1]));
+  const std::vector<std::uint32_t> nodes = mesh.nodes;
+  const TouchingCells found = split_touching_points(mesh);
+  EXPECT_TRUE(found.points.empty());
+  EXPECT_EQ(mesh.nodes, nodes);
 }
 
 }  // namespace

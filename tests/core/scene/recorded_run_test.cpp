@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
@@ -101,6 +102,35 @@ TEST_F(RecordedRuns, WithoutAFolderWriteNothing) {
   EXPECT_EQ(run.simulation().steps_done(), 10u);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
   EXPECT_EQ(run.continues_after(), std::nullopt);
+}
+
+struct Rows : RunWatcher {
+  explicit Rows(bool with_frames) : takes(with_frames) {}
+  bool takes;
+  std::size_t frames = 0;
+  std::vector<Diagnostics> rows = {};
+
+  bool takes_frames() const override { return takes; }
+  void frame(const Frame&) override { ++frames; }
+  void diagnostics(const Diagnostics& row) override { rows.push_back(row); }
+};
+
+TEST_F(RecordedRuns, MakeNoFramesWhereNoneAreTaken) {
+  Rows with(true), without(false);
+  RecordedRun(parse(cut_box()), {.most_steps = 8}).run(with);
+  RecordedRun(parse(cut_box()), {.most_steps = 8}).run(without);
+  EXPECT_EQ(with.frames, 3u);  // at 0, 5 and the last
+  EXPECT_EQ(without.frames, 0u);
+  ASSERT_EQ(with.rows.size(), without.rows.size());
+  for (std::size_t k = 0; k < with.rows.size(); ++k) {
+    EXPECT_EQ(with.rows[k].largest_stress, without.rows[k].largest_stress);
+    EXPECT_EQ(with.rows[k].elastic, without.rows[k].elastic);
+  }
+  // the folder takes them, whoever else does not
+  Rows beside(false);
+  RecordedRun(parse(cut_box()), {.folder = folder_ / "run"}).run(beside);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "run" / "frame_000002.vtu"));
+  EXPECT_EQ(beside.frames, 3u);
 }
 
 TEST_F(RecordedRuns, HoldWhereAllIsAsTheSceneExpects) {

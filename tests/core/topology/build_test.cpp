@@ -11,6 +11,7 @@
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
+#include "tests/support/meshes/random_cells.h"
 #include "tests/support/meshes_for_tests.h"
 
 namespace dartboard::build_test {
@@ -226,6 +227,29 @@ TEST(BuildMap, SewsAMoebiusStrip) {
   const auto map = build_map<Map2>(moebius_lattice()).map;
   EXPECT_EQ(counts(map), (Counts{10, 15, 5, 0}));
   EXPECT_EQ(check(map), "");
+}
+
+TEST(BuildMap, SewsTetrahedraAsCellsOfAnyKind) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const Mesh mesh = random_cells_of(kuhn_grid(2, 3, 2, 1.0), 0.3 + 0.1 * seed, seed);
+    const auto tetrahedra = build_map<TetMap>(mesh);
+    const auto any = build_map<Map3>(mesh);
+    EXPECT_EQ(tetrahedra.first_dart, any.first_dart);
+    ASSERT_EQ(tetrahedra.map.capacity(), any.map.capacity());
+    any.map.for_each_dart([&](Dart d) {
+      EXPECT_EQ(tetrahedra.point[TetMap::slot<0>(d)], any.point[d.index]);
+      for (int i = 0; i <= 3; ++i) ASSERT_EQ(tetrahedra.map.alpha(i, d), any.map.alpha(i, d)) << to_string(d);
+    });
+  }
+}
+
+TEST(BuildMap, NamesTheSameThreeCellsOnBothStorages) {
+  const Mesh mesh =
+      mesh_of(7, CellKind::tetrahedron, {{0, 1, 2, 6}, {0, 1, 2, 3}, {4, 5, 6, 3}, {2, 4, 1, 0}, {2, 1, 0, 5}});
+  const std::string expected = "cells 0, 1 and 3 share the face of points";
+  const std::string of_tetrahedra = message_of<InputError>([&] { build_map<TetMap>(mesh); });
+  EXPECT_EQ(of_tetrahedra.substr(0, expected.size()), expected);
+  EXPECT_EQ(of_tetrahedra, message_of<InputError>([&] { build_map<Map3>(mesh); }));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/topology/cells.h"
 #include "core/topology/orientation.h"
 #include "core/topology/sew.h"
+#include "tests/support/meshes/random_cells.h"
 #include "tests/support/meshes_for_tests.h"
 
 namespace dartboard::summary_test {
@@ -123,6 +124,50 @@ TEST(Summary, OfABrokenMapSaysWhatIsViolatedAndCountsNoCells) {
   EXPECT_NE(s.violation, "");
   EXPECT_EQ(s.darts, 3u);
   EXPECT_TRUE(s.cells.empty());
+}
+
+/// The same by walks round every cell, as of a map of any cells.
+void expect_counts_of_walks(const TetMap& map) {
+  const MapSummary s = summarize(map);
+  EXPECT_EQ(s.violation, "");
+  EXPECT_EQ(s.darts, map.dart_count());
+  EXPECT_EQ(s.cells, (Counts{count_cells<0>(map), count_cells<1>(map), count_cells<2>(map), count_cells<3>(map)}));
+  EXPECT_EQ(s.components, components(map).count);
+  EXPECT_EQ(s.orientable, orientation(map).has_value());
+  std::size_t boundary = 0;
+  for_each_cell<2>(map, [&](Face face) { boundary += map.is_free<3>(face.dart) ? 1u : 0u; });
+  EXPECT_EQ(s.boundary_facets, boundary);
+  EXPECT_EQ(s.euler, static_cast<long>(s.cells[0] + s.cells[2]) - static_cast<long>(s.cells[1] + s.cells[3]));
+}
+
+TEST(Summary, OfTetrahedraIsThatOfAnyCells) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const Mesh mesh = random_cells_of(kuhn_grid(3, 3, 2, 1.0), 0.1 + 0.07 * seed, seed);
+    const MapSummary tetrahedra = summary_of<TetMap>(mesh), any = summary_of<Map3>(mesh);
+    EXPECT_EQ(tetrahedra.darts, any.darts);
+    EXPECT_EQ(tetrahedra.cells, any.cells);
+    EXPECT_EQ(tetrahedra.components, any.components);
+    EXPECT_EQ(tetrahedra.boundary_facets, any.boundary_facets);
+    EXPECT_EQ(tetrahedra.euler, any.euler);
+    EXPECT_EQ(tetrahedra.orientable, any.orientable);
+    expect_counts_of_walks(build_map<TetMap>(mesh).map);
+  }
+}
+
+TEST(Summary, OfFoldedUnsewnAndDeadTetrahedraIsThatOfWalks) {
+  auto map = build_map<TetMap>(kuhn_grid(2, 1, 1, 1.0)).map;
+  for (std::uint32_t p = 0; p < 24; p += 6) unsew<3>(map, {48 + p});
+  remove_cell(map, Dart{48});
+  expect_counts_of_walks(map);
+  for (const std::uint32_t other : {6u, 7u, 8u, 9u, 1u, 3u, 5u}) {  // to another face, and onto itself
+    TetMap one;
+    one.add_tetrahedron();
+    one.add_tetrahedron();
+    one.link<3>({0}, {other});
+    SCOPED_TRACE(other);
+    expect_counts_of_walks(one);
+  }
 }
 
 TEST(Orientation, IsLostByOneFaceFoldedTheWrongWay) {

@@ -159,5 +159,25 @@ TEST(MeshCheck, NotesPointsThatCoincideAsInATornBody) {
                 "2e-06, or \"weld\": 2e-06 in the body of a scene, would join them"}));
 }
 
+// Of several faults the one with the lowest points is named, wherever it stands.
+TEST(MeshCheck, NamesTheLowestOfSeveralFaults) {
+  const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {0, 0, -1},
+                                            {1, 1, 1}, {9, 0, 0}, {10, 0, 0}, {9, 1, 0}, {9, 0, 1}};
+  constexpr CellKind tetrahedron = CellKind::tetrahedron;
+  expect_part(refused(mesh_of(points, {{tetrahedron, {6, 7, 8, 9}},
+                                       {tetrahedron, {9, 8, 7, 6}},
+                                       {tetrahedron, {0, 1, 2, 3}},
+                                       {tetrahedron, {4, 1, 2, 0}},
+                                       {tetrahedron, {3, 2, 1, 0}}})),
+              "cell 4 (tetrahedron) has the same points as cell 2 (tetrahedron)");
+  expect_part(refused(mesh_of(points, {{tetrahedron, {1, 2, 3, 9}},
+                                       {tetrahedron, {1, 3, 2, 8}},
+                                       {tetrahedron, {3, 2, 1, 7}},
+                                       {tetrahedron, {0, 1, 2, 6}},
+                                       {tetrahedron, {2, 1, 0, 4}},
+                                       {tetrahedron, {1, 0, 2, 5}}})),
+              "cell 5 (tetrahedron) shares the face of points 0, 1, 2 with cell 3 (tetrahedron) and cell 4");
+}
+
 }  // namespace
 }  // namespace dartboard::mesh_check_test

@@ -83,5 +83,32 @@ TEST(Base64, RefusesIncompleteGroupsAndStrayPadding) {
   for (const char* bad : {"Y", "YWJ", "Y===", "YQ=a", "====", "YW-j"}) EXPECT_FALSE(decode_base64(bad)) << bad;
 }
 
+// Blank and padding at any place, and bytes taken in pieces of any size.
+TEST(Base64, IsTheSameInPiecesAndWithBlanks) {
+  std::string bytes;
+  for (int k = 0; k < 100; ++k) bytes.push_back(static_cast<char>(k * 37 + k / 7));
+  const std::string plain = encode_base64(bytes);
+  for (std::size_t at = 0; at <= plain.size(); ++at) {
+    std::string text = plain;
+    text.insert(at, at % 2 == 0 ? " " : "\n\n");
+    EXPECT_EQ(decode_base64(text), bytes) << at;
+    for (const std::size_t piece : {1u, 2u, 3u, 7u, 12u, 100u}) {
+      Base64Reader reader(text);
+      std::string taken = "x";
+      for (std::size_t left = bytes.size(); left > 0; left -= std::min(piece, left))
+        ASSERT_TRUE(reader.take(std::min(piece, left), taken));
+      EXPECT_EQ(taken, "x" + bytes) << at << " " << piece;
+      EXPECT_TRUE(reader.at_end());
+    }
+    if (at == plain.size()) continue;
+    text = plain;
+    text[at] = '*';
+    Base64Reader reader(text);
+    std::string taken;
+    EXPECT_FALSE(reader.take(bytes.size(), taken));
+    EXPECT_EQ(taken, bytes.substr(0, at / 4 * 3));
+  }
+}
+
 }  // namespace
 }  // namespace dartboard::vtu_test
