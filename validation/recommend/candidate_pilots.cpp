@@ -67,8 +67,8 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   }
 }
 
-/// Set what the pilots of a part of the scene show. `at_once`: the longest steps are accurate enough by far, and no order
-/// is known.
+/// Set what the pilots of a part of the scene show. `at_once`: the longest steps are accurate enough by far, and no
+/// order is known.
 void take_pilots(Candidate& c, const TradeoffScene& scene, const std::vector<PilotRun>& runs, double part,
                  bool at_once) {
   c.confidence = at_once              ? Confidence::sufficient
