@@ -81,7 +81,7 @@ Angles angles_at_corners(const Mesh& mesh, const Cycle& corners) {
   return angles;
 }
 
-/// The angle along each edge of a volume, of which `new_edge` is told.
+/// The angle along each edge of a volume. Calls new_edge(edge) for each.
 Angles angles_at_edges(const Faces& faces, const Normals& normals, auto&& new_edge) {
   Angles angles;
   Few<Pair, 12> edges;

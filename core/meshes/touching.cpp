@@ -49,8 +49,7 @@ struct JoinedCells {
   std::vector<std::uint32_t> first_edge{0};  // by cell
   DisjointSets corners, edges;
 
-  explicit JoinedCells(const Mesh& joined)
-      : mesh(joined), corners(joined.nodes.size()), edges((number_edges(), first_edge.back())) {
+  explicit JoinedCells(const Mesh& joined) : mesh(joined), corners(joined.nodes.size()), edges(number_edges()) {
     PointSets<4> facets(mesh.points.size(), mesh.nodes.size());  // each with its last cell
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c)
       for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
@@ -69,10 +68,12 @@ struct JoinedCells {
   }
 
  private:
-  void number_edges() {
+  /// Returns the number of edges of all cells.
+  std::uint32_t number_edges() {
     first_edge.reserve(mesh.cell_count() + 1);
     for (const CellKind kind : mesh.kinds)
       first_edge.push_back(first_edge.back() + static_cast<std::uint32_t>(edges_of(kind).ends.size()));
+    return first_edge.back();
   }
 
   void meet(PointSets<4>& facets, std::uint32_t c, std::span<const int> cycle) {
