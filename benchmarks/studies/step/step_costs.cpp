@@ -99,12 +99,13 @@ Problem box_problem(const Box& box, bool in_shuffled_order, std::uint64_t seed) 
 Mesh mesh_of_file(const std::filesystem::path& file, std::size_t least) {
   Mesh mesh = read_mesh(file).mesh;
   if (mesh.dimension() != 3) throw InputError(fmt::format("{}: is a surface, expected tetrahedra", file.string()));
-  split_touching_points(mesh);
   try {
-    return finer_mesh_of(std::move(mesh), least);
+    mesh = finer_mesh_of(std::move(mesh), least);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
+  split_touching_points(mesh);  // now, as edges that touch have middles that do
+  return mesh;
 }
 
 /// As heavy and as stiff as a box of as many cubes; slow enough for its worst cells.
