@@ -28,6 +28,16 @@ constexpr std::uint32_t most_between = 16;
 /// A tetrahedron with less than this share of the volume of the cube around it is flat.
 constexpr double flat = 1e-6;
 
+/// [m] The largest way of a vertex.
+template <class Runs>
+double largest_way(const Runs& runs, std::span<const Vector3d> from, const StagePlaces& to) {
+  double most = 0.0;
+  for (const auto& run : runs)
+    for (std::uint32_t k = 0; k < run.count; ++k)
+      most = std::max(most, (to.place(run.first + k) - from[run.place + k]).squaredNorm());
+  return std::sqrt(most);
+}
+
 }  // namespace
 
 // ---- which groups
@@ -115,6 +125,9 @@ BoxAround CandidatePairs::ways_from(const std::vector<Vector3d>& from, const Sta
 bool CandidatePairs::holds(const StagePlaces& at) {
   if (changes_ != solids_.changes() || sample_count_ != samples_.size() || made_ == 0) return false;
   moved_together_ = where_.empty() ? 0.0 : ways_from(where_, at).diagonal();
+  // where pairs may meet, a sharper bound saves more than it costs
+  if (!(moved_together_ < least_gap_))
+    moved_together_ = std::min(moved_together_, 2.0 * largest_way(watched_, where_, at));
   return moved_together_ < margin_;
 }
 
@@ -148,7 +161,7 @@ bool CandidatePairs::copy_places(const StagePlaces& at, std::vector<Vector3d>& t
 
 void CandidatePairs::follow(const StagePlaces& at) {
   if (last_.size() == where_.size() && last_changes_ == changes_) {
-    if (!last_.empty()) travelled_ += ways_from(last_, at).diagonal();
+    if (!last_.empty()) travelled_ += std::min(ways_from(last_, at).diagonal(), 2.0 * largest_way(watched_, last_, at));
   } else {
     last_.resize(where_.size());
     last_changes_ = changes_;

@@ -216,7 +216,7 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   verb->add_option(
           "--threads", options->threads,
           "of forces and of explicit integrators, 0 for one on each processor [0]: the bits of a run do not depend "
-          "on it, and small bodies are moved by one")
+          "on it, and small bodies are moved by one. With more than one, frames are written by one of their own")
       ->check(CLI::Range(0u, 256u));
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
