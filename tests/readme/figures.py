@@ -15,6 +15,7 @@ STEPS = "results/2026-11-26-xeon-paper/samples.jsonl"
 TOPOLOGY = RUN + "topology/samples.jsonl"
 OPERATIONS = RUN + "operations/samples.jsonl"
 STEP = "results/2026-11-27-xeon-step/samples.jsonl"
+STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
 CONTACT = "results/2026-11-27-xeon-contact-costs/samples.jsonl"
 ABLATION = RUN + "ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
@@ -69,6 +70,12 @@ def words(number):
 def step_over_graph(body):
     """Four springs at a time."""
     return ratio([r for r in lines(STEP) if r.get("task", "").startswith(body)], body + ": lanes", body + ": graph")
+
+
+def meshes_over_graph(task, clock="cpu_ns"):
+    bodies = ("liver2", "truthcylinder1", "raptorTetra_8418")
+    rows = [dict(r, cpu_ns=r[clock]) for r in lines(STEP_MESHES) if "task" in r]
+    return [two(median(ratios([r for r in rows if r["task"].startswith(body)], body + task, body + ": graph"))) for body in bodies]
 
 
 
@@ -342,10 +349,13 @@ FIGURES = [
     (RESULTS, "a million tetrahedra in shuffled order take {} [{}, {}] (target", [STEP],
      lambda: all_of(step_over_graph("10^6 shuffled")) + judged([step_over_graph("10^6 shuffled")], 0.25, "falls short")),
 
+    (RESULTS, "cut finer, a thread takes {}, {} and {} of the graph's time and both processors {}, {} and {}.", [STEP_MESHES],
+     lambda: meshes_over_graph(": lanes") + meshes_over_graph(": threads", "wall_ns")),
+
     (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
      lambda: all_of(with_contact("elements far from a plane"), three) + all_of(with_contact("elements far from themselves"), three)
-     + judged([with_contact("elements far from themselves")], 1.02, "falls short")),
-    (RESULTS, "springs {} [{}, {}] and {} [{}, {}] (target 1.02: all", [CONTACT],
+     + judged([with_contact("elements far from themselves")], 1.02, "cannot tell")),
+    (RESULTS, "springs {} [{}, {}] and {} [{}, {}] (both fall short)", [CONTACT],
      lambda: all_of(with_contact("springs far from a plane"), three) + all_of(with_contact("springs far from themselves"), three)
      + judged([with_contact("springs far from a plane")], 1.02, "falls short")),
     (RESULTS, "After a full cut, contact takes {} [{}, {}] of the time", [CONTACT],
@@ -521,7 +531,7 @@ NO_MEASUREMENT = [
     (RESULTS, "(target 0.58) and", ("benchmarks/studies/step/bench_step_report.cpp", "most_damped = 0.58")),
     (RESULTS, "without (target 0.50)", ("benchmarks/studies/step/bench_step_report.cpp", "most_undamped = 0.50")),
     (RESULTS, "(target 0.25): more is to be had", ("benchmarks/studies/step/bench_step_report.cpp", "most_shuffled = 0.25")),
-    (RESULTS, "(target 1.02: all fall short)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_idle = 1.02")),
+    (RESULTS, "(target 1.02: cannot tell)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_idle = 1.02")),
     (RESULTS, "of neo-Hookean forces (target 1)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_after_cut = 1.0")),
     (RESULTS, "times as fast as CGAL's (target 20)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),
     (RESULTS, "ns a dart (target 3: cannot tell)", ("benchmarks/studies/topology/bench_topology_report.cpp", '"ns per dart", 1.0, 3.0, 20.0}')),

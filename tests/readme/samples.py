@@ -93,15 +93,20 @@ def time(rows, task):
     return figure([median([cost(r) for r in rows if r["task"] == task]) for rows in by_process(rows)])
 
 
-def ratio(rows, task, baseline):
-    """Median over processes of the median over rounds of the ratio within a round."""
+def ratios(rows, task, baseline):
+    """For each process the median over rounds of the ratio within a round."""
     values = []
     for process in by_process(rows):
         rounds = collections.defaultdict(dict)
         for row in process:
             rounds[row["round"]][row["task"]] = cost(row)
         values.append(median([r[task] / r[baseline] for r in rounds.values()]))
-    return figure(values)
+    return values
+
+
+def ratio(rows, task, baseline):
+    """Median over processes."""
+    return figure(ratios(rows, task, baseline))
 
 
 def verdict(figures, bound, at_least=False):
