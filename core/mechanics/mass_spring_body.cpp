@@ -156,7 +156,8 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   body.map = std::move(built.map);
   const Map& map = body.map;
   const auto point_of = [&](Dart d) { return built.point[Map::template slot<0>(d)]; };
-  const auto attach = [&map](auto& embedding, auto cell, std::span<const Dart> places, std::size_t number) {
+  const auto attach = [&map](auto& embedding, [[maybe_unused]] auto cell, [[maybe_unused]] std::span<const Dart> places,
+                             std::size_t number) {
     if constexpr (held == Held::by_every_dart)
       embedding.attach_places(map, places, static_cast<std::uint32_t>(number));
     else
