@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int patience = 10;  // iterations that may lower the potential alone, not the residual
 
 // Force on the first end between the length vectors d0 and d1 of a spring: Gonzalez's discrete gradient, which for a
 // spring is k (lm - L) along (d0 + d1) / (l0 + l1), lm the mean length; without cancellation. Damping acts along it.
@@ -28,6 +29,14 @@ Vector3d discrete_force(const SomeSpring& spring, const Vector3d& d0, const Vect
   double tension = spring.stiffness * (0.5 * sum - spring.rest_length);
   if constexpr (damped && std::is_same_v<SomeSpring, Spring>) tension += spring.damping * dw.dot(along);
   return tension * along;
+}
+
+// A spring with the same tension, of its damping too, as its elastic tension: both turn with it.
+Spring with_damping_in_tension(Spring spring, const Vector3d& d, const Vector3d& dw) {
+  const double length = std::sqrt(d.squaredNorm());
+  if (length > 0.0 && spring.stiffness > 0.0)
+    spring.rest_length -= spring.damping * (dw.dot(d) / length) / spring.stiffness;
+  return spring;
 }
 
 SpringTangent discrete_tangent(const Spring& spring, const Vector3d& d0, const Vector3d& d1, Compression compression) {
@@ -270,14 +279,16 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
     if (system.fixed[i]) w[i] = vh[i];
   free_along_axes(system, w);
   direction_.resize(w.size());
-  const auto of_springs = [&p, &w](Compression compression, std::vector<SpringTangent>& result) {
+  bool dampers_turn = false;
+  const auto of_springs = [&](Compression compression, std::vector<SpringTangent>& result) {
     result.resize(p.system.springs.size());
     for (std::size_t e = 0; e < result.size(); ++e) {
       const auto [a, b] = p.system.ends[e];
-      const Vector3d d0 = p.xh[b] - p.xh[a], dw = w[b] - w[a];
-      result[e] = p.force == StageForce::at_end
-                      ? tangent_of(p.system.springs[e], d0 + p.tau * dw, compression)
-                      : discrete_tangent(p.system.springs[e], d0, d0 + (2.0 * p.tau) * dw, compression);
+      const Vector3d d0 = p.xh[b] - p.xh[a], dw = w[b] - w[a], d = d0 + p.tau * dw;
+      const Spring spring = p.system.springs[e];
+      result[e] = p.force == StageForce::discrete_gradient
+                      ? discrete_tangent(spring, d0, d0 + (2.0 * p.tau) * dw, compression)
+                      : tangent_of(dampers_turn ? with_damping_in_tension(spring, d, dw) : spring, d, compression);
     }
   };
   // the derivative of a term's discrete gradient is not symmetric; that of its forces half way is close to it
@@ -286,7 +297,8 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
   set_residual(p, w, work);
   choose_start(p, w, work);
   set_allowed(p, w);
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), least = last;
+  int since_least = 0;
   for (int iteration = 0; iteration <= options_.max_iterations; ++iteration) {
     const double now = excess();
     if (!std::isfinite(now)) return nonfinite_residual(now);
@@ -295,6 +307,11 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
     throw_if_stopped();
     ++work.newton_iterations;
     last = now;
+    // Each iteration has a potential of its own, with its own directions of dampers: where those turn fast, steps that
+    // lower one after the other may go in a circle, or away from the solution.
+    since_least = now < least ? 0 : since_least + 1;
+    least = std::min(least, now);
+    dampers_turn = dampers_turn || since_least == patience;
 
     for (;;) {
       SolveStatus status = solver_.prepare(system, tangents, tau, work);

@@ -23,7 +23,8 @@ enum class StageForce : std::uint8_t {
 /// held, and the positions in damped force terms; a line search on the potential makes the method globally convergent.
 /// Without the dissipation in it the search would stall. Its changes are summed spring by spring from differences that
 /// do not cancel, and a change within their rounding is accepted. The matrix is M + tau C + tau^2 K (tangent.h):
-/// exact first, projected where that is not positive definite.
+/// exact first, projected where that is not positive definite. Where ten iterations have not lowered |r|, K gets the
+/// tension of dampers too, which is what turns with them.
 ///
 /// Converged when at every vertex |r| / m is within tolerance times the largest of |vh| and tau |f| / m, which compares
 /// accelerations whatever the masses, or within what rounding leaves of r. With a

@@ -14,7 +14,7 @@ namespace dartboard {
 ///
 /// K_e = k [(1 - L/l)(I - d d') + d d'] and C_e = c d d'. The force on the first end changes by K_e and C_e times the
 /// motion of the second end relative to the first, plus a change of damping as the direction turns: that part,
-/// c (dv.d)/l, is unsymmetric and left out, which every user of the tangent allows.
+/// c/l [(dv.d)(I - d d') + d dv' (I - d d')], is unsymmetric and left out, which every user of the tangent allows.
 ///
 /// A spring of zero length has no direction and exerts no force (`spring_force`). Its K_e is k I, so that it resists
 /// being pulled apart in every direction, and its C_e is zero.

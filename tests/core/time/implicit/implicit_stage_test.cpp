@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/time/system/accelerations.h"
 #include "core/time/system/energy.h"
@@ -137,6 +138,23 @@ TEST(ImplicitStage, LineSearchKnowsOfTheDissipation) {
     const Solved solved = solve(body, {}, 0.1);
     EXPECT_TRUE(solved.result.ok()) << to_string(solved.result);
     EXPECT_LE(solved.work.line_search_trials, solved.work.newton_iterations) << damping << ", " << viscosity;
+  }
+}
+
+// In steps this long the spring turns by more than a right angle. With directions of dampers held, iterations lower one
+// potential after the other and go in a circle.
+TEST(ImplicitStage, FindsWhereDampersTurnInALongStep) {
+  for (const auto& [damping, stiffness, step, velocity] : {std::tuple{2.0, 1.4, 1.5, Vector3d(0, 2.6, 0)},
+                                                           {70.0, 10.0, 1.0, Vector3d(2.1, 2.6, 0)},
+                                                           {1.2, 1.1, 1.3, Vector3d(-1.5, 2.3, 0)}}) {
+    SpringArrays body = two_masses(1.0, 1.0, stiffness, -1.0, damping);
+    body.springs[0].rest_length = 1.0;
+    body.fixed[0] = 1;
+    body.v[1] = velocity;
+    const Solved solved = solve(body, {}, step);
+    EXPECT_TRUE(solved.result.ok()) << to_string(solved.result);
+    EXPECT_LT(defect(body, solved.w, step), 1e-8);
+    EXPECT_LT(solved.work.newton_iterations, 60u);
   }
 }
 
