@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -83,7 +82,8 @@ std::string name_of_plates(int across) { return fmt::format("plates of {}", tetr
 struct Situation {
   std::string name;
   Json scene;
-  int steps = 0;  // taken before forces are timed
+  int steps = 0;    // taken before forces are timed
+  int stretch = 0;  // the steps after them over which they are timed; none: at one place
 };
 
 Situation idle(const char* name, const char* material, bool plane) {
@@ -120,7 +120,7 @@ Situation liver_cut() {
   scene["events"] = Json::parse(R"([{"at": 0, "dissociate": {"plane": {"point": [0, 0, 0], "normal": [1, 0, 0.2]}}}])");
   scene["contact"] = contact();
   scene["contact"]["bodies"] = "themselves";
-  return {"the liver, cut through", scene, 200};
+  return {"the liver, cut through", scene, 200, 63};
 }
 
 /// Cubes on a plane apart from each other; the first moves along it, and vibrates.
@@ -207,7 +207,6 @@ ContactCounts count(const std::string& situation, const Simulation& simulation) 
     }
     if (sizes > 0.0) counts.unbalanced = sum.norm() / sizes;
   }
-  counts.evaluations = 2 * static_cast<int>(std::max<std::size_t>(1, evaluated / 2 / counts.tetrahedra));  // even
   return counts;
 }
 
@@ -259,21 +258,32 @@ void add_sleep_tasks(const Asleep& asleep, int across, int steps, std::vector<Ti
   tasks.push_back(step_task(name + ": step alone", one, steps, until_asleep));
 }
 
-/// A body whose forces are taken over and over, an even number of times, at two places in turn: contacts are not
-/// searched twice at the same.
+/// A body whose forces are taken over and over, to and fro along a stretch of its motion, so that lists age and are
+/// made anew as in a run; or at two places next to each other in turn: contacts are not searched twice at the same.
 struct Pressed {
   Simulation simulation;
-  std::array<std::vector<Vector3d>, 2> x;
+  std::vector<std::vector<Vector3d>> x;
   std::vector<Vector3d> force;
   std::unique_ptr<BodyContact> own;  // whose lists are made anew
-  int evaluations = 1;
+  int evaluations = 1;               // whole ways to and fro
 
-  Pressed(const SceneFile& scene, int steps) : simulation(scene) {
-    advance(simulation, steps);
-    x[0] = x[1] = simulation.body().vertices().position;
+  Pressed(const SceneFile& scene, const Situation& situation) : simulation(scene) {
+    advance(simulation, situation.steps);
+    const auto add_places = [this] { x.push_back(simulation.body().vertices().position); };
+    add_places();
+    for (int k = 0; k < situation.stretch; ++k) {
+      advance(simulation, 1);
+      add_places();
+    }
+    if (situation.stretch > 0) return;
+    add_places();
     for (Vector3d& place : x[1]) place[0] += 1e-6 * spacing;
   }
-  StagePlaces at(int evaluation) const { return {x[static_cast<std::size_t>(evaluation % 2)]}; }
+  int to_and_fro() const { return 2 * (static_cast<int>(x.size()) - 1); }
+  StagePlaces at(int evaluation) const {
+    const int k = evaluation % to_and_fro();
+    return {x[static_cast<std::size_t>(std::min(k, to_and_fro() - k))]};
+  }
   void start() { force.assign(x[0].size(), Vector3d(0, 0, 0)); }
   std::uint64_t hash() const {
     Hash hash;
@@ -285,8 +295,10 @@ struct Pressed {
 void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTask>& tasks,
                      const std::function<void(const ContactCounts&)>& counts_sink) {
   const SceneFile scene = parsed(situation.scene);
-  const auto s = std::make_shared<Pressed>(scene, situation.steps);
-  const ContactCounts counts = count(situation.name, s->simulation);
+  const auto s = std::make_shared<Pressed>(scene, situation);
+  ContactCounts counts = count(situation.name, s->simulation);
+  const auto ways = static_cast<std::size_t>(s->to_and_fro()) * counts.tetrahedra;
+  counts.evaluations = s->to_and_fro() * static_cast<int>(std::max<std::size_t>(1, evaluated / ways));
   counts_sink(counts);
   s->evaluations = counts.evaluations;
   const auto add_task = [&](const char* name, bool of_contact) {
