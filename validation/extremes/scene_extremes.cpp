@@ -105,7 +105,7 @@ class SceneTrial {
     StepResult result = detector_.start(stage_.system(), stage_.motion(), h_);
     cell_.refused = !result.ok();
     energy_before_ = energy_now();
-    add_supply();
+    supply_ += supply();
     take_up_elements();
     const double deadline = reference::thread_cpu_seconds() + most_seconds;
     while (cell_.step < steps_in_all && result.ok()) {
@@ -139,8 +139,15 @@ class SceneTrial {
 
   StepResult step() {
     const SpringSystem system = stage_.system();
+    const double time = static_cast<double>(cell_.step) * h_;
+    StepResult result;
+    if (stage_.load(*integrator_, time, h_)) {
+      result = detector_.system_changed(system, stage_.motion());
+      if (!result.ok()) return result;
+      supply_of_loads_ = max_or_nan(supply_of_loads_, supply());
+    }
     if (is_known_) evidence_.before(system, stage_.motion(), h_);
-    StepResult result = stage_.step(*integrator_, system, static_cast<double>(cell_.step) * h_, h_);
+    result = stage_.step(*integrator_, system, time, h_);
     if (!result.ok()) return detector_.with_witness(result, system, stage_.motion());
     if (is_known_) evidence_.after(stage_.motion());
     detector_.add_work(stage_.new_contact_work());
@@ -154,7 +161,7 @@ class SceneTrial {
     for (; changes_ < due; ++changes_) stage_.pass_event();
     integrator_->restart();
     take_up_elements();
-    add_supply();
+    supply_ += supply();
     limits_ = stage_.limits();
     if (!check_before(horizon)) return cell_.diagnosis;
     return detector_.system_changed(stage_.system(), stage_.motion());
@@ -173,13 +180,13 @@ class SceneTrial {
     return kinetic_energy(stage_.system(), stage_.motion().v) + elastic_energy(stage_.system(), stage_.motion().x);
   }
 
-  /// What gravity and forces give to vertices that fall all the time, and driven ones to springs that are stretched all
-  /// the time.
-  void add_supply() {
+  /// [J] What gravity and forces as they are now give to vertices that fall all the time, and driven ones to springs
+  /// that are stretched all the time.
+  double supply() {
     const SpringSystem system = stage_.system();
     const Motion motion = stage_.motion();
     const double time = h_ * static_cast<double>(steps_in_all);
-    double heaviest = 0.0, obstacles = 0.0;
+    double heaviest = 0.0, obstacles = 0.0, mass = 0.0, sum = 0.0;
     for (const double m : system.mass) heaviest = max_or_nan(heaviest, m);
     if (scene_.frozen)
       for (const SceneObstacle& one : scene_.frozen->file.obstacles)
@@ -192,12 +199,14 @@ class SceneTrial {
           (system.pull.empty() ? Vector3d(0, 0, 0) : system.pull[i]) + system.inverse_mass[i] * loads[i];
       const bool is_driven = system.fixed[i] != 0 || (!system.held_axes.empty() && system.held_axes[i] != 0);
       const double speed = (is_driven ? motion.v[i].norm() : 0.0) + obstacles;
-      supply_ += 0.5 * system.mass[i] * std::pow((system.gravity + pull).norm() * time, 2) +
-                 heaviest * std::pow(speed * time * limits_.upper, 2);
+      sum += 0.5 * system.mass[i] * std::pow((system.gravity + pull).norm() * time, 2) +
+             heaviest * std::pow(speed * time * limits_.upper, 2);
       has_supply_ = has_supply_ || speed > 0.0 || !pull.isZero(0.0) || !system.gravity.isZero(0.0);
       largest_ = max_or_nan(largest_, motion.x[i].cwiseAbs().maxCoeff());
-      mass_ += system.mass[i];
+      mass += system.mass[i];
     }
+    mass_ = max_or_nan(mass_, mass);
+    return sum;
   }
 
   void stop(const StepResult& result) {
@@ -225,7 +234,8 @@ class SceneTrial {
                             .warned = !cell_.warnings.empty(),
                             .warned_of_instability = warned_of(StepCode::unstable_step)};
     if (!seen.finite) return seen;
-    seen.energy_before = static_cast<long double>(energy_before_) + static_cast<long double>(supply_);
+    seen.energy_before =
+        static_cast<long double>(energy_before_) + static_cast<long double>(supply_) + supply_of_loads_;
     seen.energy_after = energy_now();
     seen.energy_rounding = mass_ * std::pow(64 * std::numeric_limits<double>::epsilon() * limits_.upper * largest_, 2);
     seen.must_live = keeps_moving(integrator_->scheme(), limits_) && !has_supply_ && scene_.motion.events.empty() &&
@@ -250,8 +260,8 @@ class SceneTrial {
   std::size_t changes_ = 0;  // that have taken place
   bool is_known_ = false;    // to the witnesses
   bool has_supply_ = false;
-  double energy_before_ = 0.0, supply_ = 0.0;  // [J]
-  double largest_ = 0.0, mass_ = 0.0;          // [m] of the coordinates, [kg]
+  double energy_before_ = 0.0, supply_ = 0.0, supply_of_loads_ = 0.0;  // [J] the last: of those that change in time
+  double largest_ = 0.0, mass_ = 0.0;                                  // [m] of the coordinates, [kg]
 };
 
 }  // namespace

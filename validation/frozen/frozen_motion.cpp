@@ -77,6 +77,7 @@ std::uint32_t origin_of(const Vector3d& x, std::size_t vertices) {
 std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
   if (is_mixed(mesh)) return "bodies of several dimensions";
   if (file.has_contact()) return "contact";
+  if (changes_in_every_step(file)) return "loads that change in time";
   if (!file.key_beside_edges().empty()) return "springs that are no edges";
   if (!file.attachments.empty()) return "attachments";
   if (std::ranges::any_of(file.forces, &SceneForce::follows)) return "pressures that follow their faces";

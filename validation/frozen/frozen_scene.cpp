@@ -65,19 +65,6 @@ void add_times(double from, double until, double every, double duration, const s
   }
 }
 
-/// throws  InputError for what changes in every step
-void require_constant_between_times(const SceneFile& file) {
-  const auto fail = [](const std::string& path) {
-    throw InputError(path +
-                     ": changes in every step, and steps of several lengths are compared here; expected "
-                     "velocities and forces that are constant between the times at which they begin and end");
-  };
-  for (const SceneDrive& drive : file.driven)
-    if (drive.has_table()) fail(drive.path_of_motion());
-  for (const SceneForce& force : file.forces)
-    if (!force.factor.empty()) fail(force.path + "/over_time");
-}
-
 /// The moments of a scene, ascending; at equal times events come first, in the order of the scene.
 std::vector<Moment> moments_of(const SceneFile& file) {
   std::vector<Moment> moments;
@@ -108,6 +95,11 @@ std::vector<Moment> moments_of(const SceneFile& file) {
 }
 
 }  // namespace
+
+bool changes_in_every_step(const SceneFile& file) {
+  return std::ranges::any_of(file.driven, &SceneDrive::has_table) ||
+         std::ranges::any_of(file.forces, [](const SceneForce& force) { return !force.factor.empty(); });
+}
 
 /// The body on its way from change to change, to find what each of them operates on.
 class FrozenBody::Scout {
@@ -151,7 +143,8 @@ class FrozenBody::Scout {
   void go_to(double time) {
     if (time <= time_) return;
     if (rate_ == 0.0) rate_ = at_.fastest_rate();
-    const StepResult result = scene_.file.has_contact() ? step_to(time) : advance_to(time);
+    const bool in_equal_steps = scene_.file.has_contact() || changes_in_every_step(scene_.file);
+    const StepResult result = in_equal_steps ? step_to(time) : advance_to(time);
     if (!result.ok())
       throw SolverError(fmt::format("/events: the motion up to {:.6g} s ends with {}", time, to_string(result)));
     time_ = time;
@@ -164,7 +157,7 @@ class FrozenBody::Scout {
     return integrator_.advance(at_.body().system(), at_.body().motion(), time - time_, allowed);
   }
 
-  /// Through contact, in equal steps.
+  /// Through contact, and under loads that change in time.
   StepResult step_to(double time) {
     const double steps = std::max(1.0, std::ceil((time - time_) * rate_ / contact_phase)), h = (time - time_) / steps;
     StepResult result;
@@ -199,7 +192,6 @@ std::string omission_of(const SceneEvent& event, std::size_t operations) {
 FrozenScene freeze(const SceneFile& file, const Problem& problem) { return freeze(file, problem, {}); }
 
 FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Eigen::Vector3d> initial_position) {
-  require_constant_between_times(file);
   if (!initial_position.empty() && initial_position.size() != problem.mesh.points.size())
     throw InputError(
         fmt::format("{} initial positions for {} points", initial_position.size(), problem.mesh.points.size()));
@@ -260,12 +252,24 @@ void FrozenBody::pass() {
   look_at_contact();
 }
 
-/// Drives and forces at a time; true where any has changed.
+/// Drives and forces at a time; true where any begins, turns back or ends.
 bool FrozenBody::drive(double time) {
   const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
   const std::span<const std::uint32_t> point = body_->vertices().point;
   const LoadChange driven = driven_.apply(ticks, point, body_->motion().v);
-  return std::max(driven, forces_.apply(ticks, point, body_->pull(), body_->pressures())) != LoadChange::none;
+  return std::max(driven, forces_.apply(ticks, point, body_->pull(), body_->pressures())) == LoadChange::begins_or_ends;
+}
+
+bool FrozenBody::load(Integrator& integrator, double time, double h) {
+  const std::span<const std::uint32_t> point = body_->vertices().point;
+  const bool driven = driven_.follow(time, time + h, point, body_->motion().v);
+  if (driven) integrator.drives_changed();
+  const bool forced = forces_.follow(time, time + h, point, body_->pull(), body_->pressures());
+  return driven || forced;
+}
+
+void FrozenBody::show_drives(double time, std::span<Eigen::Vector3d> velocity) {
+  driven_.follow(time - tick(scene_.file), time, body_->vertices().point, velocity);
 }
 
 void FrozenBody::look_at_contact() {
@@ -274,6 +278,7 @@ void FrozenBody::look_at_contact() {
 
 StepResult FrozenBody::step(Integrator& integrator, const SpringSystem& system, double time, double h) {
   const Motion motion = body_->motion();
+  load(integrator, time, h);
   if (contact_ && contact_->begin(time, h, system, motion)) integrator.motion_changed();
   const StepResult result = integrator.step(system, motion, h);
   if (contact_ && result.ok() && contact_->end(time, h, system, motion)) integrator.motion_changed();

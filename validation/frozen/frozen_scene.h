@@ -17,6 +17,9 @@
 
 namespace dartboard {
 
+/// Does a load of the scene change in time, so that it is another one in every step?
+bool changes_in_every_step(const SceneFile& file);
+
 /// The changes at one time: the cells of events, the velocities of driven vertices, the forces applied.
 struct FrozenChange {
   struct Operation {
@@ -41,7 +44,8 @@ struct FrozenScene {
 
 /// Freeze the events: they take place at their exact times, and one run finds the cells that they operate on. Where
 /// these depend on positions, it is an accurate run up to the last such event: the method of Dormand and Prince with a
-/// tolerance of 1e-8 edges in each step, or steps of 1/4 of 1/omega_max where there is contact. An event that looks at
+/// tolerance of 1e-8 edges in each step, or steps of 1/4 of 1/omega_max where there is contact or a load changes in
+/// time. An event that looks at
 /// the body in every step does so at the steps of the scene in that run.
 ///
 /// throws  InputError "/events/3/...: ..." as SimulatedBody::make_ready, DrivenVertices and AppliedForces; SolverError
@@ -63,6 +67,13 @@ class FrozenBody {
   const SimulatedBody& body() const { return *body_; }
   /// The next change takes place. Integrators have to be restarted.
   void pass();
+
+  /// Loads that change in time take their means over the step of h [s] from `time`; returns whether any has changed.
+  /// `step` does so too.
+  bool load(Integrator& integrator, double time, double h);
+  /// The velocities of vertices on a path or a turn at a time [s], into those of a state: in the body they are means
+  /// over a step.
+  void show_drives(double time, std::span<Eigen::Vector3d> velocity);
 
   /// One step of h [s] from `time`, with what contact does before and after it (SceneContact).
   ///

@@ -154,7 +154,7 @@ SceneOrder answer_of(OrderStudy judged, const OrderOptions& options) {
   return result;
 }
 
-SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact, const OrderOptions& options) {
+SceneOrder answer_by_fit(OrderStudy judged, const OrderLimit& limit, const OrderOptions& options) {
   SceneOrder result{.study = std::move(judged)};
   OrderStudy& study = result.study;
   const FittedOrders fit = fitted_orders(study);
@@ -169,7 +169,7 @@ SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact
       fmt::format("order {:.2f} in x and {:.2f} in v, fitted to {} errors", fit.x, fit.v, fit.errors);
   const double fitted = std::min(fit.x, fit.v), least = study.theory - fitted_tolerance;
   study.reason = shows;
-  if (!contact.is_promised()) {
+  if (!limit.is_promised()) {
     study.reason += "; none is promised";
   } else if (fitted >= least) {
     result.answer = OrderAnswer::shown;
@@ -183,8 +183,8 @@ SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact
 SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& reference, const IntegratorEntry& entry,
                          const CpuClock& clock, const SceneOrderOptions& options) {
   const auto integrator = entry.make();
-  const ContactOrder contact = contact_order(scene);
-  const double order = std::min<double>(integrator->scheme().order, contact.most);
+  const OrderLimit limit = order_limit(scene);
+  const double order = limit.of(integrator->scheme());
   OrderStudy study{std::string(entry.name), OrderCase::undamped, order, {}, false, 0.0, 0.0, ""};
   OrderOptions judging = options.order;
   if (!takes(scene, entry.name)) study.reason = "contact between bodies has kinks";
@@ -207,10 +207,9 @@ SceneOrder observe_order(const TradeoffScene& scene, const SceneReference& refer
       point.diagnosis = to_string(run.result);
     study.points.push_back(std::move(point));
     judge(study, std::max(reference.floor, std::max(1.0, reference.gain) * rounding.at(run.h)), judging);
-    SceneOrder found =
-        scene.has_contact() ? answer_through_contact(study, contact, judging) : answer_of(study, judging);
+    SceneOrder found = scene.equal_steps().empty() ? answer_of(study, judging) : answer_by_fit(study, limit, judging);
     if (found.answer == OrderAnswer::shown || study.points.back().regime == Regime::floor) return found;
-    if (!contact.is_promised() && last_in_window(study).size() >= errors_to_fit) return found;
+    if (!limit.is_promised() && last_in_window(study).size() >= errors_to_fit) return found;
     if (2 * run.cpu_ns > most_ns || halvings == options.most_halvings) {
       if (found.answer == OrderAnswer::open) found.study.reason += "; more steps would take too long";
       return found;

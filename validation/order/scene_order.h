@@ -2,7 +2,7 @@
 // The orders that integrators show on a user's scene, compared with the reference that there is for it.
 
 #include "validation/order/convergence_order.h"
-#include "validation/scenes/contact_order.h"
+#include "validation/scenes/order_limit.h"
 #include "validation/scenes/scene_reference.h"
 
 namespace dartboard {
@@ -31,7 +31,7 @@ struct SceneOrderOptions {
 /// A line is fitted to the last successive errors in the window, five at least. An order is shown where it falls with
 /// that of the study (`theory`) less 0.3, or faster; missed where it is lower by two standard errors more, and steps
 /// are short. Where contact promises none, the answer is open, with the orders.
-SceneOrder answer_through_contact(OrderStudy judged, const ContactOrder& contact, const OrderOptions& options);
+SceneOrder answer_by_fit(OrderStudy judged, const OrderLimit& limit, const OrderOptions& options);
 
 /// Halve the steps in every interval between events and checkpoints, until the order of the method has shown itself,
 /// the errors reach the floor, or the next run would take too long. No run is made where the reference resolves no

@@ -11,7 +11,7 @@
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
 #include "validation/recommend/candidate_pilots.h"
-#include "validation/scenes/contact_order.h"
+#include "validation/scenes/order_limit.h"
 #include "validation/solvers/break_even.h"
 
 namespace dartboard {
@@ -27,7 +27,7 @@ constexpr double doubt = 4.0;
 // The part of the least time for pilots that explicit methods leave to implicit ones.
 constexpr double for_implicit = 0.25;
 // RecommendOptions::pilot_part and most_pilot_s where pilots are whole runs.
-constexpr double pilots_through_contact = 10.0, most_pilot_through_contact_s = 600.0;
+constexpr double part_of_whole_pilots = 10.0, most_whole_pilot_s = 600.0;
 
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -72,8 +72,8 @@ class Search {
   Recommendation run() {
     auto schemes = schemes_in_order(r_.features.damping_ratio > 0.0, options_.only);
     std::erase_if(schemes, [this](const Scheme& s) { return !takes(scene_, s.name); });
-    // an order that contact does not leave is not worth its stages
-    if (contact_.most < 3.0) std::ranges::stable_sort(schemes, {}, &Scheme::stages);
+    // an order that contact or loads do not leave is not worth its stages
+    if (limit_.most < 3.0) std::ranges::stable_sort(schemes, {}, &Scheme::stages);
     // where there may be no time for all, the cheapest by the law come first; for motions that last, the law is a worse
     // guide than their symplectic method
     if (options_.budget_s > 0.0 && r_.features.damping_ratio > 0.0)
@@ -85,7 +85,7 @@ class Search {
       for (const Scheme& other : schemes)
         if (first && other.implicit && is_promising(other)) try_implicit(other);
     }
-    if (options_.adaptive && !scene_.has_contact())
+    if (options_.adaptive && scene_.equal_steps().empty())
       for (const Scheme& scheme : schemes)
         if (dynamic_cast<AdaptiveIntegrator*>(make_integrator(scheme.name).get()) != nullptr) try_adaptive(scheme);
     for (const Scheme& scheme : schemes)
@@ -116,7 +116,7 @@ class Search {
     Candidate c;
     c.contender = scheme.name;
     c.implicit = scheme.implicit;
-    c.order = std::max(1, static_cast<int>(std::min<double>(scheme.order, contact_.most)));
+    c.order = std::max(1, static_cast<int>(limit_.of(scheme)));
     c.rounding = rounding_floor(scene_, scheme);
     return c;
   }
@@ -147,7 +147,7 @@ class Search {
   void pilot(Candidate& c, double h, double step_s) {
     if (!(h > 1e-4 / r_.features.omega_low))
       c.pruned = "no stable step of a useful size";
-    else if (scene_.has_contact())
+    else if (!scene_.equal_steps().empty())
       pilot_whole(c, *pilots_, h, sought());
     else
       pilot_prefix(c, *pilots_, h, step_s, sought());
@@ -234,7 +234,7 @@ class Search {
 
   /// Run longer pilots of the best two, as long as they can be afforded.
   void confirm() {
-    if (scene_.has_contact()) return;  // its pilots are as long as they can be
+    if (!scene_.equal_steps().empty()) return;  // its pilots are as long as they can be
     std::vector<std::string> tried;
     for (int round = 0; round < 12; ++round) {
       Candidate* next = nullptr;
@@ -297,7 +297,7 @@ class Search {
   }
 
   const TradeoffScene& scene_;
-  const ContactOrder contact_ = contact_order(scene_);
+  const OrderLimit limit_ = order_limit(scene_);
   double error_, least_error_ = infinity;  // asked for; what rounding leaves after the fewest steps
   const CpuClock& clock_;
   const RecommendOptions& options_;
@@ -326,9 +326,9 @@ Recommendation recommend(const TradeoffScene& scene, double error, const CpuCloc
                          const RecommendOptions& options) {
   if (!(error > 0.0)) throw InputError("the requested error must be positive");
   RecommendOptions allowed = options;
-  if (scene.has_contact()) {
-    allowed.pilot_part = pilots_through_contact;
-    allowed.most_pilot_s = most_pilot_through_contact_s;
+  if (!scene.equal_steps().empty()) {
+    allowed.pilot_part = part_of_whole_pilots;
+    allowed.most_pilot_s = most_whole_pilot_s;
   }
   return Search(scene, error, clock, allowed).run();
 }

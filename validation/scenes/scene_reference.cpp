@@ -49,8 +49,9 @@ SceneReference self_converged(const TradeoffScene& scene, const CpuClock& clock,
     if (change < 1e-12 || 2e-9 * static_cast<double>(coarse.cpu_ns) > most_s) break;
   }
   found.cpu_s += 1e-9 * static_cast<double>(coarse.cpu_ns);
-  // the kinks of contact lower every order: at order p, the finer run is off by 1 / (2^p - 1) of the change
-  const double order = scene.has_contact() ? std::clamp(std::log2(change_before / change), 0.5, 4.0) : 4.0;
+  // the kinks of contact, and means of loads, lower every order: at order p, the finer run is off by 1 / (2^p - 1) of
+  // the change
+  const double order = scene.equal_steps().empty() ? 4.0 : std::clamp(std::log2(change_before / change), 0.5, 4.0);
   const double left = 15.0 / (std::exp2(order) - 1.0) * change;
   const double own = self_converged_floor(left, 0.0);
   std::uint64_t other_steps = steps;

@@ -37,6 +37,12 @@ PointState SceneStage::state() const {
   return {columns_.x, columns_.v};
 }
 
+PointState SceneStage::state_at(double time) {
+  PointState now = state();
+  if (frozen_) frozen_->show_drives(time, now.v);
+  return now;
+}
+
 StableStep SceneStage::limits() {
   return frozen_ ? frozen_->limits() : StableStepEstimate().refresh(system(), motion().x);
 }
@@ -49,8 +55,8 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
   if (setting.steps == 0 && !(setting.tolerance > 0.0)) throw InputError("a run needs steps, or a tolerance");
   if (setting.steps == 0 && adaptive == nullptr)
     throw InputError(fmt::format("{} cannot choose its steps", integrator.scheme().name));
-  if (setting.steps == 0 && scene.has_contact())
-    throw InputError(fmt::format("{}: contact requires equal steps", scene.name));
+  if (setting.steps == 0 && !scene.equal_steps().empty())
+    throw InputError(fmt::format("{}: {}", scene.name, scene.equal_steps()));
   const bool keeps_h = setting.timing == EventTiming::end_of_step;
   if (keeps_h && (setting.steps == 0 || setting.steps % scene.motion.checkpoints.size() != 0))
     throw InputError(
@@ -119,7 +125,7 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
     }
     if (run.result.ok()) go_to(checkpoint);
     if (!run.result.ok()) break;
-    run.states.push_back(stage.state());
+    run.states.push_back(stage.state_at(checkpoint));
   }
   run.cpu_ns = clock() - start;
   run.work = integrator.work();

@@ -27,8 +27,12 @@ class SceneStage {
   SpringSystem system() const;
   Motion motion();
   PointState state() const;
+  /// The same at the end of a step, with the velocities that driven vertices have at that time [s].
+  PointState state_at(double time);
   /// The next event takes place. All that was computed from the system before has to be renewed.
   void pass_event();
+  /// As FrozenBody::load.
+  bool load(Integrator& integrator, double time, double h) { return frozen_ && frozen_->load(integrator, time, h); }
   /// One step of h [s] from `time`.   pre  `system` is that of the stage now
   StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h) {
     return frozen_ ? frozen_->step(integrator, system, time, h) : integrator.step(system, motion(), h);
@@ -76,7 +80,8 @@ struct TimedRun {
 /// before an event of the same time. A run ends with the first step that is not ok. The steps and the events are timed;
 /// the making of the body before them is not.
 ///
-/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or with contact; for a setting
+/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or where steps have to be equal; for a
+///         setting
 ///         without steps and tolerance; and for `end_of_step` with other numbers of steps
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits = {});

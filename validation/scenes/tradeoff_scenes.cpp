@@ -63,6 +63,12 @@ TableScene swing_scene(Mesh mesh) {
 
 }  // namespace
 
+std::string_view TradeoffScene::equal_steps() const {
+  if (has_contact()) return "contact requires equal steps";
+  if (frozen && changes_in_every_step(frozen->file)) return "loads that change in time require equal steps";
+  return {};
+}
+
 bool takes(const TradeoffScene& scene, std::string_view integrator) {
   return !scene.frozen || scene.frozen->file.touches.empty() || integrator != "energy-momentum";
 }

@@ -29,6 +29,9 @@ struct TradeoffScene {
   std::vector<std::string> omissions = {};                    // what the scene leaves out, in plain sentences
 
   bool has_contact() const { return frozen && frozen->file.has_contact(); }
+  /// What makes runs take equal steps, from the start to the end: "contact requires equal steps"; empty where nothing
+  /// does.
+  std::string_view equal_steps() const;
 };
 
 /// Can the integrator move the scene? Contact between bodies has kinks, through which energy-momentum has no forces.

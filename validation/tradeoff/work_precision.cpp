@@ -140,8 +140,8 @@ WorkPrecision work_precision(const TradeoffScene& scene, const SceneReference& r
   std::vector<std::vector<WorkPoint>> by_contender(contenders.size());
   for (const std::size_t which : order) {
     const TradeoffContender& contender = contenders[which];
-    if (contender.adaptive && scene.has_contact()) {
-      result.omissions.push_back(fmt::format("{}: contact requires equal steps", contender.name));
+    if (contender.adaptive && !scene.equal_steps().empty()) {
+      result.omissions.push_back(fmt::format("{}: {}", contender.name, scene.equal_steps()));
       continue;
     }
     const auto scheme = contender.make()->scheme();

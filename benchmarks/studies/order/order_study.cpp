@@ -88,7 +88,7 @@ void observe(const TradeoffScene& scene, const OrderPlan& plan, StudyLog& log, S
   SceneOrderOptions options;
   options.order.most_error = most_error(plan);
   if (plan.quick) options.most_s = 1.0;
-  found.contact = contact_order(scene);
+  found.limit = order_limit(scene);
   for (const IntegratorEntry* entry : entries) {
     found.orders.push_back(observe_order(scene, found.reference, *entry, thread_cpu_ns, options));
     log.advance(entry->name);

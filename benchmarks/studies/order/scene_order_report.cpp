@@ -22,15 +22,15 @@ std::string in_words(const SceneOrder& order) {
   return "?";
 }
 
-/// "order 1.5 at most through speed that is lost, with exponent 3"; empty without contact
-std::string limit_in_words(const ContactOrder& contact) {
-  if (contact.because.empty()) return {};
-  if (!contact.is_promised()) return "no order is promised through " + contact.because;
-  return fmt::format("order {:g} at most through {}", contact.most, contact.because);
+/// "order 1.5 at most through speed that is lost, with exponent 3"; empty without a limit
+std::string limit_in_words(const OrderLimit& limit) {
+  if (limit.because.empty()) return {};
+  if (!limit.is_promised()) return "no order is promised through " + limit.because;
+  return fmt::format("order {:g} at most through {}", limit.most, limit.because);
 }
 
 Claim claim_of(const SceneOrders& scene) {
-  const std::string limit = limit_in_words(scene.contact);
+  const std::string limit = limit_in_words(scene.limit);
   Claim claim{.id = "order-on-" + scene.name,
               .text = fmt::format("every integrator shows its order on {}, in x and in v", scene.name),
               .paper_value = "three successive halvings within 0.1"};
@@ -43,7 +43,7 @@ Claim claim_of(const SceneOrders& scene) {
     claim.reason = scene.failure;
     return claim;
   }
-  if (!scene.contact.is_promised()) claim.reason = limit;
+  if (!scene.limit.is_promised()) claim.reason = limit;
   const auto count = [&](OrderAnswer answer) { return std::ranges::count(scene.orders, answer, &SceneOrder::answer); };
   double farthest = 0.0;
   for (const SceneOrder& order : scene.orders) {
@@ -102,8 +102,7 @@ nlohmann::ordered_json to_json(const std::vector<SceneOrders>& scenes, const std
   nlohmann::ordered_json json{{"holds", exit_code(claims) == 0}, {"claims", nlohmann::json(claims)}};
   for (const SceneOrders& scene : scenes) {
     nlohmann::ordered_json one{{"scene", scene.name}};
-    if (!scene.contact.because.empty())
-      one["contact"] = {{"most", scene.contact.most}, {"because", scene.contact.because}};
+    if (!scene.limit.because.empty()) one["limit"] = {{"most", scene.limit.most}, {"because", scene.limit.because}};
     if (scene.failure.empty())
       one["reference"] = {{"kind", name(scene.reference.kind)},
                           {"floor", number(scene.reference.floor)},

@@ -17,11 +17,11 @@ struct SceneOrders {
   SceneReference reference;  // its states are not used here
   std::string failure{};     // the reason why there is no reference; empty where there is one
   std::vector<SceneOrder> orders{};
-  ContactOrder contact{};  // what contact leaves of any order; without contact, all
+  OrderLimit limit{};  // what contact and loads leave of any order
 };
 
 /// One for each scene: it falls short where an order is missed, and is undecided where the motion leaves one open, or
-/// where contact promises none.
+/// where none is promised.
 std::vector<Claim> claims_of(const std::vector<SceneOrders>& scenes);
 
 Table scene_order_table(const std::vector<SceneOrders>& scenes);

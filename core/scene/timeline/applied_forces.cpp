@@ -112,15 +112,30 @@ LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> 
   auto change = LoadChange::none;
   for (Force& force : forces_) {
     const bool acts = n >= force.first && n < force.last;
-    const double factor = force.factor.empty()
-                              ? 1.0
-                              : force.factor.mean(static_cast<double>(n) * step_, static_cast<double>(n + 1) * step_);
+    const double factor = force.factor_between(static_cast<double>(n) * step_, static_cast<double>(n + 1) * step_);
     if (acts != force.acts) change = LoadChange::begins_or_ends;
     if (acts && factor != force.now) change = std::max(change, LoadChange::in_value);
     force.acts = acts;
     force.now = factor;
   }
-  if (change == LoadChange::none) return change;
+  if (change != LoadChange::none) set_values(point_of_vertex, pull, pressure);
+  return change;
+}
+
+bool AppliedForces::follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
+                           std::span<Vector3d> pull, std::span<double> pressure) {
+  bool changed = false;
+  for (Force& force : forces_)
+    if (const double factor = force.factor_between(begin, end); force.acts && factor != force.now) {
+      force.now = factor;
+      changed = true;
+    }
+  if (changed) set_values(point_of_vertex, pull, pressure);
+  return changed;
+}
+
+void AppliedForces::set_values(std::span<const std::uint32_t> point_of_vertex, std::span<Vector3d> pull,
+                               std::span<double> pressure) const {
   std::vector<Vector3d> of_point(points_, Vector3d(0, 0, 0));
   for (const Force& force : forces_) {
     if (!force.acts) continue;
@@ -131,7 +146,6 @@ LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> 
     pull[k] = point_of_vertex[k] < points_ ? of_point[point_of_vertex[k]] : Vector3d(0, 0, 0);
   for (std::size_t f = 0; f < pressure.size(); ++f)
     pressure[f] = forces_[f].acts ? forces_[f].now * forces_[f].followed : 0.0;
-  return change;
 }
 
 bool AppliedForces::sum_work() const {

@@ -36,6 +36,12 @@ class AppliedForces {
   LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
                    std::span<double> pressure = {});
 
+  /// Set the forces that change in time to their means from one time to another [s], whatever the step.
+  ///
+  /// returns  whether any has changed
+  bool follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
+              std::span<double> pressure);
+
   std::size_t size() const { return forces_.size(); }
   /// Is their work summed, since they have no potential that lasts?
   bool sum_work() const;
@@ -55,7 +61,12 @@ class AppliedForces {
     double followed = 0.0;  // [Pa] of a pressure that follows its faces; it has no points and no pull
     bool acts = false;
     double now = 1.0;  // the factor in this step
+
+    double factor_between(double begin, double end) const { return factor.empty() ? 1.0 : factor.mean(begin, end); }
   };
+  void set_values(std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
+                  std::span<double> pressure) const;
+
   std::vector<Force> forces_;
   std::size_t points_ = 0;  // of the mesh
   double step_ = 0.0;       // [s]

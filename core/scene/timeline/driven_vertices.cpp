@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
@@ -60,19 +61,25 @@ void DrivenVertices::require_apart(const SceneFile& scene, std::span<const Eigen
     }
 }
 
-/// Along a path or a turn, in the step after n others.
-LoadChange DrivenVertices::follow(Drive& drive, std::uint64_t n) {
+/// Along a path or a turn. Returns whether a velocity has changed.
+bool DrivenVertices::follow(const Drive& drive, double begin, double end) {
   bool changed = false;
-  const double begin = static_cast<double>(n) * step_, end = static_cast<double>(n + 1) * step_;
   for (std::size_t k = 0; k < drive.points.size(); ++k) {
     Eigen::Vector3d& v = now_[place_[drive.points[k]]];
     const Eigen::Vector3d next = drive.table->velocity_of(drive.rest[k], begin, end);
     changed = changed || next != v;
     v = next;
   }
-  const bool begins = drive.sign == 0.0;
-  drive.sign = 1.0;
-  return begins ? LoadChange::begins_or_ends : changed ? LoadChange::in_value : LoadChange::none;
+  return changed;
+}
+
+bool DrivenVertices::follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
+                            std::span<Eigen::Vector3d> velocity) {
+  bool changed = false;
+  for (const Drive& drive : drives_)
+    if (drive.table && drive.sign != 0.0 && follow(drive, begin, end)) changed = true;
+  if (changed) set_velocities(point_of_vertex, velocity);
+  return changed;
 }
 
 LoadChange DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
@@ -94,19 +101,27 @@ LoadChange DrivenVertices::apply(std::uint64_t n, std::span<const std::uint32_t>
   for (Drive& drive : drives_) {
     if (n < drive.first || n >= drive.last) continue;
     if (drive.table) {
-      changed = std::max(changed, follow(drive, n));
+      const bool moved = follow(drive, static_cast<double>(n) * step_, static_cast<double>(n + 1) * step_);
+      const bool begins = std::exchange(drive.sign, 1.0) == 0.0;
+      changed = std::max(changed, begins  ? LoadChange::begins_or_ends
+                                  : moved ? LoadChange::in_value
+                                          : LoadChange::none);
       continue;
     }
     double sign = drive.sign == 0.0 ? 1.0 : drive.sign;
     for (; drive.turn && drive.turn->next() <= n; drive.turn->advance()) sign = -sign;
     set(drive, sign);
   }
-  if (changed == LoadChange::none) return changed;
+  if (changed != LoadChange::none) set_velocities(point_of_vertex, velocity);
+  return changed;
+}
+
+void DrivenVertices::set_velocities(std::span<const std::uint32_t> point_of_vertex,
+                                    std::span<Eigen::Vector3d> velocity) const {
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     const std::uint32_t p = point_of_vertex[k];
     if (moves(p)) velocity[k] = now_[place_[p]];
   }
-  return changed;
 }
 
 std::size_t DrivenVertices::bytes() const {

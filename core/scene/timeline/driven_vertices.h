@@ -35,6 +35,13 @@ class DrivenVertices {
   LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
                    std::span<Eigen::Vector3d> velocity);
 
+  /// Set the velocities of those that are on a path or a turn to their means from one time to another [s], whatever the
+  /// step.
+  ///
+  /// returns  whether any has changed
+  bool follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
+              std::span<Eigen::Vector3d> velocity);
+
   /// Is this a point of the mesh that some drive moves?
   bool moves(std::uint32_t point) const { return point < place_.size() && place_[point] != none; }
   /// Vertices of the mesh that some drive moves.
@@ -65,7 +72,8 @@ class DrivenVertices {
     std::optional<EventClock> turn;  // the boundaries where it is reversed
     double sign = 0.0;               // of the present velocity; 0 at rest
   };
-  LoadChange follow(Drive& drive, std::uint64_t n);
+  bool follow(const Drive& drive, double begin, double end);
+  void set_velocities(std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> velocity) const;
   void require_apart(const SceneFile& scene, std::span<const Eigen::Vector3d> rest) const;
 
   double step_ = 0.0;  // [s]

@@ -55,7 +55,10 @@ void Timeline::apply(Scheduled& scheduled) {
 LoadChange Timeline::drive(std::uint64_t n) {
   const LoadChange driven = driven_.apply(n, body_.vertices().point, body_.motion().v);
   const LoadChange forces = forces_.apply(n, body_.vertices().point, body_.pull(), body_.pressures());
-  if (driven != LoadChange::none || forces == LoadChange::begins_or_ends) integrator_.restart();
+  if (driven == LoadChange::begins_or_ends || forces == LoadChange::begins_or_ends)
+    integrator_.restart();
+  else if (driven == LoadChange::in_value)
+    integrator_.drives_changed();
   return std::max(driven, forces);
 }
 

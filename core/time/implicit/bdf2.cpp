@@ -31,8 +31,14 @@ StepResult Bdf2::step(const SpringSystem& system, Motion motion, double h) {
   const bool first = !(std::abs(last_h_ - h) <= 1e-12 * std::abs(h)) || last_.x.size() != n;
   const double tau = first ? h : 2.0 * h / 3.0;
   for (std::size_t i = 0; i < n; ++i) {
-    start_.x[i] = first ? motion.x[i] : motion.x[i] + (motion.x[i] - last_.x[i]) / 3.0;
-    start_.v[i] = first || system.fixed[i] ? motion.v[i] : motion.v[i] + (motion.v[i] - last_.v[i]) / 3.0;
+    start_.x[i] = motion.x[i];
+    start_.v[i] = motion.v[i];
+    if (system.fixed[i]) {
+      start_.x[i] += (h - tau) * motion.v[i];  // it moves on by its velocity, which may be another than before
+    } else if (!first) {
+      start_.x[i] += (motion.x[i] - last_.x[i]) / 3.0;
+      start_.v[i] += (motion.v[i] - last_.v[i]) / 3.0;
+    }
     end_.v[i] = motion.v[i];
   }
   const StepResult result = stage_.solve(system, start_.x, start_.v, tau, StageForce::at_end, end_.v, work_);

@@ -19,6 +19,7 @@ class Bdf2 : public ImplicitIntegrator {
   StepResult step(const SpringSystem& system, Motion motion, double h) override;
   std::size_t bytes() const override { return ImplicitIntegrator::bytes() + last_.bytes() + start_.bytes(); }
   void motion_changed() override { last_h_ = 0.0; }
+  void drives_changed() override { stage_.system_changed(); }
   void state(Archive& archive) override {
     ImplicitIntegrator::state(archive);
     archive(last_, last_h_);

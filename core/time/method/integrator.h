@@ -73,8 +73,8 @@ struct WorkCounters {
 /// A time integration method with the memory it needs between steps.
 ///
 /// The system may change between steps (its columns in size or value) only if `restart` is called in between, except
-/// for the values of `pull`; the motion too, for methods that are not one-step. A fixed vertex keeps its velocity
-/// whatever acts on it, so one that is given a velocity is driven.
+/// for the values of `pull`; the motion too, for methods that are not one-step, after `motion_changed` or
+/// `drives_changed`. A fixed vertex keeps its velocity whatever acts on it, so one that is given a velocity is driven.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -91,6 +91,8 @@ class Integrator {
   /// Forget what was kept of the motion and of forces: velocities have changed between two steps, or constant forces.
   /// The system has not: what is known of its matrices may stay.
   virtual void motion_changed() { restart(); }
+  /// Velocities of fixed vertices have changed between two steps, and nothing else has.
+  virtual void drives_changed() { motion_changed(); }
 
   /// Writes or reads what the bits of the next steps depend on besides the system and the motion. What the next step
   /// computes again from these, or overwrites, is left out.

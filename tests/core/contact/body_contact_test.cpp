@@ -247,6 +247,22 @@ TEST(BodyContact, HasRoomForWaysOnWhichNothingTouches) {
   }
 }
 
+TEST(BodyContact, WatchesEveryVertex) {
+  const TwoBodies boxes = stacked(2, -0.02, law_between(3, 1000.0, 0.1));
+  const std::size_t half = boxes.x.size() / 2;
+  Vector3d lower(0, 0, 0), upper(0, 0, 0);
+  for (std::size_t i = 0; i < half; ++i) {
+    lower += boxes.x[i] / static_cast<double>(half);
+    upper += boxes.x[half + i] / static_cast<double>(half);
+  }
+  for (std::size_t i = 0; i < boxes.x.size(); ++i) {
+    EXPECT_TRUE(boxes.contact->touching({boxes.x}).empty());
+    std::vector<Vector3d> places = boxes.x;
+    places[i] = (i < half ? upper : lower) + Vector3d(0.011, 0.017, 0.013);
+    expect_same(boxes.contact->touching({places}), boxes.contact->touching_by_brute_force({places}, nullptr));
+  }
+}
+
 // No vertex comes nearer to another.
 TEST(BodyContact, KeepsItsListWhileBodiesMoveTogether) {
   TwoBodies boxes = stacked(2, -0.02, law_between(3, 1000.0, 0.1));

@@ -164,6 +164,18 @@ TEST(BodyImpulses, HaveFrictionWithoutTorqueHalfWay) {
   EXPECT_NEAR(change, at_end - energy, 1e-13 * energy);
 }
 
+// Nothing touches yet, and a list says so, when the step begins.
+TEST(BodyImpulses, HaveFrictionInTheStepThatBringsBodiesTogether) {
+  const double h = 1e-3, apart = 3.0;
+  Balls balls(1.0, 0.3, apart);
+  EXPECT_TRUE(balls.contact.touching({balls.x}).empty());
+  ASSERT_GT(balls.contact.room_at(balls.x), 0.0);
+  for (std::size_t i = 0; i < balls.v.size(); ++i)
+    if (balls.x[i][0] > 1.5) balls.v[i][0] -= apart / (h / 2);
+  EXPECT_TRUE(balls.begin(h));
+  EXPECT_GT(balls.contact.frozen_friction().size(), 10u);
+}
+
 TEST(BodyImpulses, TellNothingWhereNothingTouches) {
   Balls apart(0.5, 0.5, 3.0);
   const auto v = apart.v;

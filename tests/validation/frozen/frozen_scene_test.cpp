@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
-#include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 #include "validation/scenes/scene_of_file.h"
@@ -86,6 +89,13 @@ const Kind kinds[] = {
     {"forces", R"({"forces": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]}, "force": [0.5, 0, 0.25],
                                "from": 0.0078125, "until": 0.046875}],
                    "events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
+    {"loads over time",
+     R"({"driven": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]},
+                     "path": [{"at": 0, "place": [0, 0, 0]}, {"at": 0.03125, "place": [0.01, 0, 0]},
+                              {"at": 0.0625, "place": [0.01, 0.02, 0]}]}],
+         "forces": [{"ids": [13], "force": [0.5, 0, 0.25], "from": 0.0078125,
+                     "over_time": [{"at": 0, "factor": 0}, {"at": 0.02, "factor": 3}, {"at": 0.05, "factor": -1}]}],
+         "events": [{"at": 0.03125, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}]})"},
     {"elements", R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null},
                      "events": [{"at": 0.03125, "dissociate": {"points": [[0, 1, 13], [0, 4, 13]]}}]})"},
     {"hexahedra", R"({"material": {"stiffness": null, "young": 3000, "poisson": 0.3, "damping": null},
@@ -156,29 +166,44 @@ TEST(FrozenScene, NamesTheEventThatItsBodyDoesNotHave) {
   }
 }
 
-TEST(FrozenScene, RefusesWhatChangesInEveryStep) {
-  const auto refusal_of = [](const char* patch) -> std::string {
-    const SceneFile file = parse(changed(patch));
-    try {
-      freeze(file, make_problem(file));
-      return "accepted";
-    } catch (const InputError& error) {
-      return error.what();
+const char* const turned_and_pulled =
+    R"({"driven": [{"box": {"min": [0.24, -1, -1], "max": [1, 1, 1]},
+                    "turn": {"axis": [1, 0, 0], "centre": [0, 0.125, 0.125],
+                             "angles": [{"at": 0, "degrees": 0}, {"at": 0.0625, "degrees": 30}]}}],
+        "forces": [{"ids": [13], "force": [0, 0.5, 0], "over_time": [{"at": 0, "factor": 0}, {"at": 0.0625, "factor": 2}]}]})";
+
+TEST(FrozenScene, IsOfSecondOrderUnderLoadsThatChangeInTime) {
+  const TradeoffScene scene = scene_of_file(parse(changed(turned_and_pulled)));
+  const PointState exact = run_as_study(scene, "rk4", 4096);
+  for (const char* integrator : {"rk4", "verlet", "implicit-midpoint"}) {
+    std::array<double, 2> x{}, v{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const PointState found = run_as_study(scene, integrator, 128u << k);
+      for (std::size_t i = 0; i < exact.x.size(); ++i) {
+        x[k] = std::max(x[k], (found.x[i] - exact.x[i]).norm());
+        v[k] = std::max(v[k], (found.v[i] - exact.v[i]).norm());
+      }
     }
-  };
-  const std::string why = ": changes in every step, and steps of several lengths are compared here";
-  EXPECT_EQ(refusal_of(R"({"forces": [{"ids": [26], "force": [1, 0, 0], "over_time": [{"at": 0, "factor": 2}]}]})")
-                .find("/forces/0/over_time" + why),
-            0u);
-  EXPECT_EQ(
-      refusal_of(
-          R"({"driven": [{"ids": [26], "path": [{"at": 0, "place": [0, 0, 0]}, {"at": 1, "place": [0, 1, 0]}]}]})")
-          .find("/driven/0/path" + why),
-      0u);
-  EXPECT_EQ(refusal_of(R"({"driven": [{"ids": [26], "turn": {"axis": [0, 0, 1], "centre": [0, 0, 0],
-                            "angles": [{"at": 0, "degrees": 0}, {"at": 1, "degrees": 9}]}}]})")
-                .find("/driven/0/turn" + why),
-            0u);
+    EXPECT_NEAR(std::log2(x[0] / x[1]), 2.0, 0.2) << integrator;
+    EXPECT_NEAR(std::log2(v[0] / v[1]), 2.0, 0.3) << integrator;
+  }
+}
+
+TEST(FrozenScene, ShowsTheVelocityOfATurnAtTheTimeWhateverTheStep) {
+  const TradeoffScene scene = scene_of_file(parse(changed(turned_and_pulled)));
+  const PointState coarse = run_as_study(scene, "rk4", 16), fine = run_as_study(scene, "rk4", 64);
+  const std::size_t corner = 2;  // of the face that is turned
+  const double turning = 30.0 * std::numbers::pi / 180.0 / 0.0625;
+  const Eigen::Vector3d arm(0, coarse.x[corner][1] - 0.125, coarse.x[corner][2] - 0.125);
+  EXPECT_LT((coarse.v[corner] - Eigen::Vector3d(turning, 0, 0).cross(arm)).norm(), 1e-6 * turning * arm.norm());
+  EXPECT_EQ(coarse.v[corner], fine.v[corner]);
+}
+
+TEST(FrozenScene, IsNotRunUnderSuchLoadsInStepsThatTheIntegratorChooses) {
+  const TradeoffScene scene = scene_of_file(parse(changed(turned_and_pulled)));
+  EXPECT_EQ(scene.beyond_references, "loads that change in time");
+  EXPECT_THROW(run_timed(scene, *make_integrator("dormand-prince-54"), {.tolerance = 1e-3}, [] { return 0; }),
+               InputError);
 }
 
 }  // namespace

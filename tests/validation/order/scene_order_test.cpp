@@ -209,7 +209,7 @@ SceneOrder answer_of_contact(double most, double order, double scatter, std::siz
     study.points.push_back(point);
   }
   judge(study, 1e-14, {});
-  return answer_through_contact(study, {most, "an energy"}, {});
+  return answer_by_fit(study, {most, "an energy"}, {});
 }
 
 TEST(OrderThroughContact, IsShownByALineThroughErrorsThatScatter) {

@@ -77,9 +77,9 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
        .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator if "
-               "it is not named, by whole runs where there is contact. The choice rests on timings: it may differ from machine to machine "
-               "and from run to run, and the hash with it; 'simulate' prints the 'integrator' and 'step' that settle "
-               "it"},
+               "it is not named, by whole runs where there is contact or a load changes in time. The choice rests on "
+               "timings: it may differ from machine to machine and from run to run, and the hash with it; 'simulate' "
+               "prints the 'integrator' and 'step' that settle it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = names_of(integrators()),

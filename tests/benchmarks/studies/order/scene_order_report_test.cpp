@@ -71,7 +71,7 @@ TEST(SceneOrderClaims, AreUndecidedWhereTheMotionLeavesOneOpen) {
 
 TEST(SceneOrderClaims, SayWhatContactLeavesOfTheOrders) {
   auto with = scenes();
-  with[0].contact = {1.5, "speed that is lost, with exponent 3"};
+  with[0].limit = {1.5, "speed that is lost, with exponent 3"};
   const std::vector<Claim> claims = claims_of(with);
   EXPECT_EQ(claims[0].verdict, Verdict::holds);
   EXPECT_EQ(
@@ -80,12 +80,12 @@ TEST(SceneOrderClaims, SayWhatContactLeavesOfTheOrders) {
       "exponent 3");
   expect_words(claims, "order-on-bar", "five errors or more fall with it, or faster, within 0.3", "2 of 2 integrators",
                "reference: by two codes");
-  EXPECT_EQ(to_json(with, claims)["references"][0]["contact"]["most"], 1.5);
+  EXPECT_EQ(to_json(with, claims)["references"][0]["limit"]["most"], 1.5);
 }
 
 TEST(SceneOrderClaims, AreUndecidedWhereContactPromisesNone) {
   auto with = scenes();
-  with[0].contact = {0.0, "bodies, whose nearest face changes"};
+  with[0].limit = {0.0, "bodies, whose nearest face changes"};
   for (SceneOrder& one : with[0].orders) one = order("verlet", OrderAnswer::open, "order 1.00 in x");
   const std::vector<Claim> claims = claims_of(with);
   EXPECT_EQ(claims[0].verdict, Verdict::undecided);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -192,6 +193,35 @@ TEST(LoadsOverTime, TurnDrivenVerticesOnCircles) {
       EXPECT_LE((v.position[k] - expected).norm(), 1e-15 * n) << n;
     }
   }
+}
+
+/// A box whose one side is fixed and whose other side is turned.
+Json wrung_box(const char* integrator) {
+  Json scene = moving_box();
+  scene.erase("initial_velocity");
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}])");
+  scene["driven"] = Json::parse(R"([{"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]},
+      "turn": {"axis": [1, 0, 0], "centre": [0, 0.125, 0.125],
+               "angles": [{"at": 0, "degrees": 0}, {"at": 0.01, "degrees": 10}]}}])");
+  scene["integrator"] = integrator;
+  return scene;
+}
+
+TEST(LoadsOverTime, LeaveTheMethodOfTwoStepsItsOrderWhereTheyMoveVertices) {
+  const auto places = [](double step) {
+    Json scene = wrung_box("bdf2");
+    scene["step"] = step;
+    Simulation simulation(parse(scene));
+    run(simulation);
+    return simulation.body().vertices().position;
+  };
+  const std::vector<Vector3d> exact = places(0.01 / 1024), coarse = places(0.01 / 16), fine = places(0.01 / 32);
+  double before = 0.0, after = 0.0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    before = std::max(before, (coarse[k] - exact[k]).norm());
+    after = std::max(after, (fine[k] - exact[k]).norm());
+  }
+  EXPECT_NEAR(std::log2(before / after), 2.0, 0.3);
 }
 
 TEST(LoadsOverTime, GoOnFromACheckpointWithTheSameBits) {

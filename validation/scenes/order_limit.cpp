@@ -1,4 +1,4 @@
-#include "validation/scenes/contact_order.h"
+#include "validation/scenes/order_limit.h"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,15 @@
 
 namespace dartboard {
 
-ContactOrder contact_order(const SceneFile& file) {
-  ContactOrder found;
+OrderLimit order_limit(const SceneFile& file) {
+  OrderLimit found;
   const auto limit = [&found](double order, std::string because) {
-    if (order < found.most) found = {order, std::move(because)};
+    if (!(order < found.most)) return;
+    found.most = order;
+    found.because = std::move(because);
   };
+  found.late_loads = changes_in_every_step(file);
+  if (found.late_loads) limit(2.0, "loads that change in time");
   if (!file.touches.empty()) limit(0.0, "bodies, whose nearest face changes");
   for (const SceneObstacle& o : file.obstacles) {
     if (std::holds_alternative<Block>(o.obstacle.shape)) limit(0.0, "boxes, whose nearest face changes");
@@ -23,8 +27,8 @@ ContactOrder contact_order(const SceneFile& file) {
   return found;
 }
 
-ContactOrder contact_order(const TradeoffScene& scene) {
-  return scene.frozen ? contact_order(scene.frozen->file) : ContactOrder{};
+OrderLimit order_limit(const TradeoffScene& scene) {
+  return scene.frozen ? order_limit(scene.frozen->file) : OrderLimit{};
 }
 
 }  // namespace dartboard
