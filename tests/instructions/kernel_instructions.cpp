@@ -11,13 +11,13 @@
 #include <memory>
 #include <string_view>
 
+#include "core/base/lanes.h"
 #include "core/elements/spring_pieces.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/operations/dissociate_face.h"
 #include "core/time/integrators.h"
-#include "core/time/system/spring_lanes.h"
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"

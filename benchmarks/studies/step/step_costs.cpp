@@ -12,6 +12,7 @@
 #include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/step/finer_mesh.h"
 #include "benchmarks/studies/step/machine_limits.h"
+#include "core/base/lanes.h"
 #include "core/base/thread_team.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/meshes/mesh_io.h"
@@ -22,7 +23,6 @@
 #include "core/time/integrators.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/force_shares.h"
-#include "core/time/system/spring_lanes.h"
 #include "validation/contenders/contenders.h"
 #include "validation/contenders/motion_agreement.h"
 

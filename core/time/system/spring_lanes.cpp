@@ -4,13 +4,12 @@
 #include <limits>
 
 #include "core/base/avx2.h"
+#include "core/base/lanes.h"
 
 namespace dartboard {
 
 #ifdef DARTBOARD_HAS_AVX2
 namespace {
-
-bool lanes_are_on = has_avx2();
 
 struct ThreeColumns {
   __m256d x, y, z;
@@ -108,20 +107,13 @@ DARTBOARD_AVX2 std::size_t add_in_lanes(const SpringColumnsAt& at, std::span<con
 
 template <bool damped, class SomeSpring>
 std::size_t add_forces_in_lanes(const SpringColumnsAt& at, std::span<const SomeSpring> springs) {
-  return lanes_are_on && springs.size() >= 4 ? add_in_lanes<damped>(at, springs) : 0;
-}
-
-bool use_lanes(bool on) {
-  const bool were_on = lanes_are_on;
-  lanes_are_on = on && has_avx2();
-  return were_on;
+  return springs.size() >= 4 && lanes_are_on() ? add_in_lanes<damped>(at, springs) : 0;
 }
 #else
 template <bool damped, class SomeSpring>
 std::size_t add_forces_in_lanes(const SpringColumnsAt&, std::span<const SomeSpring>) {
   return 0;
 }
-bool use_lanes(bool) { return false; }
 #endif
 
 template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt&, std::span<const Spring>);

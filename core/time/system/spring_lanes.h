@@ -50,17 +50,12 @@ inline void add_forces_one_by_one(const SpringColumnsAt& at, const SomeSpring* r
 /// are computed for four springs at a time by the operations of `spring_force` in their order; then the four add to
 /// their ends one after the other. So each sum has the order and the bits that it has one by one.
 ///
-/// returns  the number of springs added; 0 without AVX2, or after `use_lanes(false)`
+/// returns  the number of springs added; 0 without AVX2, or where lanes are off (lanes.h)
 /// cost     2.4 to 3.2 ns a spring where the columns fit the cache, 0.65 to 0.75 of one by one
 template <bool damped, class SomeSpring>
 std::size_t add_forces_in_lanes(const SpringColumnsAt& at, std::span<const SomeSpring> springs);
 extern template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt&, std::span<const Spring>);
 extern template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const Spring>);
 extern template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const UndampedSpring>);
-
-/// Turn lanes off, or on again where the processor has them: for comparisons. Not while another thread steps.
-///
-/// returns  whether they were on
-bool use_lanes(bool on);
 
 }  // namespace dartboard

@@ -7,6 +7,8 @@
 #include <random>
 #include <type_traits>
 
+#include "core/base/lanes.h"
+
 namespace dartboard::spring_lanes_test {
 namespace {
 
