@@ -57,9 +57,12 @@ class NeoHookean {
   }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return 2.0 * mu_ + 3.0 * lambda_; }
+  double mu() const { return mu_; }          // mu'
+  double lambda() const { return lambda_; }  // lambda'
+  double slack() const { return slack_; }    // a - 1
 
  private:
-  double mu_, lambda_, slack_;  // slack: a - 1
+  double mu_, lambda_, slack_;
 };
 
 /// Corotational: linear elasticity in the frame of the exact polar rotation R.
@@ -81,6 +84,8 @@ class Corotational {
   }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return stiffest_strain(mu_, lambda_); }
+  double mu() const { return mu_; }
+  double lambda() const { return lambda_; }
 
  private:
   double mu_, lambda_;
@@ -98,6 +103,8 @@ class StVenantKirchhoff {
   Eigen::Matrix3d stress(const Eigen::Matrix3d& f) const { return f * second_stress(f); }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return stiffest_strain(mu_, lambda_); }
+  double mu() const { return mu_; }
+  double lambda() const { return lambda_; }
 
  private:
   Eigen::Matrix3d second_stress(const Eigen::Matrix3d& f) const {  // second Piola-Kirchhoff

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/lanes.h"
 #include "core/elements/elastic_laws.h"
 #include "core/forces/force_size.h"
 #include "core/forces/one_minus_exp.h"
@@ -38,6 +39,7 @@ class DampedMaterials {
     if (!any_) all_ = {};
   }
   bool any() const { return any_; }
+  bool is_one() const { return materials_.is_one(); }
   const DampedMaterial& operator[](std::size_t cell) const {
     return all_[materials_.is_one() ? 0 : materials_.number(cell)];
   }
@@ -59,7 +61,8 @@ class DampedMaterials {
 /// `Points` gives the elements, piece by piece and Gauss point by Gauss point:
 ///   size(), nodes(piece) (a span, of fixed size where all are alike), points(piece), and place(piece, point, material,
 ///   gradients): the gradients [1/m] of the functions of the corners at rest, and the volume [m^3] that the point
-///   stands for
+///   stands for; where it has them, add_forces_in_lanes(material, x, v, force): the forces of the first elements of a
+///   body of one material, several at a time, and their number
 /// source  Simo, Hughes: Computational Inelasticity, 1998, chapter 10, on viscoelasticity
 template <class Points>
 class StrainDamping final : public TermDamping {
@@ -75,7 +78,7 @@ class StrainDamping final : public TermDamping {
   double time(std::size_t piece) const override { return materials_[piece].time; }
 
   void add_forces(const StagePlaces& at, std::span<const Vector3d> v, std::span<Vector3d> force) const override {
-    for_each_damped([&](std::size_t piece, const DampedMaterial& m) {
+    for_each_damped(add_forces_in_lanes(at, v, force), [&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
       std::array<Vector3d, 8> sum;
       std::fill_n(sum.begin(), n.size(), Vector3d::Zero());
@@ -94,7 +97,7 @@ class StrainDamping final : public TermDamping {
   }
 
   void add_force_sizes(const StagePlaces& at, std::span<const Vector3d> v, std::span<double> size) const override {
-    for_each_damped([&](std::size_t piece, const DampedMaterial& m) {
+    for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
       for_each_point(piece, m, [&](const Gradients& g, double volume) {
         double deformed = 0.0, rate = 0.0;
@@ -126,7 +129,7 @@ class StrainDamping final : public TermDamping {
   EnergyChange rate_change(const StagePlaces& at, std::span<const Vector3d> v, std::span<const Vector3d> step,
                            double scale) const override {
     EnergyChange sum;
-    for_each_damped([&](std::size_t piece, const DampedMaterial& m) {
+    for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
       for_each_point(piece, m, [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(at, n, g);
@@ -196,10 +199,18 @@ class StrainDamping final : public TermDamping {
   }
 
  private:
-  /// f(piece, material)
+  /// returns  the number of the first elements whose forces it has added
+  std::size_t add_forces_in_lanes(const StagePlaces& at, std::span<const Vector3d> v, std::span<Vector3d> force) const {
+    if constexpr (requires { points_.add_forces_in_lanes(materials_[0], at.x, v, force); })
+      if (materials_.is_one() && at.w.empty() && lanes_are_on())
+        return points_.add_forces_in_lanes(materials_[0], at.x, v, force);
+    return 0;
+  }
+
+  /// f(piece, material), from a piece on.
   template <class F>
-  void for_each_damped(F&& f) const {
-    for (std::size_t piece = 0; piece < points_.size(); ++piece)
+  void for_each_damped(std::size_t first, F&& f) const {
+    for (std::size_t piece = first; piece < points_.size(); ++piece)
       if (const DampedMaterial& m = materials_[piece]; m.time != 0.0) f(piece, m);
   }
   /// f(gradients, volume)

@@ -1,7 +1,10 @@
 #include "core/elements/tetrahedra.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 
+#include "core/base/lanes.h"
+#include "core/elements/lanes/tetrahedra_lanes.h"
 #include "core/elements/part_of_elements.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
@@ -21,6 +24,10 @@ Virial virial_share(const Law& law, double volume, const Matrix3d& f) {
   return {0.5 * (whole + whole.transpose()), 0.25 * volume * (volume_ratio(law, f) - 1.0)};
 }
 
+NeoHookeanConstants constants_of(const NeoHookean& law) { return {law.mu(), law.lambda(), law.slack()}; }
+StVenantKirchhoffConstants constants_of(const StVenantKirchhoff& law) { return {law.mu(), law.lambda()}; }
+CorotationalConstants constants_of(const Corotational& law) { return {law.mu(), law.lambda()}; }
+
 template <class Laws>
 class Tetrahedra final : public ForceTerm {
  public:
@@ -32,13 +39,13 @@ class Tetrahedra final : public ForceTerm {
   Nodes nodes(std::size_t piece) const override { return columns_.nodes[piece]; }
 
   void add_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
-    add_forces_of(at, 0, size(), everywhere, force);
+    add_forces_of(at, 0, size(), force);
   }
   bool adds_in_parts() const override { return true; }
   void add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
                           std::span<Vector3d> force) const override {
     if (run.whole)
-      add_forces_of(at, run.first, run.last, everywhere, force);
+      add_forces_of(at, run.first, run.last, force);
     else
       add_forces_of(
           at, run.first, run.last, [own](std::uint32_t vertex) { return own.contains(vertex); }, force);
@@ -165,6 +172,21 @@ class Tetrahedra final : public ForceTerm {
     if (is_own(n[1])) force[n[1]] += f.col(0);
     if (is_own(n[2])) force[n[2]] += f.col(1);
     if (is_own(n[3])) force[n[3]] += f.col(2);
+  }
+  /// At all corners, four tetrahedra of a homogeneous body at a time where that is possible.
+  void add_forces_of(const StagePlaces& at, std::size_t first, std::size_t last, std::span<Vector3d> force) const {
+    do {
+      std::size_t next = last;
+      if constexpr (requires { laws_.law(); })
+        if (at.w.empty() && last - first >= 4 && lanes_are_on()) {
+          const TetrahedraAt columns{columns_.nodes.data(), columns_.shape.data(), columns_.mass.data(),
+                                     laws_.per_mass(0),     at.x.data(),           force.data()};
+          first = add_forces_in_lanes(columns, constants_of(laws_.law()), first, last);
+          next = std::min(first + 4, last);
+        }
+      add_forces_of(at, first, next, everywhere, force);
+      first = next;
+    } while (first < last);
   }
   template <class IsOwn>
   void add_forces_of(const StagePlaces& at, std::size_t first, std::size_t last, const IsOwn& is_own,

@@ -28,6 +28,8 @@ using namespace dartboard;
 
 namespace {
 
+enum class Added { one_by_one, in_lanes };
+
 /// The elements of a mesh, stretched. Built within the section that needs them, so that others count their own work.
 struct Elements {
   MassSpringBody<TetMap, Held::by_every_dart> body;
@@ -51,7 +53,8 @@ struct Elements {
                         .model = model};
     return problem;
   }
-  std::size_t hundred_forces() {
+  std::size_t hundred_forces(Added added = Added::one_by_one) {
+    use_lanes(added == Added::in_lanes);
     for (int k = 0; k < 100; ++k) term->add_forces({body.vertices.position}, body.vertices.force);
     return body.vertices.force.front() != body.vertices.force.back();
   }
@@ -72,7 +75,6 @@ class Springs {
     system_.terms = terms_;
   }
 
-  enum class Added { one_by_one, in_lanes };
   std::size_t steps(const char* integrator, int count, double h, Added added = Added::one_by_one) {
     use_lanes(added == Added::in_lanes);
     const auto method = make_integrator(integrator);
@@ -148,7 +150,7 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 17> sections{{
+constexpr std::array<Section, 20> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
@@ -160,12 +162,17 @@ constexpr std::array<Section, 17> sections{{
     {"edges-general", [](Body& b) { return edges(b.general); }},
     {"edges-tetrahedral", [](Body& b) { return edges(b.tetrahedral); }},
     {"forces-corotational", [](Body& b) { return Elements(b.mesh, Model::corotational).hundred_forces(); }},
+    {"forces-corotational-in-lanes",
+     [](Body& b) { return Elements(b.mesh, Model::corotational).hundred_forces(Added::in_lanes); }},
     {"forces-neo-hookean", [](Body& b) { return Elements(b.mesh, Model::neo_hookean).hundred_forces(); }},
+    {"forces-neo-hookean-in-lanes",
+     [](Body& b) { return Elements(b.mesh, Model::neo_hookean).hundred_forces(Added::in_lanes); }},
+    {"forces-stvk-in-lanes", [](Body& b) { return Elements(b.mesh, Model::stvk).hundred_forces(Added::in_lanes); }},
     {"full-check-general", [](Body& b) { return full_check(b.general); }},
     {"full-check-tetrahedral", [](Body& b) { return full_check(b.tetrahedral); }},
     {"rk4-springs", [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3); }},
     {"rk4-springs-in-lanes",
-     [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3, Springs::Added::in_lanes); }},
+     [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3, Added::in_lanes); }},
     {"rk4-springs-as-pieces", [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("rk4", 200, 1e-3); }},
     {"vertex-orbits-general", [](Body& b) { return vertex_orbits(b.general); }},
     {"vertex-orbits-tetrahedral", [](Body& b) { return vertex_orbits(b.tetrahedral); }},
