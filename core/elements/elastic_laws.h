@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elements/lanes/law_constants.h"
 #include "core/elements/polar_factor.h"
 #include "core/forces/compression.h"
 #include "core/forces/force_term.h"
@@ -57,9 +58,7 @@ class NeoHookean {
   }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return 2.0 * mu_ + 3.0 * lambda_; }
-  double mu() const { return mu_; }          // mu'
-  double lambda() const { return lambda_; }  // lambda'
-  double slack() const { return slack_; }    // a - 1
+  NeoHookeanConstants constants() const { return {mu_, lambda_, slack_}; }
 
  private:
   double mu_, lambda_, slack_;
@@ -84,8 +83,7 @@ class Corotational {
   }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return stiffest_strain(mu_, lambda_); }
-  double mu() const { return mu_; }
-  double lambda() const { return lambda_; }
+  CorotationalConstants constants() const { return {mu_, lambda_}; }
 
  private:
   double mu_, lambda_;
@@ -103,8 +101,7 @@ class StVenantKirchhoff {
   Eigen::Matrix3d stress(const Eigen::Matrix3d& f) const { return f * second_stress(f); }
   Hessian hessian(const Eigen::Matrix3d& f, Compression compression) const;
   double modulus() const { return stiffest_strain(mu_, lambda_); }
-  double mu() const { return mu_; }
-  double lambda() const { return lambda_; }
+  StVenantKirchhoffConstants constants() const { return {mu_, lambda_}; }
 
  private:
   Eigen::Matrix3d second_stress(const Eigen::Matrix3d& f) const {  // second Piola-Kirchhoff

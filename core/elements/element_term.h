@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/lanes.h"
 #include "core/forces/compensated_sum.h"
 #include "core/forces/force_size.h"
 #include "core/forces/force_term.h"
@@ -48,7 +49,9 @@ struct GaussPoint {
 ///
 /// Laws has laws_[c] with energy, change, stress, hessian, modulus and, by a function of its own, discrete_stress.
 /// Cells has `d`, `most` corners of a cell, name(), size(), nodes(c), and for_each_point(laws, c, f), which calls
-/// f(point, size) with points as GaussPoint.
+/// f(point, size) with points as GaussPoint. Where it has add_stresses_in_lanes(law, c, lines, sums), that adds those
+/// of the first points, several at a time, and returns their number, from which for_each_point(laws, c, f, first) goes
+/// on.
 template <class Cells, class Laws>
 class ElementTerm : public ForceTerm {
  public:
@@ -75,9 +78,12 @@ class ElementTerm : public ForceTerm {
   void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override {
     for (std::size_t c = 0; c < size(); ++c) {
       const Lines from({at.x}, cells_.nodes(c)), move({at.w}, cells_.nodes(c));
-      add_stresses(c, everywhere, force, [&](const auto& point) {
-        return discrete_stress(laws_[c], point.deformation(from), (2.0 * at.t) * point.deformation(move));
+      Sums sum = no_sums();
+      cells_.for_each_point(laws_, c, [&](const auto& point, double volume) {
+        add_stress(volume * discrete_stress(laws_[c], point.deformation(from), (2.0 * at.t) * point.deformation(move)),
+                   point, sum);
       });
+      add_to_corners(c, sum, everywhere, force);
     }
   }
 
@@ -194,24 +200,39 @@ class ElementTerm : public ForceTerm {
 
   static constexpr auto everywhere = [](std::uint32_t) { return true; };
 
+  using Sums = std::array<Eigen::Vector3d, Cells::most>;  // [N] by corner
+  static Sums no_sums() {
+    Sums sum;
+    sum.fill(Eigen::Vector3d::Zero());
+    return sum;
+  }
+
+  /// At the corners for which `is_own` holds.
   template <class IsOwn>
   void add_forces_of(std::size_t c, const StagePlaces& at, const IsOwn& is_own,
                      std::span<Eigen::Vector3d> force) const {
     const Lines lines(at, cells_.nodes(c));
-    add_stresses(c, is_own, force, [&](const auto& point) { return laws_[c].stress(point.deformation(lines)); });
+    Sums sum = no_sums();
+    const auto add_at = [&](const auto& point, double volume) {
+      add_stress(volume * laws_[c].stress(point.deformation(lines)), point, sum);
+    };
+    if constexpr (requires { cells_.add_stresses_in_lanes(laws_[c], c, lines.to, sum); })
+      cells_.for_each_point(laws_, c, add_at,
+                            lanes_are_on() ? cells_.add_stresses_in_lanes(laws_[c], c, lines.to, sum) : 0);
+    else
+      cells_.for_each_point(laws_, c, add_at);
+    add_to_corners(c, sum, is_own, force);
   }
 
-  /// At the corners for which `is_own` holds.
-  template <class IsOwn, class Stress>
-  void add_stresses(std::size_t c, const IsOwn& is_own, std::span<Eigen::Vector3d> force,
-                    const Stress& stress_at) const {
+  /// Adds the stress at a point, times its size, to all corners but the first.
+  template <class Point>
+  static void add_stress(const Eigen::Matrix<double, 3, Cells::d>& weighted, const Point& point, Sums& sum) {
+    for (std::size_t a = 1; a < point.count; ++a) sum[a] += weighted * point[a];
+  }
+
+  template <class IsOwn>
+  void add_to_corners(std::size_t c, Sums& sum, const IsOwn& is_own, std::span<Eigen::Vector3d> force) const {
     const auto n = cells_.nodes(c);
-    std::array<Eigen::Vector3d, Cells::most> sum;
-    sum.fill(Eigen::Vector3d::Zero());
-    cells_.for_each_point(laws_, c, [&](const auto& point, double volume) {
-      const Eigen::Matrix<double, 3, Cells::d> weighted = volume * stress_at(point);
-      for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * point[a];
-    });
     // the force on the first corner is minus the sum of the others: rounding changes no momentum
     for (std::size_t a = 1; a < n.size(); ++a) {
       sum[0] += sum[a];

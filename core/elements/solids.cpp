@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <variant>
 
 #include "core/elements/element_term.h"
+#include "core/elements/lanes/solids_lanes.h"
 #include "core/elements/part_of_elements.h"
 #include "core/elements/strain_damping.h"
 #include "core/elements/with_law.h"
@@ -13,7 +15,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Gradients = std::array<Vector3d, 8>;
+using Gradients = std::array<Vector3d, 8>;  // or lines, speeds and forces, by corner
 
 /// Gauss points of a kind of cell: gradients of the functions of its corners by its own coordinates, and weights.
 struct Rule {
@@ -95,12 +97,12 @@ void gradients_at(const SolidShape& shape, const Rule& rule, std::size_t q, std:
   for (std::size_t a = 0; a < count; ++a) g[a] = shape.inverse[q].transpose() * rule.gradients[q][a];
 }
 
-/// f(point, volume) at each Gauss point of a cell with so many corners.
+/// f(point, volume) at each Gauss point, from one on, of a cell with so many corners.
 template <class F>
-void for_each_point_of(const SolidShape& shape, std::size_t count, F&& f) {
+void for_each_point_of(const SolidShape& shape, std::size_t count, F&& f, std::size_t first = 0) {
   const Rule& rule = rule_of(shape.kind);
   GaussPoint<3, 8> point(count);
-  for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+  for (std::size_t q = first; q < rule.weights.size(); ++q) {
     gradients_at(shape, rule, q, count, point.gradient);
     f(point, shape.volume[q]);
   }
@@ -124,8 +126,17 @@ class SolidCells {
   ForceTerm::Nodes nodes(std::size_t c) const { return {columns_.nodes[c].at.data(), columns_.nodes[c].count}; }
   const SolidShape& shape(std::size_t c) const { return columns_.shape[c]; }
   template <class Laws, class F>
-  void for_each_point(const Laws&, std::size_t c, F&& f) const {
-    for_each_point_of(shape(c), columns_.nodes[c].count, f);
+  void for_each_point(const Laws&, std::size_t c, F&& f, std::size_t first = 0) const {
+    for_each_point_of(shape(c), columns_.nodes[c].count, f, first);
+  }
+  template <class Law>
+  std::size_t add_stresses_in_lanes(const Law& law, std::size_t c, const Gradients& lines, Gradients& sum) const {
+    if constexpr (requires { law.constants(); })
+      return dartboard::add_stresses_in_lanes(points_at(c), law.constants(), lines.data(), sum.data());
+    else if constexpr (requires { law.law(); })
+      return std::visit([&](const auto& one) { return add_stresses_in_lanes(one, c, lines, sum); }, law.law());
+    else
+      return 0;
   }
 
   // for damping
@@ -134,8 +145,19 @@ class SolidCells {
     gradients_at(shape(c), rule_of(shape(c).kind), q, columns_.nodes[c].count, g);
     return shape(c).volume[q];
   }
+  std::size_t add_stresses_in_lanes(const DampedMaterial& m, std::size_t c, const Gradients& lines,
+                                    const Gradients& speeds, Gradients& sum) const {
+    return add_damping_in_lanes(points_at(c), {2.0 * m.mu * m.time, m.lambda * m.time}, lines.data(), speeds.data(),
+                                sum.data());
+  }
 
  private:
+  GaussPointsAt points_at(std::size_t c) const {
+    const Rule& rule = rule_of(shape(c).kind);
+    return {rule.gradients.data(), shape(c).inverse.data(), shape(c).volume.data(), rule.weights.size(),
+            columns_.nodes[c].count};
+  }
+
   SolidColumns columns_;
 };
 

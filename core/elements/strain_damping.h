@@ -61,8 +61,9 @@ class DampedMaterials {
 /// `Points` gives the elements, piece by piece and Gauss point by Gauss point:
 ///   size(), nodes(piece) (a span, of fixed size where all are alike), points(piece), and place(piece, point, material,
 ///   gradients): the gradients [1/m] of the functions of the corners at rest, and the volume [m^3] that the point
-///   stands for; where it has them, add_forces_in_lanes(material, x, v, force): the forces of the first elements of a
-///   body of one material, several at a time, and their number
+///   stands for. Where it has them, add_forces_in_lanes(material, x, v, force): the forces of the first elements of a
+///   body of one material, several at a time, and their number; or add_stresses_in_lanes(material, piece, lines,
+///   speeds, sums): those of the first points, and their number
 /// source  Simo, Hughes: Computational Inelasticity, 1998, chapter 10, on viscoelasticity
 template <class Points>
 class StrainDamping final : public TermDamping {
@@ -82,7 +83,7 @@ class StrainDamping final : public TermDamping {
       const auto n = points_.nodes(piece);
       std::array<Vector3d, 8> sum;
       std::fill_n(sum.begin(), n.size(), Vector3d::Zero());
-      for_each_point(piece, m, [&](const Gradients& g, double volume) {
+      for_each_point(piece, m, points_in_lanes(piece, m, at, v, sum), [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(at, n, g);
         const Matrix3d weighted = volume * (f * stress(m, strain_rate(f, gradient(v, n, g))));
         for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * g[a];
@@ -99,7 +100,7 @@ class StrainDamping final : public TermDamping {
   void add_force_sizes(const StagePlaces& at, std::span<const Vector3d> v, std::span<double> size) const override {
     for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
-      for_each_point(piece, m, [&](const Gradients& g, double volume) {
+      for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         double deformed = 0.0, rate = 0.0;
         for (std::size_t a = 1; a < n.size(); ++a) {
           deformed += line_size(at, n[0], n[a]) * g[a].norm();
@@ -117,7 +118,7 @@ class StrainDamping final : public TermDamping {
     for (const std::uint32_t piece : pieces) {
       const DampedMaterial& m = materials_[piece];
       const auto n = points_.nodes(piece);
-      for_each_point(piece, m, [&](const Gradients& g, double volume) {
+      for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(x, n, g);
         const Matrix3d s = stress(m, strain_rate(f, gradient(v, n, g)));
         sum -= volume * s.cwiseProduct(strain_rate(f, gradient(w, n, g))).sum();
@@ -131,7 +132,7 @@ class StrainDamping final : public TermDamping {
     EnergyChange sum;
     for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
-      for_each_point(piece, m, [&](const Gradients& g, double volume) {
+      for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(at, n, g);
         const Matrix3d rate = strain_rate(f, gradient(v, n, g));
         const Matrix3d more = scale * strain_rate(f, gradient(step, n, g));
@@ -152,7 +153,7 @@ class StrainDamping final : public TermDamping {
       const auto n = points_.nodes(piece);
       const std::size_t count = n.size() * (n.size() + 1) / 2;
       std::fill_n(blocks.begin(), count, Matrix3d::Zero());
-      for_each_point(piece, m, [&](const Gradients& g, double volume) {
+      for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(at, n, g);
         const Matrix3d square = f * f.transpose();
         for (std::size_t a = 0; a < n.size(); ++a) q[a] = f * g[a];
@@ -213,11 +214,26 @@ class StrainDamping final : public TermDamping {
     for (std::size_t piece = first; piece < points_.size(); ++piece)
       if (const DampedMaterial& m = materials_[piece]; m.time != 0.0) f(piece, m);
   }
-  /// f(gradients, volume)
+  /// The number of the first points of a piece whose stresses it has added to the sums of the corners but the first.
+  std::size_t points_in_lanes(std::size_t piece, const DampedMaterial& m, const StagePlaces& at,
+                              std::span<const Vector3d> v, std::array<Vector3d, 8>& sum) const {
+    std::array<Vector3d, 8> lines, speeds;
+    if constexpr (requires { points_.add_stresses_in_lanes(m, piece, lines, speeds, sum); }) {
+      if (!lanes_are_on()) return 0;
+      const auto n = points_.nodes(piece);
+      for (std::size_t a = 1; a < n.size(); ++a) {
+        lines[a] = at.line(n[0], n[a]);
+        speeds[a] = v[n[a]] - v[n[0]];
+      }
+      return points_.add_stresses_in_lanes(m, piece, lines, speeds, sum);
+    }
+    return 0;
+  }
+  /// f(gradients, volume), from a point on.
   template <class F>
-  void for_each_point(std::size_t piece, const DampedMaterial& m, F&& f) const {
+  void for_each_point(std::size_t piece, const DampedMaterial& m, std::size_t first, F&& f) const {
     Gradients g;
-    for (std::size_t point = 0, count = points_.points(piece); point < count; ++point) {
+    for (std::size_t point = first, count = points_.points(piece); point < count; ++point) {
       const double volume = points_.place(piece, point, m, g);
       f(g, volume);
     }

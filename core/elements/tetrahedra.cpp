@@ -24,10 +24,6 @@ Virial virial_share(const Law& law, double volume, const Matrix3d& f) {
   return {0.5 * (whole + whole.transpose()), 0.25 * volume * (volume_ratio(law, f) - 1.0)};
 }
 
-NeoHookeanConstants constants_of(const NeoHookean& law) { return {law.mu(), law.lambda(), law.slack()}; }
-StVenantKirchhoffConstants constants_of(const StVenantKirchhoff& law) { return {law.mu(), law.lambda()}; }
-CorotationalConstants constants_of(const Corotational& law) { return {law.mu(), law.lambda()}; }
-
 template <class Laws>
 class Tetrahedra final : public ForceTerm {
  public:
@@ -181,7 +177,7 @@ class Tetrahedra final : public ForceTerm {
         if (at.w.empty() && last - first >= 4 && lanes_are_on()) {
           const TetrahedraAt columns{columns_.nodes.data(), columns_.shape.data(), columns_.mass.data(),
                                      laws_.per_mass(0),     at.x.data(),           force.data()};
-          first = add_forces_in_lanes(columns, constants_of(laws_.law()), first, last);
+          first = add_forces_in_lanes(columns, laws_.law().constants(), first, last);
           next = std::min(first + 4, last);
         }
       add_forces_of(at, first, next, everywhere, force);

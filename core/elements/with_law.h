@@ -68,6 +68,7 @@ class AnyLaw {
   double modulus() const {
     return std::visit([](const auto& law) { return law.modulus(); }, law_);
   }
+  const auto& law() const { return law_; }
   friend double volume_ratio(const AnyLaw& any, const Eigen::Matrix3d& f) {
     return std::visit([&](const auto& law) { return volume_ratio(law, f); }, any.law_);
   }

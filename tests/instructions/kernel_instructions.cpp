@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/base/lanes.h"
+#include "core/elements/solids.h"
 #include "core/elements/spring_pieces.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/mass_spring_body.h"
@@ -59,6 +60,30 @@ struct Elements {
     return body.vertices.force.front() != body.vertices.force.back();
   }
 };
+
+/// A stretched box of 64 hexahedra.
+std::size_t hundred_forces_of_hexahedra(Added added) {
+  Mesh mesh = hexahedron_box(4, 4, 4, 0.1);
+  std::vector<SolidNodes> nodes;
+  std::vector<SolidShape> shapes;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    SolidNodes n;
+    std::array<Eigen::Vector3d, 8> corners;
+    for (const std::uint32_t p : mesh.cell(c)) {
+      corners[n.count] = mesh.points[p];
+      n.at[n.count++] = p;
+    }
+    nodes.push_back(n);
+    shapes.push_back(solid_shape_of(CellKind::hexahedron, corners));
+  }
+  for (Eigen::Vector3d& x : mesh.points) x.x() *= 1.1;
+  const Material material = Elements::problem_of(mesh, Model::neo_hookean).material;
+  const auto term = make_solids(material, {nodes, shapes});
+  std::vector<Eigen::Vector3d> force(mesh.points.size(), Eigen::Vector3d(0, 0, 0));
+  use_lanes(added == Added::in_lanes);
+  for (int k = 0; k < 100; ++k) term->add_forces({mesh.points}, force);
+  return force.front() != force.back();
+}
 
 /// The edges of tetrahedra as springs, in the columns of a system or as pieces of one of its force terms.
 class Springs {
@@ -150,7 +175,7 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 20> sections{{
+constexpr std::array<Section, 22> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
@@ -167,6 +192,8 @@ constexpr std::array<Section, 20> sections{{
     {"forces-neo-hookean", [](Body& b) { return Elements(b.mesh, Model::neo_hookean).hundred_forces(); }},
     {"forces-neo-hookean-in-lanes",
      [](Body& b) { return Elements(b.mesh, Model::neo_hookean).hundred_forces(Added::in_lanes); }},
+    {"forces-of-hexahedra", [](Body&) { return hundred_forces_of_hexahedra(Added::one_by_one); }},
+    {"forces-of-hexahedra-in-lanes", [](Body&) { return hundred_forces_of_hexahedra(Added::in_lanes); }},
     {"forces-stvk-in-lanes", [](Body& b) { return Elements(b.mesh, Model::stvk).hundred_forces(Added::in_lanes); }},
     {"full-check-general", [](Body& b) { return full_check(b.general); }},
     {"full-check-tetrahedral", [](Body& b) { return full_check(b.tetrahedral); }},

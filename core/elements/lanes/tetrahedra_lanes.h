@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/elements/lanes/law_constants.h"
+
 namespace dartboard {
 
 /// What a loop over tetrahedra reads and writes: columns by vertex number, nodes, shapes and masses by tetrahedron.
@@ -17,21 +19,6 @@ struct TetrahedraAt {
   double per_mass;               // [m^3/kg]
   const Eigen::Vector3d* x;      // [m]
   Eigen::Vector3d* force;        // [N] added to
-};
-
-// The constants of the laws of elastic_laws.h, in Pa but for the slack.
-struct NeoHookeanConstants {
-  double mu, lambda, slack;
-};
-struct StVenantKirchhoffConstants {
-  double mu, lambda;
-};
-struct CorotationalConstants {
-  double mu, lambda;
-};
-/// The material of strain_damping.h: time 2 mu, and time lambda [Pa s].
-struct DampingConstants {
-  double shape, bulk;
 };
 
 /// Add the forces of the tetrahedra from `first` to before `last`. Gradients, stresses and forces are computed for four
