@@ -12,6 +12,7 @@
 
 #include "core/base/lanes.h"
 #include "core/elements/elastic_laws.h"
+#include "core/elements/material_runs.h"
 #include "core/forces/force_size.h"
 #include "core/forces/one_minus_exp.h"
 #include "core/forces/term_damping.h"
@@ -39,7 +40,9 @@ class DampedMaterials {
     if (!any_) all_ = {};
   }
   bool any() const { return any_; }
-  bool is_one() const { return materials_.is_one(); }
+  std::size_t end_of_material(std::size_t first, std::size_t last) const {
+    return dartboard::end_of_material(materials_, first, last);
+  }
   const DampedMaterial& operator[](std::size_t cell) const {
     return all_[materials_.is_one() ? 0 : materials_.number(cell)];
   }
@@ -79,26 +82,18 @@ class StrainDamping final : public TermDamping {
   double time(std::size_t piece) const override { return materials_[piece].time; }
 
   void add_forces(const StagePlaces& at, std::span<const Vector3d> v, std::span<Vector3d> force) const override {
-    for_each_damped(add_forces_in_lanes(at, v, force), [&](std::size_t piece, const DampedMaterial& m) {
-      const auto n = points_.nodes(piece);
-      std::array<Vector3d, 8> sum;
-      std::fill_n(sum.begin(), n.size(), Vector3d::Zero());
-      for_each_point(piece, m, points_in_lanes(piece, m, at, v, sum), [&](const Gradients& g, double volume) {
-        const Matrix3d f = gradient(at, n, g);
-        const Matrix3d weighted = volume * (f * stress(m, strain_rate(f, gradient(v, n, g))));
-        for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * g[a];
-      });
-      // the force on the first corner is minus the sum of the others: rounding changes no momentum
-      for (std::size_t a = 1; a < n.size(); ++a) {
-        sum[0] += sum[a];
-        force[n[a]] -= sum[a];
-      }
-      force[n[0]] += sum[0];
-    });
+    const std::size_t size = points_.size();
+    for (std::size_t piece = 0, end = 0; piece < size; piece = end) {
+      end = materials_.end_of_material(piece, size);
+      const DampedMaterial& m = materials_[piece];
+      if (m.time == 0.0) continue;
+      for (std::size_t k = add_forces_in_lanes(m, piece, end, at, v, force); k < end; ++k)
+        add_forces_of(k, m, at, v, force);
+    }
   }
 
   void add_force_sizes(const StagePlaces& at, std::span<const Vector3d> v, std::span<double> size) const override {
-    for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
+    for_each_damped([&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
       for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         double deformed = 0.0, rate = 0.0;
@@ -130,7 +125,7 @@ class StrainDamping final : public TermDamping {
   EnergyChange rate_change(const StagePlaces& at, std::span<const Vector3d> v, std::span<const Vector3d> step,
                            double scale) const override {
     EnergyChange sum;
-    for_each_damped(0, [&](std::size_t piece, const DampedMaterial& m) {
+    for_each_damped([&](std::size_t piece, const DampedMaterial& m) {
       const auto n = points_.nodes(piece);
       for_each_point(piece, m, 0, [&](const Gradients& g, double volume) {
         const Matrix3d f = gradient(at, n, g);
@@ -200,18 +195,35 @@ class StrainDamping final : public TermDamping {
   }
 
  private:
-  /// returns  the number of the first elements whose forces it has added
-  std::size_t add_forces_in_lanes(const StagePlaces& at, std::span<const Vector3d> v, std::span<Vector3d> force) const {
-    if constexpr (requires { points_.add_forces_in_lanes(materials_[0], at.x, v, force); })
-      if (materials_.is_one() && at.w.empty() && lanes_are_on())
-        return points_.add_forces_in_lanes(materials_[0], at.x, v, force);
-    return 0;
+  /// Of pieces of one material. Returns the first whose forces it has not added.
+  std::size_t add_forces_in_lanes(const DampedMaterial& m, std::size_t first, std::size_t last, const StagePlaces& at,
+                                  std::span<const Vector3d> v, std::span<Vector3d> force) const {
+    if constexpr (requires { points_.add_forces_in_lanes(m, first, last, at.x, v, force); })
+      if (at.w.empty() && lanes_are_on()) return points_.add_forces_in_lanes(m, first, last, at.x, v, force);
+    return first;
+  }
+  void add_forces_of(std::size_t piece, const DampedMaterial& m, const StagePlaces& at, std::span<const Vector3d> v,
+                     std::span<Vector3d> force) const {
+    const auto n = points_.nodes(piece);
+    std::array<Vector3d, 8> sum;
+    std::fill_n(sum.begin(), n.size(), Vector3d::Zero());
+    for_each_point(piece, m, points_in_lanes(piece, m, at, v, sum), [&](const Gradients& g, double volume) {
+      const Matrix3d f = gradient(at, n, g);
+      const Matrix3d weighted = volume * (f * stress(m, strain_rate(f, gradient(v, n, g))));
+      for (std::size_t a = 1; a < n.size(); ++a) sum[a] += weighted * g[a];
+    });
+    // the force on the first corner is minus the sum of the others: rounding changes no momentum
+    for (std::size_t a = 1; a < n.size(); ++a) {
+      sum[0] += sum[a];
+      force[n[a]] -= sum[a];
+    }
+    force[n[0]] += sum[0];
   }
 
-  /// f(piece, material), from a piece on.
+  /// f(piece, material)
   template <class F>
-  void for_each_damped(std::size_t first, F&& f) const {
-    for (std::size_t piece = first; piece < points_.size(); ++piece)
+  void for_each_damped(F&& f) const {
+    for (std::size_t piece = 0; piece < points_.size(); ++piece)
       if (const DampedMaterial& m = materials_[piece]; m.time != 0.0) f(piece, m);
   }
   /// The number of the first points of a piece whose stresses it has added to the sums of the corners but the first.

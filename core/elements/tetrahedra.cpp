@@ -2,9 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "core/base/lanes.h"
 #include "core/elements/lanes/tetrahedra_lanes.h"
+#include "core/elements/material_runs.h"
 #include "core/elements/part_of_elements.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
@@ -169,20 +172,33 @@ class Tetrahedra final : public ForceTerm {
     if (is_own(n[2])) force[n[2]] += f.col(1);
     if (is_own(n[3])) force[n[3]] += f.col(2);
   }
-  /// At all corners, four tetrahedra of a homogeneous body at a time where that is possible.
+  /// At all corners, four tetrahedra of one material at a time where that is possible.
   void add_forces_of(const StagePlaces& at, std::size_t first, std::size_t last, std::span<Vector3d> force) const {
-    do {
-      std::size_t next = last;
-      if constexpr (requires { laws_.law(); })
-        if (at.w.empty() && last - first >= 4 && lanes_are_on()) {
-          const TetrahedraAt columns{columns_.nodes.data(), columns_.shape.data(), columns_.mass.data(),
-                                     laws_.per_mass(0),     at.x.data(),           force.data()};
-          first = add_forces_in_lanes(columns, laws_.law().constants(), first, last);
-          next = std::min(first + 4, last);
-        }
+    while (first < last) {
+      const std::size_t end = end_of_material(materials_, first, last);
+      std::size_t next = end;
+      if (at.w.empty() && end - first >= 4 && lanes_are_on()) {
+        first = add_in_lanes(laws_[first], at.x, first, end, force);
+        next = std::min(first + 4, end);
+      }
       add_forces_of(at, first, next, everywhere, force);
       first = next;
-    } while (first < last);
+    }
+  }
+  /// Tetrahedra of one law. Returns the first that was not added.
+  template <class Law>
+  std::size_t add_in_lanes(const Law& law, std::span<const Vector3d> x, std::size_t first, std::size_t last,
+                           std::span<Vector3d> force) const {
+    if constexpr (std::is_same_v<Law, AnyLaw>) {
+      return std::visit([&](const auto& one) { return add_in_lanes(one, x, first, last, force); }, law.law());
+    } else if constexpr (std::is_same_v<Law, NoLaw>) {
+      return first;
+    } else {
+      const TetrahedraAt columns{
+          columns_.nodes.data(), columns_.shape.data(), columns_.mass.data(), laws_.per_mass(first), x.data(),
+          force.data()};
+      return add_forces_in_lanes(columns, law.constants(), first, last);
+    }
   }
   template <class IsOwn>
   void add_forces_of(const StagePlaces& at, std::size_t first, std::size_t last, const IsOwn& is_own,

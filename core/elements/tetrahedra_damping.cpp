@@ -23,11 +23,12 @@ class TetrahedronPoints {
     g[0] = -(g[1] + g[2] + g[3]);
     return material.per_mass * columns_.mass[piece];
   }
-  std::size_t add_forces_in_lanes(const DampedMaterial& m, std::span<const Vector3d> x, std::span<const Vector3d> v,
+  std::size_t add_forces_in_lanes(const DampedMaterial& m, std::size_t first, std::size_t last,
+                                  std::span<const Vector3d> x, std::span<const Vector3d> v,
                                   std::span<Vector3d> force) const {
     const TetrahedraAt at{columns_.nodes.data(), columns_.shape.data(), columns_.mass.data(), m.per_mass, x.data(),
                           force.data()};
-    return add_damping_in_lanes(at, v.data(), {2.0 * m.mu * m.time, m.lambda * m.time}, size());
+    return add_damping_in_lanes(at, v.data(), {2.0 * m.mu * m.time, m.lambda * m.time}, first, last);
   }
 
  private:

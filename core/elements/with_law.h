@@ -83,7 +83,6 @@ class OneLaw {
  public:
   OneLaw(const Law& law, double density) : law_(law), per_mass_(1.0 / density) {}
   const Law& operator[](std::size_t) const { return law_; }
-  const Law& law() const { return law_; }
   double per_mass(std::size_t) const { return per_mass_; }
 
  private:

@@ -58,14 +58,14 @@ DARTBOARD_AVX2_INLINE FourMatrices gradients_of(const double* x, const std::arra
 }
 
 DARTBOARD_AVX2 std::size_t add_damping(const TetrahedraAt& at, const Eigen::Vector3d* velocities,
-                                       const DampingConstants& material, std::size_t count) {
+                                       const DampingConstants& material, std::size_t first, std::size_t last) {
   const std::array<std::uint32_t, 4>* const nodes = at.nodes;
   const double *const x = at.x->data(), *const v = velocities->data(), *const shapes = at.shape->data(),
                       *const mass = at.mass;
   double* const force = at.force->data();
   const Four per_mass = four(at.per_mass);
-  std::size_t c = 0;
-  for (; c + 4 <= count; c += 4) {
+  std::size_t c = first;
+  for (; c + 4 <= last; c += 4) {
     const std::array<std::uint32_t, 4>* const n = nodes + c;
     const FourMatrices shape = matrices_at(shapes + 9 * c);
     const FourMatrices f = gradients_of(x, n, shape), rate = gradients_of(v, n, shape);
@@ -93,16 +93,17 @@ std::size_t add_forces_in_lanes(const TetrahedraAt& at, const Constants& law, st
   return add_in_lanes(at, law, first, last);
 }
 std::size_t add_damping_in_lanes(const TetrahedraAt& at, const Eigen::Vector3d* v, const DampingConstants& material,
-                                 std::size_t count) {
-  return count < 4 ? 0 : add_damping(at, v, material, count);
+                                 std::size_t first, std::size_t last) {
+  return add_damping(at, v, material, first, last);
 }
 #else
 template <class Constants>
 std::size_t add_forces_in_lanes(const TetrahedraAt&, const Constants&, std::size_t first, std::size_t) {
   return first;
 }
-std::size_t add_damping_in_lanes(const TetrahedraAt&, const Eigen::Vector3d*, const DampingConstants&, std::size_t) {
-  return 0;
+std::size_t add_damping_in_lanes(const TetrahedraAt&, const Eigen::Vector3d*, const DampingConstants&,
+                                 std::size_t first, std::size_t) {
+  return first;
 }
 #endif
 
