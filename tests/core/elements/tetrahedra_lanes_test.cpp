@@ -66,6 +66,12 @@ struct Heap {
                 .poisson = 0.3,
                 .model = model,
                 .damping_time = 0.01};
+    // a sanitizer sees what is read behind them
+    nodes.shrink_to_fit();
+    shape.shrink_to_fit();
+    mass.shrink_to_fit();
+    x.shrink_to_fit();
+    v.shrink_to_fit();
     term = make_tetrahedra(material, {nodes, shape, mass});
   }
   /// Each with vertices of its own.
