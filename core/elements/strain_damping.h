@@ -12,7 +12,7 @@
 
 #include "core/base/lanes.h"
 #include "core/elements/elastic_laws.h"
-#include "core/elements/material_runs.h"
+#include "core/elements/lanes/material_runs.h"
 #include "core/forces/force_size.h"
 #include "core/forces/one_minus_exp.h"
 #include "core/forces/term_damping.h"

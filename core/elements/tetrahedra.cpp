@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "core/base/lanes.h"
+#include "core/elements/lanes/material_runs.h"
 #include "core/elements/lanes/tetrahedra_lanes.h"
-#include "core/elements/material_runs.h"
 #include "core/elements/part_of_elements.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
@@ -210,9 +210,10 @@ class Tetrahedra final : public ForceTerm {
       add_forces_of([&at](const TetrahedronNodes& n, const Matrix3d& shape) { return gradient(at, n, shape); }, first,
                     last, is_own, force);
   }
+  /// Inlined whole, however large the other functions of this source are.
   template <class Gradient, class IsOwn>
-  void add_forces_of(const Gradient& gradient_of, std::size_t first, std::size_t last, const IsOwn& is_own,
-                     std::span<Vector3d> force) const {
+  [[gnu::flatten]] void add_forces_of(const Gradient& gradient_of, std::size_t first, std::size_t last,
+                                      const IsOwn& is_own, std::span<Vector3d> force) const {
     const TetrahedronNodes* const nodes = columns_.nodes.data();
     const Matrix3d* const shape = columns_.shape.data();
     const double* const mass = columns_.mass.data();

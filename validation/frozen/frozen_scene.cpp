@@ -269,7 +269,9 @@ bool FrozenBody::load(Integrator& integrator, double time, double h) {
 }
 
 void FrozenBody::show_drives(double time, std::span<Eigen::Vector3d> velocity) {
-  driven_.follow(time - tick(scene_.file), time, body_->vertices().point, velocity);
+  // a time over which places differ by enough, and turns are straight
+  const double before = 0x1p-20 * scene_.file.duration;
+  driven_.follow(time - before, time, body_->vertices().point, velocity);
 }
 
 void FrozenBody::look_at_contact() {

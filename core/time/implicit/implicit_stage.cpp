@@ -284,11 +284,15 @@ StepResult ImplicitStage::solve(const SpringSystem& system, std::span<const Vect
     result.resize(p.system.springs.size());
     for (std::size_t e = 0; e < result.size(); ++e) {
       const auto [a, b] = p.system.ends[e];
-      const Vector3d d0 = p.xh[b] - p.xh[a], dw = w[b] - w[a], d = d0 + p.tau * dw;
-      const Spring spring = p.system.springs[e];
-      result[e] = p.force == StageForce::discrete_gradient
-                      ? discrete_tangent(spring, d0, d0 + (2.0 * p.tau) * dw, compression)
-                      : tangent_of(dampers_turn ? with_damping_in_tension(spring, d, dw) : spring, d, compression);
+      const Vector3d d0 = p.xh[b] - p.xh[a], dw = w[b] - w[a];
+      Spring spring = p.system.springs[e];
+      if (p.force == StageForce::discrete_gradient) {
+        result[e] = discrete_tangent(spring, d0, d0 + (2.0 * p.tau) * dw, compression);
+        continue;
+      }
+      const Vector3d d = d0 + p.tau * dw;
+      if (dampers_turn) spring = with_damping_in_tension(spring, d, dw);
+      result[e] = tangent_of(spring, d, compression);
     }
   };
   // the derivative of a term's discrete gradient is not symmetric; that of its forces half way is close to it
