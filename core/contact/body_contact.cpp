@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/base/bytes.h"
+#include "core/base/lanes.h"
 #include "core/contact/way_out.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
@@ -59,7 +60,11 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWa
   const PlaceNow place{at};
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = s};
-  for (const std::uint32_t t : tetrahedra) {
+  const bool in_lanes = lanes_are_on();
+  for (std::size_t k = 0; k < tetrahedra.size(); ++k) {
+    if (in_lanes) k = skip_outside({solids_.tetrahedra().data(), tetrahedra}, k, at, y, inverted_);
+    if (k == tetrahedra.size()) return;
+    const std::uint32_t t = tetrahedra[k];
     const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
     const Side side = side_of(tetrahedron, y, place, touch.inside);
     if (side == Side::inverted) ++inverted_;

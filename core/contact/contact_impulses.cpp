@@ -41,12 +41,19 @@ double mobility_along(const SkinSample& sample, const Vector3d& unit, InverseMas
   return sum / static_cast<double>(sample.count * sample.count);
 }
 
+/// Adds a push over the mass of a vertex, or the part of it that no axis holds.
+void push(std::uint32_t i, double over_mass, const Vector3d& impulse, Fixed fixed, std::span<Vector3d> v) {
+  if (const HeldAxes held = fixed.axes(i); held == 0)
+    v[i] += over_mass * impulse;
+  else
+    v[i] += free_part(held, over_mass * impulse);
+}
+
 /// Apply a force or an impulse at the sample, over the masses of its nodes.
 void push(const SkinSample& sample, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
           std::span<Vector3d> v) {
   const Vector3d share = impulse / static_cast<double>(sample.count);
-  for (const std::uint32_t i : sample.corners())
-    v[i] += free_part(fixed.axes(i), mobility_of(i, inverse_mass, fixed) * share);
+  for (const std::uint32_t i : sample.corners()) push(i, mobility_of(i, inverse_mass, fixed), share, fixed, v);
 }
 
 /// The same between two bodies.
@@ -66,8 +73,7 @@ double mobility_along(const ContactSite& site, const Vector3d& unit, InverseMass
 void push(const ContactSite& site, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
           std::span<Vector3d> v) {
   for (std::size_t k = 0; k < site.count; ++k)
-    v[site.nodes[k]] += free_part(fixed.axes(site.nodes[k]),
-                                  (site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed)) * impulse);
+    push(site.nodes[k], site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed), impulse, fixed, v);
 }
 
 /// The mass behind a contact, which the contact has to stop [kg].

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -20,13 +21,17 @@ namespace dartboard {
 
 enum class Side { inside, outside, inverted };
 
+/// The weight that a place may have beyond a face within the body, over the tetrahedron's altitude there.
+inline constexpr double seam_of_sides = 0x1p-40;
+/// The sum of three weights, over their whole, from which on a place is beyond the fourth face.
+inline constexpr double beyond_the_first = 1.0 + 1e-9;
+
 /// The side of y by its weights over the corners; `place` is a function of a node. Faces on the boundary are part of
 /// the outside; a place between two cells is in one of them, whatever the rounding.
 template <class Place>
 Side side_of(const SkinTetrahedron& t, const Eigen::Vector3d& y, const Place& place, std::array<double, 4>& weights) {
   using Eigen::Vector3d;
-  // that a place may be outside of a face within the body, over the tetrahedron's altitude there
-  constexpr double seam = 0x1p-40;
+  constexpr double seam = seam_of_sides;
   const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
                  r = y - p, normal = b.cross(c);
   const double volume = a.dot(normal);
@@ -38,7 +43,7 @@ Side side_of(const SkinTetrahedron& t, const Eigen::Vector3d& y, const Place& pl
   const double part2 = r.dot(c.cross(a));
   if (part2 < may_be_beyond(2)) return Side::outside;
   const double part3 = r.dot(a.cross(b));
-  if (part3 < may_be_beyond(3) || part1 + part2 + part3 > (1.0 + 1e-9) * volume) return Side::outside;
+  if (part3 < may_be_beyond(3) || part1 + part2 + part3 > beyond_the_first * volume) return Side::outside;
   const auto is_beyond = [&](std::size_t k, double weight) {
     weights[k] = weight;
     return !(weight > ((t.outer >> k & 1u) != 0 ? 0.0 : -seam));
@@ -48,6 +53,20 @@ Side side_of(const SkinTetrahedron& t, const Eigen::Vector3d& y, const Place& pl
     return Side::outside;
   return Side::inside;
 }
+
+/// Tetrahedra by their numbers.
+struct TetrahedraToTest {
+  const SkinTetrahedron* all;
+  std::span<const std::uint32_t> numbers;
+};
+
+/// The first of the tetrahedra, from the place `first` on, that y may be inside of: `side_of` decides, whose operations
+/// are done here for four at a time in their order. Those that are turned inside out are added to `inverted`.
+///
+/// returns  their number, where y is outside of all
+/// pre      lanes are on, or `first` is returned
+std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
+                         const Eigen::Vector3d& y, std::size_t& inverted);
 
 /// The way out of the tetrahedron for the sample at y: the nearest of the boundary triangles at its corners, less those
 /// with a node of the sample. False if y is on the boundary, to rounding.

@@ -2,7 +2,7 @@
 // The stresses of elastic_laws.h and strain_damping.h for four deformation gradients at a time, with the bits of one at
 // a time.
 
-#include "core/elements/lanes/four.h"
+#include "core/base/four.h"
 #include "core/elements/lanes/law_constants.h"
 
 #ifdef DARTBOARD_HAS_AVX2
