@@ -62,7 +62,9 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWa
   BodyTouch touch{.sample = s};
   const bool in_lanes = lanes_are_on();
   for (std::size_t k = 0; k < tetrahedra.size(); ++k) {
-    if (in_lanes) k = skip_outside({solids_.tetrahedra().data(), tetrahedra}, k, at, y, inverted_);
+    // few that are left are looked at as quickly one by one
+    if (in_lanes && tetrahedra.size() - k > 2)
+      k = skip_outside({solids_.tetrahedra().data(), tetrahedra}, k, at, y, inverted_);
     if (k == tetrahedra.size()) return;
     const std::uint32_t t = tetrahedra[k];
     const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
