@@ -11,6 +11,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/lanes.h"
+#include "core/contact/nearest_on_triangle.h"
 #include "core/contact/way_out.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
@@ -31,7 +32,10 @@ struct PlaceNow {
 
 BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids,
                          const std::vector<ContactPair>& pairs)
-    : samples_(samples), solids_(solids), candidates_(samples, solids, groups_) {
+    : samples_(samples),
+      solids_(solids),
+      candidates_(samples, solids, groups_),
+      ways_(std::make_unique<WaysOut>(samples, solids, candidates_)) {
   for (const ContactPair& pair : pairs) {
     pair.law.require_valid();
     groups_.set(pair.a, pair.b, static_cast<std::uint32_t>(laws_.size()));
@@ -48,13 +52,18 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
       groups_(other.groups_),
       friction_(other.friction_),
       damping_(other.damping_),
-      candidates_(samples, solids, groups_) {
+      candidates_(samples, solids, groups_),
+      ways_(std::make_unique<WaysOut>(samples, solids, candidates_)) {
   set_margin(other.candidates_.margin_share());
 }
 
+BodyContact::~BodyContact() = default;
+
+std::uint64_t BodyContact::ways_searched() const { return ways_->searched(); }
+
 /// Tests one sample with some tetrahedra, in the order of their cells and parts.
 template <class Tetrahedra, class F>
-void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWay& known, const StagePlaces& at,
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways ways, const StagePlaces& at,
                           const F& found) const {
   const SkinSample& sample = samples_[s];
   const PlaceNow place{at};
@@ -74,20 +83,14 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, KnownWa
     touch.tetrahedron = t;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
-    // where the places were not followed, nothing that is known is certain
-    const double travelled = follows_ ? candidates_.travelled() : std::numeric_limits<double>::infinity();
-    if (!known.is_certain(t, travelled)) ++ways_searched_;
-    if (find_way_out(solids_, sample, y, place, travelled, known, touch)) found(touch);
+    const bool has_depth = ways == Ways::followed ? ways_->find(y, at, touch) : ways_->search(y, at, touch);
+    if (has_depth) found(touch);
     return;
   }
 }
 
 void BodyContact::find_touching(const StagePlaces& at) const {
   candidates_.make_sure(at, follows_);
-  if (known_ways_.size() != samples_.size() || journey_ != candidates_.journey()) {
-    known_ways_.assign(samples_.size(), {});
-    journey_ = candidates_.journey();
-  }
   touching_.clear();
   lost_.clear();
   inverted_ = 0;
@@ -96,12 +99,17 @@ void BodyContact::find_touching(const StagePlaces& at) const {
     return;
   }
   const auto list = candidates_.tetrahedra();
-  for (const CandidatePairs::Row& row : candidates_.rows()) {
-    near_.clear();
-    for (std::size_t pair = row.first; pair < row.first + row.count; ++pair)
-      if (candidates_.can_have_met(pair)) near_.push_back(list[pair]);
-    if (near_.empty()) continue;
-    look_at(row.sample, near_, known_ways_[row.sample], at, [this](const BodyTouch& touch) {
+  for (const CandidatePairs::Row row : candidates_.rows()) {
+    // without a branch: which of them are near is not foreseen
+    std::size_t count = 0;
+    near_.resize(std::max<std::size_t>(near_.size(), row.count));
+    std::uint32_t* const near = near_.data();
+    for (std::size_t pair = row.first; pair < row.first + row.count; ++pair) {
+      near[count] = list[pair];
+      count += candidates_.can_have_met(pair) ? 1 : 0;
+    }
+    if (count == 0) continue;
+    look_at(row.sample, std::span(near, count), Ways::followed, at, [this](const BodyTouch& touch) {
       (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
     });
   }
@@ -156,8 +164,7 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
     may.clear();
     for (const std::uint32_t t : order)
       if (may_touch(tetrahedra[t])) may.push_back(t);
-    KnownWay nothing;
-    look_at(s, may, nothing, at, [&](const BodyTouch& touch) {
+    look_at(s, may, Ways::searched, at, [&](const BodyTouch& touch) {
       if (touch.triangle != BodyTouch::none) touches.push_back(touch);
       if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
     });
@@ -222,8 +229,7 @@ bool BodyContact::is_deep_inside(const BodyTouch& earlier, const StagePlaces& at
   const SkinSample& sample = samples_[earlier.sample];
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = earlier.sample, .tetrahedron = earlier.tetrahedron};
-  KnownWay nothing;
-  if (!find_way_out(solids_, sample, y, place, std::numeric_limits<double>::infinity(), nothing, touch)) return false;
+  if (!ways_->search(y, at, touch)) return false;
   if (!(touch.depth > 0.5 * earlier.depth)) return false;
   Vector3d outwards(0, 0, 0);
   bool is_known = false;
@@ -469,8 +475,8 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 
 std::size_t BodyContact::bytes() const {
   return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
-         bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, known_ways_, asked_, by_triangle_) +
-         groups_.bytes() + candidates_.bytes();
+         bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, asked_, by_triangle_) + groups_.bytes() +
+         candidates_.bytes() + ways_->bytes();
 }
 
 }  // namespace dartboard

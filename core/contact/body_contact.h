@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,16 +40,6 @@ struct BodyTouch {
   std::array<double, 4> inside{};   // weights of the sample's own place over the tetrahedron's
 };
 
-/// The way out that a search has found for a sample, and how long it is certain.
-struct KnownWay {
-  std::uint32_t tetrahedron = BodyTouch::none, triangle = BodyTouch::none;
-  double until = -1.0;  // [m] the travel of the places up to which no other triangle can be as near
-
-  bool is_certain(std::uint32_t inside_of, double travelled) const {
-    return tetrahedron == inside_of && travelled <= until;
-  }
-};
-
 /// The friction force, during a step, between two places that coincide half way through it.
 struct BodyFriction {
   std::uint32_t sample = 0, tetrahedron = 0;
@@ -78,6 +69,8 @@ struct BodyContactState {
   std::uint32_t lost = none;         // the first of them
   std::size_t inverted = 0;          // candidates that were ignored because they are turned inside out
 };
+
+class WaysOut;
 
 /// A zero-thickness penalty between solids: each sample of the skin that is inside a tetrahedron along the boundary of
 /// a body it may touch has the energy of a law at its depth, on half of its area. The samples of the other side have
@@ -110,6 +103,7 @@ class BodyContact final : public ForceTerm {
   BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const std::vector<ContactPair>& pairs);
   /// The laws and the margin of another, between other samples and solids.
   BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const BodyContact& other);
+  ~BodyContact() override;
   BodyContact(const BodyContact&) = delete;  // lists refer to the groups in place
   BodyContact& operator=(const BodyContact&) = delete;
 
@@ -131,7 +125,7 @@ class BodyContact final : public ForceTerm {
   /// The list and the number of times it was made.
   const CandidatePairs& candidates() const { return candidates_; }
   /// The number of ways out that were searched among all triangles in reach; the others were known to be the nearest.
-  std::uint64_t ways_searched() const { return ways_searched_; }
+  std::uint64_t ways_searched() const;
 
   /// The contacts in the order of samples, without those out of reach; valid until the next call of any function.
   std::span<const BodyTouch> touching(const StagePlaces& at) const;
@@ -197,8 +191,9 @@ class BodyContact final : public ForceTerm {
   std::size_t bytes() const;
 
  private:
+  enum class Ways { followed, searched };
   template <class Tetrahedra, class F>
-  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, KnownWay& known, const StagePlaces& at,
+  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, Ways ways, const StagePlaces& at,
                const F& found) const;
   void find_touching(const StagePlaces& at) const;
   void find_touching_now(const StagePlaces& at) const;
@@ -224,9 +219,8 @@ class BodyContact final : public ForceTerm {
   mutable bool put_aside_ = false;
   mutable std::vector<BodyTouch> touching_aside_, lost_aside_;
   mutable std::size_t inverted_aside_ = 0;
-  mutable std::vector<std::uint32_t> near_;   // tetrahedra
-  mutable std::vector<KnownWay> known_ways_;  // by sample, of this journey of the candidates
-  mutable std::uint64_t journey_ = 0, ways_searched_ = 0;
+  mutable std::vector<std::uint32_t> near_;  // tetrahedra
+  std::unique_ptr<WaysOut> ways_;            // which follow the candidates
   mutable bool follows_ = false;             // something has touched at the last places
   mutable std::vector<std::uint8_t> asked_;  // by piece
   mutable std::vector<std::pair<std::uint32_t, std::uint32_t>> by_triangle_;  // place of a touch

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/avx2.h"
+#include "core/base/lanes.h"
 
 namespace dartboard {
 namespace {
@@ -79,8 +80,7 @@ DARTBOARD_AVX2 void widen_in_lanes(BoxAround& box, const Column& column, std::si
 template <class Column>
 void widen(BoxAround& box, const Column& column, std::size_t vectors) {
 #ifdef DARTBOARD_HAS_AVX2
-  static const bool in_lanes = has_avx2();
-  if (in_lanes && vectors >= 4) {
+  if (vectors >= 4 && lanes_are_on()) {
     widen_in_lanes(box, column, 3 * vectors);
     return;
   }

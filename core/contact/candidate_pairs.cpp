@@ -141,35 +141,41 @@ void CandidatePairs::make_sure(const StagePlaces& at, bool follows) {
     copy_places(at, where_);
     make();
   }
-  if (follows)
+  if (follows) {
     follow(at);
-  else
+  } else {
     last_.clear();
+    call_ += 2;
+  }
 }
 
-/// Returns whether all of them are finite.
-bool CandidatePairs::copy_places(const StagePlaces& at, std::vector<Vector3d>& to) const {
-  double sum = 0.0;
+void CandidatePairs::copy_places(const StagePlaces& at, std::vector<Vector3d>& to) const {
+  for (const Run& run : watched_)
+    for (std::uint32_t k = 0; k < run.count; ++k) to[run.place + k] = at.place(run.first + k);
+}
+
+// Bodies that fly together have ways that are alike, so that little is left of them beside the middle of all.
+void CandidatePairs::follow(const StagePlaces& at) {
+  ++call_;
+  if (last_.size() != where_.size() || last_changes_ != changes_) {
+    ++call_;
+    last_.resize(where_.size());
+    ways_.resize(solids_.node_count());
+    last_changes_ = changes_;
+    copy_places(at, last_);
+    return;
+  }
+  const BoxAround all = ways_from(last_, at);
+  const Vector3d middle = 0.5 * (all.low + all.high);
   for (const Run& run : watched_)
     for (std::uint32_t k = 0; k < run.count; ++k) {
-      Vector3d& place = to[run.place + k];
-      place = at.place(run.first + k);
-      sum += place.sum();
+      Vector3d& last = last_[run.place + k];
+      const Vector3d now = at.place(run.first + k), way = (now - last) - middle;
+      // no less than the length, and no root
+      const double sum = std::abs(way.x()) + std::abs(way.y()) + std::abs(way.z());
+      ways_[run.first + k] = std::isnan(sum) ? BoxAround::infinity : sum;
+      last = now;
     }
-  return std::isfinite(sum);
-}
-
-void CandidatePairs::follow(const StagePlaces& at) {
-  if (last_.size() == where_.size() && last_changes_ == changes_) {
-    if (!last_.empty()) travelled_ += std::min(ways_from(last_, at).diagonal(), 2.0 * largest_way(watched_, last_, at));
-  } else {
-    last_.resize(where_.size());
-    last_changes_ = changes_;
-    travelled_ = 0.0;
-    ++journey_;
-  }
-  // what is not a number is in no box
-  if (!copy_places(at, last_)) travelled_ = std::numeric_limits<double>::infinity();
 }
 
 std::size_t CandidatePairs::bucket_of(double x, double y, double z) const {
@@ -306,7 +312,7 @@ void CandidatePairs::make() {
 }
 
 std::size_t CandidatePairs::bytes() const {
-  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, last_, place_of_node_, boxes_) +
+  return bytes_of(rows_, tetrahedra_, gaps_, watched_, where_, last_, ways_, place_of_node_, boxes_) +
          bytes_of(bucket_first_, bucket_entry_, everywhere_) + may_touch_.bytes();
 }
 

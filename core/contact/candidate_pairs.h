@@ -69,19 +69,23 @@ class CandidatePairs {
 
   void set_margin(double share);
   double margin_share() const { return share_; }
+  /// [m] That of the list.
+  double margin() const { return margin_; }
 
   /// Make the list anew if two vertices may have moved by the margin relative to each other since, or the skin has
-  /// changed. `follows`: the travel of the places is needed.
+  /// changed. `follows`: the ways of the places since the last call are needed.
   /// cost  O(nodes of tetrahedra) where it holds
   void make_sure(const StagePlaces& at, bool follows = false);
   /// [m] How far two places can go from `at`, relative to each other, until a sample may be inside a tetrahedron; 0 if
   /// that is not known, as where the list does not hold.
   /// cost  O(nodes of tetrahedra)
   double room_at(const StagePlaces& at);
-  /// [m] At least the distance by which two places have moved relative to each other, from one to the other of all
-  /// calls that follow: since they began to, or the skin has changed, which begins another journey.
-  double travelled() const { return travelled_; }
-  std::uint64_t journey() const { return journey_; }
+  /// The number of the last call. Where two calls of the same skin and nothing between them both follow, the second
+  /// has the next number, and knows the ways from the one to the other; otherwise a number is left out.
+  std::uint64_t call() const { return call_; }
+  /// [m] At least the way of a node of a tetrahedron in the last call that followed, relative to a point that is the
+  /// same for all; infinite if one of its places was not a number.
+  double way_of(std::uint32_t node) const { return ways_[node]; }
   std::span<const Row> rows() const { return rows_; }
   std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }
   /// Whether the sample and the tetrahedron of a pair can have come together at the places of the last `make_sure`:
@@ -103,7 +107,7 @@ class CandidatePairs {
   };
   BoxAround ways_from(const std::vector<Eigen::Vector3d>& from, const StagePlaces& to) const;
   bool holds(const StagePlaces& at);
-  bool copy_places(const StagePlaces& at, std::vector<Eigen::Vector3d>& to) const;
+  void copy_places(const StagePlaces& at, std::vector<Eigen::Vector3d>& to) const;
   void follow(const StagePlaces& at);
   void watch();
   void make();
@@ -128,10 +132,10 @@ class CandidatePairs {
   std::vector<Eigen::Vector3d> where_;
   std::uint64_t changes_ = 0, made_ = 0;
   std::size_t sample_count_ = 0;
-  // their places at the last call that follows; empty if it did not
+  // their places at the last call that followed, and their ways to it; empty if the last call did not
   std::vector<Eigen::Vector3d> last_;
-  std::uint64_t last_changes_ = 0, journey_ = 0;
-  double travelled_ = 0.0;
+  std::vector<double> ways_;  // [m] by node
+  std::uint64_t last_changes_ = 0, call_ = 0;
 
   // scratch
   MayTouch may_touch_;

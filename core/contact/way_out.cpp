@@ -2,23 +2,34 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <tuple>
 
+#include "core/base/bytes.h"
 #include "core/base/four.h"
+#include "core/base/lanes.h"
+#include "core/contact/nearest_on_triangle.h"
 
 namespace dartboard {
+
+using Eigen::Vector3d;
 
 #ifdef DARTBOARD_HAS_AVX2
 namespace {
 
 using FourTetrahedra = const SkinTetrahedron* [4];
+using FourTriangles = const SkinTriangle* [4];
 
-DARTBOARD_AVX2_INLINE FourVectors rows_at(const Eigen::Vector3d* column, const FourTetrahedra& t, std::size_t corner) {
+template <class Cells>
+DARTBOARD_AVX2_INLINE FourVectors rows_at(const Vector3d* column, const Cells& t, std::size_t corner) {
   const double* const row = column->data();
   return vectors_at(row + std::size_t{3} * t[0]->nodes[corner], row + std::size_t{3} * t[1]->nodes[corner],
                     row + std::size_t{3} * t[2]->nodes[corner], row + std::size_t{3} * t[3]->nodes[corner]);
 }
 /// As StagePlaces::place.
-DARTBOARD_AVX2_INLINE FourVectors places_at(const StagePlaces& at, const FourTetrahedra& t, std::size_t corner) {
+template <class Cells>
+DARTBOARD_AVX2_INLINE FourVectors places_at(const StagePlaces& at, const Cells& t, std::size_t corner) {
   const FourVectors x = rows_at(at.x.data(), t, corner);
   return at.w.empty() ? x : x + four(at.t) * rows_at(at.w.data(), t, corner);
 }
@@ -58,6 +69,37 @@ DARTBOARD_AVX2 std::size_t skip(const TetrahedraToTest& tetrahedra, std::size_t 
   return count;
 }
 
+DARTBOARD_AVX2_INLINE Four is_less(Four a, Four b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
+
+/// The squared length of the way to the lines from p to q, as nearest_on_triangle computes it.
+DARTBOARD_AVX2_INLINE Four square_to_line(const FourVectors& p, const FourVectors& q) {
+  const Four zero = four(0.0), one = four(1.0);
+  const FourVectors side = q - p;
+  const Four square = dot(side, side), share = (four(-0.0) - dot(p, side)) / square;
+  const Four clamped = _mm256_blendv_pd(_mm256_blendv_pd(share, one, is_less(one, share)), zero, is_less(share, zero));
+  const Four t = _mm256_and_pd(clamped, is_less(zero, square));
+  const FourVectors way = p + t * side;
+  return _mm256_blendv_pd(dot(way, way), dot(q, q), _mm256_cmp_pd(t, one, _CMP_EQ_OQ));
+}
+
+/// The squared lengths of the ways from y to four triangles, as nearest_on_triangle computes them.
+DARTBOARD_AVX2 void squares_to(const FourTriangles& t, const StagePlaces& at, const Vector3d& place, double* squares) {
+  const Four zero = four(0.0);
+  const FourVectors y{four(place.x()), four(place.y()), four(place.z())};
+  const FourVectors a = places_at(at, t, 0) - y, b = places_at(at, t, 1) - y, c = places_at(at, t, 2) - y;
+  const FourVectors area = cross(b - a, c - a);
+  const Four square = dot(area, area);
+  const Four of_a = dot(cross(b, c), area), of_b = dot(cross(c, a), area), of_c = dot(cross(a, b), area);
+  const Four within = _mm256_and_pd(_mm256_and_pd(is_less(zero, square), is_less(zero, of_a)),
+                                    _mm256_and_pd(is_less(zero, of_b), is_less(zero, of_c)));
+  const FourVectors along_normal = (dot(a, area) / square) * area;
+  Four nearest = square_to_line(a, b);
+  const Four second = square_to_line(b, c), third = square_to_line(c, a);
+  nearest = _mm256_blendv_pd(nearest, second, is_less(second, nearest));
+  nearest = _mm256_blendv_pd(nearest, third, is_less(third, nearest));
+  _mm256_storeu_pd(squares, _mm256_blendv_pd(nearest, dot(along_normal, along_normal), within));
+}
+
 }  // namespace
 
 std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
@@ -65,10 +107,208 @@ std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, 
   return skip(tetrahedra, first, at, y, inverted);
 }
 #else
+using FourTriangles = const SkinTriangle* [4];
+void squares_to(const FourTriangles&, const StagePlaces&, const Vector3d&, double*) {}
+
 std::size_t skip_outside(const TetrahedraToTest&, std::size_t first, const StagePlaces&, const Eigen::Vector3d&,
                          std::size_t&) {
   return first;
 }
 #endif
+
+namespace {
+
+/// Depths below this share of the coordinates are rounding, and distances that differ by less than that are equal.
+constexpr double rounding = 0x1p-46, certain = 0x1p-40;
+/// Above 1 by more than the rounding of distances and ways.
+constexpr double certainly_more = 1.0 + 1e-6;
+/// Of the margin of lists: triangles farther away than the nearest by more are not kept. A larger share saves few
+/// searches, and costs as much as they do.
+constexpr double share_kept = 0.25;
+
+bool has_one_of(const SkinTriangle& t, std::span<const std::uint32_t> some) {
+  return std::ranges::any_of(t.nodes, [some](std::uint32_t j) { return std::ranges::find(some, j) != some.end(); });
+}
+
+/// The nearest to y of the triangles that are compared, in whatever order.
+template <std::size_t most>
+class NearestTriangles {
+ public:
+  struct Ranked {
+    double square;  // [m^2] the squared distance
+    std::uint32_t triangle;
+  };
+
+  NearestTriangles(const std::vector<SkinTriangle>& triangles, const StagePlaces& at, const Vector3d& y)
+      : triangles_(triangles), at_(at), y_(y), in_lanes_(lanes_are_on()) {}
+
+  /// Compare it, at the latest when `compare_waiting` is called.
+  void compare(std::uint32_t k) {
+    if (!in_lanes_) {
+      compare_now(k);
+      return;
+    }
+    waiting_[waiting_count_++] = k;
+    if (waiting_count_ == waiting_.size()) compare_waiting();
+  }
+  void compare_waiting() {
+    if (waiting_count_ == 1) compare_now(waiting_[0]);
+    if (waiting_count_ > 1) compare_in_lanes();
+    waiting_count_ = 0;
+  }
+  /// From the nearest on; of equal ones the lowest face and part is first. None is at a distance that is no number.
+  std::span<const Ranked> ranked() const { return {ranked_.data(), count_}; }
+  /// [m^2] The squared distance of the nearest one that is not among them.
+  double others() const { return others_; }
+
+ private:
+  void compare_now(std::uint32_t k) {
+    const auto& n = triangles_[k].nodes;
+    rank(k, nearest_on_triangle(at_.place(n[0]) - y_, at_.place(n[1]) - y_, at_.place(n[2]) - y_).way.squaredNorm());
+  }
+  void compare_in_lanes() {
+    FourTriangles t;  // the last one again, where less are left
+    for (std::size_t lane = 0; lane < 4; ++lane) t[lane] = &triangles_[waiting_[std::min(lane, waiting_count_ - 1)]];
+    std::array<double, 4> squares{};
+    squares_to(t, at_, y_, squares.data());
+    for (std::size_t lane = 0; lane < waiting_count_; ++lane) rank(waiting_[lane], squares[lane]);
+  }
+  bool is_before(const Ranked& a, const Ranked& b) const {
+    if (a.square != b.square) return a.square < b.square;
+    const SkinTriangle &t = triangles_[a.triangle], &u = triangles_[b.triangle];
+    return std::tie(t.face, t.part) < std::tie(u.face, u.part);
+  }
+  void rank(std::uint32_t k, double square) {
+    if (std::isnan(square)) return;
+    const Ranked one{square, k};
+    if (count_ == most) {
+      if (!is_before(one, ranked_[most - 1])) {
+        others_ = std::min(others_, square);
+        return;
+      }
+      others_ = ranked_[--count_].square;
+    }
+    std::size_t place = count_++;
+    for (; place > 0 && is_before(one, ranked_[place - 1]); --place) ranked_[place] = ranked_[place - 1];
+    ranked_[place] = one;
+  }
+
+  const std::vector<SkinTriangle>& triangles_;
+  const StagePlaces& at_;
+  const Vector3d& y_;
+  bool in_lanes_;
+  std::array<std::uint32_t, 4> waiting_{};
+  std::size_t waiting_count_ = 0;
+  std::array<Ranked, most> ranked_;
+  std::size_t count_ = 0;
+  double others_ = std::numeric_limits<double>::infinity();
+};
+
+/// The largest coordinate of y and of a triangle.
+double coordinates_of(const SkinTriangle& t, const StagePlaces& at, const Vector3d& y) {
+  double size = y.cwiseAbs().maxCoeff();
+  for (const std::uint32_t j : t.nodes) size = std::max(size, at.place(j).cwiseAbs().maxCoeff());
+  return size;
+}
+
+}  // namespace
+
+WaysOut::Around WaysOut::around(std::uint32_t tetrahedron) {
+  if (changes_ != solids_.changes() || places_.size() != solids_.tetrahedra().size()) {
+    places_.assign(solids_.tetrahedra().size(), {});
+    numbers_.clear();
+    changes_ = solids_.changes();
+  }
+  Place& place = places_[tetrahedron];
+  if (place.triangles == 0) {
+    const std::size_t first = numbers_.size();
+    const auto add = [this](std::size_t from, std::uint32_t number) {
+      if (std::ranges::find(std::span(numbers_).subspan(from), number) == std::span(numbers_).end())
+        numbers_.push_back(number);
+    };
+    for (const std::uint32_t node : solids_.tetrahedra()[tetrahedron].nodes)
+      solids_.for_each_triangle_at(node, [&](std::uint32_t k) { add(first, k); });
+    const std::size_t middle = numbers_.size();
+    for (std::size_t k = first; k < middle; ++k)
+      for (const std::uint32_t node : solids_.triangles()[numbers_[k]].nodes) add(middle, node);
+    place = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(middle - first),
+             static_cast<std::uint32_t>(numbers_.size() - middle)};
+  }
+  const std::span<const std::uint32_t> all(numbers_);
+  return {all.subspan(place.first, place.triangles), all.subspan(place.first + place.triangles, place.nodes)};
+}
+
+/// Are the nearest known since the last call? The distance of the others has shrunk by no more than places have moved
+/// relative to each other.
+bool WaysOut::is_followed(const BodyTouch& touch, Known& known) {
+  if (known.count == 0 || known.tetrahedron != touch.tetrahedron || candidates_.call() != known.call + 1) return false;
+  double own = 0.0, most = 0.0;
+  for (const std::uint32_t i : samples_[touch.sample].corners()) own = std::max(own, candidates_.way_of(i));
+  for (const std::uint32_t i : around(touch.tetrahedron).nodes) most = std::max(most, candidates_.way_of(i));
+  known.others -= certainly_more * (own + most);
+  known.call = candidates_.call();
+  return true;
+}
+
+bool WaysOut::find(const Vector3d& y, const StagePlaces& at, BodyTouch& touch) {
+  if (known_.size() != samples_.size()) known_.assign(samples_.size(), {});
+  Known& known = known_[touch.sample];
+  if (is_followed(touch, known)) {
+    NearestTriangles<most_kept> nearest(solids_.triangles(), at, y);
+    for (const std::uint32_t k : std::span(known.nearest).first(known.count)) nearest.compare(k);
+    nearest.compare_waiting();
+    if (!nearest.ranked().empty()) {
+      const bool has_depth = take(y, at, nearest.ranked()[0].triangle, touch);
+      if (certainly_more * touch.depth < known.others) return has_depth;
+    }
+  }
+  return search(y, at, touch, known);
+}
+
+bool WaysOut::search(const Vector3d& y, const StagePlaces& at, BodyTouch& touch) {
+  Known nothing;
+  return search(y, at, touch, nothing);
+}
+
+bool WaysOut::search(const Vector3d& y, const StagePlaces& at, BodyTouch& touch, Known& known) {
+  ++searched_;
+  const auto& triangles = solids_.triangles();
+  const auto corners = samples_[touch.sample].corners();
+  const bool may_share_nodes = solids_.group_at(corners[0]) == solids_.tetrahedra()[touch.tetrahedron].group;
+  NearestTriangles<most_kept> nearest(triangles, at, y);
+  for (const std::uint32_t k : around(touch.tetrahedron).triangles)
+    if (!(may_share_nodes && has_one_of(triangles[k], corners))) nearest.compare(k);
+  nearest.compare_waiting();
+  known = {.tetrahedron = touch.tetrahedron, .call = candidates_.call()};
+  touch.triangle = BodyTouch::none;
+  if (nearest.ranked().empty()) return true;
+  const double far = std::sqrt(nearest.ranked()[0].square) + share_kept * candidates_.margin();
+  double others = std::sqrt(nearest.others());
+  for (const auto& one : nearest.ranked()) {
+    if (const double distance = std::sqrt(one.square); known.count > 0 && distance > far) {
+      others = distance;
+      break;
+    }
+    known.nearest[known.count++] = one.triangle;
+  }
+  const double coordinates = coordinates_of(triangles[known.nearest[0]], at, y);
+  known.others = std::min(others, std::numeric_limits<double>::max()) - certain * coordinates;
+  return take(y, at, known.nearest[0], touch);
+}
+
+/// Fills a touch whose nearest triangle is known.
+bool WaysOut::take(const Vector3d& y, const StagePlaces& at, std::uint32_t triangle, BodyTouch& touch) const {
+  const SkinTriangle& t = solids_.triangles()[triangle];
+  const NearestOnTriangle best =
+      nearest_on_triangle(at.place(t.nodes[0]) - y, at.place(t.nodes[1]) - y, at.place(t.nodes[2]) - y);
+  touch.triangle = triangle;
+  touch.depth = best.way.norm();
+  if (!(touch.depth > rounding * coordinates_of(t, at, y))) return false;
+  touch.normal = best.way / touch.depth;
+  touch.nearest = best.weight;
+  return true;
+}
+
+std::size_t WaysOut::bytes() const { return bytes_of(known_, places_, numbers_); }
 
 }  // namespace dartboard

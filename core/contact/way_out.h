@@ -3,17 +3,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <tuple>
+#include <vector>
 
 #include "core/contact/body_contact.h"
-#include "core/contact/nearest_on_triangle.h"
+#include "core/contact/candidate_pairs.h"
 #include "core/contact/skin_samples.h"
 #include "core/contact/skin_solids.h"
 
@@ -68,86 +65,59 @@ struct TetrahedraToTest {
 std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
                          const Eigen::Vector3d& y, std::size_t& inverted);
 
-/// The way out of the tetrahedron for the sample at y: the nearest of the boundary triangles at its corners, less those
-/// with a node of the sample. False if y is on the boundary, to rounding.
+/// The ways out of tetrahedra for samples inside of them: each is to the nearest of the boundary triangles at the
+/// corners of the tetrahedron, less those with a node of the sample; of equal ones to that of the lowest face and part.
 ///
-/// `known` is what was found last time for the sample. While no two places have moved, relative to each other, by half
-/// of what its triangle was nearer than all others, that triangle is the nearest still, and nothing is searched;
-/// otherwise the search begins with it, which saves most of the others.
-/// pre  travelled [m] grows by at least the relative movement, from the time on when `known` was set
-template <class Place>
-bool find_way_out(const SkinSolids& solids, const SkinSample& sample, const Eigen::Vector3d& y, const Place& place,
-                  double travelled, KnownWay& known, BodyTouch& touch) {
-  using Eigen::Vector3d;
-  // Depths below this share of the coordinates are rounding, and distances that differ by less than that are equal.
-  constexpr double rounding = 0x1p-46, certain = 0x1p-40;
-  // between squared distances that differ by more than rounding
-  constexpr double certainly_more = 1.0001;
-  const auto& triangles = solids.triangles();
-  const auto nearest_on = [&](const SkinTriangle& t) {
-    return nearest_on_triangle(place(t.nodes[0]) - y, place(t.nodes[1]) - y, place(t.nodes[2]) - y);
+/// A search compares all of these triangles, and keeps the nearest few. As long as places have not moved by as much as
+/// the others were farther away, these alone are compared. What is found does not depend on that.
+class WaysOut {
+ public:
+  /// pre  these live as long
+  WaysOut(const std::vector<SkinSample>& samples, const SkinSolids& solids, const CandidatePairs& candidates)
+      : samples_(samples), solids_(solids), candidates_(candidates) {}
+
+  /// Fill triangle, depth, normal and `nearest` of a touch whose sample is at y. False if y is on the boundary, to
+  /// rounding; the triangle is `none` if none is in reach.
+  /// pre  the candidates are those at these places; at most once for each sample until they are at others
+  bool find(const Eigen::Vector3d& y, const StagePlaces& at, BodyTouch& touch);
+  /// The same with nothing known: the oracle of ways that are followed.
+  bool search(const Eigen::Vector3d& y, const StagePlaces& at, BodyTouch& touch);
+
+  /// The number of searches.
+  std::uint64_t searched() const { return searched_; }
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t most_kept = 8;
+  /// For a sample.
+  struct Known {
+    std::uint32_t tetrahedron = BodyTouch::none;
+    std::array<std::uint32_t, most_kept> nearest{};  // triangles
+    std::uint32_t count = 0;                         // of these
+    double others = 0.0;                             // [m] at least the distance of all other triangles
+    std::uint64_t call = 0;                          // of the candidates, when that was so
   };
-  const auto size_of_coordinates = [&] {
-    double size = y.cwiseAbs().maxCoeff();
-    for (const std::uint32_t j : triangles[touch.triangle].nodes) size = std::max(size, place(j).cwiseAbs().maxCoeff());
-    return size;
+  /// The triangles at the corners of a tetrahedron, each once, and their nodes.
+  struct Around {
+    std::span<const std::uint32_t> triangles, nodes;
   };
-  double least = 0.0, coordinates = 0.0;
-  NearestOnTriangle best;
-  if (known.is_certain(touch.tetrahedron, travelled)) {
-    touch.triangle = known.triangle;
-    best = nearest_on(triangles[touch.triangle]);
-    least = best.way.squaredNorm();
-    coordinates = size_of_coordinates();
-  } else {
-    const auto corners = sample.corners();
-    const auto& nodes = solids.tetrahedra()[touch.tetrahedron].nodes;
-    const auto has_one_of = [](const SkinTriangle& t, std::span<const std::uint32_t> some) {
-      return std::ranges::any_of(t.nodes, [some](std::uint32_t j) { return std::ranges::find(some, j) != some.end(); });
-    };
-    touch.triangle = BodyTouch::none;
-    double second = std::numeric_limits<double>::infinity();  // no other is nearer than its root
-    const auto compare = [&](std::uint32_t k) {
-      const SkinTriangle& t = triangles[k];
-      if (k == touch.triangle || has_one_of(t, corners)) return;
-      const Vector3d a = place(t.nodes[0]) - y, b = place(t.nodes[1]) - y, c = place(t.nodes[2]) - y;
-      if (touch.triangle != BodyTouch::none) {
-        const Vector3d to_box = a.cwiseMin(b).cwiseMin(c).cwiseMax(-a.cwiseMax(b).cwiseMax(c)).cwiseMax(0.0);
-        if (const double square = to_box.squaredNorm(); square > certainly_more * least) {
-          second = std::min(second, square);
-          return;
-        }
-      }
-      const NearestOnTriangle found = nearest_on_triangle(a, b, c);
-      const double square = found.way.squaredNorm();
-      if (std::isnan(square)) return;
-      if (touch.triangle != BodyTouch::none) {
-        second = std::min(second, std::max(square, least));
-        if (!(square <= least)) return;
-        const SkinTriangle& other = triangles[touch.triangle];
-        if (square == least && std::tie(other.face, other.part) < std::tie(t.face, t.part)) return;
-      }
-      least = square;
-      best = found;
-      touch.triangle = k;
-    };
-    if (known.triangle < triangles.size() && has_one_of(triangles[known.triangle], nodes)) compare(known.triangle);
-    for (std::size_t corner = 0; corner < nodes.size(); ++corner)
-      solids.for_each_triangle_at(nodes[corner], [&](std::uint32_t k) {
-        if (!has_one_of(triangles[k], std::span(nodes).first(corner))) compare(k);
-      });
-    known = {touch.tetrahedron, touch.triangle};
-    if (touch.triangle == BodyTouch::none) return true;
-    coordinates = size_of_coordinates();
-    const double nearer = std::sqrt(second) - std::sqrt(least);
-    known.until =
-        std::min(travelled + 0.5 * (1.0 - 1e-6) * nearer - certain * coordinates, std::numeric_limits<double>::max());
-  }
-  touch.depth = std::sqrt(least);
-  if (!(touch.depth > rounding * coordinates)) return false;
-  touch.normal = best.way / touch.depth;
-  touch.nearest = best.weight;
-  return true;
-}
+  struct Place {
+    std::uint32_t first = 0, triangles = 0, nodes = 0;  // in numbers_; none: not looked for
+  };
+
+  Around around(std::uint32_t tetrahedron);
+  bool is_followed(const BodyTouch& touch, Known& known);
+  bool search(const Eigen::Vector3d& y, const StagePlaces& at, BodyTouch& touch, Known& known);
+  bool take(const Eigen::Vector3d& y, const StagePlaces& at, std::uint32_t triangle, BodyTouch& touch) const;
+
+  const std::vector<SkinSample>& samples_;
+  const SkinSolids& solids_;
+  const CandidatePairs& candidates_;
+  std::vector<Known> known_;  // by sample
+  std::uint64_t searched_ = 0;
+  std::vector<Place> places_;  // by tetrahedron
+  std::vector<std::uint32_t> numbers_;
+  std::uint64_t changes_ = 0;  // of the skin, up to which these hold
+};
 
 }  // namespace dartboard
