@@ -172,8 +172,9 @@ void CandidatePairs::follow(const StagePlaces& at) {
       Vector3d& last = last_[run.place + k];
       const Vector3d now = at.place(run.first + k), way = (now - last) - middle;
       // no less than the length, and no root
-      const double sum = std::abs(way.x()) + std::abs(way.y()) + std::abs(way.z());
-      ways_[run.first + k] = std::isnan(sum) ? BoxAround::infinity : sum;
+      double& sum = ways_[run.first + k];
+      sum = std::abs(way.x()) + std::abs(way.y()) + std::abs(way.z());
+      if (std::isnan(sum)) sum = BoxAround::infinity;
       last = now;
     }
 }

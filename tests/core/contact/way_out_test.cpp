@@ -7,8 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
@@ -169,9 +170,10 @@ struct Ways {
   }
 };
 
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool same_bits(const BodyTouch& a, const BodyTouch& b) {
-  return a.triangle == b.triangle && std::memcmp(&a.depth, &b.depth, sizeof a.depth) == 0 &&
-         std::memcmp(a.normal.data(), b.normal.data(), sizeof a.normal) == 0 && a.nearest == b.nearest;
+  return a.triangle == b.triangle && same_bits(a.depth, b.depth) && same_bits(a.normal.x(), b.normal.x()) &&
+         same_bits(a.normal.y(), b.normal.y()) && same_bits(a.normal.z(), b.normal.z()) && a.nearest == b.nearest;
 }
 
 TEST(WayOut, IsThroughTheNearestTriangleFourAtATimeAndOneAtATime) {
