@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "benchmarks/harness/paired.h"
+#include "benchmarks/studies/step/step_bodies.h"
 
 namespace dartboard {
 
@@ -37,14 +38,6 @@ inline constexpr const char *graph = ": graph", *arrays = ": arrays", *one = ": 
 inline constexpr const char *copy = ": copy", *roots = ": roots";
 }  // namespace step_task
 
-/// The paper's body with and without damping.
-std::string paper_step_body(bool damped);
-/// The box of about so many tetrahedra, a power of ten from 10^3 to 10^6, its points and cells along the grid or
-/// shuffled.
-std::string step_box(std::size_t tetrahedra, bool shuffled);
-/// Both bodies of the paper, and boxes of up to so many tetrahedra. A mesh of others is made finer until it has 10^5.
-std::vector<std::string> step_bodies(std::size_t largest);
-
 struct StepCostPlan {
   int process = 0;
   int rounds = 20;                              // a fifth of them for the largest boxes
@@ -53,10 +46,6 @@ struct StepCostPlan {
   std::vector<std::filesystem::path> meshes{};  // of further bodies, called as their files
   std::size_t least_of_mesh = 100'000;          // tetrahedra, to which these are cut
 };
-
-/// The names of the bodies of these files.
-/// throws  InputError where two have the same
-std::vector<std::string> step_meshes(const std::vector<std::filesystem::path>& meshes);
 
 /// Compare the ways to step each body: those over columns must end in the same bits, and keep to the rounding bound of
 /// the graph (validation/contenders/motion_agreement.h).

@@ -27,15 +27,6 @@ Eigen::Vector3d centre(const Mesh& mesh, Dart d) {
   return sum / 4.0;
 }
 
-/// A dart of each face between two tetrahedra.
-std::vector<Dart> inner_faces(const TetMap& map) {
-  std::vector<Dart> faces;
-  for_each_cell<2>(map, [&](Face f) {
-    if (!map.is_free<3>(f.dart)) faces.push_back(f.dart);
-  });
-  return faces;
-}
-
 /// The faces that a plane separates, in strips of about one edge's width.
 std::vector<Dart> cut_faces(const Mesh& mesh, const TetMap& map, const std::vector<Dart>& inner) {
   const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
@@ -90,6 +81,14 @@ struct Subject {
 };
 
 }  // namespace
+
+std::vector<Dart> inner_faces(const TetMap& map) {
+  std::vector<Dart> faces;
+  for_each_cell<2>(map, [&](Face f) {
+    if (!map.is_free<3>(f.dart)) faces.push_back(f.dart);
+  });
+  return faces;
+}
 
 TopologyWork topology_work(Mesh mesh, std::uint64_t seed) {
   TopologyWork work;
