@@ -1,0 +1,110 @@
+#include "benchmarks/studies/step/changed_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/studies/step/step_bodies.h"
+
+namespace dartboard {
+namespace {
+
+constexpr double most_after_changes = 1.15;
+
+/// The worst change of one body.
+Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::string& body) {
+  Claim made{.id = id,
+             .text = fmt::format("{}, after up to half of it has changed: a step over one of a fresh body", body),
+             .paper_value = fmt::format("<= {:g} for each", most_after_changes)};
+  Met met = Met::yes;
+  double worst = -INFINITY;
+  std::size_t changes = 0;
+  for (const ChangedCase& one : c.cases) {
+    if (one.body != body) continue;
+    const Figure f = c.over_fresh(one);
+    met = std::min(met, at_most(f, most_after_changes));
+    ++changes;
+    if (!(f.median <= worst)) {
+      worst = f.median;
+      made.bound_or_interval = fmt::format("{} for {:g} % {}", to_string(f.interval), 100.0 * one.asked, one.kind);
+    }
+  }
+  if (changes == 0) {
+    made.reason = "a quick run has no body of this size: leave out --quick";
+    return made;
+  }
+  made.measured = fmt::format("{:.3f}, the largest of {}", worst, changes);
+  judge(made, met);
+  if (met == Met::no) made.reason = "what changes add lies at the end of the columns; nothing is numbered anew";
+  return made;
+}
+
+}  // namespace
+
+Figure ChangedCosts::over_fresh(const ChangedCase& one) const {
+  return paired_ratio(samples, one.changed + changed_task::changed, one.changed + changed_task::fresh).cpu;
+}
+
+double ChangedCosts::spring_ns(const ChangedCase& one, const char* task) const {
+  return times_of(samples, one.changed + task).cpu_median / (4.0 * one.steps * static_cast<double>(one.springs));
+}
+
+std::size_t ChangedCosts::count_differing() const {
+  std::size_t differing = 0;
+  for (const ChangedCase& one : cases) differing += one.differing;
+  return differing;
+}
+
+std::vector<Claim> claims_of(const ChangedCosts& c) {
+  const std::size_t differing = c.count_differing();
+  Claim agreement{.id = "step-changed-agreement",
+                  .text =
+                      "changed bodies and fresh bodies of the same cells and vertices have equal counts of springs, "
+                      "and the same forces within the bound of rounding",
+                  .paper_value = "0 differ",
+                  .measured = fmt::format("{} differ", differing),
+                  .bound_or_interval = fmt::format("of {} changed bodies", c.cases.size())};
+  judge(agreement, differing == 0 && !c.cases.empty() ? Met::yes : Met::no);
+  std::vector<Claim> claims{agreement};
+  for (const auto& [id, tetrahedra] : {std::pair{"step-changed-medium", 100'000}, {"step-changed-large", 1'000'000}}) {
+    const std::string body = step_box(static_cast<std::size_t>(tetrahedra), false);
+    if (agreement.verdict == Verdict::holds)
+      claims.push_back(claim_after_changes(c, id, body));
+    else
+      claims.push_back({.id = id,
+                        .text = fmt::format("{}, after changes", body),
+                        .reason = "bodies do not agree, so their times mean nothing"});
+  }
+  return claims;
+}
+
+Table changed_table(const ChangedCosts& c) {
+  Table table({{"body"},
+               {"change"},
+               {"amount, %", Align::right},
+               {"tetrahedra", Align::right},
+               {"springs", Align::right},
+               {"changed, ns per spring and evaluation", Align::right},
+               {"fresh, ns", Align::right},
+               {"over fresh", Align::right},
+               {"interval", Align::right}});
+  for (const ChangedCase& one : c.cases) {
+    const Figure f = c.over_fresh(one);
+    table.add_row({one.body, one.kind, fmt::format("{:.1f}", 100.0 * one.reached), std::to_string(one.tetrahedra),
+                   std::to_string(one.springs), fmt::format("{:.2f}", c.spring_ns(one, changed_task::changed)),
+                   fmt::format("{:.2f}", c.spring_ns(one, changed_task::fresh)), fmt::format("{:.3f}", f.median),
+                   to_string(f.interval)});
+  }
+  return table;
+}
+
+std::string changed_note() {
+  return "Amounts are the new springs over those at the start, and for removals the cells removed over all cells. The "
+         "changed body is stepped through its own columns, four springs at a time on one thread; the fresh body has the "
+         "same cells, vertices and springs, ordered and numbered as a scene makes a body of them. Where an edge comes "
+         "apart between vertices that do not, a scene's body would have one spring in place of parallel ones; the fresh "
+         "body here keeps these next to each other. Both take turns from the same state.";
+}
+
+}  // namespace dartboard
