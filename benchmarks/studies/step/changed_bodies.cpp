@@ -114,14 +114,17 @@ void change_body(const Problem& problem, const std::string& kind, std::span<cons
   }
 }
 
+std::size_t count_differing(const ChangedBody& changed, const FreshBody& fresh) {
+  SceneColumns in_scene(fresh.scene, changed.columns.h, {"scene"}),
+      stepped(std::make_shared<KeptColumns>(fresh.columns), changed.columns.h, {changed_task::fresh});
+  return count_differing(changed.columns, std::vector<ContenderBody*>{&in_scene, &stepped});
+}
+
 void compare_changed(const ChangedPlan& plan, const std::function<void(const ChangedCase&)>& sink) {
   const Problem problem = find_step_body(plan.body, plan.seed).make();
   std::size_t k = 0;
   change_body(problem, plan.kind, amounts_of_change, plan.seed, [&](ChangedBody&& one) {
     FreshBody fresh(one.present, one.columns);
-    SceneColumns as_in_scene(fresh.scene, problem.h, {"scene"}),
-        stepped(std::make_shared<KeptColumns>(fresh.columns), problem.h, {changed_task::fresh});
-    const std::size_t differing = count_differing(one.columns, std::vector<ContenderBody*>{&as_in_scene, &stepped});
     write_columns(columns_file(plan, k, changed_task::changed), one.columns);
     write_columns(columns_file(plan, k++, changed_task::fresh), fresh.columns);
     sink({.changed = case_name(plan, one.asked),
@@ -133,7 +136,7 @@ void compare_changed(const ChangedPlan& plan, const std::function<void(const Cha
           .vertices = one.columns.at.size(),
           .springs = one.columns.springs.size(),
           .steps = steps_in_sample(one.columns),
-          .differing = differing});
+          .differing = count_differing(one, fresh)});
   });
 }
 

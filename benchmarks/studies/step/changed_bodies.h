@@ -33,6 +33,9 @@ struct ChangedBody {
 void change_body(const Problem& problem, const std::string& kind, std::span<const double> amounts, std::uint64_t seed,
                  const std::function<void(ChangedBody&&)>& sink);
 
+/// How many of the bodies made anew have other forces: as a scene makes it, and with the springs of the changed body.
+std::size_t count_differing(const ChangedBody& changed, const FreshBody& fresh);
+
 /// A changed body, as it is compared and timed.
 struct ChangedCase {
   std::string changed;  // the body and its changes: "10^5 in grid order, 10 % planar cuts"
