@@ -36,7 +36,9 @@ Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::stri
   }
   made.measured = fmt::format("{:.3f}, the largest of {}", worst, changes);
   judge(made, met);
-  if (met == Met::no) made.reason = "what changes add lies at the end of the columns; nothing is numbered anew";
+  if (met == Met::no)
+    made.reason =
+        "what changes add lies at the end of the columns, and what was last moves into holes: nothing is numbered anew";
   return made;
 }
 
