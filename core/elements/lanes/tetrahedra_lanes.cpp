@@ -13,22 +13,6 @@ DARTBOARD_AVX2_INLINE FourVectors corners_at(const double* x, const std::array<s
                     x + std::size_t{3} * n[2][corner], x + std::size_t{3} * n[3][corner]);
 }
 
-/// The forces of weighted stresses, by the rows of the shapes, at the corners, of one tetrahedron after the other.
-DARTBOARD_AVX2_INLINE void add_at_corners(double* force, const std::array<std::uint32_t, 4>* n,
-                                          const FourMatrices& weighted, const FourMatrices& shape) {
-  const FourVectors one = weighted * FourVectors{shape.a.x, shape.b.x, shape.c.x};
-  const FourVectors two = weighted * FourVectors{shape.a.y, shape.b.y, shape.c.y};
-  const FourVectors three = weighted * FourVectors{shape.a.z, shape.b.z, shape.c.z};
-  const FourRows sums = rows_of(one + two + three);
-  const FourRows ones = rows_of(one), twos = rows_of(two), threes = rows_of(three);
-  for (std::size_t lane = 0; lane < 4; ++lane) {
-    subtract_from(force + std::size_t{3} * n[lane][0], sums.xy[lane], sums.z[lane]);
-    add_to(force + std::size_t{3} * n[lane][1], ones.xy[lane], ones.z[lane]);
-    add_to(force + std::size_t{3} * n[lane][2], twos.xy[lane], twos.z[lane]);
-    add_to(force + std::size_t{3} * n[lane][3], threes.xy[lane], threes.z[lane]);
-  }
-}
-
 template <class Constants>
 DARTBOARD_AVX2 std::size_t add_in_lanes(const TetrahedraAt& at, const Constants& law, std::size_t first,
                                         std::size_t last) {
@@ -44,7 +28,19 @@ DARTBOARD_AVX2 std::size_t add_in_lanes(const TetrahedraAt& at, const Constants&
     const FourMatrices edges{corners_at(x, n, 1) - origin, corners_at(x, n, 2) - origin, corners_at(x, n, 3) - origin};
     FourMatrices stress;
     if (!stress_of(law, edges * shape, stress)) break;
-    add_at_corners(force, n, (minus_per_mass * _mm256_loadu_pd(mass + c)) * stress, shape);
+    const FourMatrices weighted = (minus_per_mass * _mm256_loadu_pd(mass + c)) * stress;
+    // by the rows of the shape
+    const FourVectors one = weighted * FourVectors{shape.a.x, shape.b.x, shape.c.x};
+    const FourVectors two = weighted * FourVectors{shape.a.y, shape.b.y, shape.c.y};
+    const FourVectors three = weighted * FourVectors{shape.a.z, shape.b.z, shape.c.z};
+    const FourRows sums = rows_of(one + two + three);
+    const FourRows ones = rows_of(one), twos = rows_of(two), threes = rows_of(three);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      subtract_from(force + std::size_t{3} * n[lane][0], sums.xy[lane], sums.z[lane]);
+      add_to(force + std::size_t{3} * n[lane][1], ones.xy[lane], ones.z[lane]);
+      add_to(force + std::size_t{3} * n[lane][2], twos.xy[lane], twos.z[lane]);
+      add_to(force + std::size_t{3} * n[lane][3], threes.xy[lane], threes.z[lane]);
+    }
   }
   return c;
 }
@@ -67,13 +63,25 @@ DARTBOARD_AVX2 std::size_t add_damping(const TetrahedraAt& at, const Eigen::Vect
   const double *const x = at.x->data(), *const v = velocities->data(), *const shapes = at.shape->data(),
                       *const mass = at.mass;
   double* const force = at.force->data();
-  const Four minus_per_mass = four(-at.per_mass);
+  const Four per_mass = four(at.per_mass);
   std::size_t c = first;
   for (; c + 4 <= last; c += 4) {
     const std::array<std::uint32_t, 4>* const n = nodes + c;
     const FourMatrices shape = matrices_at(shapes + 9 * c);
     const FourMatrices f = gradients_of(x, n, shape), rate = gradients_of(v, n, shape);
-    add_at_corners(force, n, damping_of(material, minus_per_mass * _mm256_loadu_pd(mass + c), f, rate), shape);
+    const FourMatrices weighted = damping_of(material, per_mass * _mm256_loadu_pd(mass + c), f, rate);
+    const FourVectors none{four(0.0), four(0.0), four(0.0)};
+    const FourVectors one = none + weighted * FourVectors{shape.a.x, shape.b.x, shape.c.x};
+    const FourVectors two = none + weighted * FourVectors{shape.a.y, shape.b.y, shape.c.y};
+    const FourVectors three = none + weighted * FourVectors{shape.a.z, shape.b.z, shape.c.z};
+    const FourRows sums = rows_of(none + one + two + three);
+    const FourRows ones = rows_of(one), twos = rows_of(two), threes = rows_of(three);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      subtract_from(force + std::size_t{3} * n[lane][1], ones.xy[lane], ones.z[lane]);
+      subtract_from(force + std::size_t{3} * n[lane][2], twos.xy[lane], twos.z[lane]);
+      subtract_from(force + std::size_t{3} * n[lane][3], threes.xy[lane], threes.z[lane]);
+      add_to(force + std::size_t{3} * n[lane][0], sums.xy[lane], sums.z[lane]);
+    }
   }
   return c;
 }
