@@ -77,7 +77,7 @@ Report report_on_changed(const Extent& extent, StudyLog& log) {
   for (std::size_t size = 100'000; size <= extent.largest(); size *= 10) bodies.push_back(step_box(size, false));
   log.say(fmt::format("bodies that have changed, and fresh ones: times in {} processes", extent.fewer_processes()));
   log.begin("changed bodies",
-            bodies.size() * kinds_of_change().size() * static_cast<std::size_t>(extent.fewer_processes() + 1));
+            bodies.size() * kinds_of_change().size() * (static_cast<std::size_t>(extent.fewer_processes()) + 1));
   for (const std::string& body : bodies)
     for (const std::string& kind : kinds_of_change()) {
       const ScratchFolder folder("step");
@@ -109,7 +109,7 @@ Report report_on_changing(const Extent& extent, StudyLog& log) {
     log.advance();
   };
   log.say(fmt::format("a dissociation in every step: times in {} processes", extent.fewer_processes()));
-  log.begin("changing bodies", static_cast<std::size_t>(extent.fewer_processes() + 1));
+  log.begin("changing bodies", static_cast<std::size_t>(extent.fewer_processes()) + 1);
   measure({"--compare"});
   if (costs.count_differing() > 0) return {.claims = claims_of(costs)};
   for (int process = 0; process < extent.fewer_processes(); ++process)

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "benchmarks/studies/step/step_bodies.h"
 
@@ -18,7 +18,7 @@ Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::stri
              .text = fmt::format("{}, after up to half of it has changed: a step over one of a fresh body", body),
              .paper_value = fmt::format("<= {:g} for each", most_after_changes)};
   Met met = Met::yes;
-  double worst = -INFINITY;
+  double worst = -std::numeric_limits<double>::infinity();
   std::size_t changes = 0;
   for (const ChangedCase& one : c.cases) {
     if (one.body != body) continue;
