@@ -10,8 +10,7 @@
 namespace dartboard {
 namespace {
 
-constexpr std::uint32_t window = 4096;  // vertices: their places and velocities take a tenth of a second-level cache
-constexpr int bits = 21;                // by axis: three of them in 64 bits
+constexpr int bits = 21;  // by axis: three of them in 64 bits
 
 /// Two zeros before each of the lowest 21 bits.
 std::uint64_t spread(std::uint64_t x) {
@@ -65,13 +64,13 @@ std::size_t count_wide_cells(const Mesh& mesh, std::span<const std::uint32_t> or
       least = std::min(least, number[p]);
       most = std::max(most, number[p]);
     }
-    wide += most - least > window;
+    wide += most - least > near_vertices;
   }
   return wide;
 }
 
 std::vector<std::uint32_t> order_along_curve(const Mesh& mesh) {
-  if (mesh.points.size() <= window) return {};
+  if (mesh.points.size() <= near_vertices) return {};
   std::vector<std::uint32_t> order = order_of_mesh(mesh);
   const std::size_t as_given = count_wide_cells(mesh, order);
   if (as_given == 0) return {};

@@ -13,6 +13,7 @@
 #include "benchmarks/studies/topology/topology_tasks.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/cell_nodes.h"
+#include "core/mechanics/numbering.h"
 #include "core/operations/dissociate_all.h"
 #include "core/operations/remove_volume.h"
 #include "core/plain/error.h"
@@ -87,6 +88,7 @@ void change_body(const Problem& problem, const std::string& kind, std::span<cons
   auto body = build_body<TetMap, Held::by_every_dart>(problem);
   SpringEndsView ends;
   ends.rebuild(body);
+  Numbering numbering(body);
   const std::vector<Dart> places = places_of_change(body, problem.mesh, kind, seed);
   const bool removes = kind == random_removals;
   const auto count = [&] { return static_cast<double>(removes ? body.cell_dart.size() : body.springs.size()); };
@@ -100,7 +102,10 @@ void change_body(const Problem& problem, const std::string& kind, std::span<cons
       const double needed = std::ceil((asked - reached()) * start / (removes ? 1.0 : 3.0));
       const std::size_t next = std::min({batch, left.size(), static_cast<std::size_t>(needed)});
       const auto now = left.first(next);
-      ends.apply(body, adapt(body, removes ? remove_all(body.map, now) : dissociate_all(body.map, now)));
+      const ChangedEmbeddings changed =
+          adapt(body, removes ? remove_all(body.map, now) : dissociate_all(body.map, now));
+      ends.apply(body, changed);
+      if (!numbering.follow(body, changed).empty()) ends.rebuild(body);
       left = left.subspan(next);
     }
     Mesh mesh;

@@ -96,7 +96,6 @@ std::size_t place_count(const Map& map, Dart d) {
 /// A vertex above the threshold, given by a dart because numbers change when the body follows a tear.
 struct Stressed {
   double value;
-  std::uint32_t number;
   DartId dart;
   std::size_t places;
 };
@@ -165,12 +164,12 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
     torn.largest_stress = k == 0 ? value : std::max(torn.largest_stress, value);
     if (value > rule.threshold) {
       const Dart d = body.vertices.dart[k];
-      stressed.push_back({rounded(value), k, body.map.id(d), place_count(body.map, d)});
+      stressed.push_back({rounded(value), body.map.id(d), place_count(body.map, d)});
     }
   }
   torn.stressed = stressed.size();
   std::sort(stressed.begin(), stressed.end(), [](const Stressed& a, const Stressed& b) {
-    return a.value != b.value ? a.value > b.value : a.number < b.number;
+    return a.value != b.value ? a.value > b.value : a.dart.dart < b.dart.dart;
   });
 
   for (const Stressed& vertex : stressed) {

@@ -52,7 +52,7 @@ struct TornVertices {
 
 /// Tear the body at every vertex whose principal stress is above the threshold, fixed ones too.
 ///
-/// Vertices are taken in descending order of stress, ties (to 24 bits, as in `starting_face`) by number. Each is
+/// Vertices are taken in descending order of stress, ties (to 24 bits, as in `starting_face`) by dart. Each is
 /// examined again when its turn comes, on the map as earlier tears left it; if they took it apart, all its parts wait
 /// for the next call. Without a filter the fan of the starting face is torn (`tear_fan`), from the side that keeps it
 /// nearer to the plane across the stress, so that numbers do not choose it. With a filter, a seam, torn are the

@@ -18,6 +18,7 @@
 #include "core/mechanics/fracture/cell_size.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
+#include "core/mechanics/numbering.h"
 #include "core/mechanics/refine.h"
 #include "core/scene/body/events/changing_body.h"
 #include "core/scene/body/events/ready.h"
@@ -46,6 +47,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   /// `mesh_cell` are the numbers of the cells in the mesh that `needs` refers to; empty: their own.
   BodyOnMap(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell = {})
       : body_(build_body<Map, Held::by_every_dart>(problem)),
+        numbering_(body_),
         holds_{needs.bending.rigidity > 0.0,
                needs.bending.second_neighbours > 0.0,
                needs.contact(),
@@ -111,6 +113,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       for (std::uint32_t& vertex : tracked_) vertex = vertex == to ? no_vertex : vertex == from ? to : vertex;
     changed.move_cells(mesh_cell_);
     follow(change, changed);
+    keep_in_order(changed);
   }
   void follow(const Subdivision& subdivision, double bracing) override {
     if constexpr (n == 3) {
@@ -123,6 +126,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         mesh_cell_[cell_of(child)] = mesh_cell_[cell_of(subdivision.children[first])];
       }
       follow({}, changed);
+      keep_in_order(changed);
     }
   }
   void count_removed(double mass) override { removed_mass_ += mass; }
@@ -223,7 +227,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::string violation() const override { return check(body_.map); }
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
-    archive(body_, mesh_cell_, removed_mass_, face_origins_);
+    archive(body_, numbering_, mesh_cell_, removed_mass_, face_origins_);
     if (holds_.pressed) archive(pressure_);
     for_each_view([&archive](auto& view) { archive(view); });
     if (contact_) archive(*contact_);
@@ -347,6 +351,17 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         view.apply(body_, changed);
     });
   }
+  /// Bodies in contact keep their numbers: by those of its samples, contact remembers how they stick.
+  void keep_in_order(const ChangedEmbeddings& changed) {
+    if (holds_.skin) return;
+    const std::vector<std::uint32_t> number = numbering_.follow(body_, changed);
+    if (number.empty()) return;
+    for (std::uint32_t& vertex : tracked_)
+      if (vertex != no_vertex) vertex = number[vertex];
+    for_each_view([this](auto& view) {
+      if constexpr (!std::is_same_v<decltype(view), ComponentLabels&>) view.rebuild(body_);  // those are of cells
+    });
+  }
 
   /// All marks of the map are idle between operations; each is taken once to read its length. The last one taken is a
   /// new one, without a bit.
@@ -368,6 +383,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   };
 
   Body body_;
+  Numbering numbering_;
   OptionalViews holds_;
   SpringEndsView ends_;
   TetrahedronNodesView nodes_{Map::tetrahedral};  // of springs, or of elements that are all tetrahedra

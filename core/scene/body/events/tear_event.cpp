@@ -31,7 +31,7 @@ class ReadyTear : public Dissociation<Map> {
   }
 
  private:
-  // The lowest of several: parts of one point, or vertices at the same distance.
+  // That of the lowest dart, of several: parts of one point, or vertices at the same distance.
   std::optional<std::uint32_t> chosen() const {
     const VertexColumns& v = on_.body().vertices;
     std::optional<std::uint32_t> best;
@@ -43,7 +43,7 @@ class ReadyTear : public Dissociation<Map> {
       } else {
         far = (v.position[k] - std::get<Eigen::Vector3d>(tear_.vertex)).squaredNorm();
       }
-      if (far < least) {
+      if (far < least || (far == least && best && v.dart[k] < v.dart[*best])) {
         best = k;
         least = far;
       }
