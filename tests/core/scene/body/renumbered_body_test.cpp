@@ -114,18 +114,18 @@ TEST(RenumberedBody, KeepsItsAttachmentsAndPressures) {
 
 TEST(RenumberedBody, GoesOnFromASavedStateWithTheSameBits) {
   Json scene = changing(springs);
-  // neither is enough by itself
-  scene["events"] = Json::parse(R"([{"at": 0.001, "remove": {"random": {"count": 800, "seed": 1}}},
-                                    {"at": 0.002, "remove": {"random": {"count": 800, "seed": 2}}}])");
+  // the second alone is not enough, and would be if the first were counted again
+  scene["events"][1] = Json::parse(R"({"at": 0.002, "remove": {"random": {"count": 50, "seed": 2}}})");
   Simulation straight(parse(scene)), first(parse(scene)), second(parse(scene));
   for (int step = 0; step < 3; ++step) ASSERT_FALSE(first.advance());
-  ASSERT_FALSE(is_in_order(first.body()));
+  ASSERT_TRUE(is_in_order(first.body()));
   Archive written;
   first.save(written);
   Archive read(written.written(), "state");
   second.load(read);
   run(straight);
   run(second);
+  EXPECT_FALSE(is_in_order(straight.body()));
   EXPECT_EQ(second.body().state_hash(), straight.body().state_hash());
 }
 
