@@ -52,6 +52,19 @@ Numbers below(std::size_t count, const List& numbers) {
 /// One dart for each place of a cell: a single walk around the cell finds them, and they determine its embedding.
 using Places = boost::container::small_vector<Dart, 192>;
 
+/// All places of a cell, given by one of its darts; none if `seen` has them already. Places are looked around from in
+/// the order in which they are found, so that a look at one does not wait for the memory of the one before.
+template <int i, class Map>
+void find_places(const Map& map, Dart d, Mark& seen, Places& places) {
+  constexpr Involutions set = cell_orbit<i, Map>();
+  places.clear();
+  const auto add = [&](Dart place) {
+    if (seen.set_if_new(place)) places.push_back(place);
+  };
+  add(detail::representative<Map>(set, d));
+  for (std::size_t k = 0; k < places.size(); ++k) detail::leave_block(map, set, places[k], add);
+}
+
 /// Visit every part of the cells in `pairs`: those of `kept` first, each part once.
 template <int i, class Map, class Visit>
 void for_each_part(const Map& map, const std::vector<DissociatedCell>& pairs, Places& places, Visit&& visit) {
@@ -59,8 +72,7 @@ void for_each_part(const Map& map, const std::vector<DissociatedCell>& pairs, Pl
   Mark seen(map);
   const auto part = [&map, &places, &seen, &visit](Dart d) {
     if (!map.is_live(d)) return;
-    places.clear();
-    for_each_place_of(map, Cell<i>{d}, seen, [&places](Dart e) { places.push_back(e); });
+    find_places<i>(map, d, seen, places);
     if (!places.empty()) visit();
   };
   for (const DissociatedCell& pair : pairs) part(pair.kept);
@@ -169,7 +181,7 @@ ChangedEmbeddings adapt(Body<Map>& body, const TopologyChange& change) {
     if (to < v.size()) {
       Places places;
       Mark seen(map);
-      for_each_place_of(map, Vertex{v.dart[to]}, seen, [&](Dart d) { places.push_back(d); });
+      find_places<0>(map, v.dart[to], seen, places);
       add_edges(body, places, edges_at_renumbered);
     }
 

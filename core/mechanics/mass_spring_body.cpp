@@ -261,6 +261,13 @@ double sum_over_cells(Contribution&& contribution, std::span<const Dart> darts) 
   return sum;
 }
 
+/// The lowest dart of the cell of d. The darts of a tetrahedron follow each other, so there nothing is looked up.
+template <class Map, Held held>
+Dart lowest_of_cell(const MassSpringBody<Map, held>& body, Dart d) {
+  if constexpr (Map::tetrahedral) return {d.index - d.index % 24};
+  return body.cell_dart[body.cell(body.map, d)];
+}
+
 template <int i, class Map, int j>
 auto darts_of_incident(const Map& map, Cell<j> cell) {
   boost::container::small_vector<Dart, 64> darts;
@@ -278,10 +285,7 @@ double MassSpringBody<Map, held>::mass_of(Vertex v) const {
 
 template <class Map, Held held>
 double MassSpringBody<Map, held>::mass_of(std::span<const Dart> darts) const {
-  const auto share = [this](Dart d) {
-    const std::uint32_t k = cell(map, d);
-    return std::pair(cell_dart[k], node_share[k]);
-  };
+  const auto share = [this](Dart d) { return std::pair(lowest_of_cell(*this, d), node_share[cell(map, d)]); };
   return sum_over_cells(share, darts);
 }
 
@@ -290,7 +294,7 @@ double MassSpringBody<Map, held>::volume_of(Vertex v) const {
   const CellMaterials of = cell_materials();
   const auto share = [&](Dart d) {
     const std::uint32_t k = cell(map, d);
-    return std::pair(cell_dart[k], node_share[k] / of[k].density);
+    return std::pair(lowest_of_cell(*this, d), node_share[k] / of[k].density);
   };
   const auto darts = darts_of_incident<dimension>(map, v);
   return sum_over_cells(share, {darts.data(), darts.size()});
@@ -305,7 +309,7 @@ Spring MassSpringBody<Map, held>::spring_of(Edge e, double rest_length) const {
 template <class Map, Held held>
 Spring MassSpringBody<Map, held>::spring_of(std::span<const Dart> darts, double rest_length) const {
   const auto share = [this](Dart d) {
-    return std::pair(cell_dart[cell(map, d)], edge_share.empty() ? 1.0 : edge_share[Map::template slot<1>(d)]);
+    return std::pair(lowest_of_cell(*this, d), edge_share.empty() ? 1.0 : edge_share[Map::template slot<1>(d)]);
   };
   if (materials.empty()) {
     const double cells = sum_over_cells(share, darts);

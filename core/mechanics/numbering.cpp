@@ -71,9 +71,9 @@ std::vector<std::uint32_t> Numbering::follow(MassSpringBody<Map, Held::by_every_
   const auto share = [](std::size_t part, std::size_t all) {
     return static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, all));
   };
-  if (vertices_ <= near_vertices ||
-      share(scattered_vertices_, vertices_) + share(scattered_edges_, edges_) <= scattered)
-    return {};
+  // an edge has two vertices
+  const double springs = share(scattered_edges_, edges_) + 2.0 * share(scattered_vertices_, vertices_);
+  if (vertices_ <= near_vertices || springs <= most_scattered) return {};
   scattered_vertices_ = scattered_edges_ = 0;
   return renumber(body);
 }

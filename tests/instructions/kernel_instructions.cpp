@@ -6,12 +6,14 @@
 
 #include <valgrind/callgrind.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
 #include <string_view>
 
 #include "core/base/lanes.h"
+#include "core/contact/body_contact.h"
 #include "core/elements/solids.h"
 #include "core/elements/spring_pieces.h"
 #include "core/elements/tetrahedra.h"
@@ -23,6 +25,8 @@
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
 #include "core/views/element_nodes_view.h"
+#include "core/views/skin.h"
+#include "core/views/skin_solids_view.h"
 #include "core/views/spring_ends.h"
 
 using namespace dartboard;
@@ -84,6 +88,48 @@ std::size_t hundred_forces_of_hexahedra(Added added) {
   for (int k = 0; k < 100; ++k) term->add_forces({mesh.points}, force);
   return force.front() != force.back();
 }
+
+/// Two boxes of 192 tetrahedra, the upper one pressed into the lower one while it slides.
+class PressedBoxes {
+ public:
+  PressedBoxes() {
+    Problem problem = Elements::problem_of(kuhn_box(4, 4, 2, 0.1), Model::neo_hookean);
+    Mesh& mesh = problem.mesh;
+    const auto cells = static_cast<std::uint32_t>(mesh.cell_count()),
+               points = static_cast<std::uint32_t>(mesh.points.size());
+    for (std::uint32_t p = 0; p < points; ++p)
+      mesh.points.emplace_back(mesh.points[p] + Eigen::Vector3d(0.03, 0.04, 0.2));
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      std::array<std::uint32_t, 4> corners;
+      std::ranges::transform(mesh.cell(c), corners.begin(), [points](std::uint32_t p) { return p + points; });
+      mesh.add_cell(CellKind::tetrahedron, corners);
+    }
+    body_ = build_body<TetMap, Held::by_every_dart>(problem);
+    body_.vertices.keep_rest();
+    skin_.rebuild(body_);
+    solids_ = SkinSolidsView([cells](std::uint32_t c) { return c < cells ? 0u : 1u; });
+    solids_.rebuild(body_);
+    upper_ = points;
+  }
+
+  std::size_t hundred_forces(Added added) {
+    use_lanes(added == Added::in_lanes);
+    const BodyContact contact(skin_.samples(), solids_.solids(), {{0, 1, {.pressure = 1e4, .depth = 0.01}}});
+    VertexColumns& v = body_.vertices;
+    for (int k = 0; k < 100; ++k) {
+      for (std::uint32_t i = 0; i < v.size(); ++i)
+        if (v.point[i] >= upper_) v.position[i] += Eigen::Vector3d(2e-4, 1e-4, k < 60 ? -4e-4 : 4e-4);
+      contact.add_forces({v.position}, v.force);
+    }
+    return contact.touching({v.position}).size();
+  }
+
+ private:
+  MassSpringBody<TetMap, Held::by_every_dart> body_;
+  Skin skin_;
+  SkinSolidsView solids_;
+  std::uint32_t upper_ = 0;
+};
 
 /// The edges of tetrahedra as springs, in the columns of a system or as pieces of one of its force terms.
 class Springs {
@@ -175,13 +221,15 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 22> sections{{
+constexpr std::array<Section, 24> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
      [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("backward-euler", 40, 1e-2); }},
     {"build-general", [](Body& b) { return build_map<Map3>(b.mesh).map.dart_count(); }},
     {"build-tetrahedral", [](Body& b) { return build_map<TetMap>(b.mesh).map.dart_count(); }},
+    {"contact-of-bodies", [](Body&) { return PressedBoxes().hundred_forces(Added::one_by_one); }},
+    {"contact-of-bodies-in-lanes", [](Body&) { return PressedBoxes().hundred_forces(Added::in_lanes); }},
     {"dissociate-general", [](Body& b) { return dissociate(b.general); }},
     {"dissociate-tetrahedral", [](Body& b) { return dissociate(b.tetrahedral); }},
     {"edges-general", [](Body& b) { return edges(b.general); }},

@@ -38,8 +38,8 @@ Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::stri
   judge(made, met);
   if (met == Met::no)
     made.reason =
-        "until a tenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps of "
-        "what they remove";
+        "until a sixteenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps "
+        "of what they remove";
   return made;
 }
 
@@ -105,7 +105,7 @@ Table changed_table(const ChangedCosts& c) {
 std::string changed_note() {
   return "Amounts are the new springs over those at the start, and for removals the cells removed over all cells. The "
          "changed body is stepped through its own columns, four springs at a time on one thread; as in a scene they are "
-         "numbered anew each time that a tenth of the vertices and edges is scattered. The fresh body has the same cells, "
+         "numbered anew each time that a sixteenth of the springs is scattered. The fresh body has the same cells, "
          "vertices and springs, ordered and numbered as a scene makes a body of them. Where an edge comes apart between "
          "vertices that do not, a scene's body would have one spring in place of parallel ones; the fresh body here keeps "
          "these next to each other. Both take turns from the same state.";

@@ -67,8 +67,8 @@ TEST(ChangedClaims, FallShortOfOneChangeAfterWhichStepsTakeLonger) {
     EXPECT_EQ(find_claim(claims, id).measured, "1.160, the largest of 2");
     EXPECT_EQ(
         find_claim(claims, id).reason,
-        "until a tenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps of "
-        "what they remove");
+        "until a sixteenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps "
+        "of what they remove");
   }
 }
 
