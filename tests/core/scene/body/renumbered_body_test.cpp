@@ -104,6 +104,17 @@ TEST(RenumberedBody, OfSpringsMovesAsOneThatKeepsItsNumbers) { expect_same_runs(
 
 TEST(RenumberedBody, OfElementsMovesAsOneThatKeepsItsNumbers) { expect_same_runs(changing(elements)); }
 
+TEST(RenumberedBody, OfASurfaceBendsAsOneThatKeepsItsNumbers) {
+  Json scene = changing(springs);
+  scene["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [70, 70], "spacing": 0.03}}})");
+  scene["material"] = Json::parse(R"({"density": 2, "stiffness": 64, "damping": 0.01, "viscosity": 0.5})");
+  scene["bending"] = Json::parse(R"({"rigidity": 0.01})");
+  scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}])");
+  scene["forces"] = Json::parse(R"([{"plane": {"point": [2.1, 0, 0], "normal": [1, 0, 0]}, "force": [0, 0, 3]}])");
+  scene["events"][0]["remove"]["random"]["count"] = 1500;
+  expect_same_runs(scene);
+}
+
 TEST(RenumberedBody, KeepsItsAttachmentsAndPressures) {
   Json scene = changing(elements);
   scene["attachments"] = Json::parse(R"([{"plane": {"point": [0, 0, 2], "normal": [0, 0, 1]}, "stiffness": 500}])");
