@@ -169,8 +169,8 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     const double measure = signed_measure(mesh, c);
     body.cell_mass.push_back(materials[c].density * std::abs(measure));
     body.cell_inside_out.push_back(measure < 0.0);
-    require(std::isfinite(body.cell_mass[c]) && body.cell_mass[c] > 0.0, fmt::format("the mass of cell {}", c).c_str(),
-            body.cell_mass[c], "more than 0 kg and finite");
+    if (const double mass = body.cell_mass[c]; !(std::isfinite(mass) && mass > 0.0))
+      require(false, fmt::format("the mass of cell {}", c).c_str(), mass, "more than 0 kg and finite");
     body.node_share.push_back(body.cell_mass[c] / static_cast<double>(mesh.cell(c).size()));
     body.cell_dart.push_back({built.first_dart[c]});
   }

@@ -13,6 +13,7 @@
 
 #include "core/base/archive.h"
 #include "core/base/bytes.h"
+#include "core/mechanics/element_nodes.h"
 #include "core/places/border.h"
 #include "core/plain/random.h"
 #include "core/scene/body/events/on_darts.h"
@@ -24,9 +25,14 @@ template <class Map>
 Eigen::Vector3d centroid_of(const MassSpringBody<Map, Held::by_every_dart>& body, std::uint32_t k) {
   Eigen::Vector3d sum(0, 0, 0);
   double count = 0.0;
-  for (const Vertex v : incident_cells<0>(body.map, Cell<Map::dimension>{body.cell_dart[k]})) {
-    sum += body.vertices.position[body.vertex(body.map, v.dart)];
+  const auto add = [&](Dart d) {
+    sum += body.vertices.position[body.vertex(body.map, d)];
     count += 1.0;
+  };
+  if constexpr (Map::tetrahedral) {  // the same corners in the same order, without a walk
+    for (const Dart d : corners_from(body.map, body.cell_dart[k])) add(d);
+  } else {
+    for (const Vertex v : incident_cells<0>(body.map, Cell<Map::dimension>{body.cell_dart[k]})) add(v.dart);
   }
   return sum / count;
 }
