@@ -43,6 +43,7 @@ void sort_once(Numbers& numbers) {
 template <class List>
 Numbers below(std::size_t count, const List& numbers) {
   Numbers list;
+  list.reserve(numbers.size());
   for (const std::uint32_t k : numbers)
     if (k < count) list.push_back(k);
   sort_once(list);

@@ -66,6 +66,26 @@ void walk(const Map& map, Fans& fans) {
   }
 }
 
+/// Is a vertex one place of one cell, every face there being free? Then it is no part of any other.
+template <class Map>
+bool is_corner_alone(const Map& map, Dart d) {
+  constexpr Involutions set = cell_orbit<0, Map>();
+  const Dart place = detail::representative<Map>(set, d);
+  bool alone = Map::tetrahedral;
+  if constexpr (Map::tetrahedral)
+    detail::leave_block(map, set, place, [&alone, place](Dart next) { alone = alone && next == place; });
+  return alone;
+}
+
+/// Do the two darts belong to one vertex?
+template <class Map>
+bool share_vertex(const Map& map, Dart a, Dart b) {
+  constexpr Involutions set = cell_orbit<0, Map>();
+  const bool same_place = detail::representative<Map>(set, a) == detail::representative<Map>(set, b);
+  if (!same_place && (is_corner_alone(map, a) || is_corner_alone(map, b))) return false;
+  return detail::meet(map, set, a, b);
+}
+
 template <class Map>
 void check_touched(const Map& map, const Pairs& pairs) {
   for (const Pair& p : pairs) {
@@ -110,7 +130,7 @@ TopologyChange dissociate_face(Map& map, Dart d) {
     const auto [a, b] = pairs[k];
     const std::size_t twin = find(map.template alpha<1>(a));
     if (twin < k || joined(k) || (twin < pairs.size() && joined(twin))) continue;
-    if (!detail::meet(map, cell_orbit<0, Map>(), a, b)) change.vertices.push_back({a, b});
+    if (!share_vertex(map, a, b)) change.vertices.push_back({a, b});
   }
   return change;
 }

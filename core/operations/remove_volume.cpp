@@ -7,10 +7,11 @@
 namespace dartboard {
 namespace {
 
-/// One dart of each i-cell of an isolated volume.
+/// One dart of each i-cell of a volume whose cells belong to no other; of the faces of any tetrahedron.
 template <int i, class Map>
 void add_cells(const Map& map, Dart d, std::vector<Dart>& darts) {
   if constexpr (Map::tetrahedral) {
+    darts.reserve(6);
     const std::uint32_t first = d.index - d.index % 24;
     for (std::uint32_t p = 0; p < 24; ++p)
       if (detail::representative<Map>(cell_orbit<i, Map>(), {first + p}).index == first + p)
@@ -26,12 +27,11 @@ template <class Map>
 TopologyChange remove_volume(Map& map, Dart d) {
   map.require_live(d);
   TopologyChange change;
-  for (const Face face : incident_cells<2>(map, Volume{d})) {
-    const Dart outside = map.template alpha<3>(face.dart);
-    // from the neighbour's side, so that the neighbour keeps its embeddings; a face sewn to the same volume has no
-    // neighbour
-    change.append(dissociate_face(map, outside));
-  }
+  std::vector<Dart> faces;
+  add_cells<2>(map, d, faces);
+  // from the neighbour's side, so that the neighbour keeps its embeddings; a face sewn to the same volume has no
+  // neighbour
+  for (const Dart face : faces) change.append(dissociate_face(map, map.template alpha<3>(face)));
   add_cells<0>(map, d, change.removed_vertices);
   add_cells<1>(map, d, change.removed_edges);
   add_cells<2>(map, d, change.removed_faces);
