@@ -87,13 +87,13 @@ void expect_same(const Simulation& a, const Simulation& b) {
   }
 }
 
-void expect_same_runs(const Json& scene) {
+void expect_same_runs(const Json& scene, bool is_cut_enough = true) {
   Simulation ordered(parse(scene)), kept(parse(above_a_floor(scene)));
   ASSERT_GT(ordered.body().vertices().size(), near_vertices);
   for (int step = 1; step <= 8; ++step) {
     ASSERT_FALSE(ordered.advance());
     ASSERT_FALSE(kept.advance());
-    EXPECT_TRUE(is_in_order(ordered.body())) << step;
+    EXPECT_EQ(is_in_order(ordered.body()), step < 4 || is_cut_enough) << step;
     EXPECT_EQ(is_in_order(kept.body()), step < 2) << step;
     expect_same(ordered, kept);
   }
@@ -112,7 +112,7 @@ TEST(RenumberedBody, OfASurfaceBendsAsOneThatKeepsItsNumbers) {
   scene["fixed"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [-1, 0, 0]}}])");
   scene["forces"] = Json::parse(R"([{"plane": {"point": [2.1, 0, 0], "normal": [1, 0, 0]}, "force": [0, 0, 3]}])");
   scene["events"][0]["remove"]["random"]["count"] = 1500;
-  expect_same_runs(scene);
+  expect_same_runs(scene, false);
 }
 
 TEST(RenumberedBody, KeepsItsAttachmentsAndPressures) {
