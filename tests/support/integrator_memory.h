@@ -7,6 +7,8 @@
 #include <array>
 #include <optional>
 
+#include "core/base/lanes.h"
+#include "core/base/padded_vector.h"
 #include "core/plain/error.h"
 #include "core/time/implicit/one_stage.h"
 #include "core/time/integrators.h"
@@ -37,7 +39,7 @@ constexpr std::array integrator_columns{
     Columns{"verlet-compensated", 9, 2, true},
     Columns{"blanes-moan-4", 3, 1, true},
     Columns{"blanes-moan-4-compensated", 9, 2, true},
-    Columns{"rk4", 5},
+    Columns{"rk4", 5},  // padded where springs are alone
     Columns{"dormand-prince-54", 17},
     Columns{.integrator = "backward-euler", .vectors = 5, .numbers = 1},
     Columns{"baraff-witkin", 4},
@@ -56,6 +58,7 @@ struct SystemCounts {
   std::size_t anchors = 0;  // springs between a free and a fixed vertex
   bool damping = false, viscosity = false;
   bool damped_terms = false;
+  bool springs_alone = false;
 };
 
 inline SystemCounts counts_of(const SpringSystem& system) {
@@ -64,7 +67,8 @@ inline SystemCounts counts_of(const SpringSystem& system) {
                       .springs = system.springs.size(),
                       .damping = terms.damping,
                       .viscosity = terms.viscosity,
-                      .damped_terms = has_damped_terms(system)};
+                      .damped_terms = has_damped_terms(system),
+                      .springs_alone = system.terms.empty()};
   for (const auto& [a, b] : system.ends) {
     if (a == b || (system.fixed[a] && system.fixed[b])) continue;
     ++(system.fixed[a] || system.fixed[b] ? counts.anchors : counts.links);
@@ -77,7 +81,9 @@ inline std::size_t predicted_integrator_bytes(std::string_view integrator, const
   for (const Columns& columns : integrator_columns) {
     if (columns.integrator != integrator) continue;
     const bool damped = c.damping || c.viscosity;
-    std::size_t bytes = c.vertices * (vector * columns.vectors + sizeof(double) * columns.numbers);
+    const bool padded = integrator == "rk4" && c.springs_alone && lanes_are_on();
+    std::size_t bytes =
+        c.vertices * ((padded ? sizeof(PaddedVector) : vector) * columns.vectors + sizeof(double) * columns.numbers);
     if (damped) bytes += c.vertices * vector * columns.vectors_damped;
     if (columns.directions && c.damping) bytes += c.springs * vector;
     if (columns.directions && c.damped_terms) bytes += c.vertices * vector;  // positions of vertices at rest

@@ -9,7 +9,7 @@
 
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/problem.h"
-#include "core/time/integrators.h"
+#include "core/time/explicit/classical_runge_kutta.h"
 #include "core/time/system/spring_system.h"
 #include "validation/contenders/contenders.h"
 
@@ -25,6 +25,7 @@ struct Manner {
   const char* task;
   bool lanes = true;
   unsigned threads = 1;
+  bool padded = true;  // in rows of four numbers, where lanes are on
 };
 
 /// Can the processor take four springs at a time? They are on then.
@@ -51,7 +52,7 @@ class SceneColumns : public ContenderBody {
   SceneColumns(std::shared_ptr<Body> body, double h, Manner manner)
       : vertices_([body]() -> VertexColumns& { return body->vertices(); }),
         system_([body] { return body->system(); }),
-        integrator_(make_integrator("rk4")),
+        integrator_(std::make_unique<ClassicalRungeKutta>(manner.padded)),
         h_(h),
         manner_(manner) {}
 
@@ -67,7 +68,7 @@ class SceneColumns : public ContenderBody {
  private:
   std::function<VertexColumns&()> vertices_;
   std::function<SpringSystem()> system_;
-  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<ClassicalRungeKutta> integrator_;
   double h_;
   Manner manner_;
 };

@@ -7,6 +7,7 @@
 
 #include "benchmarks/studies/step/machine_limits.h"
 #include "benchmarks/studies/step/scene_columns.h"
+#include "core/base/padded_vector.h"
 #include "core/base/thread_team.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/time/system/force_shares.h"
@@ -56,31 +57,39 @@ struct Stepped {
               .lanes = has_lanes(),
               .threads = threads_for(*columns),
               .arrays = problem.mesh.cell_count() <= most_for_arrays,
-              .bytes = bytes_of_evaluation(system)};
+              .bytes = bytes_of_evaluation(system, has_lanes())};
     counts.copied_bytes = static_cast<double>(copied().bytes()) * passes();
     counts.roots = static_cast<double>(roots_in_sample);
-    manners = {{step_task::one, false, 1}};
-    if (counts.lanes) manners.push_back({step_task::lanes, true, 1});
-    if (counts.threads > 1) manners.push_back({step_task::threads, true, counts.threads});
+    manners = {{.task = step_task::one, .lanes = false}};
+    if (counts.lanes) {
+      manners.push_back({.task = step_task::lanes, .padded = false});
+      manners.push_back({.task = step_task::padded});
+    }
+    if (counts.threads > 1) manners.push_back({.task = step_task::threads, .threads = counts.threads});
   }
 
-  /// What an evaluation reads and writes, each column once for each loop over it, in the mean over the four of a step:
-  /// accelerations.cpp and classical_runge_kutta.cpp have the loops.
-  static double bytes_of_evaluation(const SpringSystem& system) {
-    const bool damped = !system.springs.damped().empty(), viscous = !system.viscosity.empty();
-    constexpr std::size_t row = sizeof(Vector3d);
-    const std::size_t spring = sizeof(SpringEnds) + (damped ? sizeof(Spring) : sizeof(UndampedSpring));
-    const std::size_t cleared = row, added = (damped ? 4 : 3) * row;
-    const std::size_t divided = 2 * row + sizeof(double) + (viscous ? row + sizeof(double) : 0) + 1;
-    const double updated = (7.0 + 2 * 10.0 + 8.0 + 6.0) / 4.0 * static_cast<double>(row);  // of four stages; the end
-    return static_cast<double>(system.springs.size() * spring) +
-           static_cast<double>(system.vertex_count()) * (static_cast<double>(cleared + added + divided) + updated);
+  /// What an evaluation of the fastest way on one thread reads and writes, each column once for each loop over it, in
+  /// the mean over the four of a step.
+  static double bytes_of_evaluation(const SpringSystem& system, bool padded) {
+    const bool damped = !system.springs.damped().empty();
+    const double row = padded ? sizeof(PaddedVector) : sizeof(Vector3d), three = sizeof(Vector3d);
+    const double added = (damped ? 4 : 3) * row;
+    // accelerations.cpp: cleared, divided; classical_runge_kutta.cpp: four stages; the end
+    const double by_threes = 3 * three + (7 + 2 * 10 + 8 + 6) / 4.0 * three;
+    // padded_runge_kutta.cpp: four stages, the start and the end; and three of motions that are not padded
+    const double by_fours = (7 + 2 * 9 + 7 + 4) / 4.0 * row + 3 * three;
+    const double divided = sizeof(double) + (system.viscosity.empty() ? 0 : sizeof(double) + (padded ? 0 : three)) + 1;
+    return static_cast<double>(system.springs.size() * bytes_of_spring(system)) +
+           static_cast<double>(system.vertex_count()) * (added + divided + (padded ? by_fours : by_threes));
+  }
+  static std::size_t bytes_of_spring(const SpringSystem& system) {
+    return sizeof(SpringEnds) + (system.springs.damped().empty() ? sizeof(UndampedSpring) : sizeof(Spring));
   }
   /// Columns of the size of those that a step reads and writes.
   CopiedColumns copied() const {
-    const bool damped = !columns->system().springs.damped().empty();
-    return CopiedColumns(counts.springs * (sizeof(SpringEnds) + (damped ? sizeof(Spring) : sizeof(UndampedSpring))) +
-                         counts.vertices * (7 * sizeof(Vector3d) + 2 * sizeof(double) + 1));
+    const std::size_t stage_row = counts.lanes ? sizeof(PaddedVector) : sizeof(Vector3d);
+    return CopiedColumns(counts.springs * bytes_of_spring(columns->system()) +
+                         counts.vertices * (2 * sizeof(Vector3d) + 5 * stage_row + 2 * sizeof(double) + 1));
   }
   int passes() const {
     return 2 * std::max(1, static_cast<int>(copied_in_sample / 2.0 / static_cast<double>(copied().bytes())));

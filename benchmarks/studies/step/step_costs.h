@@ -33,7 +33,7 @@ void from_json(const nlohmann::json& json, StepCounts& counts);
 /// The ways to step a body; its tasks are named "BODY: graph", "BODY: arrays" ... "BODY: threads".
 namespace step_task {
 inline constexpr const char *graph = ": graph", *arrays = ": arrays", *one = ": one", *lanes = ": lanes",
-                            *threads = ": threads";
+                            *padded = ": padded", *threads = ": threads";
 /// The limits: columns as large as those of the body, copied; a square root and a division for each spring.
 inline constexpr const char *copy = ": copy", *roots = ": roots";
 }  // namespace step_task

@@ -24,6 +24,17 @@ const Scheme& ClassicalRungeKutta::scheme() const { return classical_runge_kutta
 
 StepResult ClassicalRungeKutta::step(const SpringSystem& system, Motion motion, double h) {
   const Terms& terms = terms_.of(system);
+  if (!may_pad_ || !PaddedRungeKutta::can_step(system)) {
+    padded_ = {};
+    return step_by_threes(system, terms, motion, h);
+  }
+  stage_ = {};
+  for (auto* column : {&a_, &sum_x_, &sum_v_}) *column = std::vector<Eigen::Vector3d>();
+  return padded_.step(system, terms, motion, h, work_);
+}
+
+StepResult ClassicalRungeKutta::step_by_threes(const SpringSystem& system, const Terms& terms, Motion motion,
+                                               double h) {
   const std::size_t n = motion.x.size();
   stage_.resize(n);
   for (auto* column : {&a_, &sum_x_, &sum_v_}) column->resize(n);

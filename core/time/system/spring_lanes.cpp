@@ -36,10 +36,19 @@ DARTBOARD_AVX2_INLINE ThreeColumns columns_of(const UndampedSpring* spring) {
   return {_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd), _mm256_setzero_pd()};
 }
 
-/// From the first end of a spring to the second, and a number that is not used. It reads one number behind each row.
-DARTBOARD_AVX2_INLINE __m256d line(const double* column, const SpringEnds& ends) {
-  const __m256d from = _mm256_loadu_pd(column + std::size_t{3} * ends[0]);
-  return _mm256_sub_pd(_mm256_loadu_pd(column + std::size_t{3} * ends[1]), from);
+/// The numbers of a vertex, and one that is not used: it reads one number behind rows of three.
+DARTBOARD_AVX2_INLINE __m256d row_at(const Eigen::Vector3d* column, std::uint32_t vertex) {
+  return _mm256_loadu_pd(column[vertex].data());
+}
+DARTBOARD_AVX2_INLINE __m256d row_at(const PaddedVector* column, std::uint32_t vertex) {
+  return _mm256_load_pd(column[vertex].number);
+}
+
+/// From the first end of a spring to the second.
+template <class Row>
+DARTBOARD_AVX2_INLINE __m256d line(const Row* column, const SpringEnds& ends) {
+  const __m256d from = row_at(column, ends[0]);
+  return _mm256_sub_pd(row_at(column, ends[1]), from);
 }
 
 // ((a x)^2 + (a y)^2) + (a z)^2 is the order in which Eigen sums three numbers with packets of two.
@@ -47,15 +56,20 @@ DARTBOARD_AVX2_INLINE __m256d dot(const ThreeColumns& a, const ThreeColumns& b) 
   return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
 }
 
-/// Add f to one end and subtract it from the other, by a packet and a number each: stores of whole rows would overlap,
-/// and loads would have to wait for them.
-DARTBOARD_AVX2_INLINE void add_to_ends(double* force, const SpringEnds& ends, __m256d f) {
-  double *const first = force + std::size_t{3} * ends[0], *const second = force + std::size_t{3} * ends[1];
+/// Add f to one end and subtract it from the other, rows of three by a packet and a number each: stores of whole rows
+/// would overlap, and loads would have to wait for them.
+DARTBOARD_AVX2_INLINE void add_to_ends(Eigen::Vector3d* force, const SpringEnds& ends, __m256d f) {
+  double *const first = force[ends[0]].data(), *const second = force[ends[1]].data();
   const __m128d xy = _mm256_castpd256_pd128(f), z = _mm256_extractf128_pd(f, 1);
   _mm_storeu_pd(first, _mm_add_pd(_mm_loadu_pd(first), xy));
   _mm_store_sd(first + 2, _mm_add_sd(_mm_load_sd(first + 2), z));
   _mm_storeu_pd(second, _mm_sub_pd(_mm_loadu_pd(second), xy));
   _mm_store_sd(second + 2, _mm_sub_sd(_mm_load_sd(second + 2), z));
+}
+DARTBOARD_AVX2_INLINE void add_to_ends(PaddedVector* force, const SpringEnds& ends, __m256d f) {
+  double *const first = force[ends[0]].number, *const second = force[ends[1]].number;
+  _mm256_store_pd(first, _mm256_add_pd(_mm256_load_pd(first), f));
+  _mm256_store_pd(second, _mm256_sub_pd(_mm256_load_pd(second), f));
 }
 
 /// Is this vertex an end of one of four springs?
@@ -65,19 +79,19 @@ DARTBOARD_AVX2_INLINE bool is_an_end(std::uint32_t vertex, const SpringEnds* end
   return _mm256_testz_si256(equal, equal) == 0;
 }
 
-template <bool damped, class SomeSpring>
-DARTBOARD_AVX2 std::size_t add_in_lanes(const SpringColumnsAt& at, std::span<const SomeSpring> springs) {
+template <bool damped, class Row, class SomeSpring>
+DARTBOARD_AVX2 std::size_t add_in_lanes(const SpringColumnsAt<Row>& at, std::span<const SomeSpring> springs) {
   const std::size_t count = springs.size() / 4 * 4;
   const SomeSpring* const row = springs.data();
   const SpringEnds* const all_ends = at.ends;
-  const double* const x = at.x.data()->data();
-  const double* const v = damped ? at.v->data() : nullptr;
-  double* const force = at.force->data();
-  // behind the row of the last vertex there may be nothing to read
+  const Row *const x = at.x.data(), *const v = at.v;
+  Row* const force = at.force;
+  // behind the three numbers of the last vertex there may be nothing to read
+  constexpr bool is_padded = sizeof(Row) == sizeof(__m256d);
   const auto last = static_cast<std::uint32_t>(at.x.size() - 1);
   for (std::size_t s = 0; s < count; s += 4) {
     const SpringEnds* const ends = all_ends + s;
-    if (is_an_end(last, ends)) {
+    if (!is_padded && is_an_end(last, ends)) {
       add_forces_one_by_one<damped>(at, row, s, s + 4);
       continue;
     }
@@ -105,19 +119,23 @@ DARTBOARD_AVX2 std::size_t add_in_lanes(const SpringColumnsAt& at, std::span<con
 
 }  // namespace
 
-template <bool damped, class SomeSpring>
-std::size_t add_forces_in_lanes(const SpringColumnsAt& at, std::span<const SomeSpring> springs) {
+template <bool damped, class Row, class SomeSpring>
+std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>& at, std::span<const SomeSpring> springs) {
   return springs.size() >= 4 && lanes_are_on() ? add_in_lanes<damped>(at, springs) : 0;
 }
 #else
-template <bool damped, class SomeSpring>
-std::size_t add_forces_in_lanes(const SpringColumnsAt&, std::span<const SomeSpring>) {
+template <bool damped, class Row, class SomeSpring>
+std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>&, std::span<const SomeSpring>) {
   return 0;
 }
 #endif
 
-template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt&, std::span<const Spring>);
-template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const Spring>);
-template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const UndampedSpring>);
+template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt<Eigen::Vector3d>&, std::span<const Spring>);
+template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt<Eigen::Vector3d>&, std::span<const Spring>);
+template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt<Eigen::Vector3d>&,
+                                                std::span<const UndampedSpring>);
+template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt<PaddedVector>&, std::span<const Spring>);
+template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt<PaddedVector>&, std::span<const Spring>);
+template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt<PaddedVector>&, std::span<const UndampedSpring>);
 
 }  // namespace dartboard

@@ -6,43 +6,45 @@
 #include <cstddef>
 #include <span>
 
+#include "core/base/padded_vector.h"
 #include "core/forces/spring_force.h"
 #include "core/forces/springs.h"
 
 namespace dartboard {
 
 /// What a loop over springs reads and writes: columns by vertex number, ends by spring number.
+template <class Row>  // Eigen::Vector3d or PaddedVector
 struct SpringColumnsAt {
   const SpringEnds* ends;
-  std::span<const Eigen::Vector3d> x;  // [m]
-  const Eigen::Vector3d* v;            // [m/s] read only with damping
-  Eigen::Vector3d* force;              // [N] added to
+  std::span<const Row> x;  // [m]
+  const Row* v;            // [m/s] read only with damping
+  Row* force;              // [N] added to
 };
 
 /// Add the forces of the springs from `first` to before `last`, one after the other.
 ///
 /// Columns are accessed by local pointers: stores of Eigen's packets may alias anything, so a pointer accessed through
 /// a reference is loaded again after each store.
-template <bool damped, class SomeSpring>
-inline void add_forces_one_by_one(const SpringColumnsAt& at, const SomeSpring* row, std::size_t first,
+template <bool damped, class Row, class SomeSpring>
+inline void add_forces_one_by_one(const SpringColumnsAt<Row>& at, const SomeSpring* row, std::size_t first,
                                   std::size_t last) {
   const SpringEnds* const ends = at.ends;
-  const Eigen::Vector3d *const place = at.x.data(), *const velocity = at.v;
-  Eigen::Vector3d* const sum = at.force;
+  const Row *const place = at.x.data(), *const velocity = at.v;
+  Row* const sum = at.force;
   for (std::size_t s = first; s < last; ++s) {
     const auto [i, j] = ends[s];
     const SomeSpring& spring = row[s];
-    const Eigen::Vector3d dx = place[j] - place[i];
+    const Eigen::Vector3d dx = three_of(place[j]) - three_of(place[i]);
     Eigen::Vector3d f;
     if constexpr (damped) {
-      f = spring_force(spring, dx, velocity[j] - velocity[i]);
+      f = spring_force(spring, dx, three_of(velocity[j]) - three_of(velocity[i]));
     } else {
       const double length = std::sqrt(dx.squaredNorm());
       if (length == 0.0) continue;
       f = (spring.stiffness * (length - spring.rest_length) * (1.0 / length)) * dx;
     }
-    sum[i] += f;
-    sum[j] -= f;
+    three_of(sum[i]) += f;
+    three_of(sum[j]) -= f;
   }
 }
 
@@ -51,11 +53,9 @@ inline void add_forces_one_by_one(const SpringColumnsAt& at, const SomeSpring* r
 /// their ends one after the other. So each sum has the order and the bits that it has one by one.
 ///
 /// returns  the number of springs added; 0 without AVX2, or where lanes are off (lanes.h)
-/// cost     2.4 to 3.2 ns a spring where the columns fit the cache, 0.65 to 0.75 of one by one
-template <bool damped, class SomeSpring>
-std::size_t add_forces_in_lanes(const SpringColumnsAt& at, std::span<const SomeSpring> springs);
-extern template std::size_t add_forces_in_lanes<true>(const SpringColumnsAt&, std::span<const Spring>);
-extern template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const Spring>);
-extern template std::size_t add_forces_in_lanes<false>(const SpringColumnsAt&, std::span<const UndampedSpring>);
+/// cost     2.4 to 3.2 ns a spring where the columns fit the cache, 0.65 to 0.75 of one by one; 0.8 of that in padded
+///          rows, which are loaded and stored whole
+template <bool damped, class Row, class SomeSpring>
+std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>& at, std::span<const SomeSpring> springs);
 
 }  // namespace dartboard

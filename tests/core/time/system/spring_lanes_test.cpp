@@ -40,28 +40,45 @@ struct Tangle {
   }
 };
 
-std::vector<std::uint64_t> bits_of(const std::vector<Vector3d>& column) {
+template <class Row>
+std::vector<Row> in_rows(const std::vector<Vector3d>& column) {
+  std::vector<Row> rows;
+  for (const Vector3d& v : column) rows.emplace_back(v);
+  return rows;
+}
+template <class Row>
+std::vector<std::uint64_t> bits_of(const std::vector<Row>& column) {
   std::vector<std::uint64_t> bits;
-  for (const Vector3d& row : column)
-    for (const double number : row) bits.push_back(std::isnan(number) ? 0 : std::bit_cast<std::uint64_t>(number));
+  for (const Row& row : column)
+    for (const double number : three_of(row))
+      bits.push_back(std::isnan(number) ? 0 : std::bit_cast<std::uint64_t>(number));
   return bits;
 }
 
 /// The forces one by one, and those in lanes with the rest one by one.
-template <bool damped, class SomeSpring>
+template <bool damped, class Row, class SomeSpring>
 void expect_equal_bits(const Tangle& t, const std::vector<SomeSpring>& springs) {
-  std::vector<Vector3d> expected(t.x.size(), Vector3d(0, 0, 0)), found = expected;
-  add_forces_one_by_one<damped>({t.ends.data(), t.x, t.v.data(), expected.data()}, springs.data(), 0, springs.size());
-  const SpringColumnsAt at{t.ends.data(), t.x, t.v.data(), found.data()};
+  const std::vector<Vector3d> none(t.x.size(), Vector3d(0, 0, 0));
+  std::vector<Vector3d> expected = none;
+  const SpringColumnsAt<Vector3d> by_threes{t.ends.data(), t.x, t.v.data(), expected.data()};
+  add_forces_one_by_one<damped>(by_threes, springs.data(), 0, springs.size());
+  const std::vector<Row> x = in_rows<Row>(t.x), v = in_rows<Row>(t.v);
+  std::vector<Row> found = in_rows<Row>(none);
+  const SpringColumnsAt<Row> at{t.ends.data(), x, v.data(), found.data()};
   const std::size_t done = add_forces_in_lanes<damped>(at, std::span<const SomeSpring>(springs));
   ASSERT_EQ(done, springs.size() / 4 * 4);
   add_forces_one_by_one<damped>(at, springs.data(), done, springs.size());
   ASSERT_EQ(bits_of(found), bits_of(expected));
 }
+template <class Row>
+void expect_equal_bits_in(const Tangle& t) {
+  expect_equal_bits<true, Row>(t, t.damped);
+  expect_equal_bits<false, Row>(t, t.damped);
+  expect_equal_bits<false, Row>(t, t.undamped);
+}
 void expect_equal_bits(const Tangle& t) {
-  expect_equal_bits<true>(t, t.damped);
-  expect_equal_bits<false>(t, t.damped);
-  expect_equal_bits<false>(t, t.undamped);
+  expect_equal_bits_in<Vector3d>(t);
+  expect_equal_bits_in<PaddedVector>(t);
 }
 
 class SpringLanes : public testing::Test {
@@ -99,7 +116,7 @@ TEST_F(SpringLanes, KeepWhatIsNotANumber) {
 TEST_F(SpringLanes, CanBeTurnedOffAndOnAgain) {
   const Tangle t(30, 64, 3);
   std::vector<Vector3d> force(t.x.size(), Vector3d(0, 0, 0));
-  const SpringColumnsAt at{t.ends.data(), t.x, t.v.data(), force.data()};
+  const SpringColumnsAt<Vector3d> at{t.ends.data(), t.x, t.v.data(), force.data()};
   const std::span<const Spring> springs(t.damped);
   EXPECT_TRUE(use_lanes(false));
   EXPECT_EQ(add_forces_in_lanes<true>(at, springs), 0u);
