@@ -14,7 +14,7 @@ RUN = "results/2026-11-21-epyc-"
 STEPS = "results/2026-11-26-xeon-paper/samples.jsonl"
 TOPOLOGY = RUN + "topology/samples.jsonl"
 OPERATIONS = "results/2026-11-28-epyc-operations/samples.jsonl"
-STEP = "results/2026-11-28-epyc-step/samples.jsonl"
+STEP = "results/2026-11-28-epyc-step-padded/samples.jsonl"
 STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
 CONTACT = "results/2026-11-27-epyc-contact-costs/samples.jsonl"
 ABLATION = RUN + "ablation/samples.jsonl"
@@ -71,7 +71,7 @@ def stepped(task, baseline, clock="cpu_ns"):
     return ratio([dict(r, cpu_ns=r[clock]) for r in lines(STEP) if r.get("task") in (task, baseline)], task, baseline)
 
 
-def step_over_graph(body, task=": lanes", clock="cpu_ns"):
+def step_over_graph(body, task=": padded", clock="cpu_ns"):
     """Four springs at a time."""
     return stepped(body + task, body + ": graph", clock)
 
@@ -351,6 +351,8 @@ FIGURES = [
      lambda: ("%.0f" % (100 * (over_graph("arrays") - 1)), *judged([ratio(lines(STEPS), "arrays", "graph")], 1.10, "holds"))),
     (README, "takes {} % less where a processor with", [STEPS],
      lambda: ("%.0f" % (100 * (1 - over_graph("columns"))), *judged([ratio(lines(STEPS), "columns", "graph")], 1.0, "holds"))),
+    (README, "([{} % less] since its rows are padded to four numbers, on another machine)", [STEP],
+     lambda: ("%.0f" % (100 * (1 - step_over_graph("liver564, damped").median)),)),
     (README, "arrays have become {} times as fast since", [STEPS], lambda: ("%.0f" % (2.0 / ms("arrays")),)),
 
     # ---- results/README.md
@@ -362,14 +364,16 @@ FIGURES = [
      lambda: ["%.2f" % x for x in figure(operation("liver564", "remove", [2]))]),
 
     (RESULTS, "a step takes {} [{}, {}] of the naive graph's on the paper's body with damping", [STEP],
-     lambda: all_of(step_over_graph("liver564, damped")) + judged([step_over_graph("liver564, damped")], 0.58, "falls short")),
-    (RESULTS, "(target 0.58) and {} [{}, {}] without (target 0.50)", [STEP],
-     lambda: all_of(step_over_graph("liver564, undamped")) + judged([step_over_graph("liver564, undamped")], 0.50, "falls short")),
-    (RESULTS, "a million tetrahedra in shuffled order take {} [{}, {}] of the graph's step (target 0.25: holds)", [STEP],
+     lambda: all_of(step_over_graph("liver564, damped")) + judged([step_over_graph("liver564, damped")], 0.58, "cannot tell")),
+    (RESULTS, "(target 0.58: cannot tell) and {} [{}, {}] without (target 0.50: holds)", [STEP],
+     lambda: all_of(step_over_graph("liver564, undamped")) + judged([step_over_graph("liver564, undamped")], 0.50, "holds")),
+    (RESULTS, "in rows of three {} [{}, {}] and {} [{}, {}].", [STEP],
+     lambda: all_of(step_over_graph("liver564, damped", ": lanes")) + all_of(step_over_graph("liver564, undamped", ": lanes"))),
+    (RESULTS, "shuffled order take {} [{}, {}] of the graph's step (target 0.25: holds)", [STEP],
      lambda: all_of(step_over_graph("10^6 shuffled")) + judged([step_over_graph("10^6 shuffled")], 0.25, "holds")),
-    (RESULTS, "in grid order {} [{}, {}] (target 0.50)", [STEP],
-     lambda: all_of(step_over_graph("10^6 in grid order")) + judged([step_over_graph("10^6 in grid order")], 0.50, "falls short")),
-    (RESULTS, "and by both processors {} [{}, {}] (target 0.30)", [STEP],
+    (RESULTS, "in grid order {} [{}, {}] (target 0.50: cannot tell)", [STEP],
+     lambda: all_of(step_over_graph("10^6 in grid order")) + judged([step_over_graph("10^6 in grid order")], 0.50, "cannot tell")),
+    (RESULTS, "processors {} [{}, {}] (target 0.30: falls short)", [STEP],
      lambda: all_of(step_over_graph("10^6 in grid order", ": threads", "wall_ns"))
      + judged([step_over_graph("10^6 in grid order", ": threads", "wall_ns")], 0.30, "falls short")),
     (RESULTS, "step takes at most {} [{}, {}] of a fresh body's,", [STEP],
@@ -378,17 +382,17 @@ FIGURES = [
      lambda: all_of(over_fresh("10^6 in grid order"), three) + judged([over_fresh("10^6 in grid order")], 1.15, "cannot tell")),
     (RESULTS, "a step takes {} [{}, {}] of the step alone on the paper's body,", [STEP],
      lambda: all_of(changing_over("liver564, damped", FOLLOWED, ALONE), three)),
-    (RESULTS, "which is {} [{}, {}] of the graph's that cannot change (target 0.58)", [STEP],
+    (RESULTS, "which is {} [{}, {}] of the graph's that cannot change (target 0.58: falls short)", [STEP],
      lambda: all_of(changing_over("liver564, damped", FOLLOWED, GRAPH_ALONE))
      + judged([changing_over("liver564, damped", FOLLOWED, GRAPH_ALONE)], 0.58, "falls short")),
-    (RESULTS, "on a million tetrahedra {} [{}, {}] of it (target 0.50)", [STEP],
+    (RESULTS, "on a million tetrahedra {} [{}, {}] of it (target 0.50: cannot tell)", [STEP],
      lambda: all_of(changing_over("10^6 in grid order", FOLLOWED, GRAPH_ALONE))
-     + judged([changing_over("10^6 in grid order", FOLLOWED, GRAPH_ALONE)], 0.50, "falls short")),
+     + judged([changing_over("10^6 in grid order", FOLLOWED, GRAPH_ALONE)], 0.50, "cannot tell")),
     (RESULTS, "it takes {}, {}, {} and {} times as long;", [STEP],
      lambda: [two(changing_over(body, ALL_ANEW, FOLLOWED).median)
               for body in ("liver564, damped", "10^4 in grid order", "10^5 in grid order", "10^6 in grid order")]),
 
-    (RESULTS, "cut finer, a thread takes {}, {} and {} of the graph's time and both processors {}, {} and {}.", [STEP_MESHES],
+    (RESULTS, "cut finer, a thread took {}, {} and {} of the graph's time in rows of three and both processors {}, {} and {}.", [STEP_MESHES],
      lambda: meshes_over_graph(": lanes") + meshes_over_graph(": threads", "wall_ns")),
 
     (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
@@ -567,15 +571,15 @@ NO_MEASUREMENT = [
     (README, "| plain arrays: an indexed graph | 2 ms | 1 |", PAPER),
 
     (RESULTS, "from 2,000 to 1,000,000 tetrahedra", NAME),
-    (RESULTS, "(target 0.58) and", ("benchmarks/studies/step/bench_step_report.cpp", "most_damped = 0.58")),
-    (RESULTS, "without (target 0.50)", ("benchmarks/studies/step/bench_step_report.cpp", "most_undamped = 0.50")),
+    (RESULTS, "(target 0.58: cannot tell) and", ("benchmarks/studies/step/bench_step_report.cpp", "most_damped = 0.58")),
+    (RESULTS, "without (target 0.50: holds)", ("benchmarks/studies/step/bench_step_report.cpp", "most_undamped = 0.50")),
     (RESULTS, "(target 0.25: holds)", ("benchmarks/studies/step/bench_step_report.cpp", "most_shuffled = 0.25")),
-    (RESULTS, "(target 0.50) and by both processors", ("benchmarks/studies/step/bench_step_report.cpp", "most_in_order = 0.50")),
-    (RESULTS, "(target 0.30), both short", ("benchmarks/studies/step/bench_step_report.cpp", "most_by_threads = 0.30")),
+    (RESULTS, "(target 0.50: cannot tell) and by both", ("benchmarks/studies/step/bench_step_report.cpp", "most_in_order = 0.50")),
+    (RESULTS, "(target 0.30: falls short), as both", ("benchmarks/studies/step/bench_step_report.cpp", "most_by_threads = 0.30")),
     (RESULTS, "[After 1, 10 and 50 %] of 100,000 tetrahedra", ("benchmarks/studies/step/changed_bodies.cpp", "{0.01, 0.10, 0.50}")),
     (RESULTS, "(target 1.15: cannot tell)", ("benchmarks/studies/step/changed_report.cpp", "most_after_changes = 1.15")),
-    (RESULTS, "that cannot change (target 0.58)", ("benchmarks/studies/step/changing_report.cpp", "most_changing_liver = 0.58")),
-    (RESULTS, "of it (target 0.50): both fall", ("benchmarks/studies/step/changing_report.cpp", "most_changing_large = 0.50")),
+    (RESULTS, "that cannot change (target 0.58: falls short)", ("benchmarks/studies/step/changing_report.cpp", "most_changing_liver = 0.58")),
+    (RESULTS, "of it (target 0.50: cannot tell).", ("benchmarks/studies/step/changing_report.cpp", "most_changing_large = 0.50")),
     (RESULTS, "edits known beforehand is 1.37 to 1.61", ("benchmarks/studies/step/changing_report.cpp", '"1.37 to 1.61"')),
     (RESULTS, "(target 1.02: both fall short)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_idle = 1.02")),
     (RESULTS, "of neo-Hookean forces (target 1)", ("benchmarks/studies/contact/bench_contact_report.cpp", "most_after_cut = 1.0")),

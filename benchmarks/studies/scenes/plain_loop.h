@@ -1,5 +1,6 @@
 #pragma once
-// The classical Runge-Kutta method for undamped springs and free masses, written out: the least that a step can be.
+// The classical Runge-Kutta method for undamped springs and free masses, written out: the least that a step can be
+// with one spring at a time.
 
 #include <Eigen/Core>
 #include <algorithm>
