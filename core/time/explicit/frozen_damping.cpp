@@ -1,10 +1,10 @@
 #include "core/time/explicit/frozen_damping.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/forces/mobility.h"
 #include "core/forces/term_damping.h"
+#include "core/time/system/spring_lanes.h"
 
 namespace dartboard {
 
@@ -36,11 +36,8 @@ void FrozenDamping::freeze(const SpringSystem& system, const Terms& terms, std::
   if (!terms.damping) return;
   if (has_damped_terms(system)) at_.assign(x.begin(), x.end());
   along_.resize(system.springs.size());
-  for (std::size_t s = 0; s < along_.size(); ++s) {
-    const Vector3d d = x[system.ends[s][1]] - x[system.ends[s][0]];
-    const double length = std::sqrt(d.squaredNorm());
-    along_[s] = length == 0.0 ? Vector3d(0, 0, 0) : Vector3d((1.0 / length) * d);
-  }
+  for (std::size_t s = find_directions_in_lanes(system.ends, x, along_.data()); s < along_.size(); ++s)
+    along_[s] = direction_of(system.ends[s], x.data());
 }
 
 void FrozenDamping::apply(const SpringSystem& system, const Terms& terms, std::span<const Vector3d> v,

@@ -117,7 +117,42 @@ DARTBOARD_AVX2 std::size_t add_in_lanes(const SpringColumnsAt<Row>& at, std::spa
   return count;
 }
 
+DARTBOARD_AVX2 std::size_t find_in_lanes(std::span<const SpringEnds> ends, std::span<const Eigen::Vector3d> x,
+                                         Eigen::Vector3d* directions) {
+  const std::size_t count = ends.size() / 4 * 4;
+  const Eigen::Vector3d* const at = x.data();
+  const auto last = static_cast<std::uint32_t>(x.size() - 1);
+  for (std::size_t s = 0; s < count; s += 4) {
+    const SpringEnds* const four = ends.data() + s;
+    if (!is_an_end(last, four)) {
+      const __m256d line0 = line(at, four[0]), line1 = line(at, four[1]), line2 = line(at, four[2]),
+                    line3 = line(at, four[3]);
+      const ThreeColumns dx = columns_of(line0, line1, line2, line3);
+      const __m256d length = _mm256_sqrt_pd(dot(dx, dx));
+      if (_mm256_movemask_pd(_mm256_cmp_pd(length, _mm256_setzero_pd(), _CMP_EQ_OQ)) == 0) {
+        const __m256d inverse = _mm256_div_pd(_mm256_set1_pd(1.0), length);
+        // a row reaches into the next one, which is stored after it
+        double* const row = directions[s].data();
+        _mm256_storeu_pd(row, _mm256_mul_pd(_mm256_permute4x64_pd(inverse, 0x00), line0));
+        _mm256_storeu_pd(row + 3, _mm256_mul_pd(_mm256_permute4x64_pd(inverse, 0x55), line1));
+        _mm256_storeu_pd(row + 6, _mm256_mul_pd(_mm256_permute4x64_pd(inverse, 0xAA), line2));
+        const __m256d end = _mm256_mul_pd(_mm256_permute4x64_pd(inverse, 0xFF), line3);
+        _mm_storeu_pd(row + 9, _mm256_castpd256_pd128(end));
+        _mm_store_sd(row + 11, _mm256_extractf128_pd(end, 1));
+        continue;
+      }
+    }
+    for (std::size_t k = 0; k < 4; ++k) directions[s + k] = direction_of(four[k], at);
+  }
+  return count;
+}
+
 }  // namespace
+
+std::size_t find_directions_in_lanes(std::span<const SpringEnds> ends, std::span<const Eigen::Vector3d> x,
+                                     Eigen::Vector3d* directions) {
+  return ends.size() >= 4 && lanes_are_on() ? find_in_lanes(ends, x, directions) : 0;
+}
 
 template <bool damped, class Row, class SomeSpring>
 std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>& at, std::span<const SomeSpring> springs) {
@@ -126,6 +161,9 @@ std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>& at, std::span<const 
 #else
 template <bool damped, class Row, class SomeSpring>
 std::size_t add_forces_in_lanes(const SpringColumnsAt<Row>&, std::span<const SomeSpring>) {
+  return 0;
+}
+std::size_t find_directions_in_lanes(std::span<const SpringEnds>, std::span<const Eigen::Vector3d>, Eigen::Vector3d*) {
   return 0;
 }
 #endif

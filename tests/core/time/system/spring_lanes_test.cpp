@@ -76,9 +76,21 @@ void expect_equal_bits_in(const Tangle& t) {
   expect_equal_bits<false, Row>(t, t.damped);
   expect_equal_bits<false, Row>(t, t.undamped);
 }
+void expect_equal_directions(const Tangle& t) {
+  std::vector<Vector3d> expected, found(t.ends.size(), Vector3d(7, 7, 7));
+  for (const SpringEnds& ends : t.ends) expected.push_back(direction_of(ends, t.x.data()));
+  const std::size_t done = find_directions_in_lanes(t.ends, t.x, found.data());
+  ASSERT_EQ(done, t.ends.size() / 4 * 4);
+  for (std::size_t s = done; s < found.size(); ++s) {
+    ASSERT_EQ(found[s], Vector3d(7, 7, 7)) << "written behind the last of four";
+    found[s] = expected[s];
+  }
+  ASSERT_EQ(bits_of(found), bits_of(expected));
+}
 void expect_equal_bits(const Tangle& t) {
   expect_equal_bits_in<Vector3d>(t);
   expect_equal_bits_in<PaddedVector>(t);
+  expect_equal_directions(t);
 }
 
 class SpringLanes : public testing::Test {
@@ -102,6 +114,14 @@ TEST_F(SpringLanes, PullNowhereAtZeroLength) {
     t.x[t.ends[s][1]] = t.x[t.ends[s][0]];
     expect_equal_bits(t);
   }
+}
+
+// Its square is zero, and so is its length; a direction would have the signs of its components.
+TEST_F(SpringLanes, HaveNoDirectionAtALengthThatUnderflows) {
+  Tangle t(30, 64, 4);
+  t.x[t.ends[9][1]] = t.x[t.ends[9][0]] = Vector3d(0, 0, 0);
+  t.x[t.ends[9][1]].y() = -1e-200;
+  expect_equal_bits(t);
 }
 
 TEST_F(SpringLanes, KeepWhatIsNotANumber) {
