@@ -17,7 +17,7 @@ OPERATIONS = "results/2026-11-28-epyc-operations/samples.jsonl"
 STEP = "results/2026-11-28-epyc-step-padded/samples.jsonl"
 STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
 CONTACT = "results/2026-11-27-epyc-contact-costs/samples.jsonl"
-ABLATION = RUN + "ablation/samples.jsonl"
+ABLATION = "results/2026-11-28-epyc-ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
 FORETOLD = "results/2026-11-23-epyc-foretold/samples.jsonl"
@@ -74,6 +74,16 @@ def stepped(task, baseline, clock="cpu_ns"):
 def step_over_graph(body, task=": padded", clock="cpu_ns"):
     """Four springs at a time."""
     return stepped(body + task, body + ": graph", clock)
+
+
+def less_than(f):
+    return ["%.0f" % (100 * (1 - x)) for x in (f.median, f.high, f.low)]
+
+
+def with_output(how):
+    """By the clock."""
+    task, alone = "liver_cut with its output" + how, "liver_cut, its integrator alone"
+    return ratio([dict(r, cpu_ns=r["wall_ns"]) for r in lines(ABLATION) if r.get("task") in (task, alone)], task, alone)
 
 
 def meshes_over_graph(task, clock="cpu_ns"):
@@ -443,17 +453,19 @@ FIGURES = [
      + all_of(growth("dissociate, random")) + judged([growth("dissociate, cut")], 1.5, "holds")
      + judged([growth("dissociate, random")], 3, "cannot tell")),
 
-    (RESULTS, "Events, map and output cost {} [{}, {}] % of a step (target 0.5: holds)", [ABLATION],
+    (RESULTS, "Events, map and output cost {} [{}, {}] % of a step (target 0.5),", [ABLATION],
      lambda: (*percent(ratio(lines(ABLATION), "simulation", "watched loop")),
-              *judged([ratio(lines(ABLATION), "simulation", "watched loop")], 1.005, "holds"))),
-    (RESULTS, "the detector of divergence {} [{}, {}] and the watch on speeds {} [{}, {}] (cannot tell)", [ABLATION],
+              *judged([ratio(lines(ABLATION), "simulation", "watched loop")], 1.005, "cannot tell"))),
+    (RESULTS, "detector of divergence {} [{}, {}] and the watch on speeds {} [{}, {}]: of none can this run tell", [ABLATION],
      lambda: (*percent(ratio(lines(ABLATION), "loop and detector", "loop")),
               *percent(ratio(lines(ABLATION), "watched loop", "loop and detector")),
               *judged([ratio(lines(ABLATION), "loop and detector", "loop")], 1.005, "cannot tell"),
               *judged([ratio(lines(ABLATION), "watched loop", "loop and detector")], 1.005, "cannot tell"))),
-    (RESULTS, "the integrator takes {} [{}, {}] % and falls short", [ABLATION],
-     lambda: (*("%+.1f" % (100 * (x - 1)) for x in ratio(lines(ABLATION), "loop", "plain loop")),
-              *judged([ratio(lines(ABLATION), "loop", "plain loop")], 1.005, "falls short"))),
+    (RESULTS, "one spring at a time the integrator takes {} [{}, {}] % less.", [ABLATION],
+     lambda: less_than(ratio(lines(ABLATION), "loop", "plain loop"))),
+    (RESULTS, "`liver_cut` takes {} [{}, {}] times its integrator's own time where another thread writes the files (target 1.5: falls short)", [ABLATION],
+     lambda: all_of(with_output(", written by another thread"), three) + judged([with_output(", written by another thread")], 1.5, "falls short")),
+    (RESULTS, "and {} [{}, {}] by one thread:", [ABLATION], lambda: all_of(with_output(""), three)),
 
     (RESULTS, "methods {}, {} and {} % too low for 512, 1,728 and 4,096 vertices (target 25)", [SOLVERS],
      lambda: ["%.0f" % (-100 * crossover(n)[0]) for n in (512, 1728, 4096)]),
@@ -593,7 +605,7 @@ NO_MEASUREMENT = [
     (RESULTS, "From 2,058 to 998,250 tetrahedra", NAME),
     (RESULTS, "times (target 1.5: holds)", ("benchmarks/studies/operations/bench_operations_report.cpp", 'std::pair("dissociate, cut", 1.5)')),
     (RESULTS, "times (3: it cannot tell)", ("benchmarks/studies/operations/bench_operations_report.cpp", 'std::pair("dissociate, random", 3.0)')),
-    (RESULTS, "% of a step (target 0.5: holds)", ("benchmarks/studies/scenes/ablation_study.cpp", "at_most(figure, 1.005)")),
+    (RESULTS, "% of a step (target 0.5)", ("benchmarks/studies/scenes/ablation_study.cpp", "at_most(figure, 1.005)")),
     (RESULTS, "for 512, 1,728 and 4,096 vertices (target 25)", ("benchmarks/studies/solvers/solver_report.cpp", "crossover_gate = 0.25")),
     (RESULTS, "at h omega_max = 2.83 (target 0.9)", ("benchmarks/studies/solvers/solver_report.cpp", "step_gate_ms = 0.9")),
     (RESULTS, "at 10 and 2.0 at 100;", ("benchmarks/studies/solvers/solver_study.cpp", "{2.83, 10.0, 100.0}")),
