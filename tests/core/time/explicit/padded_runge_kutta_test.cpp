@@ -8,7 +8,7 @@
 #include "core/base/lanes.h"
 #include "core/base/thread_team.h"
 #include "core/time/explicit/classical_runge_kutta.h"
-#include "tests/support/net_of_springs.h"
+#include "tests/support/bodies/net_of_springs.h"
 
 namespace dartboard::padded_runge_kutta_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/thread_team.h"
 #include "core/time/system/accelerations.h"
-#include "tests/support/net_of_springs.h"
+#include "tests/support/bodies/net_of_springs.h"
 
 namespace dartboard::force_shares_test {
 namespace {
