@@ -10,7 +10,7 @@ namespace dartboard {
 
 bool has_lanes() {
   use_lanes(true);
-  return use_lanes(true);
+  return lanes_are_on();
 }
 
 unsigned count_processors() {

@@ -136,13 +136,12 @@ StepResult PaddedRungeKutta::step(const SpringSystem& system, const Terms& terms
   const bool is_finite = go_on<Stage::last>(system, terms, at, h / 6);
   work.force_evaluations += 4;
   if (!is_finite) {
-    ++work.failed_steps;
-    std::vector<Vector3d> x, v;
+    TrialState end;
     for (std::size_t i = 0; i < n; ++i) {
-      x.push_back(three_of(x_[i]));
-      v.push_back(three_of(v_[i]));
+      end.x.push_back(three_of(x_[i]));
+      end.v.push_back(three_of(v_[i]));
     }
-    return check_finite(x, v);
+    return end.commit(motion, work);  // diagnoses it
   }
   terms.for_each_share(n, [&](std::size_t first, std::size_t last) {
     copy(x_.data(), motion.x.data(), first, last);

@@ -45,8 +45,7 @@ class PaddedRows : public testing::Test {
  protected:
   void SetUp() override {
     use_lanes(true);
-    const bool are_on = use_lanes(true);  // what the call before has left
-    if (!are_on) GTEST_SKIP() << "this processor has no AVX2";
+    if (!lanes_are_on()) GTEST_SKIP() << "this processor has no AVX2";
   }
   void TearDown() override {
     use_lanes(true);
