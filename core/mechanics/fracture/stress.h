@@ -116,6 +116,9 @@ struct StressMeasures {
 /// All are infinite where the stress is not finite.
 StressMeasures measures_of(const Eigen::Matrix3d& stress);
 
+/// An upper bound of the largest eigenvalue as it is found: Gershgorin's, plus rounding. NaN if an entry is not finite.
+double principal_bound(const Eigen::Matrix3d& stress);
+
 /// The largest principal stress [Pa] of a body's vertices: 0 without vertices, infinite where one is not finite.
 double largest_principal_stress(std::span<const Eigen::Matrix3d> stresses);
 

@@ -100,19 +100,6 @@ struct Stressed {
   std::size_t places;
 };
 
-/// An upper bound of the eigenvalues: Gershgorin's, plus the rounding error of an eigenvalue. NaN if an entry is not
-/// finite.
-double eigenvalue_bound(const Eigen::Matrix3d& stress) {
-  double bound = stress(0, 0), norm = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    const double off_diagonal = std::abs(stress(i, (i + 1) % 3)) + std::abs(stress(i, (i + 2) % 3));
-    bound = std::max(bound, stress(i, i) + off_diagonal);
-    norm = std::max(norm, std::abs(stress(i, i)) + off_diagonal);
-  }
-  // the maxima ignore NaN, a sum keeps it
-  return bound + 0x1p-40 * norm + 0.0 * stress.sum();
-}
-
 PrincipalStress principal(const Eigen::Matrix3d& stress, std::uint32_t vertex) {
   if (!stress.allFinite()) throw StressError(vertex);
   return principal_stress(stress);
@@ -159,7 +146,7 @@ TornVertices tear_where_stressed(Body<Map>& body, std::span<const std::array<std
   std::vector<Stressed> stressed;
   for (std::uint32_t k = 0; k < stress.size(); ++k) {
     // Eigenvalues are needed of the few vertices only that can be above the threshold or the largest.
-    if (k > 0 && eigenvalue_bound(stress[k]) <= std::min(rule.threshold, torn.largest_stress)) continue;
+    if (k > 0 && principal_bound(stress[k]) <= std::min(rule.threshold, torn.largest_stress)) continue;
     const double value = principal(stress[k], k).value;
     torn.largest_stress = k == 0 ? value : std::max(torn.largest_stress, value);
     if (value > rule.threshold) {

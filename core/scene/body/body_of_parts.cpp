@@ -363,8 +363,6 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
     std::vector<double> strain;
   } of_links, of_springs;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  constexpr std::array stresses{&Frame::largest_principal_stress, &Frame::largest_stress_magnitude,
-                                &Frame::von_mises_stress};
   std::uint32_t components = 0;
   for (const Member& part : parts_) {
     Frame frame = part.body->frame(own);
@@ -401,13 +399,10 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
     append(all.displacement, frame.displacement);
     append(all.tension, frame.tension);
     if (part.body.get() == &leading()) all.largest_stress = frame.largest_stress;
-    for (const auto column : stresses) {
-      append(all.*column, frame.*column);
-      if (fields.stress) (all.*column).resize(all.mesh.points.size(), 0.0);  // chains have tensions
-    }
+    append(all.stress, frame.stress);
+    if (fields.stress) all.stress.resize(all.mesh.points.size(), Eigen::Matrix3d::Zero());  // chains have tensions
   }
-  if (all.mesh.cell_count() == 0)
-    for (const auto column : stresses) (all.*column).clear();
+  if (all.mesh.cell_count() == 0) all.stress.clear();
   append(all.mesh_cell, of_links.mesh_cell);
   append(all.component, of_links.component);
   append(all.material, of_links.material);

@@ -46,10 +46,10 @@ struct Frame {
 
   FrameFields fields;              // which of the following are filled; the others are empty
   std::vector<std::uint8_t> held;  // by point: 0 free, 1 fixed, 2 driven, 3 held along some axes
-  // [Pa] (of a surface [N/m], of a chain next to other bodies 0) by point of a body with cells; infinite where a stress
-  // is not finite
-  std::vector<double> largest_principal_stress, largest_stress_magnitude, von_mises_stress;
-  // not written to files: the largest_stress of the body, where these are all that it is the largest of
+  // [Pa] (of a surface [N/m], of a chain next to other bodies 0) by point of a body with cells; files have
+  // `measures_of` each
+  std::vector<Eigen::Matrix3d> stress;
+  // not written to files: the largest_stress of the body, where there are stresses
   std::optional<double> largest_stress;
   std::vector<double> tension;                        // [N] of chains, by link; negative where it is pressed together
   std::vector<Eigen::Vector3d> displacement;          // [m] by point, from where it was at rest

@@ -38,8 +38,7 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
   std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return rank(frame.mesh_point[k]); });
   for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
   const auto reorder_all = [&order](auto&... columns) { (reorder(columns, order), ...); };
-  reorder_all(frame.mesh.points, frame.velocity, frame.mass, frame.mesh_point, frame.held,
-              frame.largest_principal_stress, frame.largest_stress_magnitude, frame.von_mises_stress,
+  reorder_all(frame.mesh.points, frame.velocity, frame.mass, frame.mesh_point, frame.held, frame.stress,
               frame.displacement, frame.contact_force, frame.contact_depth);
   for (std::uint32_t& node : frame.mesh.nodes) node = place[node];
   for (RefinedFacet& facet : frame.refined_facets)
@@ -69,17 +68,8 @@ void fill_columns(Frame& frame, const FrameFields& fields, const VertexColumns& 
   if (fields.displacement)
     for (std::size_t k = 0; k < x.size(); ++k) frame.displacement.push_back(x[k] - vertices.rest[k]);
   if (fields.stress && !is_chain) {
-    std::vector<Eigen::Matrix3d> stress;
-    vertex_stresses(ends, springs, volumes, x, stress, system.terms);
-    double largest = -std::numeric_limits<double>::infinity();
-    for (const Eigen::Matrix3d& sigma : stress) {
-      const StressMeasures measures = measures_of(sigma);
-      frame.largest_principal_stress.push_back(measures.largest_principal);
-      frame.largest_stress_magnitude.push_back(measures.largest_magnitude);
-      frame.von_mises_stress.push_back(measures.von_mises);
-      largest = std::max(largest, measures.largest_principal);
-    }
-    if (std::isfinite(largest)) frame.largest_stress = largest;
+    vertex_stresses(ends, springs, volumes, x, frame.stress, system.terms);
+    frame.largest_stress = largest_principal_stress(frame.stress);
   }
   if (fields.springs && !is_chain) frame.springs.assign(ends.begin(), ends.end());
   const bool has_tensions = fields.stress && is_chain;

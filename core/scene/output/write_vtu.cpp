@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mechanics/fracture/stress.h"
 #include "core/meshes/text/base64.h"
 #include "core/plain/error.h"
 #include "core/scene/output/atomic_file.h"
@@ -173,10 +174,7 @@ bool has_columns_of_its_size(const Frame& frame) {
          frame.mass.size() == points && frame.mesh_cell.size() == cells && frame.component.size() == cells &&
          (frame.material.empty() || frame.material.size() == cells) &&
          (frame.body.empty() || frame.body.size() == cells) && is(frame.held.size(), fields.held, points) &&
-         is(frame.largest_principal_stress.size(), has_stress, points) &&
-         is(frame.largest_stress_magnitude.size(), has_stress, points) &&
-         is(frame.von_mises_stress.size(), has_stress, points) &&
-         is(frame.tension.size(), fields.stress, frame.links.size()) &&
+         is(frame.stress.size(), has_stress, points) && is(frame.tension.size(), fields.stress, frame.links.size()) &&
          is(frame.displacement.size(), fields.displacement, points) &&
          is(frame.contact_force.size(), fields.contact, points) &&
          is(frame.contact_depth.size(), fields.contact, points) && (fields.contact || frame.contact_pairs.empty()) &&
@@ -250,9 +248,16 @@ std::uint64_t put_vtu(const Frame& frame, std::optional<Compressor> compressor, 
   const bool is_chain = cells == 0 && !frame.links.empty();
   if (fields.held) append_array(out, "held", frame.held);
   if (fields.stress && !is_chain) {
-    append_array(out, "largest_principal_stress", frame.largest_principal_stress);
-    append_array(out, "largest_stress_magnitude", frame.largest_stress_magnitude);
-    append_array(out, "von_mises_stress", frame.von_mises_stress);
+    std::vector<double> principal, magnitude, von_mises;
+    for (const Eigen::Matrix3d& stress : frame.stress) {
+      const StressMeasures measures = measures_of(stress);
+      principal.push_back(measures.largest_principal);
+      magnitude.push_back(measures.largest_magnitude);
+      von_mises.push_back(measures.von_mises);
+    }
+    append_array(out, "largest_principal_stress", principal);
+    append_array(out, "largest_stress_magnitude", magnitude);
+    append_array(out, "von_mises_stress", von_mises);
   }
   if (fields.displacement) append_array(out, "displacement", frame.displacement);
   if (fields.contact) {

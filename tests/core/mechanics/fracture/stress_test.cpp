@@ -465,6 +465,24 @@ TEST(PrincipalStressOfABody, IsTheLargestOfItsVertices) {
   EXPECT_EQ(largest_principal_stress(stresses), std::numeric_limits<double>::infinity());
 }
 
+// Eigenvalues are found of some vertices only: of shear, a bound by the diagonal alone would leave it out, and of ones,
+// whose largest eigenvalue is the sum of a row, rounding can put it above a bound without it.
+TEST(PrincipalStressOfABody, IsThatOfAVertexWhoseDiagonalIsSmaller) {
+  Matrix3d shear = Matrix3d::Zero();
+  shear(0, 2) = shear(2, 0) = 5;
+  EXPECT_NEAR(largest_principal_stress(std::vector<Matrix3d>{Vector3d(4, 0, 0).asDiagonal(), shear}), 5, 128 * 5 * u);
+  int above = 0;
+  for (int k = 1; k < 200; ++k) {
+    const double sum = 3.0 * k;
+    const Matrix3d ones = Matrix3d::Constant(k);
+    const double value = measures_of(ones).largest_principal;
+    above += value > sum;
+    EXPECT_EQ(largest_principal_stress(std::vector<Matrix3d>{Vector3d(sum, 0, 0).asDiagonal(), ones}),
+              std::max(sum, value));
+  }
+  EXPECT_GT(above, 0);
+}
+
 TEST(PrincipalStressOfABody, IsNegativeUnderPressureFromAllSides) {
   auto body = body_of<Map3>(hexahedron_box(2, 2, 2, 0.5));
   move(body, 0.5 * Matrix3d::Identity());

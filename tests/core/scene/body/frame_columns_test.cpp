@@ -58,20 +58,15 @@ TEST(FrameColumns, AreThoseThatTheSceneAsksForAndNoOthers) {
     const auto filled = [&scene](const char* fields) {
       const Frame f = Simulation(showing(scene, fields)).frame();
       EXPECT_TRUE(f.tension.empty());
-      return std::vector<std::size_t>{f.held.size(),
-                                      f.largest_principal_stress.size(),
-                                      f.largest_stress_magnitude.size(),
-                                      f.von_mises_stress.size(),
-                                      f.displacement.size(),
-                                      f.springs.size(),
+      return std::vector<std::size_t>{f.held.size(), f.stress.size(), f.displacement.size(), f.springs.size(),
                                       f.strain.size()};
     };
     // 27 vertices; of 2^3 cubes 54 edges, 36 face diagonals and 8 within
-    EXPECT_EQ(filled("[]"), (std::vector<std::size_t>{0, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(filled(R"(["held"])"), (std::vector<std::size_t>{27, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(filled(R"(["stress"])"), (std::vector<std::size_t>{0, 27, 27, 27, 0, 0, 0}));
-    EXPECT_EQ(filled(R"(["displacement"])"), (std::vector<std::size_t>{0, 0, 0, 0, 27, 0, 0}));
-    EXPECT_EQ(filled(R"(["springs"])"), (std::vector<std::size_t>{0, 0, 0, 0, 0, 98, 98}));
+    EXPECT_EQ(filled("[]"), (std::vector<std::size_t>{0, 0, 0, 0, 0}));
+    EXPECT_EQ(filled(R"(["held"])"), (std::vector<std::size_t>{27, 0, 0, 0, 0}));
+    EXPECT_EQ(filled(R"(["stress"])"), (std::vector<std::size_t>{0, 27, 0, 0, 0}));
+    EXPECT_EQ(filled(R"(["displacement"])"), (std::vector<std::size_t>{0, 0, 27, 0, 0}));
+    EXPECT_EQ(filled(R"(["springs"])"), (std::vector<std::size_t>{0, 0, 0, 98, 98}));
   }
 }
 
@@ -80,7 +75,7 @@ TEST(FrameColumns, OfAChainHaveTensionsForStressesAndStrainsOfItsLinks) {
   EXPECT_EQ(f.tension.size(), 3u);
   EXPECT_EQ(f.strain.size(), 3u);
   EXPECT_TRUE(f.springs.empty());  // its links are there already
-  EXPECT_TRUE(f.largest_principal_stress.empty() && f.largest_stress_magnitude.empty() && f.von_mises_stress.empty());
+  EXPECT_TRUE(f.stress.empty());
 }
 
 TEST(FrameColumns, ChangeNoBitOfTheMotion) {
@@ -172,9 +167,8 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   f.springs = {{3, 1}};
   f.refined_facets = {{.points = {0, 1, 2}, .lies_in = {0, 1, 1}}};
   f.contact_pairs = {{.sample = {1, 2, 3, -1}, .face = {0, 1, 3}}, {.sample = {3, -1, -1, -1}, .obstacle = 2}};
-  for (std::vector<double>* column :
-       {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
-    *column = {0, 1, 2, 3};
+  for (std::vector<double>* column : {&f.mass, &f.contact_depth}) *column = {0, 1, 2, 3};
+  for (const double k : f.mass) f.stress.push_back(k * Eigen::Matrix3d::Identity());
   f.held = {0, 1, 2, 3};
   for (auto* column : {&f.velocity, &f.displacement, &f.contact_force}) *column = f.mesh.points;
   const std::vector<std::uint32_t> number{7, 5};
@@ -184,9 +178,8 @@ TEST(FramePoints, AreNumberedByTheirFileAndOrderedByThat) {
   EXPECT_EQ(f.refined_facets.at(0).lies_in, (std::array<std::int64_t, 3>{7, 5, 5}));
   const std::vector<double> order{0, 3, 2, 1};
   EXPECT_EQ(f.held, (std::vector<std::uint8_t>{0, 3, 2, 1}));
-  for (const std::vector<double>* column :
-       {&f.mass, &f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress, &f.contact_depth})
-    EXPECT_EQ(*column, order);
+  for (const std::vector<double>* column : {&f.mass, &f.contact_depth}) EXPECT_EQ(*column, order);
+  for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(f.stress.at(k)(2, 2), order[k]);
   for (const auto* column : {&f.mesh.points, &f.velocity, &f.displacement, &f.contact_force})
     for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ((*column)[k].x(), order[k]);
   EXPECT_EQ(f.mesh.nodes, (std::vector<std::uint32_t>{0, 3, 1}));
@@ -211,11 +204,12 @@ TEST(FrameStress, OfAUniaxialStretchHasTheVonMisesStressOfItsPull) {
       stretch_by(*body, {1, 1, s});
       const double pull = 4 * 4.0 * (s - 1) / 0.5, off = 64 * u * std::abs(pull);
       const Frame f = body->frame(all);
-      ASSERT_EQ(f.von_mises_stress.size(), 4u * 3 * 3);
-      for (std::size_t k = 0; k < f.von_mises_stress.size(); ++k) {
-        EXPECT_NEAR(f.largest_principal_stress[k], std::max(pull, 0.0), off);
-        EXPECT_NEAR(f.largest_stress_magnitude[k], std::abs(pull), off);
-        EXPECT_NEAR(f.von_mises_stress[k], std::abs(pull), off);
+      ASSERT_EQ(f.stress.size(), 4u * 3 * 3);
+      for (const Eigen::Matrix3d& stress : f.stress) {
+        const StressMeasures measures = measures_of(stress);
+        EXPECT_NEAR(measures.largest_principal, std::max(pull, 0.0), off);
+        EXPECT_NEAR(measures.largest_magnitude, std::abs(pull), off);
+        EXPECT_NEAR(measures.von_mises, std::abs(pull), off);
       }
     }
 }
@@ -225,19 +219,14 @@ TEST(FrameStress, IsThatOfTheDiagnostics) {
     const auto body = body_of(kuhn_box(3, 2, 2, 0.5, 0.2, 7), on_map);
     stretch_by(*body, {1.25, 0.875, 1.5});
     const Frame f = body->frame(all);
-    EXPECT_EQ(*std::ranges::max_element(f.largest_principal_stress), body->largest_stress());
     EXPECT_EQ(f.largest_stress, body->largest_stress());
-    // each vertex has its own: the measures of the stress with its number
+    // each vertex has its own: the stress with its number
     std::vector<Eigen::Matrix3d> stress;
     const SpringSystem system = body->system();
     std::vector<double> now(system.mass.size());
     find_volumes_now(f.mesh, f.mesh.points, now);
     vertex_stresses(system.ends, system.springs, {system.mass, 8.0, {}, now}, body->vertices().position, stress);
-    for (std::size_t k = 0; k < stress.size(); ++k) {
-      EXPECT_EQ(f.largest_principal_stress[k], measures_of(stress[k]).largest_principal);
-      EXPECT_EQ(f.largest_stress_magnitude[k], measures_of(stress[k]).largest_magnitude);
-      EXPECT_EQ(f.von_mises_stress[k], measures_of(stress[k]).von_mises);
-    }
+    EXPECT_EQ(f.stress, stress);
   }
 }
 
@@ -254,11 +243,10 @@ TEST(FrameStress, IsInfiniteWhereItIsNotFiniteAndNowhereElse) {
     for (Vector3d& x : body->motion().x)
       if (x.x() == 2.0) x.x() = infinity;
     const Frame f = body->frame(all);
-    EXPECT_FALSE(f.largest_stress.has_value());  // the body is asked again
+    EXPECT_EQ(f.largest_stress, infinity);
     for (std::size_t k = 0; k < f.mesh.points.size(); ++k) {
       const bool near = f.mesh.points[k].x() >= 1.5;  // at the end, or a spring from there
-      for (const auto* column : {&f.largest_principal_stress, &f.largest_stress_magnitude, &f.von_mises_stress})
-        EXPECT_EQ((*column)[k], near ? infinity : 0.0) << f.mesh.points[k].x();
+      EXPECT_EQ(measures_of(f.stress[k]).largest_principal, near ? infinity : 0.0) << f.mesh.points[k].x();
     }
   }
 }

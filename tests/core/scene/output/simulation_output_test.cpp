@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mechanics/fracture/stress.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/meshes/text/base64.h"
 #include "core/scene/output/scene_output.h"
@@ -100,9 +101,8 @@ Frame full_frame() {
   for (std::size_t k = 0; k < frame.mesh.points.size(); ++k) {
     const auto n = static_cast<double>(k);
     frame.held.push_back(static_cast<std::uint8_t>(k % 3));
-    frame.largest_principal_stress.push_back(1000 + n);
-    frame.largest_stress_magnitude.push_back(2000 + n);
-    frame.von_mises_stress.push_back(3000 + n);
+    // of a pressure 2000 + n along x and tensions 1000 + n and 0 across
+    frame.stress.emplace_back(Eigen::Vector3d(-2000 - n, 1000 + n, 0).asDiagonal());
     frame.displacement.emplace_back(400 + n, 500 + n, 600 + n);
     frame.contact_force.emplace_back(700 + n, 800 + n, 900 + n);
     frame.contact_depth.push_back(4000 + n);
@@ -117,9 +117,16 @@ TEST(WriteVtu, PutsEveryColumnThatIsAskedForUnderItsName) {
   const std::string vtu = to_vtu(frame),
                     points = vtu.substr(vtu.find("<PointData"), vtu.find("</PointData") - vtu.find("<PointData"));
   EXPECT_EQ(column<std::uint8_t>(points, "held", "UInt8"), frame.held);
-  EXPECT_EQ(column<double>(points, "largest_principal_stress", "Float64"), frame.largest_principal_stress);
-  EXPECT_EQ(column<double>(points, "largest_stress_magnitude", "Float64"), frame.largest_stress_magnitude);
-  EXPECT_EQ(column<double>(points, "von_mises_stress", "Float64"), frame.von_mises_stress);
+  std::vector<double> principal, magnitude, von_mises;
+  for (const Eigen::Matrix3d& stress : frame.stress) {
+    const StressMeasures measures = measures_of(stress);
+    principal.push_back(measures.largest_principal);
+    magnitude.push_back(measures.largest_magnitude);
+    von_mises.push_back(measures.von_mises);
+  }
+  EXPECT_EQ(column<double>(points, "largest_principal_stress", "Float64"), principal);
+  EXPECT_EQ(column<double>(points, "largest_stress_magnitude", "Float64"), magnitude);
+  EXPECT_EQ(column<double>(points, "von_mises_stress", "Float64"), von_mises);
   EXPECT_EQ(column<double>(points, "displacement", "Float64"), flat(frame.displacement));
   EXPECT_EQ(column<double>(points, "contact_force", "Float64"), flat(frame.contact_force));
   EXPECT_EQ(column<double>(points, "contact_depth", "Float64"), frame.contact_depth);
@@ -211,8 +218,7 @@ TEST(WriteVtu, RefusesEachColumnOfAnotherLength) {
   const std::function<void(Frame&)> shortened[] = {
       [](Frame& f) { f.velocity.pop_back(); }, [](Frame& f) { f.mass.pop_back(); },
       [](Frame& f) { f.mesh_cell.pop_back(); }, [](Frame& f) { f.component.pop_back(); },
-      [](Frame& f) { f.held.pop_back(); }, [](Frame& f) { f.largest_principal_stress.pop_back(); },
-      [](Frame& f) { f.largest_stress_magnitude.pop_back(); }, [](Frame& f) { f.von_mises_stress.pop_back(); },
+      [](Frame& f) { f.held.pop_back(); }, [](Frame& f) { f.stress.pop_back(); },
       [](Frame& f) { f.displacement.pop_back(); }, [](Frame& f) { f.springs.pop_back(); },
       [](Frame& f) { f.strain.pop_back(); }, [](Frame& f) { f.tension.push_back(1.0); },
       [](Frame& f) { f.contact_force.pop_back(); }, [](Frame& f) { f.contact_depth.pop_back(); },
