@@ -18,10 +18,18 @@ bool is_before(const Vector3d& a, const Vector3d& b) {
   return a.z() < b.z();
 }
 
-/// The corners in that order. Addresses are exchanged without branches, which could not be predicted.
+/// The corners in that order. Nothing here branches on which of two is before the other: it could not be predicted.
 template <std::size_t n>
 std::array<const Vector3d*, n> in_order(std::span<const Vector3d> corners) {
   std::array<const Vector3d*, n> x;
+  std::size_t places = 0;  // a bit for each that is taken
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t place = 0;
+    for (std::size_t other = 0; other < n; ++other) place += corners[other].x() < corners[k].x();
+    x[place] = &corners[k];
+    places |= std::size_t{1} << place;
+  }
+  if (places == (std::size_t{1} << n) - 1) return x;  // as nearly always: no two have the same x
   for (std::size_t k = 0; k < n; ++k) x[k] = &corners[k];
   for (std::size_t end = n - 1; end > 0; --end)
     for (std::size_t k = 0; k < end; ++k) {

@@ -202,9 +202,12 @@ void vertex_stresses(std::span<const std::array<std::uint32_t, 2>> ends, SpringS
   stress.assign(volumes.mass.size(), Eigen::Matrix3d::Zero());
   for (std::size_t e = 0; e < springs.size(); ++e) {
     const auto [a, b] = ends[e];
-    const Eigen::Matrix3d virial = spring_virial(springs[e], position[b] - position[a]);
-    add_lower(stress[a], virial);
-    add_lower(stress[b], virial);
+    const Eigen::Vector3d dx = position[b] - position[a], pull = half_pull(springs[e], dx);
+    for (const std::uint32_t end : {a, b}) {  // spring_virial, of which no matrix is made
+      stress[end].col(0) += dx[0] * pull;
+      stress[end].col(1).tail<2>() += dx[1] * pull.tail<2>();
+      stress[end](2, 2) += dx[2] * pull[2];
+    }
   }
   for (const ForceTerm* term : terms)
     for (std::size_t piece = 0; piece < term->size(); ++piece) {

@@ -14,6 +14,14 @@
 
 namespace dartboard {
 
+/// Half the elastic force [N] of a spring whose second end is at dx from the first, towards that end if it is
+/// stretched.
+inline Eigen::Vector3d half_pull(const Spring& spring, const Eigen::Vector3d& dx) {
+  const double length = std::sqrt(dx.squaredNorm());
+  if (length == 0.0) return Eigen::Vector3d::Zero();
+  return (0.5 * spring.stiffness * (length - spring.rest_length) / length) * dx;
+}
+
 /// The contribution of a spring to the virial of each of its two ends [J]: 1/2 T l (u u^T), tension positive; zero for
 /// zero length. Exchanging the ends leaves the bits.
 ///
@@ -21,12 +29,10 @@ namespace dartboard {
 /// that a tear itself sends through its neighbours would exceed a threshold, and the sooner the smaller
 /// the time step.
 inline Eigen::Matrix3d spring_virial(const Spring& spring, const Eigen::Vector3d& dx) {
-  const double length = std::sqrt(dx.squaredNorm());
-  if (length == 0.0) return Eigen::Matrix3d::Zero();
-  const double scale = 0.5 * spring.stiffness * (length - spring.rest_length) / length;
+  const Eigen::Vector3d pull = half_pull(spring, dx);
   Eigen::Matrix3d virial;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) virial(i, j) = virial(j, i) = (scale * dx[i]) * dx[j];
+    for (int j = 0; j <= i; ++j) virial(i, j) = virial(j, i) = pull[i] * dx[j];
   return virial;
 }
 

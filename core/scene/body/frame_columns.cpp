@@ -31,12 +31,18 @@ void put_in_order(Frame& frame, std::span<const std::uint32_t> number) {
   if (!number.empty())
     for (RefinedFacet& facet : frame.refined_facets)
       for (std::int64_t& p : facet.lies_in) p = number[static_cast<std::size_t>(p)];
-  const auto rank = [](std::int64_t p) { return static_cast<std::uint64_t>(p); };  // -1 comes last
+  if (frame.mesh_point.empty()) return;
+  const auto last = static_cast<std::size_t>(*std::ranges::max_element(frame.mesh_point) + 1);
+  const auto rank = [last](std::int64_t p) { return p < 0 ? last : static_cast<std::size_t>(p); };  // -1 comes last
   if (std::ranges::is_sorted(frame.mesh_point, {}, rank)) return;
-  std::vector<std::uint32_t> order(frame.mesh_point.size()), place(order.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return rank(frame.mesh_point[k]); });
-  for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  // sorted by counting: next[r] is the place of the next point of rank r
+  std::vector<std::uint32_t> order(frame.mesh_point.size()), place(order.size()), next(last + 2, 0);
+  for (const std::int64_t p : frame.mesh_point) ++next[rank(p) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::uint32_t k = 0; k < order.size(); ++k) {
+    place[k] = next[rank(frame.mesh_point[k])]++;
+    order[place[k]] = k;
+  }
   const auto reorder_all = [&order](auto&... columns) { (reorder(columns, order), ...); };
   reorder_all(frame.mesh.points, frame.velocity, frame.mass, frame.mesh_point, frame.held, frame.stress,
               frame.displacement, frame.contact_force, frame.contact_depth);
