@@ -12,8 +12,9 @@ namespace dartboard {
 /// All warnings so far: about the scene before the first step, and about what happened since.
 std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& simulation);
 
-/// The step of a run compared with its motions: "0.12 of the longest stable step" for an explicit method;
-/// "motions faster than 16 Hz are not resolved" for an implicit one, for which every step is stable.
+/// The step of a run compared with its motions: "0.12 of the longest stable step" for an explicit method, "at most
+/// 0.14" of it by the quick bound of a large body; "motions faster than 16 Hz are not resolved" for an implicit one,
+/// for which every step is stable.
 std::string step_in_words(const Simulation& simulation, const SceneFile& scene);
 
 }  // namespace dartboard

@@ -48,6 +48,20 @@ TEST(SceneWarnings, SayHowLongAStepIsBesideWhatIsStable) {
   EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)), "0.25 of the longest stable step");
 }
 
+// A chain of equal masses and springs has a highest frequency just below Gershgorin's bound of 2 sqrt(k / m).
+TEST(SceneWarnings, SayHowLongAStepOfALargeBodyIsAtMost) {
+  Json json = moving_box();
+  json["body"]["generate"] = {{"chain", {{"links", 60000}, {"spacing", 0.5}}}};
+  const Simulation simulation(parse(json));
+  ASSERT_EQ(simulation.stable_step().lower, 0.0);  // no close estimate was needed
+  const double longest = simulation.step_limit_found().stable;
+  EXPECT_LE(longest, simulation.step_limit().stable);
+  json["step"] = longest / 4;
+  EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)), "at most 0.25 of the longest stable step");
+  json["step"] = 1.5 * longest;  // for which a close estimate is made, which is not made again
+  EXPECT_EQ(step_in_words(Simulation(parse(json)), parse(json)).find("at most"), std::string::npos);
+}
+
 // 1 / (2 pi 0.001 s) = 159.2 Hz
 TEST(SceneWarnings, SayWhatAnImplicitStepDoesNotResolve) {
   Json json = moving_box();
