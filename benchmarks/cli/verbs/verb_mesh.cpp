@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -211,12 +213,14 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
     const TouchingCells touching = split_touching_points(loaded.mesh);
     if (touching.any()) loaded.notices.push_back(to_string(touching, loaded.place_of_point));
     MapSummary summary;
+    // the facts of a large mesh take nearly as long as its map
+    std::future<MeshFacts> facts = std::async(std::launch::async, facts_of, std::cref(loaded.mesh));
     try {
       summary = summary_of(loaded.mesh);
     } catch (const InputError& error) {  // the mesh, not the command line, is at fault
       throw IoError(fmt::format("{}: {}", options->file, error.what()));
     }
-    const auto json = to_json(options->file, loaded, summary, facts_of(loaded.mesh), touching, hash);
+    const auto json = to_json(options->file, loaded, summary, facts.get(), touching, hash);
     if (!options->out.empty()) {
       const FolderClaim claim(options->out);
       Frame frame;
