@@ -136,7 +136,8 @@ class Springs {
  public:
   enum class As { columns, pieces };
 
-  Springs(const Mesh& mesh, As as) : body_(build_body<TetMap, Held::by_every_dart>(problem_of(mesh))) {
+  Springs(const Mesh& mesh, As as, double damping = 0.0)
+      : body_(build_body<TetMap, Held::by_every_dart>(problem_of(mesh, damping))) {
     view_.rebuild(body_);
     const VertexColumns& v = body_.vertices;
     system_ = {view_.ends, body_.springs, v.mass, v.inverse_mass, v.viscosity, v.fixed, {0, 0, -9.81}};
@@ -168,10 +169,10 @@ class Springs {
       f(PieceSpring{0, 1, spring.rest_length, spring.stiffness});
     }
   };
-  static Problem problem_of(const Mesh& mesh) {
+  static Problem problem_of(const Mesh& mesh, double damping) {
     Problem problem;
     problem.mesh = mesh;
-    problem.material = {.density = 1000.0, .stiffness = 3e4, .damping = 0.0, .viscosity = 0.0};
+    problem.material = {.density = 1000.0, .stiffness = 3e4, .damping = damping, .viscosity = 0.0};
     for (std::uint32_t k = 0; k < mesh.points.size(); ++k)
       if (mesh.points[k].x() == 0.0) problem.fixed.push_back(k);
     return problem;
@@ -221,7 +222,7 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 24> sections{{
+constexpr std::array<Section, 26> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
@@ -249,6 +250,9 @@ constexpr std::array<Section, 24> sections{{
     {"rk4-springs-in-lanes",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("rk4", 200, 1e-3, Added::in_lanes); }},
     {"rk4-springs-as-pieces", [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("rk4", 200, 1e-3); }},
+    {"verlet-dampers", [](Body& b) { return Springs(b.mesh, Springs::As::columns, 10.0).steps("verlet", 200, 1e-3); }},
+    {"verlet-dampers-in-lanes",
+     [](Body& b) { return Springs(b.mesh, Springs::As::columns, 10.0).steps("verlet", 200, 1e-3, Added::in_lanes); }},
     {"vertex-orbits-general", [](Body& b) { return vertex_orbits(b.general); }},
     {"vertex-orbits-tetrahedral", [](Body& b) { return vertex_orbits(b.tetrahedral); }},
 }};

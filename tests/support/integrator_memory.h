@@ -59,6 +59,7 @@ struct SystemCounts {
   bool damping = false, viscosity = false;
   bool damped_terms = false;
   bool springs_alone = false;
+  bool held_axes = false;
 };
 
 inline SystemCounts counts_of(const SpringSystem& system) {
@@ -68,7 +69,8 @@ inline SystemCounts counts_of(const SpringSystem& system) {
                       .damping = terms.damping,
                       .viscosity = terms.viscosity,
                       .damped_terms = has_damped_terms(system),
-                      .springs_alone = system.terms.empty()};
+                      .springs_alone = system.terms.empty(),
+                      .held_axes = !system.held_axes.empty()};
   for (const auto& [a, b] : system.ends) {
     if (a == b || (system.fixed[a] && system.fixed[b])) continue;
     ++(system.fixed[a] || system.fixed[b] ? counts.anchors : counts.links);
@@ -89,7 +91,9 @@ inline std::size_t predicted_integrator_bytes(std::string_view integrator, const
     if (columns.directions && c.damped_terms) bytes += c.vertices * vector;  // positions of vertices at rest
     if (columns.flow && damped) bytes += c.vertices * sizeof(double);        // inverse masses, 0 where fixed
     if (columns.flow && c.damping) bytes += c.springs * sizeof(double);      // relaxation of each spring
-    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);   // the remaining part of each velocity
+    const bool sweeps_padded = c.damping && c.springs > 0 && !c.held_axes && lanes_are_on();
+    if (columns.flow && sweeps_padded) bytes += c.vertices * sizeof(PaddedVector);  // velocities during sweeps
+    if (columns.flow && c.viscosity) bytes += c.vertices * sizeof(double);  // the remaining part of each velocity
     return bytes;
   }
   throw InputError(fmt::format("the memory of an integrator '{}' is not known", integrator));

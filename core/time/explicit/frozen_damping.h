@@ -3,10 +3,12 @@
 // the viscosities.
 
 #include <Eigen/Core>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/base/padded_vector.h"
 #include "core/forces/one_minus_exp.h"
 #include "core/time/system/accelerations.h"
 
@@ -20,7 +22,7 @@ namespace dartboard {
 class FrozenDamping {
  public:
   void forget() { flow_step_ = 0.0; }
-  std::size_t bytes() const { return bytes_of(along_, mobility_, impulse_, remains_, at_); }
+  std::size_t bytes() const { return bytes_of(along_, mobility_, impulse_, remains_, at_, padded_); }
 
   /// Take the directions of the springs from x, and keep x for force terms that are damped.
   void freeze(const SpringSystem& system, const Terms& terms, std::span<const Eigen::Vector3d> x);
@@ -42,7 +44,11 @@ class FrozenDamping {
   void prepare_flow(const SpringSystem& system, const Terms& terms, double h);
   auto relaxation(const SpringSystem& system, std::span<Eigen::Vector3d> v) const;
   auto relaxation_along_axes(const SpringSystem& system, double h, std::span<Eigen::Vector3d> v) const;
-  void relax_springs(const SpringSystem& system, double h, bool in_reverse, std::span<Eigen::Vector3d> v) const;
+  enum class Sweep { forwards, backwards };
+  void relax_springs(const SpringSystem& system, double h, std::initializer_list<Sweep> sweeps,
+                     std::span<Eigen::Vector3d> v);
+  /// pre  the processor has AVX2, no vertex is held along axes
+  void relax_in_padded_rows(const SpringSystem& system, Sweep sweep);
   void slow_down(std::span<Eigen::Vector3d> v) const;
   void relax_terms(const SpringSystem& system, double h, bool backwards, std::span<Eigen::Vector3d> v) const;
 
@@ -52,6 +58,7 @@ class FrozenDamping {
   std::vector<double> mobility_;        // inverse masses, zero where fixed
   std::vector<double> impulse_;         // of each spring per relative speed, (1 - exp(-c h / mu)) mu
   std::vector<double> remains_;         // of each vertex's velocity, exp(-viscosity h / m)
+  std::vector<PaddedVector> padded_;    // velocities during sweeps over springs, or empty
 };
 
 }  // namespace dartboard

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
+#include "core/base/lanes.h"
 #include "core/time/system/energy.h"
+#include "tests/support/bodies/net_of_springs.h"
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/spring_arrays_for_tests.h"
 
@@ -144,6 +147,37 @@ TEST(FrozenDamping, LeavesFixedVerticesAloneAndSpringsWithoutLength) {
   damping.freeze(arrays.system(), {.damping = true}, arrays.x);
   damping.decay_symmetric(arrays.system(), {.damping = true}, 1.0, arrays.v);
   EXPECT_EQ(arrays.v, before);
+}
+
+/// The velocities after both kinds of decay; `padded` is whether the processor does it in rows of four.
+std::vector<Vector3d> decayed(const SpringSystem& system, std::vector<Vector3d> v, std::span<const Vector3d> x,
+                              bool padded) {
+  const bool before = use_lanes(padded);
+  FrozenDamping damping;
+  const Terms terms = terms_of(system);
+  damping.freeze(system, terms, x);
+  damping.decay_symmetric(system, terms, 0.25, v);
+  damping.decay_once(system, terms, 0.5, v);
+  use_lanes(before);
+  return v;
+}
+
+// Sweeps take springs from eight distant places: counts below, at and above multiples of that, with vertices that are
+// fixed, springs without length, one whose ends are one vertex, and a speed that is not finite.
+TEST(FrozenDamping, LeavesTheSameBitsInPaddedRows) {
+  for (const std::uint32_t springs : {1u, 2u, 7u, 8u, 9u, 63u, 64u, 65u, 3001u})
+    for (const double speed : {1.0, std::numeric_limits<double>::infinity()}) {
+      Net net(100, springs);
+      net.ends[springs / 2] = {5, 5};
+      net.v[5] = {-0.0, 0.0, -0.0};
+      net.v[7].y() = speed;
+      net.held.clear();
+      const SpringSystem system = net.system(net.damped);
+      const auto padded = decayed(system, net.v, net.x, true), plain = decayed(system, net.v, net.x, false);
+      EXPECT_EQ(std::memcmp(padded.data(), plain.data(), sizeof(Vector3d) * plain.size()), 0)
+          << springs << ' ' << speed;
+      EXPECT_NE(std::memcmp(padded.data(), net.v.data(), sizeof(Vector3d) * plain.size()), 0);
+    }
 }
 
 }  // namespace
