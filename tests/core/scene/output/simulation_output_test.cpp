@@ -117,16 +117,14 @@ TEST(WriteVtu, PutsEveryColumnThatIsAskedForUnderItsName) {
   const std::string vtu = to_vtu(frame),
                     points = vtu.substr(vtu.find("<PointData"), vtu.find("</PointData") - vtu.find("<PointData"));
   EXPECT_EQ(column<std::uint8_t>(points, "held", "UInt8"), frame.held);
-  std::vector<double> principal, magnitude, von_mises;
-  for (const Eigen::Matrix3d& stress : frame.stress) {
-    const StressMeasures measures = measures_of(stress);
-    principal.push_back(measures.largest_principal);
-    magnitude.push_back(measures.largest_magnitude);
-    von_mises.push_back(measures.von_mises);
-  }
-  EXPECT_EQ(column<double>(points, "largest_principal_stress", "Float64"), principal);
-  EXPECT_EQ(column<double>(points, "largest_stress_magnitude", "Float64"), magnitude);
-  EXPECT_EQ(column<double>(points, "von_mises_stress", "Float64"), von_mises);
+  const auto expect_measure = [&](const char* name, double StressMeasures::*measure) {
+    std::vector<double> expected;
+    for (const Eigen::Matrix3d& stress : frame.stress) expected.push_back(measures_of(stress).*measure);
+    EXPECT_EQ(column<double>(points, name, "Float64"), expected);
+  };
+  expect_measure("largest_principal_stress", &StressMeasures::largest_principal);
+  expect_measure("largest_stress_magnitude", &StressMeasures::largest_magnitude);
+  expect_measure("von_mises_stress", &StressMeasures::von_mises);
   EXPECT_EQ(column<double>(points, "displacement", "Float64"), flat(frame.displacement));
   EXPECT_EQ(column<double>(points, "contact_force", "Float64"), flat(frame.contact_force));
   EXPECT_EQ(column<double>(points, "contact_depth", "Float64"), frame.contact_depth);
