@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Do runs end in the same bits whatever compiler and flags the program was built with?
 
-Builds `state_hashes` once for each row of a table, in folders of its own, runs it twice, and compares its output
-with the pinned hashes. Writes determinism.md and determinism.json. Builds are kept in the work folder, so that an
-interrupted table is continued. Some 25 minutes of one core with two compilers.
+Builds `state_hashes` once for each row of a table, in folders of its own, runs it twice, then with more threads and
+one number at a time, and compares its output with the pinned hashes. Writes determinism.md and determinism.json.
+Builds are kept in the work folder, so that an interrupted table is continued. Some 25 minutes of one core with two
+compilers.
 """
 
 import argparse
@@ -34,6 +35,10 @@ ROWS_OF = {
     "g++": [("wide-eigen", NATIVE + " -ffp-contract=off -fno-tree-slp-vectorize", False, False),
             ("slp", NATIVE + " -ffp-contract=off" + SSE, False, False)],
 }
+# other ways to run what a row has built
+MANNERS = {"2 threads": ["--threads", "2"], "4 threads": ["--threads", "4"],
+           "one number at a time": ["--one-by-one"],
+           "one number at a time, 4 threads": ["--one-by-one", "--threads", "4"]}
 
 
 def output(command, **options):
@@ -113,9 +118,12 @@ def main():
             program = build(options, compiler, row)
             first, pinned = hashes(program)
             again, _ = hashes(program)
+            others = {manner: hashes(program, *arguments)[0] for manner, arguments in MANNERS.items()}
+            differing = sorted(manner for manner, other in others.items() if other != first)
             rows.append({"compiler": version, "name": name, "flags": flags, "protected": protected,
-                         "sanitized": sanitized, "equals_pinned": pinned, "repeats": first == again, "hashes": first})
-            right = right and first == again and (pinned or not protected)
+                         "sanitized": sanitized, "equals_pinned": pinned, "repeats": first == again,
+                         "manners_that_differ": differing, "hashes": first})
+            right = right and first == again and (pinned and not differing or not protected)
             print(f"{version}, {name}: {'equal' if pinned else 'DIFFERS'}", flush=True)
             if blas is None and protected:
                 # Runs without a supernodal factor must not depend on the kernels that the BLAS has chosen.
@@ -131,14 +139,18 @@ def main():
     reference = next((row["hashes"] for row in rows if row["equals_pinned"]), rows[0]["hashes"])
     lines = ["# Equal bits, by compiler and flags", "",
              f"{len(reference)} runs in each row, all of them twice; {about['cpu']}, {about['libc']}.", "",
-             "| compiler | flags | protective flags | runs that end in the pinned bits | repeats |", "|---|---|---|---:|---|"]
+             "| compiler | flags | protective flags | runs that end in the pinned bits | repeats "
+             f"| {' | '.join(MANNERS)} |", "|---|---|---|---:|---|" + len(MANNERS) * "---|"]
     for row in rows:
         equal = sum(row["hashes"].get(run) == value for run, value in reference.items())
         guard = "yes" if row["protected"] else "no"
         flags = row["flags"] + (" -fsanitize=address,undefined" if row["sanitized"] else "")
+        same = ["other bits" if manner in row["manners_that_differ"] else "same bits" for manner in MANNERS]
         lines.append(f"| {row['compiler']} | `{flags}` | {guard} | {equal} of {len(reference)} | "
-                     f"{'yes' if row['repeats'] else 'NO'} |")
-    lines += ["", "Protective flags: `-ffp-contract=off`, with GCC `-fno-tree-slp-vectorize`, and where the target has AVX or "
+                     f"{'yes' if row['repeats'] else 'NO'} | {' | '.join(same)} |")
+    lines += ["", "The first columns are of one thread, which takes four numbers at a time where the processor has AVX2. Several "
+              "threads share bodies that are large enough, here one of 48,000 tetrahedra.", "",
+              "Protective flags: `-ffp-contract=off`, with GCC `-fno-tree-slp-vectorize`, and where the target has AVX or "
               f"FMA `{SSE.strip()}` (`core/cmake/DartboardOptions.cmake` says why). Rows without them, or with some of "
               "them only, show what they are for.", ""]
     if blas:
@@ -147,8 +159,8 @@ def main():
                   f"{says[blas['simplicial_sees_kernels']]}, a run with a supernodal factor in "
                   f"{says[blas['supernodal_sees_kernels']]}.", ""]
     lines += ["Not covered: other processors than this one, other C libraries (step-size control and `stable_step` call "
-              "`pow` and `log`), supernodal factors, whose bits are those of the BLAS and its kernels. Nothing runs in "
-              "threads.", "", "| run | hash |", "|---|---|"]
+              "`pow` and `log`), supernodal factors, whose bits are those of the BLAS and its kernels.",
+              "", "| run | hash |", "|---|---|"]
     lines += [f"| {run} | `{value}` |" for run, value in reference.items()]
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "determinism.md").write_text("\n".join(lines) + "\n")

@@ -6,6 +6,8 @@
 #include <ostream>
 #include <string>
 
+#include "core/base/lanes.h"
+#include "core/base/thread_team.h"
 #include "tests/determinism/state_hashes.h"
 
 namespace dartboard {
@@ -20,6 +22,14 @@ TEST_P(StateHash, IsThePinnedOneAndThatOfARepeatedRun) {
   const std::uint64_t hash = GetParam().run();
   EXPECT_EQ(hash, GetParam().pinned) << std::hex << hash;
   EXPECT_EQ(GetParam().run(), hash);
+}
+
+TEST_P(StateHash, IsThatOfOneNumberAtATimeByThreeThreads) {
+  const bool lanes = use_lanes(false);
+  const unsigned threads = use_threads(3);
+  EXPECT_EQ(GetParam().run(), GetParam().pinned);
+  use_threads(threads);
+  use_lanes(lanes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, StateHash, testing::ValuesIn(hashed_runs().begin(), hashed_runs().end()),

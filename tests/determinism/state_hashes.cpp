@@ -142,6 +142,15 @@ std::uint64_t adaptive_run() {
   return moving.end();
 }
 
+// As many springs as several threads share.
+std::uint64_t cut_when_large() {
+  Moving<TetMap> moving(turning(kuhn_box(20, 20, 20, 0.05, 0.2, 11)), make_integrator("rk4"));
+  moving.steps(3, 5e-4);
+  moving.cut({0.5, 0.5, 0.499}, {0.3, 1.0, 0.2});
+  moving.steps(3, 5e-4);
+  return moving.end();
+}
+
 // A bar that hangs from its end tears under its weight where the stress is high enough, and is measured meanwhile.
 template <class Map>
 std::uint64_t torn_by_weight() {
@@ -260,6 +269,7 @@ std::vector<HashedRun> make_runs() {
          return cut_mesh<Map3>(mixed_box(4, 3, 3, 0.05), {0.101, 0.07, 0.07});
        },
        0x644896b6b86aae33},
+      {"cut when large enough for several threads", cut_when_large, 0xc3631428d56e31e7},
       {"adaptive steps", adaptive_run, 0x84005c95b8ab4cac},
       {"backward-euler", implicit_run<BackwardEuler>, 0x61a3a5b08c7b9ce0},
       {"baraff-witkin", implicit_run<BaraffWitkin>, 0x4c6b11ead002c00d},
