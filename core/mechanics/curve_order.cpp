@@ -3,9 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "core/base/share_jobs.h"
 
 namespace dartboard {
 namespace {
@@ -44,6 +47,11 @@ std::uint64_t place_on_curve(std::array<std::uint32_t, 3> x) {
   return spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2]);
 }
 
+template <class Row>
+typename std::vector<Row>::iterator at(std::vector<Row>& rows, std::size_t k) {
+  return rows.begin() + static_cast<std::ptrdiff_t>(k);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> order_of_mesh(const Mesh& mesh) {
@@ -80,19 +88,24 @@ std::vector<std::uint32_t> order_along_curve(const Mesh& mesh) {
     if (x.allFinite()) box.extend(x);
   const double size = box.sizes().maxCoeff();
   if (!(size > 0.0 && size < std::numeric_limits<double>::max())) return {};
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
-  places.reserve(mesh.cell_count());
-  for (const std::uint32_t c : order) {
-    Eigen::Vector3d middle(0, 0, 0);
-    for (const std::uint32_t p : mesh.cell(c)) middle += mesh.points[p] / static_cast<double>(mesh.cell(c).size());
-    std::array<std::uint32_t, 3> x{};
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const double part = std::clamp((middle[k] - box.min()[k]) / size, 0.0, 1.0);  // 0 for NaN
-      x[static_cast<std::size_t>(k)] = part > 0.0 ? static_cast<std::uint32_t>(part * ((1u << bits) - 1)) : 0u;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places(mesh.cell_count());
+  const auto sort_part = [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      Eigen::Vector3d middle(0, 0, 0);
+      for (const std::uint32_t p : mesh.cell(c)) middle += mesh.points[p] / static_cast<double>(mesh.cell(c).size());
+      std::array<std::uint32_t, 3> x{};
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const double part = std::clamp((middle[k] - box.min()[k]) / size, 0.0, 1.0);  // 0 for NaN
+        x[static_cast<std::size_t>(k)] = part > 0.0 ? static_cast<std::uint32_t>(part * ((1u << bits) - 1)) : 0u;
+      }
+      places[c] = {place_on_curve(x), static_cast<std::uint32_t>(c)};
     }
-    places.emplace_back(place_on_curve(x), c);
-  }
-  std::ranges::sort(places);
+    std::sort(at(places, first), at(places, last));
+  };
+  const std::size_t half = places.size() / 2;
+  const std::function<void()> jobs[]{[&] { sort_part(0, half); }, [&] { sort_part(half, places.size()); }};
+  share_jobs(places.size(), jobs);
+  std::inplace_merge(places.begin(), at(places, half), places.end());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = places[k].second;
   if (2 * count_wide_cells(mesh, order) >= as_given) return {};
   return order;

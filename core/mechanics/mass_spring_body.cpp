@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <utility>
 
+#include "core/base/share_jobs.h"
 #include "core/elements/membrane_law.h"
 #include "core/mechanics/element_nodes.h"
 #include "core/plain/error.h"
@@ -191,19 +193,46 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
     });
   }
 
-  for_each_cell_with_places<0>(map, [&](Vertex v, std::span<const Dart> places) {
-    VertexColumns& columns = body.vertices;
-    const std::uint32_t p = point_of(v.dart);
-    attach(body.vertex, v, places, columns.size());
-    add_element(columns, VertexColumns::embedded(), columns.size());
-    body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(places));
-    columns.position.back() = mesh.points[p];
-    columns.velocity.back().setZero();
-    if (!problem.initial_velocity.empty()) columns.velocity.back() = problem.initial_velocity[p];
-    columns.force.back().setZero();
-    columns.point.back() = p;
-    columns.dart.push_back(v.dart);
-  });
+  const auto add_vertices = [&](Mark& seen) {
+    for_each_cell_with_places<0>(map, seen, [&](Vertex v, std::span<const Dart> places) {
+      VertexColumns& columns = body.vertices;
+      const std::uint32_t p = point_of(v.dart);
+      attach(body.vertex, v, places, columns.size());
+      add_element(columns, VertexColumns::embedded(), columns.size());
+      body.set_mass(static_cast<std::uint32_t>(columns.size() - 1), body.mass_of(places));
+      columns.position.back() = mesh.points[p];
+      columns.velocity.back().setZero();
+      if (!problem.initial_velocity.empty()) columns.velocity.back() = problem.initial_velocity[p];
+      columns.force.back().setZero();
+      columns.point.back() = p;
+      columns.dart.push_back(v.dart);
+    });
+  };
+  const auto add_springs = [&](Mark& seen) {
+    for_each_cell_with_places<1>(map, seen, [&](Edge e, std::span<const Dart> places) {
+      const double length =
+          (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
+      attach(body.edge, e, places, body.springs.size());
+      body.springs.push_back(body.spring_of(places, length));
+      body.edge_dart.push_back(e.dart);
+    });
+  };
+  const auto add_faces = [&]([[maybe_unused]] Mark& seen) {
+    if constexpr (Map::dimension == 3)
+      for_each_cell_with_places<2>(map, seen, [&](Face f, std::span<const Dart> places) {
+        attach(body.face, f, places, body.face_dart.size());
+        body.face_dart.push_back(f.dart);
+      });
+  };
+  {
+    // operations take three marks at once: with their memory here the bytes of the body are those that it comes to
+    Mark of_vertices(map), of_edges(map), of_faces(map);
+    // where one dart holds an embedding, to attach it is a walk with a mark of its own
+    const std::size_t shared_cells = held == Held::by_every_dart ? mesh.cell_count() : 0;
+    const std::function<void()> jobs[]{[&] { add_springs(of_edges); }, [&] { add_vertices(of_vertices); },
+                                       [&] { add_faces(of_faces); }};
+    share_jobs(shared_cells, jobs);
+  }
   const bool all_tetrahedra =
       std::ranges::all_of(mesh.kinds, [](CellKind kind) { return kind == CellKind::tetrahedron; });
   if constexpr (Map::dimension == 3 && held == Held::by_every_dart)
@@ -231,19 +260,6 @@ MassSpringBody<Map, held> build_body(const Problem& problem) {
   }
   body.vertices.hold(problem.held_axes);
 
-  for_each_cell_with_places<1>(map, [&](Edge e, std::span<const Dart> places) {
-    const double length = (mesh.points[point_of(map.template alpha<0>(e.dart))] - mesh.points[point_of(e.dart)]).norm();
-    attach(body.edge, e, places, body.springs.size());
-    body.springs.push_back(body.spring_of(places, length));
-    body.edge_dart.push_back(e.dart);
-  });
-  if constexpr (Map::dimension == 3)
-    for_each_cell_with_places<2>(map, [&](Face f, std::span<const Dart> places) {
-      attach(body.face, f, places, body.face_dart.size());
-      body.face_dart.push_back(f.dart);
-    });
-  // operations take three marks at once: with their memory here the bytes of the body are those that it comes to
-  { const Mark of_coverage(map), of_cell(map), of_cells_around(map); }
   return body;
 }
 

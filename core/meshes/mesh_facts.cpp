@@ -226,6 +226,7 @@ MeshFacts facts_of(const Mesh& mesh) {
     if (*least < flat_below_degrees) facts.flat.push_back(static_cast<std::uint32_t>(c));
     if (const auto ratio = radius_ratio(mesh, c, normals)) keep_less(facts.least_radius_ratio, *ratio, c);
   }
+  facts.edges = lengths.size();
   if (!lengths.empty()) {
     const auto [least, largest] = std::minmax_element(lengths.begin(), lengths.end());
     facts.least_edge = *least;

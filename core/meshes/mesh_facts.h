@@ -20,6 +20,7 @@ struct OfCell {
 
 struct MeshFacts {
   Eigen::Vector3d low{0, 0, 0}, high{0, 0, 0};                     // [m] corners of the bounding box
+  std::size_t edges = 0;                                           // pairs of points
   double least_edge = 0.0, median_edge = 0.0, largest_edge = 0.0;  // [m]
   double measure = 0.0;                                            // [m^3], of a surface [m^2]: that of all cells
   /// [degrees] between two faces of a volume, along an edge; in a polygon at a corner.

@@ -11,10 +11,12 @@ namespace dartboard {
 /// Call f(cell, places) once for each i-cell, by its dart of lowest number and in ascending order, with one dart for
 /// every place `slot<i>` of it (for_each_place_of), that of the cell's first.
 ///
+/// `seen` is a mark of the caller, so that several threads can walk the map at once, each with its own.
+///
+/// pre     nothing is marked
 /// cost    one walk of the map: to label all cells by `for_each_cell` takes two
 template <int i, class Map, class F>
-void for_each_cell_with_places(const Map& map, F&& f) {
-  Mark seen(map);
+void for_each_cell_with_places(const Map& map, Mark& seen, F&& f) {
   std::vector<Dart> places;
   const auto cover = [&](Dart d) {
     places.clear();
@@ -32,6 +34,12 @@ void for_each_cell_with_places(const Map& map, F&& f) {
   } else {
     map.for_each_dart(cover);
   }
+}
+
+template <int i, class Map, class F>
+void for_each_cell_with_places(const Map& map, F&& f) {
+  Mark seen(map);
+  for_each_cell_with_places<i>(map, seen, f);
 }
 
 }  // namespace dartboard

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/disjoint_sets.h"
 #include "core/topology/facets.h"
 
 namespace dartboard {
@@ -257,11 +258,16 @@ void ComponentLabels::part(std::uint32_t largest, ComponentChange& report) {
 template <class Map>
 void ComponentLabels::rebuild(const Body<Map>& body) {
   clear();
-  name_.assign(body.cell_dart.size(), none);
-  for (std::uint32_t cell = 0; cell < name_.size(); ++cell) {
-    if (name_[cell] != none) continue;
-    set_name(cell, new_component());
-    spread(body, cell);
+  const auto cells = static_cast<std::uint32_t>(body.cell_dart.size());
+  name_.assign(cells, none);
+  DisjointSets sets(cells);
+  for (std::uint32_t cell = 0; cell < cells; ++cell)
+    for_each_neighbour(body, cell, [&sets, cell](std::uint32_t other) {
+      if (other < cell) sets.join(other, cell);
+    });
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    const std::uint32_t lowest = sets.set_of(cell);
+    set_name(cell, lowest == cell ? new_component() : name_[lowest]);
   }
 }
 

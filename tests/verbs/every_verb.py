@@ -49,6 +49,7 @@ RUNS = {
     "bench topology": [(["--quick", "--json", "--only", "liver564", "--out", "OUT"], MAY_BE_SLOW)],
     "bench operations": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench contact": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
+    "bench large": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench step": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "simulate": [(["sheet_cut", "--quick", "--picture", "--out", "OUT"], AGREES),
                  (["liver_cut", "--quick", "--json"], AGREES)],

@@ -10,6 +10,7 @@ void add_bench(CLI::App& app, Outcome& outcome) {
   add_bench_operations(*bench, app, outcome);
   add_bench_contact(*bench, app, outcome);
   add_bench_step(*bench, app, outcome);
+  add_bench_large(*bench, app, outcome);
 }
 
 }  // namespace dartboard

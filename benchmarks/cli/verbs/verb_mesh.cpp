@@ -33,6 +33,37 @@ MapSummary summary_of(const Mesh& mesh) {
                                                          : summarize(build_map<Map3>(mesh).map);
 }
 
+struct Examined {
+  MapSummary summary;
+  MeshFacts facts;
+  TouchingCells touching;
+};
+
+void build_and_measure(const std::string& file, const Mesh& mesh, Examined& e) {
+  // the facts of a large mesh take nearly as long as its map
+  std::future<MeshFacts> facts = std::async(std::launch::async, facts_of, std::cref(mesh));
+  try {
+    e.summary = summary_of(mesh);
+  } catch (const InputError& error) {  // the mesh, not the command line, is at fault
+    throw IoError(fmt::format("{}: {}", file, error.what()));
+  }
+  e.facts = facts.get();
+}
+
+/// Examines a mesh, which then has a point for each vertex of its map. Only where the map has more vertices than the
+/// mesh has points, or more edges than these have, do cells touch without sharing a face.
+Examined examine(const std::string& file, LoadedMesh& loaded) {
+  Examined e;
+  build_and_measure(file, loaded.mesh, e);
+  const bool may_touch =
+      loaded.crossed.any() || e.summary.cells[0] != loaded.mesh.points.size() || e.summary.cells[1] != e.facts.edges;
+  if (!may_touch) return e;
+  e.touching = split_touching_points(loaded.mesh);
+  if (e.touching.any()) loaded.notices.push_back(to_string(e.touching, loaded.place_of_point));
+  if (!e.touching.copied.empty()) build_and_measure(file, loaded.mesh, e);
+  return e;
+}
+
 using Cells = std::vector<std::uint32_t>;
 constexpr std::size_t most_values = 50;  // listed of one column: numbers of cells would be as many as these
 
@@ -210,17 +241,8 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
     if (options->formats) return;  // refused by the verb
     LoadedMesh loaded = read_mesh(options->file, {.weld = options->weld, .keep_crossed = true});
     const std::string hash = hash_of(loaded.mesh);
-    const TouchingCells touching = split_touching_points(loaded.mesh);
-    if (touching.any()) loaded.notices.push_back(to_string(touching, loaded.place_of_point));
-    MapSummary summary;
-    // the facts of a large mesh take nearly as long as its map
-    std::future<MeshFacts> facts = std::async(std::launch::async, facts_of, std::cref(loaded.mesh));
-    try {
-      summary = summary_of(loaded.mesh);
-    } catch (const InputError& error) {  // the mesh, not the command line, is at fault
-      throw IoError(fmt::format("{}: {}", options->file, error.what()));
-    }
-    const auto json = to_json(options->file, loaded, summary, facts.get(), touching, hash);
+    const auto [summary, facts, touching] = examine(options->file, loaded);
+    const auto json = to_json(options->file, loaded, summary, facts, touching, hash);
     if (!options->out.empty()) {
       const FolderClaim claim(options->out);
       Frame frame;

@@ -35,5 +35,6 @@ void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_contact(CLI::App& bench, CLI::App& app, Outcome& outcome);
 void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome);
+void add_bench_large(CLI::App& bench, CLI::App& app, Outcome& outcome);
 
 }  // namespace dartboard

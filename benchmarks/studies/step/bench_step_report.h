@@ -30,9 +30,9 @@ struct StepCosts {
   /// The least time of a spring and evaluation [ns]: of its square root and division, and of its bytes at the speed at
   /// which columns as large are copied.
   double in_core_ns(const std::string& body) const;
-  double bandwidth_ns(const std::string& body) const;
-  /// [GB/s] read and written.
-  double copied_per_second(const std::string& body) const;
+  double bandwidth_ns(const std::string& body, const char* task = step_task::copy) const;
+  /// [GB/s] read and written, by one thread or by all that share the body.
+  double copied_per_second(const std::string& body, const char* task = step_task::copy) const;
   double bytes_of_spring(const std::string& body) const;
   /// Bodies whose columns are left in several states by the ways to step them.
   std::size_t count_bodies_that_differ() const;

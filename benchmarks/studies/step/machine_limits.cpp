@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/base/thread_team.h"
 #include "core/topology/storage/hash.h"
 
 #if defined(__x86_64__)
@@ -25,7 +26,7 @@ __attribute__((target("avx2"))) void roots_in_lanes(const double* square, double
 }
 #endif
 
-void scale(double factor, const std::vector<double>& from, std::vector<double>& to) {
+void scale(double factor, std::span<const double> from, std::span<double> to) {
   const double* const read = from.data();
   double* const written = to.data();
   // a product, so that no library copies past the caches
@@ -57,7 +58,7 @@ std::uint64_t RootsAndQuotients::hash() const {
 }
 
 CopiedColumns::CopiedColumns(std::size_t bytes)
-    : first_(bytes / (2 * sizeof(double)), 1.0), second_(first_.size(), 1.0) {}
+    : first_(bytes / (2 * sizeof(double)), 1.0), second_(first_.size(), 0.0) {}
 
 void CopiedColumns::run(int passes) {
   for (int k = 0; k < passes; k += 2) {
@@ -66,9 +67,21 @@ void CopiedColumns::run(int passes) {
   }
 }
 
+void CopiedColumns::run_by_threads(int passes) {
+  ThreadTeam& team = thread_team();
+  const std::size_t threads = team.size(), size = first_.size();
+  for (int k = 0; k < passes; ++k)
+    team.run([&](unsigned thread) {
+      const std::size_t from = size * thread / threads, count = size * (thread + 1) / threads - from;
+      const auto one = std::span(first_).subspan(from, count), other = std::span(second_).subspan(from, count);
+      k % 2 == 0 ? scale(2.0, one, other) : scale(0.5, other, one);
+    });
+}
+
 std::uint64_t CopiedColumns::hash() const {
   Hash hash;
   hash.add(first_);
+  hash.add(second_);
   return hash.value();
 }
 

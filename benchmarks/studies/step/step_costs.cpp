@@ -142,6 +142,9 @@ void measure_body(const Stepped& body, const PairedOptions& options, const std::
   const auto copied = std::make_shared<CopiedColumns>(body.copied());
   tasks.push_back({counts.body + step_task::copy, [] {}, [copied, n = body.passes()] { copied->run(n); },
                    [copied] { return copied->hash(); }});
+  if (counts.threads > 1)
+    tasks.push_back({counts.body + step_task::copy_by_threads, [n = counts.threads] { use_threads(n); },
+                     [copied, n = body.passes()] { copied->run_by_threads(n); }, [copied] { return copied->hash(); }});
   const auto roots = std::make_shared<RootsAndQuotients>();
   tasks.push_back({counts.body + step_task::roots, [] {}, [roots] { roots->run(roots_in_sample); },
                    [roots] { return roots->hash(); }});

@@ -23,7 +23,7 @@ struct StepCounts {
   unsigned threads = 1;       // that share the forces of the body; 1 where it is too small for several, or there is one
   bool arrays = false;        // cell arrays are timed
   double bytes = 0.0;         // read and written in one evaluation, that of the vertices included
-  double copied_bytes = 0.0;  // read and written in a sample of the task "copy"
+  double copied_bytes = 0.0;  // read and written in a sample of a task that copies
   double roots = 0.0;         // springs in a sample of the task "roots"
   std::size_t differing = 0;  // contenders that end in other bits, or are too far from the graph
 };
@@ -34,8 +34,9 @@ void from_json(const nlohmann::json& json, StepCounts& counts);
 namespace step_task {
 inline constexpr const char *graph = ": graph", *arrays = ": arrays", *one = ": one", *lanes = ": lanes",
                             *padded = ": padded", *threads = ": threads";
-/// The limits: columns as large as those of the body, copied; a square root and a division for each spring.
-inline constexpr const char *copy = ": copy", *roots = ": roots";
+/// The limits: columns as large as those of the body, copied by one thread, or by as many as share the body; a square
+/// root and a division for each spring.
+inline constexpr const char *copy = ": copy", *copy_by_threads = ": copy by threads", *roots = ": roots";
 }  // namespace step_task
 
 struct StepCostPlan {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 
+#include "core/mechanics/element_nodes.h"
 #include "core/places/border.h"
 #include "core/plain/error.h"
 #include "core/topology/cells.h"
@@ -21,16 +22,26 @@ using Numbers = boost::container::small_vector<std::uint32_t, 48>;
 template <class Map, class F>
 void for_each_interior_facet(const Map& map, F&& f) {
   constexpr int n = Map::dimension;
-  for_each_cell<n - 1>(map, [&](Cell<n - 1> facet) {
-    if (!map.template is_free<n>(facet.dart)) f(facet.dart);
-  });
+  if constexpr (Map::tetrahedral) {  // six darts to a face, which the lower of two tetrahedra reports
+    const auto end = static_cast<std::uint32_t>(map.capacity());
+    for (Dart d{0}; d.index < end; d.index += 6)
+      if (map.is_live(d) && map.template alpha<n>(d).index / 6 > d.index / 6) f(d);
+  } else {
+    for_each_cell<n - 1>(map, [&](Cell<n - 1> facet) {
+      if (!map.template is_free<n>(facet.dart)) f(facet.dart);
+    });
+  }
 }
 
 /// The numbers of the vertices of a cell, ascending, so that the order of the walk has no effect.
 template <int i, class Map>
 Numbers vertices_of(const Body<Map>& body, Cell<i> cell) {
   Numbers numbers;
-  for_each_dart_of(body.map, cell, [&body, &numbers](Dart d) { numbers.push_back(body.vertex(body.map, d)); });
+  const auto add = [&body, &numbers](Dart d) { numbers.push_back(body.vertex(body.map, d)); };
+  if constexpr (Map::tetrahedral && i == 3)
+    for (const Dart d : corners_from(body.map, cell.dart)) add(d);
+  else
+    for_each_dart_of(body.map, cell, add);
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;

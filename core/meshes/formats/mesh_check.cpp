@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <future>
 #include <limits>
 #include <optional>
 #include <span>
@@ -17,6 +18,8 @@
 
 namespace dartboard {
 namespace {
+
+constexpr std::size_t worth_a_thread = 20'000;  // cells
 
 /// A mesh under examination, and the words for its cells in messages.
 struct Examined {
@@ -124,8 +127,9 @@ void refuse_third(const Examined& e, const std::optional<Repeated<N>>& found, st
          fmt::format("at most two {} at every {}", whole, part));
 }
 
-void check_faces(const Examined& e) {
-  const auto for_each_face = [&mesh = e.mesh](auto&& f) {
+/// The first face of three volumes.
+std::optional<Repeated<4>> find_third_at_face(const Mesh& mesh) {
+  return find_repeated<4>(mesh, 3, [&mesh](auto&& f) {
     std::array<std::uint32_t, 4> points{};
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
       const auto nodes = mesh.cell(c);
@@ -134,18 +138,17 @@ void check_faces(const Examined& e) {
         f(std::span(points).first(face.size()), c);
       }
     }
-  };
-  refuse_third(e, find_repeated<4>(e.mesh, 3, for_each_face), "face", "volumes");
+  });
 }
 
-void check_edges(const Examined& e) {
-  const auto for_each_edge = [&mesh = e.mesh](auto&& f) {
+/// The first edge of three polygons.
+std::optional<Repeated<2>> find_third_at_edge(const Mesh& mesh) {
+  return find_repeated<2>(mesh, 3, [&mesh](auto&& f) {
     for (std::uint32_t c = 0; c < mesh.cell_count(); ++c) {
       const auto nodes = mesh.cell(c);
       for (std::size_t k = 0; k < nodes.size(); ++k) f(std::array{nodes[k], nodes[(k + 1) % nodes.size()]}, c);
     }
-  };
-  refuse_third(e, find_repeated<2>(e.mesh, 3, for_each_edge), "edge", "polygons");
+  });
 }
 
 // --- geometry
@@ -194,7 +197,7 @@ void mirror(Mesh& mesh, std::size_t c) {
 /// 90 u L^3 = 1e-14 L^3. Slivers that can still be simulated lie far above.
 double solid_measure(const Examined& e, std::size_t c) {
   const double longest = longest_edge(e.mesh, c);
-  const double unit = std::pow(longest, dimension(e.mesh.kinds[c]));
+  const double unit = longest * longest * (dimension(e.mesh.kinds[c]) == 3 ? longest : 1.0);
   const double measure = signed_measure(e.mesh, c);
   if (!std::isfinite(unit) || !std::isfinite(measure))
     e.fail(c, fmt::format("has edges of up to {:.3g}, too long to measure it", longest), "a body of finite size");
@@ -205,20 +208,25 @@ double solid_measure(const Examined& e, std::size_t c) {
   return measure;
 }
 
-void check_measures(Examined& e) {
-  std::size_t inverted = 0, first = 0;
-  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c) {
-    if (std::ranges::binary_search(e.loaded.crossed.cells, c)) continue;
-    if (solid_measure(e, c) > 0.0) continue;
+/// The cells whose nodes are in the order of the mirror image; no cell is changed.
+std::vector<std::size_t> find_inverted(const Examined& e) {
+  std::vector<std::size_t> inverted;
+  for (std::size_t c = 0; c < e.mesh.cell_count(); ++c)
+    if (!std::ranges::binary_search(e.loaded.crossed.cells, c) && !(solid_measure(e, c) > 0.0)) inverted.push_back(c);
+  return inverted;
+}
+
+void reorder(Examined& e, std::span<const std::size_t> inverted) {
+  for (const std::size_t c : inverted) {
     mirror(e.mesh, c);
     if (const double measure = signed_measure(e.mesh, c); !(measure > 0.0))
       e.fail(c, fmt::format("has the volume {:.3g} in either order of its nodes", measure), "a positive volume");
-    if (inverted++ == 0) first = c;
   }
-  if (inverted == 0) return;
+  if (inverted.empty()) return;
+  const std::size_t first = inverted.front();
   const std::string place = e.line(first) == 0 ? "" : fmt::format(" in line {}", e.line(first));
-  e.loaded.notices.push_back(fmt::format("reordered the nodes of {} inverted cell{}, the first of them {}{}", inverted,
-                                         inverted == 1 ? "" : "s", e.cell(first), place));
+  e.loaded.notices.push_back(fmt::format("reordered the nodes of {} inverted cell{}, the first of them {}{}",
+                                         inverted.size(), inverted.size() == 1 ? "" : "s", e.cell(first), place));
 }
 
 /// Volumes that cross themselves are as much right-handed as left-handed: they stay unchanged.
@@ -237,11 +245,20 @@ void check_and_repair(LoadedMesh& loaded, const std::string& file, std::span<con
   check_layout(e);
   check_points(e);
   check_nodes(e);
+  // Another thread looks up the faces of a large mesh, which are refused after crossed cells, as these have wrong ones;
+  // then it looks for seams.
+  const bool solid = loaded.mesh.dimension() == 3;
+  const auto when = loaded.mesh.cell_count() < worth_a_thread ? std::launch::deferred : std::launch::async;
+  auto third_at_face = std::async(when, [&] { return solid ? find_third_at_face(e.mesh) : std::nullopt; });
   check_repeated_cells(e);
-  check_crossed(e, keep_crossed);  // before faces: crossed cells have wrong faces
-  loaded.mesh.dimension() == 3 ? check_faces(e) : check_edges(e);
-  check_measures(e);
-  if (std::string notice = open_seams(loaded); !notice.empty()) loaded.notices.push_back(std::move(notice));
+  check_crossed(e, keep_crossed);
+  refuse_third(e, third_at_face.get(), "face", "volumes");
+  if (!solid) refuse_third(e, find_third_at_edge(e.mesh), "edge", "polygons");
+  auto seams = std::async(when, [&] { return open_seams(loaded); });
+  const std::vector<std::size_t> inverted = find_inverted(e);
+  std::string notice = seams.get();
+  reorder(e, inverted);
+  if (!notice.empty()) loaded.notices.push_back(std::move(notice));
 }
 
 }  // namespace dartboard

@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/base/bytes.h"
 #include "core/base/disjoint_sets.h"
+#include "core/base/share_jobs.h"
 #include "core/mechanics/add_cell_springs.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/error.h"
@@ -98,11 +100,17 @@ template <class Map>
 void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Mesh& mesh, const BodyNeeds& needs) {
   add_cell_springs(body, mesh, needs.diagonals);
   SpringEndsView ends;
-  ends.rebuild(body);
   ComponentLabels components;
-  components.rebuild(body);
   BoundarySurface boundary;
-  boundary.rebuild(body);
+  VolumeRoom room;
+  // labels of components look at tetrahedra without marks
+  const std::function<void()> jobs[]{[&] { components.rebuild(body); },
+                                     [&] {
+                                       ends.rebuild(body);
+                                       boundary.rebuild(body);
+                                       vertex_volumes(body, {}, room);
+                                     }};
+  share_jobs(Map::tetrahedral ? body.cell_dart.size() : 0, jobs);
   counts_ = {.vertices = body.vertices.size(),
              .edges = body.springs.size(),
              .faces = Map::dimension == 3 ? body.face_dart.size() : body.cell_dart.size(),
@@ -167,8 +175,6 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
     body.vertices.rest = {};
   }
 
-  VolumeRoom room;
-  vertex_volumes(body, {}, room);
   volume_ = std::move(room.at_rest);
   vertices_ = std::move(body.vertices);
   vertices_.dart.clear();

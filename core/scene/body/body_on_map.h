@@ -3,11 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/base/share_jobs.h"
 #include "core/elements/attachments.h"
 #include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
@@ -71,7 +74,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
                                      [this](std::uint32_t cell) { return mesh_cell_[cell]; });
     if (holds_.pressed)
       pressed_ = PressedFacesView(needs.pressed, [this](std::uint32_t cell) { return mesh_cell_[cell]; });
-    for_each_view([this](auto& view) { view.rebuild(body_); });
+    rebuild_views();
     elements_ = make_elements(body_.cell_materials(), body_.elements, {nodes_.nodes, solids_.nodes, triangles_.nodes},
                               body_.cell_mass);
     add_term(elements_);
@@ -350,6 +353,16 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       else
         view.apply(body_, changed);
     });
+  }
+  /// Labels of components look at tetrahedra without marks, so another thread can find them meanwhile.
+  void rebuild_views() {
+    const auto rebuild = [this](bool labels) {
+      for_each_view([this, labels](auto& view) {
+        if (labels == std::is_same_v<decltype(view), ComponentLabels&>) view.rebuild(body_);
+      });
+    };
+    const std::function<void()> jobs[]{[&] { rebuild(true); }, [&] { rebuild(false); }};
+    share_jobs(Map::tetrahedral ? body_.cell_dart.size() : 0, jobs);
   }
   /// Bodies in contact keep their numbers: by those of its samples, contact remembers how they stick.
   void keep_in_order(const ChangedEmbeddings& changed) {

@@ -4,7 +4,9 @@
 
 #include <string>
 
+#include "core/base/archive.h"
 #include "core/base/thread_team.h"
+#include "core/scene/output/write_vtu.h"
 #include "core/time/system/accelerations.h"
 #include "tests/support/moving_box.h"
 
@@ -86,6 +88,27 @@ TEST(Threads, MoveSolidsAndSurfacesTogetherWithTheBitsOfOne) {
   scene.erase("body");
   scene["integrator"] = "verlet";
   expect_equal_bits(scene);
+}
+
+/// All that a run of the scene depends on at its start, and all that it reports there.
+std::string start_of(const Json& scene, unsigned threads) {
+  const Threads in_use(threads);
+  const Simulation simulation(parse(scene));
+  Archive archive;
+  simulation.save(archive);
+  return archive.written() + to_vtu(simulation.frame()) + diagnostics_row(simulation.diagnostics());
+}
+
+TEST(Threads, MakeLargeBodiesWithTheBitsOfOne) {
+  Json scene = elements("tetrahedra", "neo-hookean");
+  scene["body"]["generate"]["box"]["cells"] = {16, 16, 16};
+  EXPECT_EQ(start_of(scene, 1), start_of(scene, 3));
+  scene["material"] = {{"density", 768}, {"stiffness", 20}, {"damping", 0.1}};
+  EXPECT_EQ(start_of(scene, 1), start_of(scene, 3));
+  scene.erase("events");
+  EXPECT_EQ(start_of(scene, 1), start_of(scene, 3));
+  scene["body"]["generate"]["box"] = {{"cells", {28, 28, 28}}, {"spacing", 0.125}, {"kind", "hexahedra"}};
+  EXPECT_EQ(start_of(scene, 1), start_of(scene, 3));
 }
 
 TEST(Threads, LeaveSmallBodiesToOne) {
