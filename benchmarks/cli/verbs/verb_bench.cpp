@@ -1,3 +1,4 @@
+#include "benchmarks/cli/bench/benches.h"
 #include "benchmarks/cli/verbs/verbs.h"
 
 namespace dartboard {

@@ -23,18 +23,12 @@ void add_gallery(CLI::App& app, Outcome& outcome);
 void add_mesh(CLI::App& app, Outcome& outcome);
 void add_list(CLI::App& app, Outcome& outcome);
 
-// The parts of `validate`, and of `bench`, which also give `app` the hidden verbs that their child processes run.
+// The parts of `validate`; that on elements also gives `app` the hidden verb that its child processes run.
 void add_validate_conservation(CLI::App& validate, Outcome& outcome);
 void add_validate_contact(CLI::App& validate, Outcome& outcome);
 void add_validate_order(CLI::App& validate, Outcome& outcome);
 void add_validate_judges(CLI::App& validate, Outcome& outcome);
 void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome);
 void add_validate_solvers(CLI::App& validate, Outcome& outcome);
-void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome);
-void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome);
-void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome);
-void add_bench_contact(CLI::App& bench, CLI::App& app, Outcome& outcome);
-void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome);
-void add_bench_large(CLI::App& bench, CLI::App& app, Outcome& outcome);
 
 }  // namespace dartboard
