@@ -205,8 +205,11 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
     groups_.push_back({group, {}, {cell, cell}, 1});
     active_.push_back(group);
   }
-  std::size_t left = groups_.size();
+  const std::size_t cells = size_[label_of_[seeds_[first_seed].first]];
+  std::size_t left = groups_.size(), looks = 0;
   while (left > 1) {
+    if (looks > std::max(most_looks, cells / 8)) return search_all(body, seeds_[first_seed].first, report);
+    looks += active_.size();
     std::size_t kept = 0;
     for (const std::uint32_t group : active_) {
       if (groups_[group].joined != group) continue;
@@ -225,7 +228,6 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
   if (parts_.empty()) return;
 
   const std::uint32_t remainder = find(active_.front());
-  const std::size_t cells = size_[label_of_[seeds_[first_seed].first]];
   std::size_t remaining = cells;
   for (const std::uint32_t p : parts_) remaining -= groups_[p].size;
   std::uint32_t largest = remainder;
@@ -241,6 +243,38 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
   }
   size_[label_of_[seeds_[first_seed].first]] = most;
   part(largest, report);
+}
+
+/// The same from all cells of an old component: they are looked at in the order of their numbers, and so in that of
+/// memory, which takes a fraction of the time of a search for each. Parts get labels by their sizes, the least first;
+/// of two largest the one with the lowest cell keeps its name.
+template <class Map>
+void ComponentLabels::search_all(const Body<Map>& body, std::uint32_t name, ComponentChange& report) {
+  const auto count = static_cast<std::uint32_t>(name_.size());
+  DisjointSets sets(count);
+  for (std::uint32_t cell = 0; cell < count; ++cell)
+    if (name_[cell] == name)
+      for_each_neighbour(body, cell, [&sets, cell](std::uint32_t other) {
+        if (other < cell) sets.join(other, cell);
+      });
+  std::vector<std::uint32_t> size(count, 0);  // by the lowest cell of a part; then its new name
+  for (std::uint32_t cell = 0; cell < count; ++cell)
+    if (name_[cell] == name) ++size[sets.set_of(cell)];
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> parts;  // size, lowest cell
+  for (std::uint32_t cell = 0; cell < count; ++cell)
+    if (size[cell] > 0) parts.emplace_back(size[cell], cell);
+  const auto largest = std::ranges::max_element(parts, {}, &std::pair<std::uint32_t, std::uint32_t>::first);
+  size_[label_of_[name]] = largest->first;
+  size[largest->second] = name;
+  parts.erase(largest);
+  std::ranges::sort(parts);
+  for (const auto& [cells, lowest] : parts) {
+    size[lowest] = new_component();
+    report.separated.push_back(size[lowest]);  // a name for now, not yet a label
+  }
+  for (std::uint32_t cell = 0; cell < count; ++cell)
+    if (name_[cell] == name)
+      if (const std::uint32_t other = size[sets.set_of(cell)]; other != name) set_name(cell, other);
 }
 
 /// Give each part but the largest a name and a label of its own.

@@ -36,7 +36,8 @@ struct ComponentChange {
 /// sides are connected; the pair of the proof is not among these. For most cuts this ends the work.
 ///
 /// Searches start from the cells of these darts, taking turns cell by cell. Two that meet become one. One that has
-/// no cell left has found a whole component. When one is left, it is the remainder of the old component.
+/// no cell left has found a whole component. When one is left, it is the remainder of the old component. Where many
+/// cells have been searched, all of the component are looked at instead, one after the other.
 ///
 /// Labels are dense. A component that came off gets the next label; when one is removed, the last takes its label.
 class ComponentLabels {
@@ -55,7 +56,8 @@ class ComponentLabels {
   /// A cell with a number that did not exist before belongs to the component of its neighbours.
   ///
   /// cost    nothing unless a vertex came apart; then O(cells that the searches visit before they meet each other), or,
-  ///         if a part came off, O(cells of all parts but the largest), up to the number of starting places
+  ///         if a part came off, O(cells of all parts but the largest), up to the number of starting places; never more
+  ///         than a search of `most_looks` cells, or of an eighth of the component, and a look at all cells
   template <class Map>
   ComponentChange apply(const Body<Map>& body, const TopologyChange& change, const ChangedEmbeddings& changed);
 
@@ -64,6 +66,7 @@ class ComponentLabels {
   /// The number of cells of the component.
   std::size_t size(std::uint32_t label) const { return size_[label]; }
   std::size_t cell_count() const { return name_.size(); }
+  static constexpr std::size_t most_looks = 20'000;
 
   /// Equal when the same cells are together; labels do not count.
   friend bool operator==(const ComponentLabels& a, const ComponentLabels& b);
@@ -114,6 +117,8 @@ class ComponentLabels {
   void find_seeds(const Body<Map>& body, const TopologyChange& change);
   template <class Map>
   void search(const Body<Map>& body, std::size_t first_seed, std::size_t last_seed, ComponentChange& report);
+  template <class Map>
+  void search_all(const Body<Map>& body, std::uint32_t name, ComponentChange& report);
   template <class Map>
   std::size_t look_around(const Body<Map>& body, std::uint32_t group);
   void part(std::uint32_t largest, ComponentChange& report);

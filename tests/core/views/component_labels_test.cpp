@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "core/mechanics/fracture/seam.h"
+#include "core/operations/dissociate_all.h"
 #include "core/topology/cells.h"
 #include "tests/support/meshes_for_tests.h"
 #include "tests/support/random_operations.h"
@@ -293,6 +295,28 @@ TYPED_TEST(ComponentsOf, DifferentPartitionsAreNotEqual) {
   SplitMix64 random(1);
   while (components_of(body) == whole) adapt(body, dissociate_face(body.map, some_live_dart(body.map, random)));
   EXPECT_EQ(components_of(body).count(), 2u);
+}
+
+// Cut at a quarter and in the middle, so that a search of the parts would visit more cells than `most_looks`.
+TEST(ComponentLabels, AreLookedForInAllCellsWhereLargePartsComeOff) {
+  auto body = body_of<TetMap>(kuhn_box(20, 20, 20, 1.0));
+  ComponentLabels labels = components_of(body);
+  const auto cut = [&](double x) {
+    const auto seam = faces_on_plane(body, {x, 0.0, 0.0}, {1.0, 0.0, 0.0});
+    EXPECT_EQ(seam.size(), 800u);
+    const TopologyChange change = dissociate_all(body.map, std::span<const Dart>(seam));
+    return labels.apply(body, change, adapt(body, change));
+  };
+  ASSERT_GT(std::size_t{2 * 12'000}, ComponentLabels::most_looks);
+  EXPECT_EQ(cut(5.001).separated, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(labels.size(0), 36'000u);
+  EXPECT_EQ(labels.size(1), 12'000u);
+  EXPECT_EQ(cut(10.001).separated, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(labels.size(0), 24'000u);
+  EXPECT_EQ(labels.size(1), 12'000u);
+  EXPECT_EQ(labels.size(2), 12'000u);
+  EXPECT_EQ(labels, components_of(body));
+  EXPECT_EQ(listed(labels), walked(body));
 }
 
 }  // namespace
