@@ -170,7 +170,7 @@ Table memory_table(const LargeFigures& f) {
 std::string large_note() {
   return fmt::format(
       "Boxes of cubes of six tetrahedra, springs with damping by the classical Runge-Kutta method on one thread; the "
-      "cut is followed by all views, and the longest stable step is estimated anew. Seconds are the clock's, medians over "
+      "cut is followed by all views, and its parts are found. Seconds are the clock's, medians over "
       "processes; of {} tetrahedra there is one run. The limit of what leaves data in memory is the time to copy as many "
       "bytes; of frames, the time to write or read a file of as many. 'From the start to the first step' is a run "
       "with its files, by all processors: the first frame is written meanwhile. The memory of a process is that until "

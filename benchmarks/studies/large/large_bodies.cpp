@@ -36,9 +36,10 @@ constexpr std::size_t copied_of_tetrahedron = 200;  // bytes, of both halves: ab
 
 SceneFile box_scene(std::size_t side, bool is_cut) {
   constexpr double spacing = 0.01, h = 0.0004;
+  const std::size_t middle = side / 2;
   const std::string events = fmt::format(
       R"("events": [{{"at": {}, "dissociate": {{"plane": {{"point": [{}, 0, 0], "normal": [1, 0, 0]}}}}}}],)",
-      cut_after * h, spacing * (static_cast<double>(side / 2) + 0.001));
+      cut_after * h, spacing * (static_cast<double>(middle) + 0.001));
   return parse_scene(fmt::format(R"({{"name": "box of {0}", {1}
     "body": {{"generate": {{"box": {{"cells": [{0}, {0}, {0}], "spacing": {2}}}}}}},
     "material": {{"density": 1000, "stiffness": 30, "damping": 0.02, "viscosity": 1}}, "gravity": [0, 0, -9.81],
