@@ -16,6 +16,7 @@ TOPOLOGY = RUN + "topology/samples.jsonl"
 OPERATIONS = "results/2026-11-28-epyc-operations/samples.jsonl"
 STEP = "results/2026-11-28-epyc-step-padded/samples.jsonl"
 STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
+LARGE_BODIES = "results/2026-11-28-epyc-large/samples.jsonl"
 CONTACT = "results/2026-11-27-epyc-contact-costs/samples.jsonl"
 ABLATION = "results/2026-11-28-epyc-ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
@@ -106,6 +107,31 @@ def changing_over(body, task, baseline):
 
 FOLLOWED, ALONE, GRAPH_ALONE = "a dissociation and a step", "the step alone", "the naive graph, the step alone"
 ALL_ANEW = "a dissociation, all columns anew, and a step"
+
+
+def part_of_run(side, part):
+    """[s] of a box of so many cubes along each edge."""
+    return figure([r["seconds"] for r in lines(LARGE_BODIES) if r.get("part") == part and r["side"] == side])
+
+
+def once(part):
+    """[s] of the largest box, which is run once."""
+    return next(r["seconds"] for r in lines(LARGE_BODIES) if r.get("part") == part and r["side"] == 119)
+
+
+def over_limits(part):
+    """Over the time of copying, writing or reading as many bytes, for boxes of a million and two."""
+    return [median([r["seconds"] / r["limit_seconds"] for r in lines(LARGE_BODIES) if r.get("part") == part and r["side"] == side])
+            for side in (55, 70)]
+
+
+def counted_once():
+    return next(r for r in lines(LARGE_BODIES) if "peak_bytes" in r and r["side"] == 119)
+
+
+def most_bytes(key):
+    """Of a tetrahedron."""
+    return max(r[key] / (6 * r["side"] ** 3) for r in lines(LARGE_BODIES) if "peak_bytes" in r)
 
 
 def timed_contact():
@@ -404,6 +430,22 @@ FIGURES = [
 
     (RESULTS, "cut finer, a thread took {}, {} and {} of the graph's time in rows of three and both processors {}, {} and {}.", [STEP_MESHES],
      lambda: meshes_over_graph(": lanes") + meshes_over_graph(": threads", "wall_ns")),
+
+    (RESULTS, "take {} [{}, {}] s from the start of a run to its first step (target 5: cannot tell)", [LARGE_BODIES],
+     lambda: all_of(part_of_run(70, "from the start to the first step"))
+     + judged([part_of_run(70, "from the start to the first step")], 5, "cannot tell")),
+    (RESULTS, "`mesh info` of a frame of them {} [{}, {}] s (target 4: falls short)", [LARGE_BODIES],
+     lambda: all_of(part_of_run(70, "mesh info of the frame")) + judged([part_of_run(70, "mesh info of the frame")], 4, "falls short")),
+    (RESULTS, "a map is built in {} and {} times the time of copying as many bytes and the whole of a run made in {} and {}", [LARGE_BODIES],
+     lambda: ["%.0f" % x for x in over_limits("map built") + over_limits("simulation made, mesh and map included")]),
+    (RESULTS, "A frame is made in {} and {} times that time, and read in {} and {} times that of its file, but written in {} and {}.", [LARGE_BODIES],
+     lambda: ["%.0f" % x for x in over_limits("frame made") + over_limits("frame read")] + [two(x) for x in over_limits("frame written")]),
+    (RESULTS, "a run is made in {} s, takes {} s a step and {} us for each of the {} faces of a cut, and {} GB at most.", [LARGE_BODIES],
+     lambda: ("%.0f" % once("simulation made, mesh and map included"), two(once("a step")),
+              "%.0f" % (1e6 * once("the cut, without the step") / counted_once()["operations"]),
+              "{:,}".format(counted_once()["operations"]), two(1e-9 * counted_once()["peak_bytes"]))),
+    (RESULTS, "on a map takes at most {} bytes a tetrahedron, without events {} (targets 300 and 190: hold).", [LARGE_BODIES],
+     lambda: ("%.0f" % most_bytes("bytes"), "%.0f" % most_bytes("bytes_without_events"))),
 
     (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
      lambda: all_of(with_contact("elements far from a plane"), three) + all_of(with_contact("elements far from themselves"), three)
