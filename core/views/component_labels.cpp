@@ -18,6 +18,19 @@ void for_each_neighbour(const ComponentLabels::Body<Map>& body, std::uint32_t ce
   });
 }
 
+/// The cells that are wanted, joined across their facets. A wanted cell has no neighbour that is not.
+template <class Map, class Wanted>
+DisjointSets joined_across_facets(const ComponentLabels::Body<Map>& body, Wanted&& wanted) {
+  const auto cells = static_cast<std::uint32_t>(body.cell_dart.size());
+  DisjointSets sets(cells);
+  for (std::uint32_t cell = 0; cell < cells; ++cell)
+    if (wanted(cell))
+      for_each_neighbour(body, cell, [&sets, cell](std::uint32_t other) {
+        if (other < cell) sets.join(other, cell);
+      });
+  return sets;
+}
+
 /// Whether the facets of two darts still share a vertex at one of the corners that follow a and b, so that their cells
 /// are connected.
 template <class Map>
@@ -251,12 +264,7 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
 template <class Map>
 void ComponentLabels::search_all(const Body<Map>& body, std::uint32_t name, ComponentChange& report) {
   const auto count = static_cast<std::uint32_t>(name_.size());
-  DisjointSets sets(count);
-  for (std::uint32_t cell = 0; cell < count; ++cell)
-    if (name_[cell] == name)
-      for_each_neighbour(body, cell, [&sets, cell](std::uint32_t other) {
-        if (other < cell) sets.join(other, cell);
-      });
+  DisjointSets sets = joined_across_facets(body, [&](std::uint32_t cell) { return name_[cell] == name; });
   std::vector<std::uint32_t> size(count, 0);  // by the lowest cell of a part; then its new name
   for (std::uint32_t cell = 0; cell < count; ++cell)
     if (name_[cell] == name) ++size[sets.set_of(cell)];
@@ -292,14 +300,9 @@ void ComponentLabels::part(std::uint32_t largest, ComponentChange& report) {
 template <class Map>
 void ComponentLabels::rebuild(const Body<Map>& body) {
   clear();
-  const auto cells = static_cast<std::uint32_t>(body.cell_dart.size());
-  name_.assign(cells, none);
-  DisjointSets sets(cells);
-  for (std::uint32_t cell = 0; cell < cells; ++cell)
-    for_each_neighbour(body, cell, [&sets, cell](std::uint32_t other) {
-      if (other < cell) sets.join(other, cell);
-    });
-  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+  name_.assign(body.cell_dart.size(), none);
+  DisjointSets sets = joined_across_facets(body, [](std::uint32_t) { return true; });
+  for (std::uint32_t cell = 0; cell < name_.size(); ++cell) {
     const std::uint32_t lowest = sets.set_of(cell);
     set_name(cell, lowest == cell ? new_component() : name_[lowest]);
   }

@@ -23,7 +23,7 @@ struct ComponentChange {
 /// The connected component of every cell (volume of a solid, face of a surface).
 ///
 /// "The loss of connectivity is quite simple to verify", says the paper's conclusion: walk through the structure along
-/// all alpha-links and see whether all darts are marked. That is what `rebuild` does. `apply` walks only where
+/// all alpha-links and see whether all darts are marked. `rebuild` joins cells across facets; `apply` walks only where
 /// something may have come apart:
 ///
 /// Connectivity is lost only where a vertex came apart. Let P be a component after the change that is less than the
