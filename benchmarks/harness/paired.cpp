@@ -118,8 +118,6 @@ RoundValues ratios(const Processes& task, const Processes& baseline, Clock clock
   return result;
 }
 
-Figure figure_of(std::span<const double> values) { return {median(values), median_interval(values)}; }
-
 struct Spread {
   double median, min, variation;
 };
@@ -190,6 +188,8 @@ void run_rounds(std::span<const TimedTask> tasks, const PairedOptions& options,
     }
   }
 }
+
+Figure figure_of(std::span<const double> values) { return {median(values), median_interval(values)}; }
 
 std::string to_string(const Figure& figure) {
   return fmt::format("{:.3g} {}", figure.median, to_string(figure.interval));

@@ -57,6 +57,11 @@ struct Figure {
   Interval interval;
 };
 
+/// The median of the values, and the interval for it.
+///
+/// throws  InputError for no value or one that is NaN
+Figure figure_of(std::span<const double> values);
+
 /// "1.04 [1.02, 1.07] at 96.9 %".
 std::string to_string(const Figure& figure);
 

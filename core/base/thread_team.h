@@ -39,8 +39,8 @@ class ThreadTeam {
   std::exception_ptr failure_;
 };
 
-/// The number of threads that integrators may use from now on for large systems, 1 at the start: the bits of motions do
-/// not depend on it. 0 means one for each processor. Not while another thread steps.
+/// The number of threads that integrators and the making of bodies may use from now on for large systems, 1 at the
+/// start: no bit depends on it. 0 means one for each processor. Not while another thread steps.
 ///
 /// returns  the number before
 unsigned use_threads(unsigned count);

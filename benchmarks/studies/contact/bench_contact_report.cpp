@@ -122,7 +122,7 @@ Figure ContactCosts::exponent(const std::string& task) const {
   }
   std::vector<double> slopes;
   for (const Points& points : by_process) slopes.push_back(slope_of(points));
-  return {median(slopes), median_interval(slopes)};
+  return figure_of(slopes);
 }
 
 double ContactCosts::exponent_of_n_log_n() const {

@@ -25,8 +25,6 @@ std::vector<double> values_of(const LargeFigures& f, std::size_t side, const cha
   return values;
 }
 
-Figure figure_of(const std::vector<double>& values) { return {median(values), median_interval(values)}; }
-
 double median_of(const LargeFigures& f, std::size_t side, const char* part, double LargeTime::*member) {
   return median(values_of(f, side, part, [member](const LargeTime& time) { return time.*member; }));
 }

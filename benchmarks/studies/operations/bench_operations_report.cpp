@@ -16,8 +16,6 @@ using Values = std::vector<double>;  // one of each process
 
 double milliseconds(const std::vector<std::int64_t>& ns) { return median(Values(ns.begin(), ns.end())) / 1e6; }
 
-Figure figure_of(const Values& values) { return {median(values), median_interval(values)}; }
-
 Values ratios(const Values& a, const Values& b) {
   Values ratio;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) ratio.push_back(a[k] / b[k]);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "benchmarks/harness/clock.h"
-#include "benchmarks/harness/statistics.h"
+#include "benchmarks/harness/paired.h"
 #include "benchmarks/paper/paper_claims.h"
 #include "core/mechanics/adapt.h"
 #include "core/meshes/generators/mesh_generators.h"
@@ -68,7 +68,7 @@ std::vector<FrameTime> time_frames(double h) {
 Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quick) {
   std::vector<double> cells;
   for (const auto& frames : rounds) cells.push_back(cells_in_real_time(frames));
-  const Figure figure{median(cells), median_interval(cells)};
+  const Figure figure = figure_of(cells);
   Claim claim =
       answered("real-time", at_least(figure, cells_of_paper),
                fmt::format("{:.0f} tetrahedra, a removal in each frame", figure.median), to_string(figure.interval));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "benchmarks/harness/statistics.h"
+#include "benchmarks/harness/paired.h"
 #include "benchmarks/paper/paper_claims.h"
 #include "benchmarks/studies/reproduce/paper_answers.h"
 #include "benchmarks/studies/reproduce/real_time.h"
@@ -131,7 +131,7 @@ Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals) {
   std::vector<double> ratio;
   for (const SeriesTime& time : series)
     ratio.push_back(static_cast<double>(time.rebuild_ns) / static_cast<double>(time.changes_ns));
-  const Figure figure{median(ratio), median_interval(ratio)};
+  const Figure figure = figure_of(ratio);
   return answered("rebuild-negligible", at_most(figure, 0.1),
                   fmt::format("{:.2g} of the time of {} removals", figure.median, removals),
                   to_string(figure.interval));

@@ -101,14 +101,14 @@ Figure SolverTimes::ratio(const std::string& task, const std::string& baseline) 
   }
   std::vector<double> ratios;
   for (const auto& [round, ns] : above) ratios.push_back(ns / below.at(round));
-  return {median(ratios), median_interval(ratios)};
+  return figure_of(ratios);
 }
 
 Figure SolverTimes::time_ms(const std::string& task) const {
   std::vector<double> ms;
   for (const Sample& s : samples)
     if (s.task == task) ms.push_back(1e-6 * static_cast<double>(s.cpu_ns));
-  return {median(ms), median_interval(ms)};
+  return figure_of(ms);
 }
 
 double SolverTimes::milliseconds(const std::string& task) const { return 1e-6 * times_of(samples, task).cpu_median; }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/harness/json_number.h"
-#include "benchmarks/harness/statistics.h"
+#include "benchmarks/harness/paired.h"
 
 namespace dartboard {
 namespace {
@@ -83,7 +83,7 @@ Claim claim_on_regret(std::string id, const std::vector<AuditedPair>& pairs) {
     claim.reason = left_out > 0 ? without : pairs.empty() ? "no pair to judge by" : "no sweep";
     return claim;
   }
-  const Figure figure{median(regrets), median_interval(regrets)};
+  const Figure figure = figure_of(regrets);
   claim.measured =
       fmt::format("{:.3f}, {} pairs{}{}", figure.median, regrets.size(), left_out > 0 ? "; " : "", without);
   claim.bound_or_interval = to_string(figure.interval);
