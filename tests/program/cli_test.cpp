@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "benchmarks/checkout/source_folder.h"
 #include "tests/support/program_for_tests.h"
@@ -208,6 +209,20 @@ TEST(Reproduce, OfAPartThatThereIsNotIsAUsageErrorThatNamesThoseThereAre) {
   const Answer answer = run("reproduce --part appendix");
   EXPECT_EQ(answer.status, 2);
   EXPECT_NE(answer.out.find("extremes"), std::string::npos) << answer.out;
+}
+
+TEST(LongReproduce, TimesALargerBodyInEachWayThatThereIs) {
+  const fs::path out = fs::temp_directory_path() / (std::to_string(getpid()) + "-larger");
+  const Answer answer = run("reproduce --part larger --quick --json --out " + out.string(), "2>/dev/null");
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  EXPECT_TRUE(nlohmann::json::parse(answer.out).at("gates_passed").get<bool>());
+  std::ifstream table(out / "larger" / "steps.md");
+  const std::string rows{std::istreambuf_iterator<char>(table), {}};
+  EXPECT_NE(rows.find("naive graph"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("columns, one at a time"), std::string::npos) << rows;
+  EXPECT_EQ(rows.find("all processors") != std::string::npos, std::thread::hardware_concurrency() > 1) << rows;
+  EXPECT_TRUE(fs::exists(out / "larger" / "samples.jsonl"));
+  fs::remove_all(out);
 }
 
 TEST(LongReproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {

@@ -30,6 +30,7 @@ void add_measure_step(CLI::App& app) {
   verb->add_option("--largest", options->largest);
   verb->add_option("--seed", options->seed);
   verb->add_option("--mesh", options->meshes)->take_all();
+  verb->add_option("--only", options->only);
   verb->callback([options] {
     options->compare ? compare_steps(*options, print_sample) : measure_step_costs(*options, print_sample);
   });

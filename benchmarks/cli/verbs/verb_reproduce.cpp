@@ -14,13 +14,13 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
   };
   auto* verb = app.add_subcommand(
       "reproduce",
-      "Gate and time the paper's walks on a body of its size and answer its claims; then put all integrators to the "
-      "extremes and answer ours.");
+      "Gate and time the paper's walks on a body of its size and answer its claims; time a larger body on one core and "
+      "on all; then put all integrators to the extremes and answer ours.");
   auto options =
       study_options<Options>(*verb, {.quick = "fewer processes and rounds, a third of the extremes: some minutes less",
                                      .seed = "the order in which contenders take turns"});
-  verb->add_option("--part", options->part, "only this part: paper, some 20 s, or extremes [both]")
-      ->check(CLI::IsMember({"paper", "extremes"}));
+  verb->add_option("--part", options->part, "only this part: paper or larger, some 20 s each, or extremes [all]")
+      ->check(CLI::IsMember({"paper", "larger", "extremes"}));
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of tasks", options->seed}},
                    .libraries = {{"CGAL", reference::cgal_version()}},

@@ -10,6 +10,9 @@
 #include "benchmarks/studies/extremes/extremes_study.h"
 #include "benchmarks/studies/reproduce/measure.h"
 #include "benchmarks/studies/reproduce/reproduce_report.h"
+#include "benchmarks/studies/step/bench_step_report.h"
+#include "benchmarks/studies/step/bench_step_study.h"
+#include "benchmarks/studies/step/step_bodies.h"
 
 namespace dartboard {
 namespace {
@@ -50,6 +53,21 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
   return report;
 }
 
+/// The same step of a body that threads share, by one processor and by all.
+Report reproduce_larger(const ReproducePlan& plan, StudyLog& log) {
+  const StepCosts costs =
+      measure_steps({.rounds = plan.quick ? 5 : 20, .seed = plan.seed, .only = step_box(100'000, false)},
+                    plan.quick ? 3 : 8, log, "larger");
+  Report report{.claims = {claims_of(costs).front()}};
+  if (costs.samples.empty()) {
+    report.disagreements.emplace_back("The larger body moves otherwise than the naive graph: it was not timed.");
+    return report;
+  }
+  report.tables = {{"steps", "Time of an RK4 step of a larger body", steps_table(costs), step_costs_note(costs)},
+                   {"limits", "What that step could take", limits_table(costs)}};
+  return report;
+}
+
 }  // namespace
 
 Report reproduce_study(const ReproducePlan& plan, StudyLog& log) {
@@ -60,9 +78,14 @@ Report reproduce_study(const ReproducePlan& plan, StudyLog& log) {
     std::ranges::copy(part.claims, std::back_inserter(claims));
     gates_passed = gates_passed && part.disagreements.empty();
   };
-  if (plan.part != "extremes") add(reproduce_paper(plan, log), "");
-  if (plan.part != "paper") {
-    log.say(fmt::format("4. Numerical stability at the extremes{}\n", plan.quick ? " (a third of the values)" : ""));
+  const auto has = [&plan](const char* part) { return plan.part.empty() || plan.part == part; };
+  if (has("paper")) add(reproduce_paper(plan, log), "");
+  if (has("larger")) {
+    log.say("4. A body large enough for all processors: its motions, then its times\n");
+    add(reproduce_larger(plan, log), "larger");
+  }
+  if (has("extremes")) {
+    log.say(fmt::format("5. Numerical stability at the extremes{}\n", plan.quick ? " (a third of the values)" : ""));
     add(extremes_study({.quick = plan.quick, .shows_tables = false, .folder = "extremes"}, log), "extremes");
   }
   return {.numbers = {{"gates_passed", gates_passed}}, .sentence = closing_words(claims, gates_passed, plan.quick)};

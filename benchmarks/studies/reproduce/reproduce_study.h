@@ -1,5 +1,6 @@
 #pragma once
-// `dartboard reproduce`: the paper's walks gated and timed, its claims answered; then all integrators at the extremes.
+// `dartboard reproduce`: the paper's walks gated and timed, its claims answered; the step of a larger body on all
+// cores; all integrators at the extremes.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +11,7 @@
 namespace dartboard {
 
 struct ReproducePlan {
-  std::string part{};      // "paper" or "extremes"; empty: both
+  std::string part{};      // "paper", "larger" or "extremes"; empty: all
   bool quick = false;      // fewer processes and rounds, a third of the extremes
   std::uint64_t seed = 1;  // seeds the order in which contenders take turns
 };

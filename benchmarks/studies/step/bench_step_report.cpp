@@ -122,6 +122,7 @@ const char* name_of(const char* task) {
 std::vector<std::string> StepCosts::bodies() const {
   std::vector<std::string> names = step_bodies(largest);
   names.insert(names.end(), meshes.begin(), meshes.end());
+  std::erase_if(names, [this](const std::string& name) { return !counts.contains(name); });
   return names;
 }
 
@@ -240,14 +241,19 @@ Table limits_table(const StepCosts& c) {
   return table;
 }
 
-std::string step_costs_note() {
-  return "RK4: four evaluations a step, each of all springs and all vertices. Processor time, of several threads the "
-         "wall clock's; tasks take turns within rounds, ratios are paired, intervals are over processes. A scene's "
-         "columns are stored along a curve where its mesh is in no good order, the graph in the order of the mesh. Meshes "
-         "of files have each tetrahedron cut into eight until there are 10^5, in the order of the file. "
-         "Bytes are those that loops read and write, each column once for each loop; the bandwidth is that of copying "
-         "columns as large as those of the body by as many threads. The other limit is the throughput of one square root "
-         "and one division for each spring.";
+std::string step_costs_note(const StepCosts& costs) {
+  const char* of_files =
+      costs.meshes.empty()
+          ? ""
+          : "Meshes of files have each tetrahedron cut into eight until there are 10^5, in the order of the file. ";
+  return fmt::format(
+      "RK4: four evaluations a step, each of all springs and all vertices. Processor time, of several threads the "
+      "wall clock's; tasks take turns within rounds, ratios are paired, intervals are over processes. A scene's "
+      "columns are stored along a curve where its mesh is in no good order, the graph in the order of the mesh. {}"
+      "Bytes are those that loops read and write, each column once for each loop; the bandwidth is that of copying "
+      "columns as large as those of the body by as many threads. The other limit is the throughput of one square root "
+      "and one division for each spring.",
+      of_files);
 }
 
 Plot roofline_plot(const StepCosts& c) {

@@ -19,7 +19,7 @@ struct StepCosts {
   std::size_t largest = 0;            // tetrahedra of the largest boxes
   std::vector<std::string> meshes{};  // bodies of files, after the others
 
-  /// In the order of tables.
+  /// Those that were counted, in the order of tables.
   std::vector<std::string> bodies() const;
 
   bool timed(const std::string& body, const char* task) const;
@@ -44,7 +44,7 @@ std::vector<Claim> claims_of(const StepCosts& costs);
 Table steps_table(const StepCosts& costs);
 Table limits_table(const StepCosts& costs);
 /// The basis of the figures.
-std::string step_costs_note();
+std::string step_costs_note(const StepCosts& costs);
 
 /// Time of a spring by the size of the body, between its limits.
 Plot roofline_plot(const StepCosts& costs);

@@ -10,7 +10,6 @@
 
 #include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/scratch_folder.h"
-#include "benchmarks/studies/step/bench_step_report.h"
 #include "benchmarks/studies/step/changed_report.h"
 #include "benchmarks/studies/step/changing_report.h"
 
@@ -32,11 +31,12 @@ struct Extent {
 /// Run a verb of this program that measures: each line is kept, and handed over as a sample or as one of `Counts`.
 template <class Counts>
 void measure_in_process(std::vector<std::string> arguments, std::uint64_t seed, const char* key, StudyLog& log,
-                        std::vector<Sample>& samples, const std::function<void(Counts)>& take) {
+                        std::vector<Sample>& samples, const std::function<void(Counts)>& take,
+                        const std::string& folder = "") {
   arguments.insert(arguments.end(), {"--seed", std::to_string(seed)});
   run_self(arguments, [&](std::string_view line) {
     const auto json = nlohmann::json::parse(line);
-    log.sample(json);
+    log.sample(json, "samples.jsonl", folder);
     if (json.contains(key))
       take(json.get<Counts>());
     else
@@ -45,27 +45,13 @@ void measure_in_process(std::vector<std::string> arguments, std::uint64_t seed, 
 }
 
 Report report_on_unchanged(const StepBenchPlan& plan, const Extent& extent, StudyLog& log) {
-  StepCosts costs{.samples = {}, .counts = {}, .largest = extent.largest(), .meshes = step_meshes(plan.meshes)};
-  const auto measure = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"measure-step", "--largest", std::to_string(costs.largest)};
-    for (const std::filesystem::path& mesh : plan.meshes) arguments.insert(arguments.end(), {"--mesh", mesh.string()});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    measure_in_process<StepCounts>(arguments, plan.seed, "body", log, costs.samples,
-                                   [&](const StepCounts& counts) { costs.counts[counts.body] = counts; });
-  };
-  log.say(fmt::format("bodies of up to {} tetrahedra: first their motions, then times in {} processes", costs.largest,
-                      extent.processes()));
-  log.begin("comparing", 1);
-  measure({"--compare"});
-  log.advance();
-  if (claims_of(costs).front().verdict != Verdict::holds) return {.claims = claims_of(costs)};
-  log.begin("timing", static_cast<std::size_t>(extent.processes()));
-  for (int process = 0; process < extent.processes(); ++process) {
-    measure({"--process", std::to_string(process), "--rounds", std::to_string(extent.rounds())});
-    log.advance();
-  }
-  check_repeats(costs.samples);
-  return {.tables = {{"steps", "A step over springs, by body", steps_table(costs), step_costs_note()},
+  log.say(fmt::format("bodies of up to {} tetrahedra: first their motions, then times in {} processes",
+                      extent.largest(), extent.processes()));
+  const StepCosts costs =
+      measure_steps({.rounds = extent.rounds(), .largest = extent.largest(), .seed = plan.seed, .meshes = plan.meshes},
+                    extent.processes(), log);
+  if (costs.samples.empty()) return {.claims = claims_of(costs)};
+  return {.tables = {{"steps", "A step over springs, by body", steps_table(costs), step_costs_note(costs)},
                      {"limits", "What a step could take", limits_table(costs)}},
           .claims = claims_of(costs),
           .pictures = {{"roofline", roofline_plot(costs)}}};
@@ -125,6 +111,30 @@ void append(Report& report, Report more) {
 }
 
 }  // namespace
+
+StepCosts measure_steps(const StepCostPlan& plan, int processes, StudyLog& log, const std::string& folder) {
+  StepCosts costs{.samples = {}, .counts = {}, .largest = plan.largest, .meshes = step_meshes(plan.meshes)};
+  const auto measure = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"measure-step", "--largest", std::to_string(plan.largest)};
+    if (!plan.only.empty()) arguments.insert(arguments.end(), {"--only", plan.only});
+    for (const std::filesystem::path& mesh : plan.meshes) arguments.insert(arguments.end(), {"--mesh", mesh.string()});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    measure_in_process<StepCounts>(
+        arguments, plan.seed, "body", log, costs.samples,
+        [&](const StepCounts& counts) { costs.counts[counts.body] = counts; }, folder);
+  };
+  log.begin("comparing", 1);
+  measure({"--compare"});
+  log.advance();
+  if (claims_of(costs).front().verdict != Verdict::holds) return costs;
+  log.begin("timing", static_cast<std::size_t>(processes));
+  for (int process = 0; process < processes; ++process) {
+    measure({"--process", std::to_string(process), "--rounds", std::to_string(plan.rounds)});
+    log.advance();
+  }
+  check_repeats(costs.samples);
+  return costs;
+}
 
 Report step_bench(const StepBenchPlan& plan, StudyLog& log) {
   const Extent extent{plan.quick, plan.seed};

@@ -8,6 +8,7 @@
 
 #include "benchmarks/report/report.h"
 #include "benchmarks/report/study_log.h"
+#include "benchmarks/studies/step/bench_step_report.h"
 
 namespace dartboard {
 
@@ -18,5 +19,9 @@ struct StepBenchPlan {
 };
 
 Report step_bench(const StepBenchPlan& plan, StudyLog& log);
+
+/// The steps of bodies that do not change: compared in a process of its own and, where they agree, timed in so many
+/// more. Samples are those of a folder within that of the run.
+StepCosts measure_steps(const StepCostPlan& plan, int processes, StudyLog& log, const std::string& folder = "");
 
 }  // namespace dartboard

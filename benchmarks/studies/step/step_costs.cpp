@@ -26,6 +26,7 @@ constexpr double copied_in_sample = 40e6;  // bytes
 constexpr std::size_t roots_in_sample = 1024 * 1024;
 
 std::vector<StepBody> bodies_of(const StepCostPlan& plan) {
+  if (!plan.only.empty()) return {find_step_body(plan.only, plan.seed)};
   std::vector<StepBody> bodies = make_step_bodies(plan.largest, plan.seed);
   for (StepBody& body : make_bodies_of_files(plan.meshes, plan.least_of_mesh, plan.seed))
     bodies.push_back(std::move(body));

@@ -46,6 +46,7 @@ struct StepCostPlan {
   std::uint64_t seed = 1;                       // of the order of the tasks, of shuffled meshes and of velocities
   std::vector<std::filesystem::path> meshes{};  // of further bodies, called as their files
   std::size_t least_of_mesh = 100'000;          // tetrahedra, to which these are cut
+  std::string only{};                           // the name of the one body to step; empty: all
 };
 
 /// Compare the ways to step each body: those over columns must end in the same bits, and keep to the rounding bound of
