@@ -128,7 +128,7 @@ std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::s
   claims.push_back(bounded(r, bodies, "dissociate", {"dissociate, cut", "dissociate, random"}, 5.0));
   claims.push_back(bounded(r, bodies, "remove", {"remove"}, 10.0));
   claims.push_back(bounded(r, bodies, "tear-fan", {"tear fan"}, 20.0));
-  for (const auto& [operation, bound] : {std::pair("dissociate, cut", 1.5), std::pair("dissociate, random", 3.0)}) {
+  for (const auto& [operation, bound] : {std::pair("dissociate, cut", 1.5), std::pair("dissociate, random", 2.5)}) {
     const Values ratio = ratios(r.quantiles("kuhn-998250", operation, 0.5), r.quantiles("kuhn-2058", operation, 0.5));
     if (ratio.empty()) continue;
     const Figure f = figure_of(ratio);
