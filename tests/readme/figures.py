@@ -30,6 +30,7 @@ TRADES = "results/2026-11-26-xeon-tradeoffs/samples.jsonl"
 SCENES = "results/2026-11-26-xeon-scene-extremes/extremes.jsonl"
 JUDGES = "results/2026-11-23-epyc-judges/judges.json"
 ELEMENTS = "results/2026-11-27-xeon-elements/samples.jsonl"
+DETERMINISM = "results/2026-11-28-epyc-determinism/determinism.json"
 MESH = "benchmarks/meshes/liver564.mesh"
 
 
@@ -351,6 +352,13 @@ def cheapest(error):
     return [w["integrator"] for a in lines(TRADES) for w in a["winners"] if w["error"] == error and w["integrator"]]
 
 
+def equal_runs():
+    """Those of each row, all of which end in the pinned bits in all manners."""
+    rows = document(DETERMINISM)["rows"]
+    assert all(r["equals_pinned"] and r["repeats"] and not r["manners_that_differ"] for r in rows)
+    return len(rows[0]["hashes"])
+
+
 def judged_by(evidence):
     return sum(a["judged_by"] == evidence for a in lines(SCENES))
 
@@ -392,8 +400,8 @@ FIGURES = [
     (README, "arrays have become {} times as fast since", [STEPS], lambda: ("%.0f" % (2.0 / ms("arrays")),)),
 
     # ---- results/README.md
-    (RESULTS, "| {} runs whose last bits are the same under two compilers |", [RUN + "determinism/determinism.json"],
-     lambda: (str(len(document(RUN + "determinism/determinism.json")["rows"][0]["hashes"])),)),
+    (RESULTS, "| {} runs whose last bits are the same under {} compilers, by 1, 2 and 4 threads, and one", [DETERMINISM],
+     lambda: (str(equal_runs()), words(len({r["compiler"] for r in document(DETERMINISM)["rows"]})))),
     (RESULTS, "it takes the time of {} [{}, {}] removals.", [OPERATIONS],
      lambda: all_of(rebuild_over_removal())),
     (RESULTS, "The incremental arrays take {} [{}, {}] us.", [OPERATIONS],
@@ -676,6 +684,7 @@ NO_MEASUREMENT = [
     (RESULTS, "eps D after 100 steps", NAME),
     (RESULTS, "for an accuracy), each in 100 steps by all", ("validation/extremes/scene_extremes.cpp", "steps_in_all = 100")),
     (RESULTS, "others, from h omega = 0.1 to 10^6", ("validation/extremes/scene_extremes.cpp", "{0.1, 0.5, 1.0, 1.9, 2.5, 30.0, 1e3, 1e6}")),
+    (RESULTS, "compilers, by 1, 2 and 4 threads, and one number", ("tests/determinism/determinism_table.py", '"2 threads": ["--threads", "2"], "4 threads": ["--threads", "4"]')),
     (RESULTS, "witnesses with dense factors stop at 200 vertices", ("validation/extremes/scene_extremes.cpp", "largest_dense = 200")),
     (RESULTS, "that of local-global in steps of 10^6", NAME),
     (RESULTS, "at most 134,217,728 tetrahedra, or 2^30 darts", NAME),
