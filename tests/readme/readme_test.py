@@ -16,7 +16,7 @@ import tempfile
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-RUN = "results/2026-11-26-xeon-paper"
+RUN = "results/2026-11-28-epyc-reproduce"
 
 
 def text_of(*path):
