@@ -56,8 +56,7 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
 /// The same step of a body that threads share, by one processor and by all.
 Report reproduce_larger(const ReproducePlan& plan, StudyLog& log) {
   const StepCosts costs =
-      measure_steps({.rounds = plan.quick ? 5 : 20, .seed = plan.seed, .only = step_box(100'000, false)},
-                    plan.quick ? 3 : 8, log, "larger");
+      measure_steps({.seed = plan.seed, .only = step_box(100'000, false)}, plan.quick, log, "larger");
   Report report{.claims = {claims_of(costs).front()}};
   if (costs.samples.empty()) {
     report.disagreements.emplace_back("The larger body moves otherwise than the naive graph: it was not timed.");

@@ -48,8 +48,7 @@ Report report_on_unchanged(const StepBenchPlan& plan, const Extent& extent, Stud
   log.say(fmt::format("bodies of up to {} tetrahedra: first their motions, then times in {} processes",
                       extent.largest(), extent.processes()));
   const StepCosts costs =
-      measure_steps({.rounds = extent.rounds(), .largest = extent.largest(), .seed = plan.seed, .meshes = plan.meshes},
-                    extent.processes(), log);
+      measure_steps({.largest = extent.largest(), .seed = plan.seed, .meshes = plan.meshes}, plan.quick, log);
   if (costs.samples.empty()) return {.claims = claims_of(costs)};
   return {.tables = {{"steps", "A step over springs, by body", steps_table(costs), step_costs_note(costs)},
                      {"limits", "What a step could take", limits_table(costs)}},
@@ -112,7 +111,8 @@ void append(Report& report, Report more) {
 
 }  // namespace
 
-StepCosts measure_steps(const StepCostPlan& plan, int processes, StudyLog& log, const std::string& folder) {
+StepCosts measure_steps(const StepCostPlan& plan, bool quick, StudyLog& log, const std::string& folder) {
+  const Extent extent{quick, plan.seed};
   StepCosts costs{.samples = {}, .counts = {}, .largest = plan.largest, .meshes = step_meshes(plan.meshes)};
   const auto measure = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"measure-step", "--largest", std::to_string(plan.largest)};
@@ -127,9 +127,9 @@ StepCosts measure_steps(const StepCostPlan& plan, int processes, StudyLog& log, 
   measure({"--compare"});
   log.advance();
   if (claims_of(costs).front().verdict != Verdict::holds) return costs;
-  log.begin("timing", static_cast<std::size_t>(processes));
-  for (int process = 0; process < processes; ++process) {
-    measure({"--process", std::to_string(process), "--rounds", std::to_string(plan.rounds)});
+  log.begin("timing", static_cast<std::size_t>(extent.processes()));
+  for (int process = 0; process < extent.processes(); ++process) {
+    measure({"--process", std::to_string(process), "--rounds", std::to_string(extent.rounds())});
     log.advance();
   }
   check_repeats(costs.samples);

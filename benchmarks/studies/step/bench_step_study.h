@@ -20,8 +20,9 @@ struct StepBenchPlan {
 
 Report step_bench(const StepBenchPlan& plan, StudyLog& log);
 
-/// The steps of bodies that do not change: compared in a process of its own and, where they agree, timed in so many
-/// more. Samples are those of a folder within that of the run.
-StepCosts measure_steps(const StepCostPlan& plan, int processes, StudyLog& log, const std::string& folder = "");
+/// The steps of bodies that do not change: compared in a process of its own and, where they agree, timed in as many
+/// processes and rounds as a quick run of the study has, or a whole one. Samples are those of a folder within that of
+/// the run.
+StepCosts measure_steps(const StepCostPlan& plan, bool quick, StudyLog& log, const std::string& folder = "");
 
 }  // namespace dartboard
