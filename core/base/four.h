@@ -1,5 +1,5 @@
 #pragma once
-// Four numbers, vectors and matrices at a time, in the order of sums that Eigen has for one with packets of two.
+// Four numbers, vectors and matrices at a time; sums are in the order of their terms, as those of one at a time.
 
 #include <array>
 #include <cstddef>
@@ -41,13 +41,9 @@ DARTBOARD_AVX2_INLINE FourMatrices operator*(Four s, const FourMatrices& m) { re
 DARTBOARD_AVX2_INLINE FourMatrices operator/(const FourMatrices& m, Four s) { return {m.a / s, m.b / s, m.c / s}; }
 
 /// Of a column of a matrix with another one: u'v.
-DARTBOARD_AVX2_INLINE Four dot(const FourVectors& u, const FourVectors& v) {
-  return (u.x * v.x + u.y * v.y) + u.z * v.z;
-}
-/// m v. The third number is not in a packet, and its sum is that of rows.
+DARTBOARD_AVX2_INLINE Four dot(const FourVectors& u, const FourVectors& v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
 DARTBOARD_AVX2_INLINE FourVectors operator*(const FourMatrices& m, const FourVectors& v) {
-  return {(m.a.x * v.x + m.b.x * v.y) + m.c.x * v.z, (m.a.y * v.x + m.b.y * v.y) + m.c.y * v.z,
-          m.a.z * v.x + (m.b.z * v.y + m.c.z * v.z)};
+  return v.x * m.a + v.y * m.b + v.z * m.c;
 }
 DARTBOARD_AVX2_INLINE FourMatrices operator*(const FourMatrices& m, const FourMatrices& n) {
   return {m * n.a, m * n.b, m * n.c};
@@ -61,13 +57,12 @@ DARTBOARD_AVX2_INLINE FourMatrices cofactors(const FourMatrices& m) {
 }
 /// The product of the first rows of a matrix and its cofactors.
 DARTBOARD_AVX2_INLINE Four determinant(const FourMatrices& m, const FourMatrices& cof) {
-  return m.a.x * cof.a.x + (m.b.x * cof.b.x + m.c.x * cof.c.x);
+  return m.a.x * cof.a.x + m.b.x * cof.b.x + m.c.x * cof.c.x;
 }
-/// The sum of nine products: those at even places of the columns, those at odd ones, and the last one.
+/// The sum of the nine products of their numbers.
 DARTBOARD_AVX2_INLINE Four product(const FourMatrices& m, const FourMatrices& n) {
-  const Four even = (m.a.x * n.a.x + m.a.z * n.a.z) + (m.b.y * n.b.y + m.c.x * n.c.x);
-  const Four odd = (m.a.y * n.a.y + m.b.x * n.b.x) + (m.b.z * n.b.z + m.c.y * n.c.y);
-  return (even + odd) + m.c.z * n.c.z;
+  return m.a.x * n.a.x + m.a.y * n.a.y + m.a.z * n.a.z + m.b.x * n.b.x + m.b.y * n.b.y + m.b.z * n.b.z + m.c.x * n.c.x +
+         m.c.y * n.c.y + m.c.z * n.c.z;
 }
 
 /// Two numbers at each of two places.

@@ -16,17 +16,20 @@ endif()
 set(equal_bits -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # ... and GCC 12's SLP vectoriser fuses an add/sub pair in spite of it on targets that have FMA.
-  list(APPEND equal_bits -fno-tree-slp-vectorize)
+  include(CheckCXXSourceCompiles)
+  check_cxx_source_compiles("#if !defined(__FMA__) && !defined(__AVX512F__)\n#error none\n#endif\nint main() {}" DARTBOARD_HAS_FMA)
+  if(DARTBOARD_HAS_FMA)
+    list(APPEND equal_bits -fno-tree-slp-vectorize)
+  endif()
 endif()
-# Eigen calls fused instructions by itself if the target has them, which no flag of the compiler prevents, and sums as
-# many numbers at once as fit the target's registers. So AVX and FMA are hidden from it, and it uses SSE alone.
-include(CheckCXXSourceCompiles)
-check_cxx_source_compiles("#if !defined(__AVX__) && !defined(__FMA__)\n#error none\n#endif\nint main() {}"
-  DARTBOARD_WIDE_VECTORS)
-if(DARTBOARD_WIDE_VECTORS)
-  list(APPEND equal_bits -U__AVX__ -U__AVX2__ -U__AVX512F__ -U__FMA__)
-endif()
+# Eigen would sum in packets as wide as the target's registers, call fused instructions by itself, which no flag of the
+# compiler prevents, and without packets sum by halves. Without its packets and its unrolling, sums are taken in the order
+# of their terms, and compilers unroll the loops. Projects that link to us see these definitions, too: both sides share
+# inline functions, and types that Eigen would align as packets need.
+set(dartboard_eigen_definitions)
 if(DARTBOARD_EQUAL_BITS)
+  set(dartboard_eigen_definitions EIGEN_DONT_VECTORIZE EIGEN_UNROLLING_LIMIT=0)
+  target_compile_definitions(dartboard_options INTERFACE ${dartboard_eigen_definitions})
   target_compile_options(dartboard_options INTERFACE ${equal_bits})
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)

