@@ -21,9 +21,10 @@
 namespace dartboard::reference {
 namespace {
 
-// The force of the spring on its end a; end b gets the opposite.
-Eigen::Vector3d pull(const Spring& spring, const Eigen::Vector3d& xa, const Eigen::Vector3d& va,
-                     const Eigen::Vector3d& xb, const Eigen::Vector3d& vb) {
+// The force of the spring on its end a; end b gets the opposite. Without the hint GCC leaves a call in the loop, which
+// takes a fifth longer.
+inline Eigen::Vector3d pull(const Spring& spring, const Eigen::Vector3d& xa, const Eigen::Vector3d& va,
+                            const Eigen::Vector3d& xb, const Eigen::Vector3d& vb) {
   const Eigen::Vector3d d = xb - xa;
   const double l = d.norm();
   if (l == 0.0) return Eigen::Vector3d::Zero();
