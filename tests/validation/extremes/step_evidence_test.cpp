@@ -137,15 +137,15 @@ TEST(LongStepEvidence, CallsEveryStepOfASoundIntegratorRightOverElements) {
   EXPECT_GT(seeing, 2000u);
 }
 
-// The body is damped by a time, and is judged with one of two millionths more, or with none. Steps of local-global show
-// it least, as they end their iterations early.
+// The body is damped by a time, and is judged with one of a millionth more, or with none. Eight steps, as local-global
+// ends its iterations early: four of them may not show a millionth.
 TEST(StepEvidence, TellsOneDampingOfElementsFromAnother) {
   for (const std::string_view kind : elastic_bodies) {
     Material right{.density = 1.0, .young = 100.0, .poisson = 0.3, .model = Model::neo_hookean};
     const double omega = highest_frequency(elastic_body(kind, right));
     right.damping_time = 0.2 / omega;
     Material more = right, none = right;
-    more.damping_time *= 1 + 2e-6;
+    more.damping_time *= 1 + 1e-6;
     none.damping_time = 0;
     SpringColumns body = elastic_body(kind, right);
     set_moving(body, 0.01, omega / 4);
@@ -155,7 +155,7 @@ TEST(StepEvidence, TellsOneDampingOfElementsFromAnother) {
         SpringColumns wrong = body;
         const SpringColumns keeps = elastic_body(kind, other);
         wrong.terms = {&keeps.solid->term()};
-        EXPECT_GT(judged(entry.name, *entry.make(), {wrong, 0.3 / omega}, 4).worst(), 1.0) << entry.name << kind;
+        EXPECT_GT(judged(entry.name, *entry.make(), {wrong, 0.3 / omega}, 8).worst(), 1.0) << entry.name << kind;
       }
     }
   }
