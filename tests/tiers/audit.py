@@ -37,7 +37,7 @@ def suite(name, minutes, options, sees):
 
 
 PARTS = [
-    suite("sanitizers-core", 21, ["--preset", "asan", "--only", "core"],
+    suite("sanitizers-core", 18, ["--preset", "asan", "--only", "core"],
           "core and the witnesses, by Clang, under its address and undefined-behaviour sanitizers"),
     suite("verbs", 3, ["--only", "verbs"], "every verb once, every mesh format and hostile names through those that take them"),
     suite("long", 1, ["--only", "long"], "tests that take more than a few seconds each"),
