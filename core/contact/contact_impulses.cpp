@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/forces/one_minus_exp.h"
-
 namespace dartboard {
 namespace {
 
@@ -17,17 +15,6 @@ using Fixed = const HeldVertices&;
 constexpr int most_sweeps = 4;
 constexpr double settled = 1e-12;
 
-double mobility_of(std::uint32_t i, InverseMass inverse_mass, Fixed fixed) {
-  return fixed.is_still(i) ? 0.0 : inverse_mass[i];
-}
-
-/// The acceleration of a vertex per force [1/kg], along the direction of the force.
-double mobility_along(std::uint32_t i, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
-  const double all = mobility_of(i, inverse_mass, fixed);
-  const HeldAxes held = fixed.axes(i);
-  return held == 0 ? all : all * free_part(held, unit).squaredNorm();
-}
-
 /// The acceleration of a sample's place per force there [1/kg]: each node has 1/n of the force, and 1/n of the place.
 /// This is for any direction, if no axis is held.
 double mobility_of(const SkinSample& sample, InverseMass inverse_mass, Fixed fixed) {
@@ -35,20 +22,6 @@ double mobility_of(const SkinSample& sample, InverseMass inverse_mass, Fixed fix
   for (const std::uint32_t i : sample.corners()) sum += mobility_of(i, inverse_mass, fixed);
   return sum / static_cast<double>(sample.count * sample.count);
 }
-double mobility_along(const SkinSample& sample, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
-  double sum = 0.0;
-  for (const std::uint32_t i : sample.corners()) sum += mobility_along(i, unit, inverse_mass, fixed);
-  return sum / static_cast<double>(sample.count * sample.count);
-}
-
-/// Adds a push over the mass of a vertex, or the part of it that no axis holds.
-void push(std::uint32_t i, double over_mass, const Vector3d& impulse, Fixed fixed, std::span<Vector3d> v) {
-  if (const HeldAxes held = fixed.axes(i); held == 0)
-    v[i] += over_mass * impulse;
-  else
-    v[i] += free_part(held, over_mass * impulse);
-}
-
 /// Apply a force or an impulse at the sample, over the masses of its nodes.
 void push(const SkinSample& sample, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
           std::span<Vector3d> v) {
@@ -56,40 +29,15 @@ void push(const SkinSample& sample, const Vector3d& impulse, InverseMass inverse
   for (const std::uint32_t i : sample.corners()) push(i, mobility_of(i, inverse_mass, fixed), share, fixed, v);
 }
 
-/// The same between two bodies.
-double mobility_of(const ContactSite& site, InverseMass inverse_mass, Fixed fixed) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < site.count; ++k)
-    sum += site.weights[k] * site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed);
-  return sum;
-}
-double mobility_along(const ContactSite& site, const Vector3d& unit, InverseMass inverse_mass, Fixed fixed) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < site.count; ++k)
-    sum += site.weights[k] * site.weights[k] * mobility_along(site.nodes[k], unit, inverse_mass, fixed);
-  return sum;
-}
-
-void push(const ContactSite& site, const Vector3d& impulse, InverseMass inverse_mass, Fixed fixed,
-          std::span<Vector3d> v) {
-  for (std::size_t k = 0; k < site.count; ++k)
-    push(site.nodes[k], site.weights[k] * mobility_of(site.nodes[k], inverse_mass, fixed), impulse, fixed, v);
-}
-
-/// The mass behind a contact, which the contact has to stop [kg].
-double mass_behind(const ContactLaw& law, double area, double mobility) {
-  return law.mass_behind > 0.0 ? law.mass_behind * area : 1.0 / mobility;
-}
-
 /// The largest friction [N] in a step of h, in which places approach each other at this speed from the depth at its
-/// beginning to that half way.
-double most_friction(const ContactLaw& law, double damping_ratio, double area, double mass, double depth,
+/// beginning to that half way. `factor` is that of the loss of a bounce.
+double most_friction(const ContactLaw& law, double factor, double area, double mobility, double depth,
                      double depth_half_way, double approach, double h) {
-  const double pushed =
-      law.force(area, depth_half_way) + law.damping(damping_ratio, area, mass, depth_half_way) * approach;
+  const double pushed = factor * law.force(area, depth_half_way);
   // A step that is long for the contact overestimates the depth: the normal force is at most the force at the beginning
   // plus the force that reverses the normal speed.
-  const double turned = law.force(area, depth) + (1.0 + law.restitution) * mass * std::max(0.0, approach) / h;
+  const double turned =
+      law.force(area, depth) + (1.0 + law.restitution) * (1.0 / mobility) * std::max(0.0, approach) / h;
   return law.friction * std::clamp(pushed, 0.0, turned);
 }
 
@@ -104,12 +52,7 @@ Vector3d at_most(const Vector3d& force, double size) {
 }  // namespace
 
 ContactImpulses::ContactImpulses(ObstacleContact* obstacles, BodyContact* bodies)
-    : obstacles_(obstacles), bodies_(bodies) {
-  if (obstacles_ != nullptr)
-    for (const ContactLaw& law : obstacles_->laws()) damping_ratio_.push_back(law.damping_ratio());
-  if (bodies_ != nullptr)
-    for (const ContactLaw& law : bodies_->laws()) damping_ratio_of_bodies_.push_back(law.damping_ratio());
-}
+    : obstacles_(obstacles), bodies_(bodies), bounces_(obstacles, bodies) {}
 
 bool ContactImpulses::has_friction() const {
   return (obstacles_ != nullptr && obstacles_->has_friction()) || (bodies_ != nullptr && bodies_->has_friction());
@@ -119,7 +62,7 @@ bool ContactImpulses::begin(double time, double h, InverseMass inverse_mass, Fix
                             std::span<Vector3d> v, const Accelerations& accelerations) {
   losses_at_begin_ = losses_;
   bool changed = place_at(time, x);
-  changed = damp(Sweep::forward, time, h / 2, inverse_mass, fixed, x, v) || changed;
+  changed = bounces_.before(bounce_step(time, h, inverse_mass, fixed, x, v), losses_) || changed;
   changed = place_at(time + h / 2, x) || changed;
   return set_friction(time, h, inverse_mass, fixed, x, v, accelerations) || changed;
 }
@@ -146,7 +89,19 @@ bool ContactImpulses::end(double time, double h, InverseMass inverse_mass, Fixed
     frozen.clear();
   }
   changed = place_at(time + h, x) || changed;
-  return damp(Sweep::backward, time + h, h / 2, inverse_mass, fixed, x, v) || changed;
+  return bounces_.after(bounce_step(time + h, h, inverse_mass, fixed, x, v), losses_) || changed;
+}
+
+Bounces::Step ContactImpulses::bounce_step(double time, double h, InverseMass inverse_mass, Fixed fixed,
+                                           std::span<const Vector3d> x, std::span<Vector3d> v) {
+  return {.time = time,
+          .h = h,
+          .near_obstacles = obstacles_ != nullptr && obstacles_->has_damping() && !is_clear(x),
+          .near_bodies = bodies_ != nullptr && bodies_->has_damping() && !are_apart(x),
+          .inverse_mass = inverse_mass,
+          .held = fixed,
+          .x = x,
+          .v = v};
 }
 
 bool ContactImpulses::is_clear(std::span<const Vector3d> x) {
@@ -165,6 +120,7 @@ void ContactImpulses::take_back() {
   if (obstacles_ != nullptr) obstacles_->frozen_friction_to_set().clear();
   if (bodies_ != nullptr) bodies_->frozen_friction_to_set().clear();
   losses_ = losses_at_begin_;
+  bounces_.take_back();
   if (!has_friction()) return;
   // the obstacles are where `begin` has put them
   std::swap(before_, now_);
@@ -173,9 +129,11 @@ void ContactImpulses::take_back() {
 
 void ContactImpulses::change_part(ObstacleContact* obstacles, BodyContact* bodies,
                                   std::span<const std::uint32_t> moved_to,
-                                  std::span<const std::uint32_t> moved_to_of_bodies) {
+                                  std::span<const std::uint32_t> moved_to_of_bodies,
+                                  std::span<const std::uint32_t> vertices) {
   obstacles_ = obstacles;
   bodies_ = bodies;
+  bounces_.change_part(obstacles, bodies, vertices);
   forget_places();
   const auto renumber = [](auto& rows, std::span<const std::uint32_t> to) {
     std::erase_if(rows, [to](auto& row) {
@@ -195,84 +153,6 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
   return work.sizes > 0.0;  // obstacles that move elsewhere change no force
 }
 
-bool ContactImpulses::damp(Sweep sweep, double time, double h, InverseMass inverse_mass, Fixed fixed,
-                           std::span<const Vector3d> x, std::span<Vector3d> v) {
-  const auto samples = [&] {
-    return obstacles_ != nullptr && obstacles_->has_damping() &&
-           damp_samples(sweep, time, h, inverse_mass, fixed, x, v);
-  };
-  const auto bodies = [&] {
-    return bodies_ != nullptr && bodies_->has_damping() && damp_bodies(sweep, h, inverse_mass, fixed, x, v);
-  };
-  const bool first = sweep == Sweep::forward ? samples() : bodies(),
-             second = sweep == Sweep::forward ? bodies() : samples();
-  return first || second;
-}
-
-bool ContactImpulses::damp_samples(Sweep sweep, double time, double h, InverseMass inverse_mass, Fixed fixed,
-                                   std::span<const Vector3d> x, std::span<Vector3d> v) {
-  bool changed = false;
-  Penetration in;
-  if (is_clear(x)) return false;
-  const auto& all = obstacles_->samples();
-  const std::size_t samples = all.size(), obstacles = damping_ratio_.size();
-  for (std::size_t k = 0; k < samples; ++k) {
-    const SkinSample& s = all[in_sweep(sweep, k, samples)];
-    const Vector3d y = ObstacleContact::place_of(s, x);
-    for (std::size_t l = 0; l < obstacles; ++l) {
-      const auto o = static_cast<std::uint32_t>(in_sweep(sweep, l, obstacles));
-      if (damping_ratio_[o] == 0.0 || !obstacles_->find_penetration(o, y, in)) continue;
-      const double mobility = mobility_along(s, in.normal, inverse_mass, fixed);
-      if (mobility == 0.0) continue;
-      const ContactLaw& law = obstacles_->laws()[o];
-      const double speed_of_obstacle = obstacles_->obstacles()[o].velocity_at(time).dot(in.normal),
-                   speed = ObstacleContact::place_of(s, v).dot(in.normal) - speed_of_obstacle,
-                   mass = mass_behind(law, s.area, mobility),
-                   c = law.damping(damping_ratio_[o], s.area, mass, in.depth),
-                   lost = one_minus_exp_of_minus(c * mobility * h), impulse = -speed * lost / mobility;
-      if (impulse == 0.0) continue;
-      // the parts that move independently of forces: the obstacle, and driven nodes
-      double driven = 0.0;
-      for (const std::uint32_t i : s.corners())
-        if (mobility_of(i, inverse_mass, fixed) == 0.0) driven += v[i].dot(in.normal) / static_cast<double>(s.count);
-      push(s, impulse * in.normal, inverse_mass, fixed, v);
-      losses_.damped += 0.5 * speed * speed * lost * (2.0 - lost) / mobility;
-      losses_.supplied += impulse * (speed_of_obstacle - driven);
-      changed = true;
-    }
-  }
-  return changed;
-}
-
-bool ContactImpulses::damp_bodies(Sweep sweep, double h, InverseMass inverse_mass, Fixed fixed,
-                                  std::span<const Vector3d> x, std::span<Vector3d> v) {
-  if (are_apart(x)) return false;
-  bool changed = false;
-  const auto touching = bodies_->touching({x});
-  for (std::size_t k = 0; k < touching.size(); ++k) {
-    const BodyTouch& t = touching[in_sweep(sweep, k, touching.size())];
-    const double ratio = damping_ratio_of_bodies_[t.law];
-    if (ratio == 0.0) continue;
-    const ContactSite site = bodies_->normal_site(t);
-    const double mobility = mobility_along(site, t.normal, inverse_mass, fixed);
-    if (mobility == 0.0) continue;
-    const ContactLaw& law = bodies_->laws()[t.law];
-    const double speed = site.difference(v).dot(t.normal), mass = mass_behind(law, t.area, mobility),
-                 gone = one_minus_exp_of_minus(law.damping(ratio, t.area, mass, t.depth) * mobility * h),
-                 impulse = -speed * gone / mobility;
-    if (impulse == 0.0) continue;
-    double driven = 0.0;
-    for (std::size_t n = 0; n < site.count; ++n)
-      if (mobility_of(site.nodes[n], inverse_mass, fixed) == 0.0)
-        driven += site.weights[n] * v[site.nodes[n]].dot(t.normal);
-    push(site, impulse * t.normal, inverse_mass, fixed, v);
-    losses_.damped += 0.5 * speed * speed * gone * (2.0 - gone) / mobility;
-    losses_.supplied -= impulse * driven;
-    changed = true;
-  }
-  return changed;
-}
-
 void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                            std::span<const Vector3d> x, std::span<const Vector3d> v) {
   if (clear_ ? obstacles_->is_clear_after(*clear_, v, h / 2) : obstacles_->is_clear(x, v, h / 2)) return;
@@ -283,13 +163,13 @@ void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass in
     const SkinSample& s = samples[k];
     const Vector3d y = ObstacleContact::place_of(s, x), speed = ObstacleContact::place_of(s, v),
                    half_way = y + (h / 2) * speed;
-    for (std::uint32_t o = 0; o < damping_ratio_.size(); ++o) {
+    for (std::uint32_t o = 0; o < obstacles_->laws().size(); ++o) {
       const ContactLaw& law = obstacles_->laws()[o];
       if (law.friction == 0.0 || !obstacles_->find_penetration(o, half_way, in)) continue;
       const double mobility = mobility_of(s, inverse_mass, fixed);
       if (mobility == 0.0) continue;
       const double approach = (obstacles_->obstacles()[o].velocity_at(time + h / 2) - speed).dot(in.normal);
-      most_.push_back(most_friction(law, damping_ratio_[o], s.area, mass_behind(law, s.area, mobility),
+      most_.push_back(most_friction(law, bounces_.factor(k, o, law, approach), s.area, mobility,
                                     obstacles_->penetration_in(o, y).depth, in.depth, approach, h));
       normal_.push_back(in.normal);
       while (old != before_.end() && std::pair(old->sample, old->obstacle) < std::pair(k, o)) ++old;
@@ -310,13 +190,13 @@ void ContactImpulses::find_rubbing_bodies(double h, InverseMass inverse_mass, Fi
     const ContactLaw& law = bodies_->laws()[t.law];
     if (law.friction == 0.0) continue;
     const ContactSite along = bodies_->normal_site(t), site = bodies_->tangential_site(t);
-    const double mobility = mobility_of(along, inverse_mass, fixed);
-    if (mobility == 0.0 || mobility_of(site, inverse_mass, fixed) == 0.0) continue;
+    const double mobility = along.mobility(inverse_mass, fixed);
+    if (mobility == 0.0 || site.mobility(inverse_mass, fixed) == 0.0) continue;
     const double approach = -along.difference(v).dot(t.normal);
     while (deep != depth_.end() && deep->first < t.sample) ++deep;
     const double depth = deep != depth_.end() && deep->first == t.sample ? deep->second : 0.0;
-    most_.push_back(most_friction(law, damping_ratio_of_bodies_[t.law], t.area, mass_behind(law, t.area, mobility),
-                                  depth, t.depth, approach, h));
+    most_.push_back(most_friction(law, bounces_.factor(t.sample, Bounces::body, law, approach), t.area, mobility, depth,
+                                  t.depth, approach, h));
     normal_.push_back(t.normal);
     while (old != bodies_before_.end() && old->sample < t.sample) ++old;
     const bool held = old != bodies_before_.end() && old->sample == t.sample;
@@ -350,7 +230,7 @@ bool ContactImpulses::set_friction(double time, double h, InverseMass inverse_ma
   const std::size_t first = now_.size();  // place of the first contact between bodies
   for (std::size_t k = 0; k < bodies_now_.size(); ++k) {
     bodies_now_[k].force = at_most(bodies_now_[k].force, most_[first + k]);
-    push(bodies_now_[k].site, bodies_now_[k].force, inverse_mass, fixed, acceleration_);
+    bodies_now_[k].site.push(bodies_now_[k].force, inverse_mass, fixed, acceleration_);
   }
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool done = true;
@@ -380,10 +260,10 @@ bool ContactImpulses::set_friction(double time, double h, InverseMass inverse_ma
     for (std::size_t k = 0; k < bodies_now_.size(); ++k) {
       BodyFriction& f = bodies_now_[k];
       const Vector3d& normal = normal_[first + k];
-      const double mobility = mobility_of(f.site, inverse_mass, fixed);
+      const double mobility = f.site.mobility(inverse_mass, fixed);
       const Vector3d speed = across(f.site.difference(v), normal) / h,
                      others = across(f.site.difference(acceleration_), normal) - mobility * f.force;
-      push(f.site, relax(speed, others, mobility, most_[first + k], f.force), inverse_mass, fixed, acceleration_);
+      f.site.push(relax(speed, others, mobility, most_[first + k], f.force), inverse_mass, fixed, acceleration_);
     }
     if (done) break;
   }
@@ -395,10 +275,9 @@ bool ContactImpulses::set_friction(double time, double h, InverseMass inverse_ma
 }
 
 std::size_t ContactImpulses::bytes() const {
-  return (damping_ratio_.capacity() + most_.capacity()) * sizeof(double) +
+  return bounces_.bytes() + most_.capacity() * sizeof(double) +
          (acceleration_.capacity() + normal_.capacity()) * sizeof(Vector3d) +
          (before_.capacity() + now_.capacity()) * sizeof(ContactFriction) +
-         damping_ratio_of_bodies_.capacity() * sizeof(double) +
          (bodies_before_.capacity() + bodies_now_.capacity()) * sizeof(BodyFriction) +
          depth_.capacity() * sizeof(std::pair<std::uint32_t, double>);
 }

@@ -2,7 +2,6 @@
 // The losses by contact around each step: speed lost in a bounce, and friction.
 
 #include <Eigen/Core>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,52 +11,19 @@
 #include <vector>
 
 #include "core/contact/body_contact.h"
+#include "core/contact/bounces.h"
+#include "core/contact/contact_site.h"
 #include "core/contact/obstacle_contact.h"
-#include "core/plain/held_axes.h"
 
 namespace dartboard {
 
-/// Sums over a run [J]: every change of energy that is not of a conservative step is in one of these. The total energy
-/// of a body, its contact energy included, changes by supplied - damped - rubbed.
-struct ContactLosses {
-  double damped = 0.0;    // by restitution below 1
-  double rubbed = 0.0;    // by friction; a step in which the sliding turns back may return some of its own
-  double supplied = 0.0;  // the work of obstacles that move, and of driven vertices against the impulses
-
-  template <class Archive>
-  void state(Archive& archive) {
-    archive(damped, rubbed, supplied);
-  }
-};
-
-/// Vertices that do not follow forces: 1 where one is fixed or driven, and the axes along which others are held. A
-/// column may be empty; valid as long as both are.
-class HeldVertices {
- public:
-  HeldVertices() = default;
-  template <class Column>
-  requires std::convertible_to<const Column&, std::span<const std::uint8_t>> HeldVertices(
-      const Column& fixed, std::span<const HeldAxes> axes = {})
-      : fixed_(fixed), axes_(axes) {}
-
-  bool is_still(std::size_t i) const { return !fixed_.empty() && fixed_[i] != 0; }
-  HeldAxes axes(std::size_t i) const { return axes_.empty() ? HeldAxes{0} : axes_[i]; }
-
- private:
-  std::span<const std::uint8_t> fixed_;
-  std::span<const HeldAxes> axes_;
-};
-
 /// The work around each step of any integrator, whose step has the contact terms among its forces:
 ///
-///     restart if begin(t, h, ...)      half of the damping; obstacles to t + h/2; friction is set
+///     restart if begin(t, h, ...)      half of the losses of bounces; obstacles to t + h/2; friction is set
 ///     step                             conservative, with constant obstacles and friction forces
-///     restart if end(t + h, ...)       friction is taken away; obstacles to t + h; half of the damping
+///     restart if end(t + h, ...)       friction is taken away; obstacles to t + h; half of the losses of bounces
 ///
-/// **Damping**, per sample and obstacle in this order before the step and in the opposite one after it, so that both
-/// halves together are symmetric in time and of order 2 where c is smooth: the normal speed relative to the obstacle
-/// decays exactly, at frozen places, as exp(- c(d) h / 2 / m) with m the mass that an impulse at the sample moves, 1 /
-/// (sum of 1 / m_i over its n nodes / n^2): never past zero, however stiff.
+/// **Losses of bounces** are those of Bounces, which it has for both terms.
 ///
 /// **Friction** is a constant force during the step. It is chosen so that the tangential speed relative to the
 /// obstacle, predicted for the end of the step by the accelerations at its beginning, is zero: - m (v_t / h + a_t); or
@@ -68,9 +34,9 @@ class HeldVertices {
 /// after the other in a few sweeps, from those of the step before: the forces of samples that stick for some steps
 /// converge, and that of a single vertex is found at once.
 ///
-/// **Between bodies** both act on the nodes of both sides, after those with obstacles: damping along the line from the
+/// **Between bodies** both act on the nodes of both sides, after those with obstacles: losses along the line from the
 /// sample to the nearest way out, friction at the sample's own place in the other body, with both places half way
-/// through the step. Linear momentum is conserved to rounding. So is angular momentum with damping; with friction it is
+/// through the step. Linear momentum is conserved to rounding. So is angular momentum with losses; with friction it is
 /// for methods that take their forces half way, as Verlet does, and for contacts that stick; for others the two places
 /// slide apart before and after, along the force, and an error of h^3 is left.
 ///
@@ -112,32 +78,25 @@ class ContactImpulses {
   void take_back();
 
   /// Continue with the contact of another part of the body, or of the whole; `moved_to` has the number there of each
-  /// sample here, VertexSubset::none of those left out. The starts of friction are kept.
-  /// pre  between steps; the laws are the same
+  /// sample here, VertexSubset::none of those left out, and `vertices` the numbers of the part's vertices in the whole,
+  /// or nothing for the whole. The starts of friction and of bounces are kept.
+  /// pre  between steps; the laws are the same; `vertices` stays as it is until the next call
   void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
-                   std::span<const std::uint32_t> moved_to_of_bodies);
+                   std::span<const std::uint32_t> moved_to_of_bodies, std::span<const std::uint32_t> vertices);
 
   const ContactLosses& losses() const { return losses_; }
   /// pre  between steps
   template <class Archive>
   void state(Archive& archive) {
-    archive(losses_, before_);
+    archive(losses_, bounces_, before_);
     if (bodies_ != nullptr) archive(bodies_before_);
   }
   std::size_t bytes() const;
 
  private:
-  enum class Sweep : std::uint8_t { forward, backward };
-  static std::size_t in_sweep(Sweep sweep, std::size_t k, std::size_t count) {
-    return sweep == Sweep::forward ? k : count - 1 - k;
-  }
   bool has_friction() const;
-  bool damp(Sweep sweep, double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
-            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_samples(Sweep sweep, double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
-                    std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  bool damp_bodies(Sweep sweep, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
-                   std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
+  Bounces::Step bounce_step(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+                            std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
   void find_rubbing_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                             std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
   void find_rubbing_bodies(double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
@@ -153,9 +112,8 @@ class ContactImpulses {
   std::optional<double> room_;      // [m] between bodies, at the present places
   ObstacleContact* obstacles_;
   BodyContact* bodies_;
+  Bounces bounces_;
   ContactLosses losses_, losses_at_begin_;
-  std::vector<double> damping_ratio_;            // by obstacle
-  std::vector<double> damping_ratio_of_bodies_;  // by law
   std::vector<double> most_;  // [N] the largest friction allowed, by frozen force: of obstacles, then of bodies
   std::vector<Eigen::Vector3d> acceleration_, normal_;
   // Friction of the step before, where sweeps begin: a guess, no worse than zero even after the samples have changed.

@@ -16,15 +16,29 @@ double power(double u, int exponent) {
   return product;
 }
 
-/// - ln e for 0 < e < 1: for the mantissa m by 2 atanh((1 - m) / (1 + m)), whose argument is at most 1/3, so that the
-/// rest after 18 terms is below 3^-36.
-double minus_log(double e) {
+/// - ln u for u > 0: for the mantissa m by 2 atanh((1 - m) / (1 + m)), whose argument is at most 1/3, so that the rest
+/// after 18 terms is below 3^-36.
+double minus_log(double u) {
   int exponent = 0;
-  const double mantissa = std::frexp(e, &exponent);
+  const double mantissa = std::frexp(u, &exponent);
   const double z = (1.0 - mantissa) / (1.0 + mantissa), square = z * z;
   double sum = 0.0;
   for (int k = 18; k >= 0; --k) sum = sum * square + 1.0 / (2 * k + 1);
   return 2.0 * z * sum - exponent * std::numbers::ln2;
+}
+
+/// (s + s e + ln(1 - s e) - ln(1 + s)) / s^2, which falls from (1 - e^2) / 2 at s = 0 to minus infinity at 1 / e. Small
+/// s have the series: the sum of (-s)^k (1 - (-e)^(k+2)) / (k + 2), whose terms of s <= 1/2 are below 2^-60 from 60 on.
+double excess(double s, double e) {
+  if (s > 0.5) return s * e < 1.0 ? (s * (1.0 + e) + minus_log(1.0 + s) - minus_log(1.0 - s * e)) / (s * s) : -1.0;
+  double sum = 0.0, power_of_e = e * e, power_of_s = 1.0;
+  sum += power_of_s * (1.0 - e) * (1.0 + e) / 2.0;
+  for (int k = 1; k < 60; ++k) {
+    power_of_e *= -e;
+    power_of_s *= -s;
+    sum += power_of_s * (1.0 - power_of_e) / (k + 2);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -38,7 +52,6 @@ void ContactLaw::require_valid() const {
   require(exponent >= 2 && exponent <= 4, "exponent", exponent, "2, 3 or 4");
   require(restitution > 0.0 && restitution <= 1.0, "restitution", restitution, "more than 0 and at most 1");
   require(friction >= 0.0 && std::isfinite(friction), "friction", friction, "at least 0");
-  require(mass_behind >= 0.0 && std::isfinite(mass_behind), "mass behind", mass_behind, "at least 0");
 }
 
 double ContactLaw::energy(double area, double d) const {
@@ -76,16 +89,14 @@ double ContactLaw::depth_at_impact(double energy_per_area) const {
   return depth * (exponent == 2 ? std::sqrt(share) : std::sqrt(std::sqrt(share)));
 }
 
-double ContactLaw::damping_ratio() const {
+double ContactLaw::loss() const {
+  double low = 0.0, high = 1.0 / restitution;
   if (restitution == 1.0) return 0.0;
-  const double log = minus_log(restitution);
-  return log / std::sqrt(std::numbers::pi * std::numbers::pi + log * log);
-}
-
-double ContactLaw::damping(double ratio, double area, double mass, double d) const {
-  if (!(d > 0.0)) return 0.0;
-  // kappa d^(p-2) is the force over the depth: the same product for every p
-  return ratio * std::sqrt(2.0 * exponent * mass * force(area, d) / d);
+  for (;;) {
+    const double middle = 0.5 * (low + high);
+    if (!(low < middle && middle < high)) return low;
+    (excess(middle, restitution) > 0.0 ? low : high) = middle;
+  }
 }
 
 }  // namespace dartboard

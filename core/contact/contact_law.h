@@ -8,17 +8,13 @@ namespace dartboard {
 ///
 /// It uses no libm except sqrt, so that motions have the same bits on every platform; numbers only printed use cbrt.
 /// units   area [m^2] of the boundary at rest that a sample stands for
-/// pre     pressure, depth > 0; exponent 2, 3 or 4; 0 < restitution <= 1; friction, mass_behind >= 0
+/// pre     pressure, depth > 0; exponent 2, 3 or 4; 0 < restitution <= 1; friction >= 0
 struct ContactLaw {
   double pressure = 0.0;     // P0 [Pa], at ...
   double depth = 0.0;        // delta [m]
   int exponent = 3;          // p of the energy; integrators are of no higher order than p through a contact
-  double restitution = 1.0;  // e: the share of the normal speed left after a bounce, at any speed
+  double restitution = 1.0;  // e: the share of the normal speed left after a bounce, at any speed and for any mass
   double friction = 0.0;     // mu of Coulomb
-  // [kg/m^2] behind the surface that the contact has to stop, rho H of a column of height H: a body that is stiff
-  // against its contact, with that much mass behind each part that touches, has exactly that restitution.
-  // 0: the vertices of each sample alone, which is exact for free vertices.
-  double mass_behind = 0.0;
 
   /// throws  InputError naming the number, its value and what is expected
   void require_valid() const;
@@ -39,16 +35,14 @@ struct ContactLaw {
   /// v: delta (p E / (P0 delta))^(1/p) [m].
   double depth_at_impact(double energy_per_area) const;
 
-  /// zeta of e = exp(- pi zeta / sqrt(1 - zeta^2)); 0 for e = 1. Exact to a few roundings, without libm.
-  double damping_ratio() const;
-  /// c(d) [kg/s] of force c times speed, with `mass` [kg] behind: zeta sqrt(2 p m kappa) d^(p/2-1), where
-  /// a P0 delta / p (d / delta)^p = kappa / p d^p. A mass that bounces alone then has the same restitution at any
-  /// speed.
+  /// s >= 0, the root of s - ln(1 + s) = - s e - ln(1 - s e), to some roundings, without libm. The force of a contact
+  /// whose depth changes at the rate r, and first did at the rate r0, is that of its depth times max(0, 1 + s r / r0):
+  /// it never pulls. A mass m in it moves by m r dr / (1 + s r / r0) = - force(d) dd; integrated on the way in and on
+  /// the way out, the right side is the same energy, whatever m, r0 and the exponent are, and the left side is the
+  /// equation.
   ///
-  /// source  Feng, arXiv 2604.02533
-  double damping(double area, double mass, double d) const { return damping(damping_ratio(), area, mass, d); }
-  /// The same with zeta known.
-  double damping(double ratio, double area, double mass, double d) const;
+  /// source  the form of the force: Hunt and Crossley, J. Appl. Mech. 42 (1975)
+  double loss() const;
 };
 
 }  // namespace dartboard

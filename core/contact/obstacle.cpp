@@ -58,6 +58,21 @@ double Obstacle::half_thickness() const {
   return std::numeric_limits<double>::infinity();
 }
 
+double Obstacle::depth_between(double gap) const {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  if (const auto* ball = std::get_if<Ball>(&shape)) {
+    const double inside = ball->radius * ball->radius - gap * gap;
+    return inside > 0.0 ? ball->radius - std::sqrt(inside) : all;
+  }
+  if (const auto* block = std::get_if<Block>(&shape)) {
+    const Vector3d half = 0.5 * (block->high - block->low);
+    // the middle one of the three
+    const double middle = half.sum() - half.minCoeff() - half.maxCoeff();
+    return middle <= gap ? all : 0.0;
+  }
+  return 0.0;
+}
+
 void Obstacle::require_valid() const {
   if (const auto* plane = std::get_if<HalfSpace>(&shape)) {
     // a direction that was divided by its length has length 1 to a few roundings

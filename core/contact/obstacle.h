@@ -36,6 +36,9 @@ struct Obstacle {
   /// The largest depth possible inside [m]: half of its least thickness; infinity for a half-space. A vertex that moves
   /// further in one step may come out on the other side.
   double half_thickness() const;
+  /// How far it comes [m] into a plane on which places that feel it are up to `gap` [m] apart from others, before one
+  /// is inside; infinite for a ball, or a block across its two longer sides, that passes between them.
+  double depth_between(double gap) const;
   /// throws  InputError for a normal that is not of length 1, a radius that is not above 0, a block without inside, or
   ///         a motion that ends before it begins
   void require_valid() const;

@@ -115,10 +115,12 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
              cells.size() * 2 * number + (cells.size() + 1) * number +
              (n.vertices + (cells.empty() ? 0 : n.cells)) * number;
     }
-    case Part::contact: {  // laws, obstacles, their displacement and damping ratio; samples; velocities to restore
+    // laws, obstacles, their displacement and loss; samples; velocities to restore, and as a step begins
+    case Part::contact: {
       const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
       return scene.obstacles.size() * (sizeof(ContactLaw) + sizeof(Obstacle) + vector + real) +
              samples * sizeof(SkinSample) + (plan.needs.solver ? n.vertices * vector : 0) +
+             (arrays.body().contact()->has_damping() ? n.vertices * vector : 0) +
              (plan.needs.body.topology_changes ? (samples + n.vertices + faces) * number : 0);
     }
     case Part::damping: return n.edges * sizeof(Spring::damping);

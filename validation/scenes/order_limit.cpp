@@ -20,7 +20,7 @@ OrderLimit order_limit(const SceneFile& file) {
     if (std::holds_alternative<Block>(o.obstacle.shape)) limit(0.0, "boxes, whose nearest face changes");
     const int p = o.law.exponent;
     limit(p, fmt::format("an energy of exponent {}", p));
-    if (o.law.restitution < 1.0) limit(0.5 * p, fmt::format("speed that is lost, with exponent {}", p));
+    if (o.law.restitution < 1.0) limit(2.0, "speed that is lost");
     if (o.moves()) limit(2.0, "obstacles that move");
     if (o.law.friction > 0.0) limit(1.0, "friction");
   }

@@ -29,6 +29,7 @@ void add_validate_contact(CLI::App& validate, Outcome& outcome) {
                           .looks = options->quick ? 10u : 100u,
                           .seed = options->seed,
                           .operations = options->quick ? 200u : 10'000u,
+                          .every_integrator = !options->quick,
                           .one_ball = options->quick,
                           .certified = options->quick ? 200u : 2000u,
                           .shots = options->quick ? 30u : 100u};

@@ -28,6 +28,11 @@ constexpr int least_faces = 6;
 constexpr double most_moved = 1e-3;
 // A stack at rest has lost its drop to rounding, and creeps nowhere in friction that sticks.
 constexpr double most_kinetic = 1e-10, most_creep = 1e-6;
+// Of the 200 steps of a bounce by methods of order 2 and more, and a tenth over the ratio of stiffnesses. Restitutions
+// below are exact in shorter steps only: their losses are fast.
+constexpr double most_bounce = 0.02, least_asked = 0.2, least_stiffness = 10.0;
+// What Newton's method leaves of its equations.
+constexpr double most_pulled = 1e-9;
 // Sums of some thousand terms that an operation leaves or takes whole, and those of steps over what was added to them:
 // some dozens of roundings of each term at most.
 constexpr double most_rounding = 1e-14;
@@ -43,6 +48,10 @@ Claim claim(std::string id, std::string text, double bound, double worst, const 
              .measured = fmt::format("{:.2g}{}", worst, unit)};
   made.verdict = worst <= bound ? Verdict::holds : Verdict::falls_short;
   return made;
+}
+
+double stiffness_of(const BounceFound& found) {
+  return std::ranges::find(bouncing_bodies(), found.body, &BouncingBody::name)->stiffness;
 }
 
 struct PressedFigure {
@@ -114,6 +123,12 @@ std::vector<Claim> claims_of(const ContactResults& results) {
     if (ball.across >= least_faces) hertz = max_or_nan(hertz, std::abs(found.error()));
     if (!found.ended || !(found.moved <= most_moved) || ball.across < least_faces) hertz = NAN;
   }
+  double bounce = results.bounces.empty() ? NAN : 0.0, pulled = bounce;
+  for (const BounceFound& one : results.bounces) {
+    if (one.ended) pulled = max_or_nan(pulled, one.pulled);
+    if (one.order >= 2 && one.asked >= least_asked && stiffness_of(one) >= least_stiffness)
+      bounce = max_or_nan(bounce, one.ended ? std::abs(one.found - one.asked) : NAN);
+  }
   const bool rests = results.stack && results.stack->ended && results.stack->drop > 0.0;
   std::vector<Claim> claims{
       claim("contact-placed", "bodies that overlap deeper than 3/4 of the least altitude of a cell are felt",
@@ -131,6 +146,13 @@ std::vector<Claim> claims_of(const ContactResults& results) {
   for (std::size_t k = 2; k < claims.size(); ++k) claims[k].bound_or_interval = fmt::format("in {} looks", looks);
   claims.push_back(claim("contact-hertz", "a ball in a half-space is carried by Hertz's force", most_hertz, hertz, ""));
   claims.back().bound_or_interval = fmt::format("the worst of {}", counted(results.balls.size(), "case"));
+  claims.push_back(claim("contact-restitution",
+                         "bodies ten times as stiff as their contact, and loose vertices, keep the restitution",
+                         most_bounce, bounce, ""));
+  claims.push_back(
+      claim("contact-pushes", "a floor that leaves does not pull, of its speed in a step", most_pulled, pulled, ""));
+  for (std::size_t k = claims.size() - 2; k < claims.size(); ++k)
+    claims[k].bound_or_interval = fmt::format("in {}", counted(results.bounces.size(), "run"));
   claims.push_back(claim("contact-stack-rests", "a stack comes to rest: its kinetic energy over that of the drop",
                          most_kinetic, rests ? results.stack->kinetic / results.stack->drop : NAN, ""));
   claims.push_back(claim("contact-stack-still", "and stays where it is", most_creep, rests ? results.stack->moved : NAN,
@@ -154,6 +176,46 @@ Table operations_table(const PressedOperations& found) {
   const std::size_t near = found.of_neighbours.count();
   add("pairs within two rings of a crack's tip, of all that overlap", share_of(near, near + found.by_depth.count()));
   add("deepest of these", fmt::format("{:.2g}", found.of_neighbours.deepest));
+  return table;
+}
+
+Table bounces_table(const std::vector<BounceFound>& bounces) {
+  Table table({{"body"},
+               {"stiffness over contact's", Align::right},
+               {"asked", Align::right},
+               {"order 2 and more", Align::right},
+               {"order 1", Align::right},
+               {"failed", Align::right},
+               {"largest pull", Align::right}});
+  struct Range {
+    double least = INFINITY, most = -INFINITY;
+    void add(double value) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    std::string text() const {
+      if (!(least <= most)) return "-";
+      return most - least < 5e-4 ? fmt::format("{:.3f}", least) : fmt::format("{:.3f} to {:.3f}", least, most);
+    }
+  };
+  for (auto row = bounces.begin(); row != bounces.end();) {
+    const BounceFound& first = *row;
+    Range exact, rough;
+    std::string failed;
+    double pulled = 0.0;
+    for (; row != bounces.end() && row->body == first.body && row->asked == first.asked; ++row) {
+      if (!row->ended) {
+        failed += (failed.empty() ? "" : ", ") + std::string(row->integrator);
+        continue;
+      }
+      (row->order >= 2 ? exact : rough).add(row->found);
+      pulled = max_or_nan(pulled, row->pulled);
+    }
+    const double stiffness = stiffness_of(first);
+    table.add_row({std::string(first.body), std::isfinite(stiffness) ? fmt::format("{:g}", stiffness) : "",
+                   fmt::format("{:g}", first.asked), exact.text(), rough.text(), failed,
+                   fmt::format("{:.1e}", pulled)});
+  }
   return table;
 }
 

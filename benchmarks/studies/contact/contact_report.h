@@ -7,6 +7,7 @@
 
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/table.h"
+#include "validation/contact/bouncing_bodies.h"
 #include "validation/contact/contact_run.h"
 #include "validation/contact/hertz.h"
 #include "validation/contact/pressed_operations.h"
@@ -32,6 +33,7 @@ struct ContactResults {
     HertzResult found;
   };
   std::vector<Pressed> balls;
+  std::vector<BounceFound> bounces;
   std::optional<StackAtRest> stack;
   std::optional<PressedOperations> operations;
 };
@@ -45,6 +47,8 @@ Table depths_table(const ContactResults& results);
 Table runs_table(const std::vector<ContactRun>& runs);
 /// Hertz's force, case by case; and the stack.
 Table carried_table(const ContactResults& results);
+/// A row for each body and restitution, over all integrators.
+Table bounces_table(const std::vector<BounceFound>& bounces);
 /// The figures of the operations in a pressed stack, with their limits.
 Table operations_table(const PressedOperations& found);
 

@@ -12,6 +12,7 @@
 #include "benchmarks/studies/contact/contact_report.h"
 #include "benchmarks/studies/contact/ipctk_study.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/time/integrators.h"
 #include "validation/contact/contact_scenes.h"
 
 namespace dartboard {
@@ -136,6 +137,25 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
     results.balls.push_back({ball, found});
     log.advance("a ball in a half-space");
   }
+  std::vector<std::string_view> methods{"verlet", "backward-euler"};
+  if (plan.every_integrator) {
+    methods.clear();
+    for (const IntegratorEntry& entry : integrators()) methods.push_back(entry.name);
+  }
+  log.begin("validate contact: bounces", bouncing_bodies().size());
+  for (const BouncingBody& body : bouncing_bodies()) {
+    for (const double asked : {0.9, 0.5, 0.2, 0.05})
+      for (const std::string_view method : methods) {
+        const BounceFound& found = results.bounces.emplace_back(bounce_body(body, method, asked));
+        log.sample({{"bounces", found.body},
+                    {"integrator", found.integrator},
+                    {"asked", found.asked},
+                    {"found", found.found},
+                    {"pulled", found.pulled},
+                    {"ended", found.ended}});
+      }
+    log.advance(std::string(body.name));
+  }
   results.stack = watch_stack();
   log.sample({{"stack_of", results.stack->boxes},
               {"steps", results.stack->steps},
@@ -179,6 +199,8 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
                  {"depths", "Pairs of cells that overlap, by their least translation", depths_table(results)},
                  {"runs", "Runs, looked at on the way", runs_table(results.runs)},
                  {"carried", "What contact carries, and where it stands still", carried_table(results)},
+                 {"bounces", "Bodies that fall flat on a floor, and one that leaves them",
+                  bounces_table(results.bounces)},
                  {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
       .claims = claims_of(results)};
   if (by_ipctk) {

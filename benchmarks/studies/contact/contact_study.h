@@ -17,6 +17,7 @@ struct ContactStudyPlan {
   std::size_t looks = 100;           // in each run
   std::uint64_t seed = 1;            // seeds the placements and the operations
   std::size_t operations = 10'000;   // in a pressed stack
+  bool every_integrator = true;      // for bounces; false: one explicit and one implicit method
   bool one_ball = false;             // pressed into a half-space; otherwise by every law, and into other cells
   // Makes the answers to questions, as run_ipctk does; empty: ipctk is not asked.
   std::function<std::string(const std::string& questions)> ipctk{};

@@ -43,10 +43,23 @@ std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
                    fmt::format("{:.4g}", f.speed), fmt::format("{:.4g}", f.depth_at_impact),
                    fmt::format("{:.3g}", f.share)});
   };
-  for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
+  std::string bounces;
+  const auto look_at_bounce = [&bounces](const std::string& path, const ContactLaw& law, const ContactForecast& f) {
+    if (!f.keeps_restitution(law))
+      bounces += fmt::format(
+          "The restitution {:.4g} of {} is that of places; a body that is {:.2g} times as stiff as the contact bounces "
+          "otherwise. ",
+          law.restitution, path, f.stiffness_ratio);
+  };
+  for (std::size_t k = 0; k < plan.obstacles.size(); ++k) {
     add(scene.obstacles[k].path, scene.obstacles[k].law, plan.obstacles[k]);
-  for (const TouchForecast& touch : plan.touches) add(touch.path, touch.law, touch.contact);
-  std::string text = to_text(table);
+    look_at_bounce(scene.obstacles[k].path, scene.obstacles[k].law, plan.obstacles[k]);
+  }
+  for (const TouchForecast& touch : plan.touches) {
+    add(touch.path, touch.law, touch.contact);
+    look_at_bounce(touch.path, touch.law, touch.contact);
+  }
+  std::string text = to_text(table) + bounces;
   if (!std::isfinite(plan.body_step))
     text += fmt::format("Every step is stable with {}. ", scene.integrator);
   else

@@ -23,10 +23,29 @@ double extent(std::span<const Vector3d> points, const Vector3d& along) {
   return points.empty() ? 0.0 : high - low;
 }
 
+/// [Pa] The least Young's modulus; infinite where a material has none, or the mesh is a surface.
+double least_young(const Problem& problem) {
+  double least = std::numeric_limits<double>::infinity();
+  if (problem.mesh.highest_dimension() == 2) return least;
+  for (const Material& material : problem.cell_materials().all())
+    if (material.young > 0.0) least = std::min(least, material.young);
+  return least;
+}
+
+/// Fills the share and the stiffness ratio of a forecast that has its depths.
+void compare_with_law(ContactForecast& f, const ContactLaw& law, double young, double height) {
+  const double deepest = std::max(f.depth_at_rest, f.depth_at_impact);
+  f.share = deepest / law.depth;
+  if (deepest > 0.0) f.stiffness_ratio = young / height / law.stiffness(1.0, deepest);
+}
+
 class Forecaster {
  public:
   Forecaster(const SceneFile& scene, const Problem& problem)
-      : scene_(scene), points_(problem.mesh.points), gravity_(problem.surroundings.gravity.norm()) {
+      : scene_(scene),
+        points_(problem.mesh.points),
+        gravity_(problem.surroundings.gravity.norm()),
+        young_(least_young(problem)) {
     surface_ = problem.mesh.highest_dimension() == 2;
     for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
     if (gravity_ > 0.0) up_ = -problem.surroundings.gravity / gravity_;
@@ -41,14 +60,14 @@ class Forecaster {
   ContactForecast at(const SceneObstacle& one) const {
     const ContactLaw& law = one.law;
     ContactForecast f;
-    f.mass_behind = law.mass_behind > 0.0 ? law.mass_behind : surface_ ? density_ : density_ * height(one);
+    f.mass_behind = surface_ ? density_ : density_ * height(one);
     const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape);
     const double weight = plane == nullptr ? gravity_ : gravity_ * std::max(0.0, up_.dot(plane->normal));
     f.depth_at_rest = law.depth_at_rest(f.mass_behind * weight);
     const double own = own_speed(one), fall = fall_onto(one);
     f.speed = std::min(std::sqrt(own * own + 2.0 * gravity_ * fall), own + gravity_ * scene_.duration);
     f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    f.share = std::max(f.depth_at_rest, f.depth_at_impact) / law.depth;
+    compare_with_law(f, law, young_, height(one));
     return f;
   }
 
@@ -103,7 +122,7 @@ class Forecaster {
 
   const SceneFile& scene_;
   std::span<const Vector3d> points_;
-  double gravity_;
+  double gravity_, young_;
   double density_ = 0.0;
   bool surface_ = false;
   Vector3d up_{0, 0, 0};
@@ -113,7 +132,7 @@ class Forecaster {
 /// The forecast of contacts between bodies.
 class TouchForecaster {
  public:
-  TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene) {
+  TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene), young_(least_young(problem)) {
     for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
     const Vector3d& g = problem.surroundings.gravity;
     gravity_ = g.norm();
@@ -159,13 +178,13 @@ class TouchForecaster {
     const bool itself = touch.first == touch.second;
     const double column = itself ? a.height() : std::min(heights_ - std::min(a.height(), b.height()), extent_);
     ContactForecast f;
-    f.mass_behind = law.mass_behind > 0.0 ? law.mass_behind : density_ * column;
+    f.mass_behind = density_ * column;
     f.depth_at_rest = law.depth_at_rest(f.mass_behind * gravity_);
     const double both = a.speed + b.speed;
     const double fall = itself ? (changes_ ? a.height() : 0.0) : std::abs(a.high[0] - b.high[0]);
     f.speed = std::min(std::sqrt(both * both + 2.0 * gravity_ * fall), both + gravity_ * scene_.duration);
     f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    f.share = std::max(f.depth_at_rest, f.depth_at_impact) / law.depth;
+    compare_with_law(f, law, young_, column);
     return f;
   }
 
@@ -177,6 +196,7 @@ class TouchForecaster {
   };
 
   const SceneFile& scene_;
+  double young_;
   double density_ = 0.0, gravity_ = 0.0, heights_ = 0.0, extent_ = 0.0;
   bool changes_ = false;  // the topology
   std::vector<Body> bodies_;

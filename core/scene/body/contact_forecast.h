@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,11 +20,17 @@ namespace dartboard {
 
 /// The forecast at one obstacle, for a column of the body as high as the body is towards the obstacle.
 struct ContactForecast {
-  double mass_behind = 0.0;      // [kg/m^2] that of the law, or that of the column
+  double mass_behind = 0.0;      // [kg/m^2] of the column
   double depth_at_rest = 0.0;    // [m] where its weight presses it onto the obstacle
   double speed = 0.0;            // [m/s] of the fastest impact
   double depth_at_impact = 0.0;  // [m] without loss
   double share = 0.0;            // the larger of the two depths over that of the law
+  // the stiffness of the column, Young's modulus over its height, over that of the contact at the larger of the two
+  // depths; infinite for surfaces, and where materials have no modulus
+  double stiffness_ratio = std::numeric_limits<double>::infinity();
+
+  /// Is the restitution that of the body, to a tenth or so? A softer body vibrates after the bounce, or while it lasts.
+  bool keeps_restitution(const ContactLaw& law) const { return law.restitution == 1.0 || stiffness_ratio >= 5.0; }
 };
 
 /// The forecasts in the order of the scene's obstacles.

@@ -98,8 +98,7 @@ void read_contact(const SceneValue& value, SceneFile& scene) {
                        .depth = value.get<double>("depth"),
                        .exponent = value.get<int>("exponent"),
                        .restitution = value.get<double>("restitution"),
-                       .friction = value.get<double>("friction"),
-                       .mass_behind = value.get<double>("mass_behind")};
+                       .friction = value.get<double>("friction")};
   for (const SceneValue& one : value.at("obstacles").entries())
     scene.obstacles.push_back(read_obstacle(one, law, scene.duration));
   scene.touches = read_touches(value, law, scene.bodies().size());

@@ -26,6 +26,24 @@ std::string place_in_words(std::span<const std::uint32_t> nodes) {
                      nodes.back());
 }
 
+/// [m] The largest distance of a place on an edge of the sample's face from the nearest of the face's corners and its
+/// middle, which are all sampled; 0 for a vertex. Places inside are nearer.
+double farthest_on_face(const SkinSample& sample, std::span<const Vector3d> x) {
+  if (sample.count == 1) return 0.0;
+  const Vector3d middle = ObstacleContact::place_of(sample, x);
+  double farthest = 0.0;
+  for (std::uint32_t k = 0; k < sample.count; ++k) {
+    const Vector3d &a = x[sample.nodes[k]], &b = x[sample.nodes[(k + 1) % sample.count]];
+    const double length = (b - a).norm();
+    for (const Vector3d& end : {a, b}) {
+      // as far from this corner as from the middle, or half way to the other corner
+      const Vector3d along = (end == a ? b - a : a - b) / length, to_middle = middle - end;
+      farthest = std::max(farthest, std::min(0.5 * length, 0.5 * to_middle.squaredNorm() / to_middle.dot(along)));
+    }
+  }
+  return farthest;
+}
+
 HeldVertices held_in(const SpringSystem& system) { return {system.fixed.span(), system.held_axes.span()}; }
 
 }  // namespace
@@ -62,6 +80,21 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
           "at the expected speeds a vertex moves {:.4g} m in a step relative to {}, where "
           "nothing is more than {:.4g} m inside: it may pass through; take a shorter /step",
           w.value, other, w.limit);
+    case ContactWarning::Kind::too_thin:
+      return fmt::format(
+          "{} may be {:.4g} m deep in a body, and nothing is more than {:.4g} m inside it: what is deeper comes out on its "
+          "other side; make it thicker, or take a larger 'pressure' or a smaller 'depth'",
+          other, w.value, w.limit);
+    case ContactWarning::Kind::too_small:
+      return fmt::format(
+          "{} may come {} into faces of bodies between the places that feel contact, which are up to {:.4g} m from other "
+          "places of the boundary; take smaller cells, or a larger obstacle",
+          other, std::isfinite(w.value) ? fmt::format("{:.4g} m deep", w.value) : "any depth", w.limit);
+    case ContactWarning::Kind::soft_body:
+      return fmt::format(
+          "the restitution {:.4g} at {} is that of places, and a body will bounce otherwise: it is {:.2g} times as stiff as "
+          "the contact, and vibrates; a lower 'pressure' or a larger 'depth' makes the contact softer",
+          w.limit, other, w.value);
     case ContactWarning::Kind::too_fast: break;
   }
   if (w.of_bodies)
@@ -103,6 +136,7 @@ void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactFor
                            .limit = half});
       break;
     }
+  if (!expected.empty()) look_at_sizes(x, expected);
   const ContactState found = obstacles_->state_at(x);
   if (found.contacts == 0) return;
   warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
@@ -110,6 +144,36 @@ void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactFor
                        .samples = found.contacts,
                        .nodes = nodes_of(obstacles_->samples()[found.sample]),
                        .value = found.deepest});
+}
+
+/// Warns of an obstacle that is too thin for the depths expected in it, and of one that is too small for the samples.
+void SceneContact::look_at_sizes(std::span<const Vector3d> x, std::span<const ContactForecast> expected) {
+  double gap = 0.0;
+  for (const SkinSample& sample : obstacles_->samples()) gap = std::max(gap, farthest_on_face(sample, x));
+  for (std::uint32_t o = 0; o < expected.size(); ++o) {
+    const Obstacle& obstacle = obstacles_->obstacles()[o];
+    const ContactLaw& law = obstacles_->laws()[o];
+    // A load that is let go where surfaces touch works on the way down: law.energy(1, d) = load d. Together with an
+    // impact the depth is at most the sum of both.
+    const double load = law.force(1.0, expected[o].depth_at_rest),
+                 deepest = law.depth_at_rest(law.exponent * load) + expected[o].depth_at_impact;
+    if (deepest > obstacle.half_thickness() && !has_warned(ContactWarning::Kind::too_thin))
+      warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
+                           .obstacle = o,
+                           .nodes = {},
+                           .value = deepest,
+                           .limit = obstacle.half_thickness()});
+    if (!expected[o].keeps_restitution(law) && !has_warned(ContactWarning::Kind::soft_body))
+      warnings_.push_back({.kind = ContactWarning::Kind::soft_body,
+                           .obstacle = o,
+                           .nodes = {},
+                           .value = expected[o].stiffness_ratio,
+                           .limit = law.restitution});
+    if (const double unfelt = obstacle.depth_between(gap);
+        unfelt > law.depth && !has_warned(ContactWarning::Kind::too_small))
+      warnings_.push_back(
+          {.kind = ContactWarning::Kind::too_small, .obstacle = o, .nodes = {}, .value = unfelt, .limit = gap});
+  }
 }
 
 void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const TouchForecast> expected, double h) {
@@ -125,6 +189,16 @@ void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const Tou
                            .limit = half});
       break;
     }
+  const auto soft =
+      std::ranges::find_if(expected, [](const TouchForecast& f) { return !f.contact.keeps_restitution(f.law); });
+  if (soft != expected.end())
+    warnings_.push_back({.kind = ContactWarning::Kind::soft_body,
+                         .of_bodies = true,
+                         .from = soft->first,
+                         .into = soft->second,
+                         .nodes = {},
+                         .value = soft->contact.stiffness_ratio,
+                         .limit = soft->law.restitution});
   const BodyContactState found = bodies_->state_at(x);
   if (found.contacts > 0)
     warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
@@ -143,7 +217,7 @@ void SceneContact::change_part(ObstacleContact* obstacles, BodyContact* bodies, 
   obstacles_ = obstacles;
   bodies_ = bodies;
   vertices_ = vertices;
-  impulses_.change_part(obstacles, bodies, moved_to, moved_to_of_bodies);
+  impulses_.change_part(obstacles, bodies, moved_to, moved_to_of_bodies, vertices);
 }
 
 void SceneContact::resume(std::span<const Vector3d> x) {

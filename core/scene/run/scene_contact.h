@@ -26,6 +26,10 @@ struct ContactWarning {
     too_deep,       // value: the depth [m]; limit: that of the law
     too_fast,       // value: the way in one step relative to the obstacle [m]; limit: half of the least thickness
     will_be_fast,   // the same for the expected speeds, before the run; without a sample
+    too_thin,       // value: the depth expected [m], before the run; limit: half of the obstacle's least thickness
+    too_small,      // an obstacle may come in between samples; value: how far [m], perhaps infinite; limit: the largest
+                    // distance [m] of a place on the boundary from a sample
+    soft_body,      // before the run; value: ContactForecast::stiffness_ratio; limit: the restitution that is not kept
     out_of_reach,   // a sample is so deep in a body that no way out is found: it has no contact; value: a depth [m]
                     // that it had before, or 0; `samples` places are so deep
   };
@@ -101,6 +105,7 @@ class SceneContact {
   bool has_warned(ContactWarning::Kind kind, bool of_bodies = false) const;
   std::vector<std::uint32_t> nodes_of(const SkinSample& sample) const;
   std::uint32_t whole(std::uint32_t vertex) const { return vertices_.empty() ? vertex : vertices_[vertex]; }
+  void look_at_sizes(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected);
   void look_for_depth(double time, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
   void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);

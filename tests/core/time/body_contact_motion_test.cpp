@@ -211,22 +211,18 @@ TEST(BodyContactMotion, LetsNoAlignedBoxesOfOneCellThroughEachOther) {
   EXPECT_GT((two.speed(1) - two.speed(0))[2], 0.45);
 }
 
-// Two equal boxes, stiff against their contact, fly flat into each other: half of rho H stands behind each part of it.
-// Their borders have no depth, n = 2: 3/4 + 1/16 of the area carries and damps, for all of the mass.
+// Two equal boxes, stiff against their contact, fly flat into each other.
 TEST(BodyContactMotion, LeavesTwoStiffBodiesTheRestitutionOfTheirLaw) {
   for (const int p : {2, 3}) {
     ContactLaw law = law_between(p, 2e3, 0.02);
     law.restitution = 0.5;
-    law.mass_behind = 0.5 * 1000.0 * 0.2;
-    const double ratio = law.damping_ratio() * std::sqrt(0.8125),
-                 expected = std::exp(-std::numbers::pi * ratio / std::sqrt(1.0 - ratio * ratio));
     for (const double speed : {0.05, 0.5}) {
       Colliding two("verlet", kuhn_box(2, 2, 2, 0.1), shifted(kuhn_box(2, 2, 2, 0.1), {0, 0, 0.2001}), 1e7, law);
       for (std::size_t i = 0; i < two.body.v.size(); ++i) two.body.v[i][2] = i < two.first ? speed / 2 : -speed / 2;
       const double before = two.energy();
       do ASSERT_TRUE(two.step(1e-4).ok());
       while (two.contacts() > 0 || two.speed(1)[2] < two.speed(0)[2]);
-      EXPECT_NEAR((two.speed(1) - two.speed(0))[2] / speed, expected, 0.01) << p << ' ' << speed;
+      EXPECT_NEAR((two.speed(1) - two.speed(0))[2] / speed, 0.5, 0.01) << p << ' ' << speed;
       EXPECT_NEAR((two.energy() + two.impulses->losses().damped) / before, 1.0, 1e-3);
     }
   }

@@ -216,26 +216,22 @@ TEST(ContactMotion, SinksAsDeepAsItsWeightNeeds) {
   }
 }
 
-// A box of two by two by two cells, stiff against its contact, falls flat. The mass behind each part of its bottom is
-// rho H; its sides' vertices at the bottom stand for another h / 2 L = 1/4 of that area, with as much of mass and
-// stiffness, but without the mass: as if it were damped by the root of 5/4 more. Its own vibrations take some speed.
-TEST(ContactMotion, LeavesAStiffBodyTheRestitutionOfItsColumn) {
-  for (const int p : {2, 3}) {
-    ContactLaw law = law_of(p, 2e3, 0.02);
-    law.restitution = 0.5;
-    law.mass_behind = 1000.0 * 0.2;
-    const double ratio = law.damping_ratio() * std::sqrt(1.25),
-                 expected = std::exp(-std::numbers::pi * ratio / std::sqrt(1.0 - ratio * ratio));
-    for (const double speed : {0.05, 0.5}) {
-      RubbingBody box("verlet", kuhn_box(2, 2, 2, 0.1), 1e7, law, {HalfSpace{}});
-      for (Vector3d& v : box.body.v) v[2] = -speed;
-      const double before = box.energy();
-      do ASSERT_TRUE(box.step(1e-4).ok());
-      while (box.contacts() > 0 || box.speed()[2] < 0.0);
-      EXPECT_NEAR(box.speed()[2] / speed, expected, 0.01) << p << ' ' << speed;
-      EXPECT_NEAR((box.energy() + box.impulses.losses().damped) / before, 1.0, 1e-3);
-    }
-  }
+// A box of two by two by two cells falls flat. Its own vibrations take some speed, the less the stiffer it is against
+// its contact.
+TEST(ContactMotion, LeavesABodyItsRestitution) {
+  for (const int p : {2, 3})
+    for (const double e : {0.8, 0.5, 0.2})
+      for (const double speed : {0.05, 0.5}) {
+        ContactLaw law = law_of(p, 2e3, 0.02);
+        law.restitution = e;
+        RubbingBody box("verlet", kuhn_box(2, 2, 2, 0.1), 1e7, law, {HalfSpace{}});
+        for (Vector3d& v : box.body.v) v[2] = -speed;
+        const double before = box.energy();
+        do ASSERT_TRUE(box.step(1e-4).ok());
+        while (box.contacts() > 0 || box.speed()[2] < 0.0);
+        EXPECT_NEAR(box.speed()[2] / speed, e, 0.01) << p << ' ' << e << ' ' << speed;
+        EXPECT_NEAR((box.energy() + box.impulses.losses().damped) / before, 1.0, 1e-3);
+      }
 }
 
 /// Mean position of the bottom along x.

@@ -35,6 +35,9 @@ ContactResults good_results() {
   r.balls = {{{.across = 6}, {.force = 10.5, .closed_form = 10.0, .moved = 1e-9, .ended = true}},
              {{.across = 8}, {.force = 9.8, .closed_form = 10.0, .moved = 1e-9, .ended = true}}};
   r.stack = StackAtRest{.boxes = 5, .steps = 100, .drop = 0.5, .kinetic = 1e-12, .moved = 1e-8, .ended = true};
+  r.bounces = {{.body = "box, 10 MPa", .integrator = "verlet", .order = 2, .asked = 0.5, .found = 0.501, .ended = true},
+               {.body = "box, 10 MPa", .integrator = "explicit-euler", .order = 1, .asked = 0.5},
+               {.body = "box, 20 kPa", .integrator = "verlet", .order = 2, .asked = 0.5, .found = 0.8, .ended = true}};
   PressedOperations& p =
       r.operations.emplace(PressedOperations{.stacks = 2, .dissociated = 60, .torn = 20, .removed = 20});
   p.ended = true;
@@ -59,7 +62,7 @@ const Ids moving{"contact-moving-pairs", "contact-depth", "contact-energy", "con
 
 TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_results());
-  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 11u);
+  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 13u);
   expect_words(claims, "contact-placed", "<= 0.75 altitudes", "0.2 altitudes", "of 170 placements that overlap");
   const Claim& pairs = find_claim(claims, "contact-placed-pairs");
   EXPECT_EQ(pairs.paper_value, ">= 95 %");
@@ -69,6 +72,8 @@ TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   expect_words(claims, "contact-energy", "<= 0.005", "0.0001", "in 200 looks");
   expect_words(claims, "contact-momentum", "<= 1e-12", "1e-15", "in 200 looks");
   expect_words(claims, "contact-hertz", "<= 0.1", "0.05", "the worst of 2 cases");
+  expect_words(claims, "contact-restitution", "<= 0.02", "0.001", "in 3 runs");
+  expect_words(claims, "contact-pushes", "<= 1e-09", "0", "in 3 runs");
   expect_words(claims, "contact-stack-rests", "<= 1e-10", "2e-12", "in 100 steps");
   expect_words(claims, "contact-stack-still", "<= 1e-06 cell edges", "1e-08 cell edges", "in 100 steps");
   expect_words(claims, "contact-pressed-operations", "<= 1 of each limit", "0.4 of each limit",
@@ -76,6 +81,10 @@ TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
 }
 
 TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
+  EXPECT_EQ(short_with([](auto& r) { r.bounces[0].found = 0.521; }), Ids{"contact-restitution"});
+  EXPECT_EQ(short_with([](auto& r) { r.bounces[0].ended = false; }), Ids{"contact-restitution"});
+  EXPECT_EQ(short_with([](auto& r) { r.bounces[2].pulled = 2e-9; }), Ids{"contact-pushes"});
+  EXPECT_EQ(short_with([](auto& r) { r.bounces.clear(); }), (Ids{"contact-restitution", "contact-pushes"}));
   EXPECT_EQ(short_with([](auto& r) { r.placements[0].found.deepest_quiet = 0.76; }), Ids{"contact-placed"});
   EXPECT_EQ(short_with([](auto& r) {
               for (int k = 0; k < 60; ++k) r.placements[1].found.by_depth.add(0.61, false);
@@ -202,21 +211,22 @@ TEST(ContactStudy, HoldsButWhereIpctkSaysOtherwise) {
                                        .looks = 6,
                                        .seed = 2,
                                        .operations = 60,
+                                       .every_integrator = false,
                                        .one_ball = true,
                                        .ipctk = wrong_answers_to,
                                        .ipctk_version = "0.1",
                                        .certified = 20,
                                        .shots = 3},
                                       log);
-  EXPECT_EQ(ids_of(report.claims, Verdict::holds).size(), 11u);
+  EXPECT_EQ(ids_of(report.claims, Verdict::holds).size(), 13u);
   EXPECT_EQ(ids_of(report.claims, Verdict::falls_short),
             (Ids{"contact-ipctk-depths", "contact-ipctk-crossings", "contact-ipctk-steps"}));
   EXPECT_EQ(exit_code(report), 1);
-  ASSERT_EQ(report.tables.size(), 7u);
-  EXPECT_EQ(report.tables[5].name, "ipctk");
-  ASSERT_EQ(report.tables[5].table.rows().size(), 4u);
-  EXPECT_EQ(report.tables[5].table.rows()[0][1], "5");
-  EXPECT_EQ(report.tables[6].table.rows()[0][1], "1");
+  ASSERT_EQ(report.tables.size(), 8u);
+  EXPECT_EQ(report.tables[6].name, "ipctk");
+  ASSERT_EQ(report.tables[6].table.rows().size(), 4u);
+  EXPECT_EQ(report.tables[6].table.rows()[0][1], "5");
+  EXPECT_EQ(report.tables[7].table.rows()[0][1], "1");
   EXPECT_EQ(report.facts.at("ipctk"), "0.1");
 }
 

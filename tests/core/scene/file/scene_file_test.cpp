@@ -349,7 +349,7 @@ TEST(SceneFile, TakesTimesFarBeyondItsEnd) {
 TEST(SceneFile, ReadsContactsAndTheirObstacles) {
   const SceneFile scene = parse_scene(R"({"name": "s", "step": 0.1, "duration": 2,
     "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 1}}},
-    "contact": {"pressure": 1500, "depth": 0.25, "exponent": 4, "restitution": 0.5, "friction": 0.125, "mass_behind": 8,
+    "contact": {"pressure": 1500, "depth": 0.25, "exponent": 4, "restitution": 0.5, "friction": 0.125,
       "obstacles": [{"plane": {"point": [1, 2, 3], "normal": [0, 3, 4]}},
         {"sphere": {"centre": [4, 5, 6], "radius": 7}, "friction": 0.75, "restitution": 1, "pressure": 3000, "depth": 2},
         {"box": {"min": [-1, -2, -3], "max": [1, 2, 3]}, "velocity": [9, 8, 7], "from": 0.5, "until": 1.5}]}})",
@@ -357,7 +357,7 @@ TEST(SceneFile, ReadsContactsAndTheirObstacles) {
   ASSERT_EQ(scene.obstacles.size(), 3u);
   const auto law_is = [](const ContactLaw& law, double pressure, double depth, double restitution, double friction) {
     return law.pressure == pressure && law.depth == depth && law.restitution == restitution &&
-           law.friction == friction && law.exponent == 4 && law.mass_behind == 8;
+           law.friction == friction && law.exponent == 4;
   };
   EXPECT_TRUE(law_is(scene.obstacles[0].law, 1500, 0.25, 0.5, 0.125));
   EXPECT_TRUE(law_is(scene.obstacles[1].law, 3000, 2, 1, 0.75));
@@ -390,7 +390,6 @@ TEST(SceneFile, GivesContactsTheDefaultsOfTheirPage) {
   EXPECT_EQ(law.exponent, 3);
   EXPECT_EQ(law.restitution, 1.0);
   EXPECT_EQ(law.friction, 0.0);
-  EXPECT_EQ(law.mass_behind, 0.0);
 }
 
 }  // namespace

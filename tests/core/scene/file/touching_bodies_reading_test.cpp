@@ -48,13 +48,12 @@ TEST(TouchingBodiesRead, AreThoseOfTheWord) {
   EXPECT_EQ(pairs_of(parse(with_contact(3, R"({"bodies": "others"})"))), (Pairs{{0, 1}, {0, 2}, {1, 2}}));
   EXPECT_EQ(pairs_of(parse(with_contact(3, R"({"bodies": "themselves"})"))), (Pairs{{0, 0}, {1, 1}, {2, 2}}));
   const SceneFile scene = parse(with_contact(3, R"({"bodies": "others", "exponent": 2, "restitution": 0.5,
-                                                    "friction": 0.125, "mass_behind": 8})"));
+                                                    "friction": 0.125})"));
   for (const SceneTouch& touch : scene.touches) {
     EXPECT_EQ(touch.path, "/contact/bodies");
     EXPECT_EQ(std::tuple(touch.law.pressure, touch.law.depth, touch.law.restitution, touch.law.friction),
               std::tuple(1500.0, 0.25, 0.5, 0.125));
     EXPECT_EQ(touch.law.exponent, 2);
-    EXPECT_EQ(touch.law.mass_behind, 8.0);
   }
   EXPECT_TRUE(scene.obstacles.empty());
   EXPECT_TRUE(scene.has_contact());
