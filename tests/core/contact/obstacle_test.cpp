@@ -100,6 +100,15 @@ TEST(Obstacle, IsHalfAsThickAsItsLeastThickness) {
   EXPECT_EQ((Obstacle{Block{{0, 0, 0}, {4, 1, 2}}}.half_thickness()), 0.5);
 }
 
+// Places 3 m from others: a ball of 5 m has a circle of 3 m one metre below its top.
+TEST(Obstacle, ComesBetweenPlacesThatAreFarApart) {
+  EXPECT_EQ((Obstacle{HalfSpace{}}.depth_between(3.0)), 0.0);
+  EXPECT_EQ((Obstacle{Ball{{0, 0, 0}, 5.0}}.depth_between(3.0)), 1.0);
+  EXPECT_EQ((Obstacle{Ball{{0, 0, 0}, 3.0}}.depth_between(3.0)), INFINITY);
+  EXPECT_EQ((Obstacle{Block{{0, 0, 0}, {100, 1, 7}}}.depth_between(3.0)), 0.0);
+  EXPECT_EQ((Obstacle{Block{{0, 0, 0}, {100, 1, 6}}}.depth_between(3.0)), INFINITY);
+}
+
 TEST(Obstacle, IsRefusedWhereItHasNoInside) {
   const auto message = [](const Obstacle& obstacle) {
     try {

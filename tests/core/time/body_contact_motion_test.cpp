@@ -228,6 +228,30 @@ TEST(BodyContactMotion, LeavesTwoStiffBodiesTheRestitutionOfTheirLaw) {
   }
 }
 
+// The upper of two boxes, a little in each other, is drawn off: what it leaves is pushed down or not at all.
+TEST(BodyContactMotion, LiftsNothingThatIsLeft) {
+  for (const int p : {2, 3, 4})
+    for (const double e : {0.9, 0.5, 0.1})
+      for (const char* integrator : {"verlet", "rk4"}) {
+        ContactLaw law = law_between(p, 2e3, 0.02);
+        law.restitution = e;
+        Colliding two(integrator, kuhn_box(2, 2, 2, 0.1), shifted(kuhn_box(2, 2, 2, 0.1), {0.03, 0.04, 0.195}), 1e5,
+                      law);
+        for (std::size_t i = two.first; i < two.body.v.size(); ++i) {
+          two.body.fixed[i] = 1;
+          two.body.v[i] = {0, 0, 1};
+        }
+        double before = 0.0;
+        for (int k = 0; k < 40; ++k) {
+          for (std::size_t i = two.first; i < two.body.x.size(); ++i) two.body.x[i][2] += 2e-4;
+          ASSERT_TRUE(two.step(2e-4).ok());
+          const double now = two.speed(0)[2];
+          EXPECT_LE(now - before, 1e-15) << p << ' ' << e << ' ' << integrator << ' ' << k;
+          before = now;
+        }
+      }
+}
+
 // Losses are reported, and no momentum is lost. Verlet takes forces where friction has been found, half way through the
 // step, so that the two points of action coincide: there is no torque. Others take forces before and after, too.
 TEST(BodyContactMotion, KeepsMomentumAndSpinThroughRestitutionAndFriction) {

@@ -1,0 +1,101 @@
+// What a run says of its contacts before the first step: obstacles too thin or too small, bodies that bounce otherwise,
+// chains that touch nothing.
+
+#include <gtest/gtest.h>
+
+#include "core/scene/run/scene_warnings.h"
+#include "core/scene/run/simulation.h"
+#include "tests/support/moving_box.h"
+
+namespace dartboard::contact_forewarnings_test {
+namespace {
+
+using namespace moving;
+
+/// A box of 4 cm and 1000 kg/m^3 that begins above the origin, on an obstacle with this law.
+Json box_on(const char* obstacle, double pressure, double depth) {
+  Json scene = Json::parse(R"({"name": "box", "step": 0.0001, "duration": 0.05, "integrator": "verlet",
+    "body": {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.02}}, "translate": [-0.02, -0.02, 0]},
+    "material": {"density": 1000, "young": 100000, "viscosity": 0}})");
+  scene["contact"] = {{"pressure", pressure}, {"depth", depth}, {"obstacles", {Json::parse(obstacle)}}};
+  return scene;
+}
+std::vector<std::string> warnings_before(const Json& scene) {
+  const SceneFile file = parse(scene);
+  return warnings_of(file, Simulation(file));
+}
+
+// 392.4 Pa at 1 mm carry the box in the middle of a plate 2 mm thick; let go above it, it comes 3^(1/2) times as deep.
+TEST(ContactForewarnings, NameAPlateTooThinForWhatFallsOnIt) {
+  const char* const plate = R"({"box": {"min": [-1, -1, -0.002], "max": [1, 1, 0]}})";
+  const auto warnings = warnings_before(box_on(plate, 392.4, 0.001));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(
+      warnings[0].starts_with("/contact/obstacles/0 may be 0.001732 m deep in a body, and nothing is more than "
+                              "0.001 m inside it: what is deeper comes out on its other side"))
+      << warnings[0];
+  // ten times the pressure needs a depth of 1 / 10^(1/2)
+  EXPECT_TRUE(warnings_before(box_on(plate, 3924, 0.001)).empty());
+  const char* const slab = R"({"box": {"min": [-1, -1, -0.02], "max": [1, 1, 0]}})";
+  EXPECT_TRUE(warnings_before(box_on(slab, 3924, 0.001)).empty());
+}
+
+// Faces have legs of 2 cm, a corner of the long side is 2 cm 5^(1/2) / 3 from the middle and the place as far from both
+// 7.9 mm from either.
+TEST(ContactForewarnings, NameABallThatPassesBetweenTheSamplesOfAFace) {
+  const auto warnings =
+      warnings_before(box_on(R"({"sphere": {"centre": [0.003, 0.007, -0.007], "radius": 0.007}})", 1e5, 0.001));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(
+      warnings[0].starts_with("/contact/obstacles/0 may come any depth into faces of bodies between the places that "
+                              "feel contact, which are up to 0.007857 m from other places"))
+      << warnings[0];
+  // 8 mm - (64 - 61.73)^(1/2) mm
+  EXPECT_NE(
+      warnings_before(box_on(R"({"sphere": {"centre": [0.003, 0.007, -0.008], "radius": 0.008}})", 1e5, 0.001))[0].find(
+          "may come 0.0065 m deep into"),
+      std::string::npos);
+  // a ball 10 cm thick comes 0.3 mm into the face, less than its law allows
+  EXPECT_TRUE(warnings_before(box_on(R"({"sphere": {"centre": [0, 0, -0.1], "radius": 0.1}})", 1e5, 0.001)).empty());
+  const char* const rod = R"({"box": {"min": [-1, -0.005, -0.01], "max": [1, 0.005, 0]}})";
+  EXPECT_NE(warnings_before(box_on(rod, 1e5, 0.001))[0].find("any depth"), std::string::npos);
+}
+
+// Young over the height is 2.5 MPa/m. A law of 2 kPa at 2 mm has 2 P / depth (d / depth) where the box lies 0.89 mm
+// deep.
+TEST(ContactForewarnings, NameARestitutionThatABodyDoesNotKeep) {
+  Json scene = box_on(R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})", 2000, 0.002);
+  EXPECT_TRUE(warnings_before(scene).empty());
+  scene["contact"]["restitution"] = 0.5;
+  const auto warnings = warnings_before(scene);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(
+      warnings[0].starts_with("the restitution 0.5 at /contact/obstacles/0 is that of places, and a body will bounce "
+                              "otherwise: it is 2.8 times as stiff as the contact"))
+      << warnings[0];
+  scene["material"]["young"] = 2e5;
+  EXPECT_TRUE(warnings_before(scene).empty());
+  // between bodies
+  scene["bodies"] = {scene["body"], scene["body"]};
+  scene["bodies"][1]["translate"] = {-0.02, -0.02, 0.0401};
+  scene.erase("body");
+  scene["contact"] = {{"pressure", 2000}, {"depth", 0.002}, {"restitution", 0.5}, {"bodies", "others"}};
+  scene["material"]["young"] = 2e4;
+  const auto between = warnings_before(scene);
+  ASSERT_EQ(between.size(), 1u);
+  EXPECT_TRUE(between[0].starts_with("the restitution 0.5 at /bodies/1 is that of places")) << between[0];
+}
+
+TEST(ContactForewarnings, NameChainsBesideBodiesThatTouch) {
+  Json scene = box_on(R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})", 2000, 0.002);
+  scene["bodies"] = {scene["body"], {{"generate", {{"chain", {{"links", 4}, {"spacing", 0.01}}}}}}};
+  scene["bodies"][1]["material"] = {{"density", 0.1}, {"stiffness", 100}};
+  scene["bodies"][1]["translate"] = {0.1, 0, 0.01};
+  scene.erase("body");
+  const auto warnings = warnings_before(scene);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "/bodies/1 is a chain, which has no surface: it touches neither obstacles nor bodies");
+}
+
+}  // namespace
+}  // namespace dartboard::contact_forewarnings_test
