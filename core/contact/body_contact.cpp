@@ -11,9 +11,9 @@
 
 #include "core/base/bytes.h"
 #include "core/base/lanes.h"
-#include "core/contact/nearest_on_triangle.h"
 #include "core/contact/way_out.h"
 #include "core/forces/compensated_sum.h"
+#include "core/places/nearest_on_triangle.h"
 #include "core/plain/error.h"
 
 namespace dartboard {

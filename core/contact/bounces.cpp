@@ -42,18 +42,24 @@ bool Bounces::has_losses() const {
 bool Bounces::before(const Step& step, ContactLosses& losses) {
   if (!has_losses()) return false;
   starts_before_ = starts_;
+  v_before_.assign(step.v.begin(), step.v.end());
   find_touches(step);
   match_starts(Side::before, step);
-  const bool changed = damp(Side::before, step, losses);
-  v_before_.assign(step.v.begin(), step.v.end());
-  return changed;
+  for (std::size_t k = 0; k < starts_.size(); ++k) starts_[k].depth = touches_[k].depth;
+  return damp(Side::before, step, losses);
 }
 
 bool Bounces::after(const Step& step, ContactLosses& losses) {
   if (!has_losses()) return false;
   find_touches(step);
   match_starts(Side::after, step);
-  return damp(Side::after, step, losses);
+  const bool changed = damp(Side::after, step, losses);
+  // anew at the velocities that the step ends with: those before its last half of the losses are of order 1
+  for (std::size_t k = 0; k < starts_.size(); ++k) {
+    if (starts_[k].depth == 0.0) starts_[k].rate = first_rate(touches_[k], Side::after, step);
+    starts_[k].rate = std::max(starts_[k].rate, std::abs(touches_[k].rate(step.v)));
+  }
+  return changed;
 }
 
 void Bounces::add(Touch touch, std::uint32_t sample, std::uint32_t obstacle, const Step& step) {
@@ -148,9 +154,7 @@ void Bounces::match_starts(Side side, const Step& step) {
     if (old != earlier_.end() && old->order() == start.order())
       start = *old;
     else
-      start.rate = first_rate(touch, side, step);
-    start.rate = std::max(start.rate, std::abs(touch.rate(step.v)));
-    if (side == Side::before) start.depth = touch.depth;
+      start.rate = std::max(first_rate(touch, side, step), std::abs(touch.rate(step.v)));
   }
 }
 

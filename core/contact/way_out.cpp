@@ -9,7 +9,7 @@
 #include "core/base/bytes.h"
 #include "core/base/four.h"
 #include "core/base/lanes.h"
-#include "core/contact/nearest_on_triangle.h"
+#include "core/places/nearest_on_triangle.h"
 
 namespace dartboard {
 

@@ -14,7 +14,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PAGE = os.path.join(ROOT, "HACKING.md")
 BEGIN, END = "```mermaid\n", "```\n"
 PURPOSE = {
-    "core/plain": "mesh, material, problem", "core/base": "archives, escapes, limits", "core/places": "sides of borders", "core/meshes": "files and generators",
+    "core/plain": "mesh, material, problem", "core/base": "archives, escapes, limits", "core/places": "sides of borders, nearest points", "core/meshes": "files and generators",
     "core/topology": "darts, orbits, cells", "core/operations": "dissociate, remove, subdivide", "core/forces": "springs, interface of forces",
     "core/elements": "elastic solids, membranes", "core/contact": "obstacles, bodies", "core/mechanics": "embeddings, stress, tearing",
     "core/walks": "the paper's loops", "core/views": "arrays that follow changes", "core/time": "integrators, solvers, stable steps",

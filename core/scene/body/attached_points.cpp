@@ -9,8 +9,8 @@
 #include <limits>
 #include <span>
 
-#include "core/contact/nearest_on_triangle.h"
 #include "core/places/border.h"
+#include "core/places/nearest_on_triangle.h"
 #include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"

@@ -89,8 +89,8 @@ TEST(ContactLaw, TellsWhereABodyRestsAndHowFarAnImpactComes) {
   }
 }
 
-// The terms of the equation cancel to the order of s^2: in long double their roundings are below 1e-19 of s. A rounding of
-// s changes them by that over 1 - s e.
+// The terms of the equation cancel to the order of s^2: in long double their roundings are below 1e-19 of s. A rounding
+// of s changes them by that over 1 - s e.
 TEST(ContactLaw, LosesByTheRootOfItsEquation) {
   EXPECT_EQ(law_of(3).loss(), 0.0);
   for (const double e : {0.99, 0.9, 0.8, 0.7, 0.5, 0.49, 0.25, 0.1}) {

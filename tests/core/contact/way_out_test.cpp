@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/lanes.h"
-#include "core/contact/nearest_on_triangle.h"
+#include "core/places/nearest_on_triangle.h"
 
 namespace dartboard::way_out_test {
 namespace {

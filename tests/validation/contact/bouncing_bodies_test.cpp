@@ -7,7 +7,8 @@
 namespace dartboard::bouncing_bodies_test {
 namespace {
 
-// 200 steps in contact; a body that is ten times as stiff as it loses up to a hundredth to its own vibrations.
+// 200 steps in contact; a body that is ten times as stiff as it has up to a hundredth more or less by its own
+// vibrations, and a method of order 1 twice as much.
 TEST(BouncingBodies, KeepTheirRestitutionAndAreNotPulled) {
   std::size_t stiff = 0;
   for (const BouncingBody& body : bouncing_bodies())
@@ -19,7 +20,7 @@ TEST(BouncingBodies, KeepTheirRestitutionAndAreNotPulled) {
       EXPECT_LE(found.pulled, is_first_order ? 1e-11 : 1e-15) << body.name << ' ' << integrator;
       if (body.stiffness < 10.0) continue;
       ++stiff;
-      EXPECT_NEAR(found.found, 0.5, 0.015) << body.name << ' ' << integrator;
+      EXPECT_NEAR(found.found, 0.5, is_first_order ? 0.03 : 0.015) << body.name << ' ' << integrator;
     }
   EXPECT_GE(stiff, 12u);
 }

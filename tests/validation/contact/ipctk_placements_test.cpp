@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/contact/nearest_on_triangle.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/places/nearest_on_triangle.h"
 
 namespace dartboard::ipctk_placements_test {
 namespace {

@@ -256,14 +256,15 @@ SceneReference converged(const TradeoffScene& scene, std::uint64_t steps, double
   return reference;
 }
 
-// Half of the damping before a step and half after it are symmetric in time: of order 2, where that of each sample
-// after the same others both times leaves order 1.
+// Half of the losses before a step and half after it are symmetric in time: of order 2, where those of each sample
+// after the same others both times, and first rates before the last half of a step's losses, leave order 1. The moments
+// at which samples meet the floor scatter.
 TEST(SceneOrder, IsThatOfTheSchemeThroughContactThatLosesSpeed) {
   const TradeoffScene scene = bouncing_box(R"({"exponent": 4, "restitution": 0.5})");
   const SceneOrder found = observe_order(scene, converged(scene, 8192, 1e-8), entry("verlet"), no_clock);
   EXPECT_EQ(found.answer, OrderAnswer::shown) << found.study.reason;
   EXPECT_EQ(found.study.theory, 2.0);
-  EXPECT_NEAR(found.study.p_x, 2.0, 0.1);
+  EXPECT_NEAR(found.study.p_x, 2.0, 0.2);
 }
 
 TEST(SceneOrder, IsThatOfTheExponentForMethodsOfHigherOrder) {

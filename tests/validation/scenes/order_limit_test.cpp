@@ -32,9 +32,11 @@ TEST(OrderLimit, IsTheExponentOfTheEnergy) {
   EXPECT_EQ(found.because, "an energy of exponent 4");
 }
 
-TEST(OrderLimit, IsHalfTheExponentWhereSpeedIsLost) {
-  EXPECT_EQ(order_of(R"({"restitution": 0.5, "obstacles": [{"sphere": {"centre": [0, 0, 0], "radius": 1}}]})").most,
-            1.5);
+TEST(OrderLimit, IsTwoWhereSpeedIsLost) {
+  const OrderLimit found =
+      order_of(R"({"restitution": 0.5, "obstacles": [{"sphere": {"centre": [0, 0, 0], "radius": 1}}]})");
+  EXPECT_EQ(found.most, 2.0);
+  EXPECT_EQ(found.because, "speed that is lost");
 }
 
 TEST(OrderLimit, IsTwoWithObstaclesThatMove) {

@@ -1,4 +1,4 @@
-#include "core/contact/nearest_on_triangle.h"
+#include "core/places/nearest_on_triangle.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

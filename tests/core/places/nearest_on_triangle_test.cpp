@@ -1,6 +1,6 @@
 // The point of a triangle nearest to a place: by corners, edges and the inside, and against many others.
 
-#include "core/contact/nearest_on_triangle.h"
+#include "core/places/nearest_on_triangle.h"
 
 #include <gtest/gtest.h>
 
