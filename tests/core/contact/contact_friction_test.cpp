@@ -30,6 +30,16 @@ TEST(ContactFriction, TakesTheShareOfTheNormalMomentumThatItMay) {
     }
 }
 
+// What a floor leaves behind it does not push, nor rub.
+TEST(ContactFriction, IsNothingWhereAFloorLeavesFasterThanItPushes) {
+  TouchingVertices body = one_vertex({0, 0, -0.001}, {1, 0, 0});
+  ObstacleContact contact({contact_law(3, 0.2, 0.5)}, {{HalfSpace{}, {0, 0, -1}}}, body.samples);
+  ContactImpulses impulses(contact);
+  for (int k = 0; k < 20; ++k) body.step(contact, impulses, 1e-4);
+  EXPECT_EQ(body.v[0][0], 1.0);
+  EXPECT_EQ(impulses.losses().rubbed, 0.0);
+}
+
 // A step that is long for the contact, in which the vertex enters at a depth that it will never reach: friction is at
 // most mu times the momentum that a bounce reverses; for a vertex at rest, mu times the force.
 TEST(ContactFriction, TakesNoMoreThanTheNormalMomentumThatCanBeTurned) {

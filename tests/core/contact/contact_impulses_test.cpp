@@ -188,6 +188,28 @@ TEST(ContactImpulses, OnlyPushWhatAnObstacleLeaves) {
           }
 }
 
+// In a law too soft to matter, a vertex that is slowed down meets the surface within a step, at the speed that is left
+// there. The moment is that of the mean speed: off by (g h)^2 / 8 v at most.
+TEST(ContactImpulses, BeginAtTheSpeedAtWhichASampleMeetsTheSurface) {
+  for (const double height : {0.001, 0.02, 0.05, 0.085}) {
+    const double g = -2.0, h = 0.1, speed = 1.0, met = std::sqrt(speed * speed + 2.0 * g * height);
+    ContactLaw law = contact_law(3, 0.5, 0.0);
+    law.pressure = 1e-12;
+    TouchingVertices body = one_vertex({0, 0, height}, {0, 0, -speed});
+    ObstacleContact contact({law}, {{HalfSpace{}}}, body.samples);
+    Bounces bounces(&contact, nullptr);
+    ContactLosses losses;
+    const HeldVertices free;
+    bounces.before({0.0, h, true, false, body.inverse_mass, free, body.x, body.v}, losses);
+    body.x[0][2] -= speed * h + 0.5 * g * h * h;
+    body.v[0][2] -= g * h;
+    bounces.after({h, h, true, false, body.inverse_mass, free, body.x, body.v}, losses);
+    // the factor is 1 + s rate / first
+    const double rate = 0.5, first = law.loss() * rate / (bounces.factor(0, 0, law, rate) - 1.0);
+    EXPECT_NEAR(first, met, g * h * g * h / (8 * (speed + g * h / 2))) << height;
+  }
+}
+
 // A sample keeps the rate at which it met the surface when samples are numbered anew, and when a step is taken back.
 TEST(ContactImpulses, KnowTheFirstRateOfASampleByItsVertices) {
   const auto run = [](bool disturbed) {
