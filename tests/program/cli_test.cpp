@@ -498,6 +498,29 @@ TEST(Recommend, TakesASceneFileAndSaysWhatAnAccurateRunHasChosen) {
   EXPECT_NE(answer.out.find("Take "), std::string::npos) << answer.out;
 }
 
+TEST(Recommend, WritesASceneThatSimulateRuns) {
+  const TemporaryFile beam("beam.json", R"({"name": "beam", "step": 0.001, "duration": 0.1,
+    "body": {"generate": {"box": {"cells": [4, 1, 1], "spacing": 0.1}}}, "fixed": [{"ids": [0, 5, 10, 15]}],
+    "events": [{"at": 0.0314, "dissociate": {"plane": {"point": [0.2, 0, 0], "normal": [1, 0, 0]}}}]})");
+  const std::string written = beam.path.string() + ".written.json";
+  const std::string recommend = "recommend " + beam.path.string() + " --error 1e-3 --write " + written;
+  const Answer answer = run(recommend);
+  EXPECT_EQ(answer.status, 0) << answer.out;
+  const auto scene = nlohmann::json::parse(std::ifstream(written));
+  EXPECT_EQ(scene.at("event_times"), "exact");
+  EXPECT_NE(answer.out.find("with a step of " + scene.at("step").dump() + " s, "), std::string::npos) << answer.out;
+  EXPECT_EQ(run("simulate " + written).status, 0);
+  // what is there stays
+  const Answer again = run(recommend);
+  EXPECT_EQ(again.status, 3) << again.out;
+  EXPECT_NE(again.out.find(written + ": exists; expected the name of a new file"), std::string::npos) << again.out;
+  fs::remove(written);
+  EXPECT_EQ(run(recommend + " --error 1e-2").status, 2);
+  EXPECT_EQ(run("recommend chain --error 1e-2 --write " + written).status, 2);
+  EXPECT_EQ(run("recommend --audit --quick --write " + written).status, 2);
+  EXPECT_FALSE(fs::exists(written));
+}
+
 TEST(Recommend, SaysWhatDoublePrecisionReachesWhereAnErrorIsBelowIt) {
   const Answer answer = run("recommend chain --error 1e-30");
   EXPECT_EQ(answer.status, 1) << answer.out;

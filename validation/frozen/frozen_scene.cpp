@@ -96,6 +96,11 @@ std::vector<Moment> moments_of(const SceneFile& file) {
 
 }  // namespace
 
+bool is_left_to_the_run(const SceneEvent& event) {
+  if (std::holds_alternative<Release>(event.action) || event.until == 0.0) return false;
+  return depends_on_positions(event) || (event.from != event.until && !event.every);
+}
+
 bool changes_in_every_step(const SceneFile& file) {
   return std::ranges::any_of(file.driven, &SceneDrive::has_table) ||
          std::ranges::any_of(file.forces, [](const SceneForce& force) { return !force.factor.empty(); });
@@ -135,7 +140,7 @@ class FrozenBody::Scout {
  private:
   void operate(std::size_t event, FrozenChange& change) {
     FrozenChange::Operation operation{event, {}};
-    const std::size_t made = at_.events_[event]->apply(&operation.targets);
+    const std::size_t made = operation.made = at_.events_[event]->apply(&operation.targets);
     done_[event] += made;
     if (made > 0) change.operations.push_back(std::move(operation));
   }

@@ -19,12 +19,16 @@ namespace dartboard {
 
 /// Does a load of the scene change in time, so that it is another one in every step?
 bool changes_in_every_step(const SceneFile& file);
+/// Does an event operate on what is somewhere, or is stressed, at its time, or happen at every step? Then the run
+/// decides what it operates on.
+bool is_left_to_the_run(const SceneEvent& event);
 
 /// The changes at one time: the cells of events, the velocities of driven vertices, the forces applied.
 struct FrozenChange {
   struct Operation {
     std::size_t event;  // its place in the scene's list
     EventTargets targets;
+    std::size_t made = 0;  // operations
   };
   double time = 0.0;                    // [s]
   std::vector<Operation> operations{};  // empty where only velocities or forces change

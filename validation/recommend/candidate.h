@@ -21,7 +21,7 @@ struct RecommendOptions {
   double stability = 0.95;                          // factor of the limit of stability
   double pilot_part = 0.1;                          // for all pilots together: this part of the cheapest predicted run,
   double pilot_floor_s = 0.5;                       // and this in addition
-  double last_look_s = 0.05;                        // for each of the best two in any case
+  double last_look_s = 0.25;                        // for each of the best two in any case
   double most_pilot_s = 4.0;                        // for one pilot, as long as nothing is predicted
   double budget_s = 0.0;                            // for all pilots together; 0: given by the options above
   double kept_back = 0.4;                           // part of a budget, for longer pilots and timings of the best

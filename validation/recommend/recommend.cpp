@@ -32,6 +32,7 @@ constexpr double part_of_whole_pilots = 10.0, most_whole_pilot_s = 600.0;
 void rank(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     if (a.usable() != b.usable()) return a.usable();
+    if (a.usable() && a.adaptive != b.adaptive) return b.adaptive;
     return a.usable() && a.predicted_cost < b.predicted_cost;
   });
 }
@@ -123,10 +124,10 @@ class Search {
   void solve(Candidate& c) {
     solve_for_error(c, error_, scene_.motion, r_.features.force_s, options_);
     if (!c.usable() && !kept_by_rounding(c)) return;  // too many steps
-    if (std::isfinite(c.predicted_s))
-      pilots_->predicted(c.predicted_s);
-    else
+    if (!std::isfinite(c.predicted_s))
       c.pruned = "its pilots say nothing about its errors";
+    else if (!c.adaptive)  // one that chooses its steps is no pick, which others would have to be cheaper than
+      pilots_->predicted(c.predicted_s);
   }
   /// [s] The time that explicit methods leave to implicit ones; of a budget, all leave some to longer pilots.
   double left_for_others(bool implicit) const {
@@ -309,10 +310,16 @@ class Search {
 }  // namespace
 
 const Candidate* Recommendation::pick() const {
-  return !candidates.empty() && candidates[0].usable() ? &candidates[0] : nullptr;
+  return !candidates.empty() && candidates[0].usable() && !candidates[0].adaptive ? &candidates[0] : nullptr;
+}
+const Candidate* Recommendation::cheaper_by_tolerance() const {
+  const auto found = std::ranges::find_if(candidates, [](const Candidate& c) { return c.usable() && c.adaptive; });
+  const bool is_cheaper =
+      found != candidates.end() && pick() != nullptr && found->predicted_cost < pick()->predicted_cost;
+  return is_cheaper ? &*found : nullptr;
 }
 const Candidate* Recommendation::runner_up() const {
-  return candidates.size() > 1 && candidates[1].usable() ? &candidates[1] : nullptr;
+  return candidates.size() > 1 && candidates[1].usable() && !candidates[1].adaptive ? &candidates[1] : nullptr;
 }
 
 std::vector<std::string> Recommendation::untried() const {

@@ -14,7 +14,7 @@ struct Recommendation {
   std::string scene;
   double error = 0.0;  // [edges] requested
   SceneFeatures features;
-  std::vector<Candidate> candidates;  // usable ones first, the cheapest first
+  std::vector<Candidate> candidates;  // usable ones first, of these fixed steps before tolerances, the cheapest first
   double one_more_digit = 0.0;        // predicted cost of a tenth of the error over that of the error
   std::string one_more_digit_by;      // with which method
   double realtime_factor = 0.0;       // simulated over predicted seconds of the pick
@@ -26,8 +26,11 @@ struct Recommendation {
   /// The methods that there was no time to try: another run may pick one of them.
   std::vector<std::string> untried() const;
 
+  /// The cheapest with fixed steps, as a simulation of a scene takes them; null where there is none.
   const Candidate* pick() const;
-  const Candidate* runner_up() const;
+  const Candidate* runner_up() const;  // with fixed steps
+  /// One that chooses its steps within a tolerance, for programs, if it is cheaper than the pick.
+  const Candidate* cheaper_by_tolerance() const;
 };
 
 /// The algorithm:
@@ -43,7 +46,8 @@ struct Recommendation {
 ///    only those that might beat the cheapest explicit one get pilots;
 /// 5. the step or tolerance for the error, by the order, with safety and within stability; longer pilots, coarser than
 ///    that step, for the best two, where they are stable and cheap enough (`pilot_longer`); their steps timed again;
-/// 6. the ranking by predicted cost; compensated methods take part where rounding keeps all others from the error.
+/// 6. the ranking by predicted cost, fixed steps first; compensated methods take part where rounding keeps all others
+/// from the error.
 ///
 /// All pilots together take no longer than a floor and a part of the cheapest predicted run (RecommendOptions); methods
 /// that have had none by then are left out and reported (`untried`). They may differ from run to run.

@@ -38,9 +38,12 @@ Audit audit(const TradeoffScene& scene, const SceneReference& reference, const R
     before = after;
     total += seconds.back();
     a.actual_evaluations = static_cast<double>(run.work.force_evaluations);
-    a.actual_error = !run.result.ok()           ? infinity
-                     : reference.states.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                : motion_errors(scene.motion, run.states, reference.states).x;
+    a.actual_error = a.largest_error = run.result.ok() ? std::numeric_limits<double>::quiet_NaN() : infinity;
+    if (run.result.ok() && !reference.states.empty()) {
+      const reference::MotionErrors errors = motion_errors(scene.motion, run.states, reference.states);
+      a.actual_error = errors.x;
+      a.largest_error = errors.x_largest;
+    }
   }
   a.actual_cost = median_of(costs);
   a.actual_s = median_of(seconds);

@@ -1,6 +1,7 @@
 #pragma once
 // A recommendation compared with the outcome of following it.
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -10,7 +11,9 @@
 namespace dartboard {
 
 struct Audit {
+  // [edges] root mean squares over the mass, the largest over time; and the largest of any vertex
   double error = 0.0, actual_error = 0.0, predicted_error = 0.0;
+  double largest_error = std::numeric_limits<double>::quiet_NaN();
   double actual_cost = 0.0, predicted_cost = 0.0;                // in force evaluations, by time: both timed in turn
   double actual_evaluations = 0.0, predicted_evaluations = 0.0;  // counted
   double actual_s = 0.0, predicted_s = 0.0;                      // at the speed of the machine during the run

@@ -3,41 +3,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/counted.h"
 #include "core/plain/error.h"
-#include "core/scene/file/step_times.h"
-#include "core/time/integrators.h"
-#include "validation/recommend/recommend.h"
+#include "validation/recommend/recommended_scene.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
-namespace {
-
-/// Above its first limit a method may be stable again where damping helps, but not for long where events change the
-/// damped parts: there a step stays a tenth below that limit. Scenes without events have no bound.
-double longest_undamped_step(const SceneFile& scene, const SceneFeatures& features) {
-  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
-  double longest = std::numeric_limits<double>::infinity();
-  if (scene.events.empty() || scheme.implicit || !(scheme.imaginary_limit > 0.0)) return longest;
-  for (const StableStep& step : features.limits) longest = std::min(longest, 0.9 * scheme.imaginary_limit / step.upper);
-  return longest;
-}
-
-}  // namespace
 
 std::string to_string(const SettledAccuracy& s) {
   return fmt::format(
       "for an accuracy of {:.3g} edges: {}{} with h = {:.6g} s; expected error {:.1e} edges{}, expected time {:.3g} s; "
       "the choice took {:.3g} s\n  in place of /accuracy, these settle it for good: \"integrator\": \"{}\", \"step\": "
-      "{}{}",
+      "{}{}{}",
       s.accuracy, s.integrator, s.integrator_named ? " (named by the scene)" : "", s.step, s.predicted_error,
       s.omissions.empty() ? "" : fmt::format(", {} aside", counted(s.omissions.size(), "thing")), s.predicted_s,
-      s.pilot_s, s.integrator, nlohmann::json(s.step).dump(),
+      s.pilot_s, s.integrator, nlohmann::json(s.step).dump(), s.exact_events ? ", \"event_times\": \"exact\"" : "",
       s.untried.empty() ? ""
                         : fmt::format("\n  not tried for want of time, and another run may choose one of them: {}",
                                       fmt::join(s.untried, "; ")));
@@ -48,6 +31,7 @@ void to_json(nlohmann::json& json, const SettledAccuracy& s) {
           {"integrator", s.integrator},
           {"integrator_named", s.integrator_named},
           {"step", s.step},
+          {"exact_events", s.exact_events},
           {"recommended_step", s.recommended_step},
           {"predicted_error", s.predicted_error},
           {"predicted_s", s.predicted_s},
@@ -61,35 +45,13 @@ void from_json(const nlohmann::json& json, SettledAccuracy& s) {
   json.at("integrator").get_to(s.integrator);
   json.at("integrator_named").get_to(s.integrator_named);
   json.at("step").get_to(s.step);
+  json.at("exact_events").get_to(s.exact_events);
   json.at("recommended_step").get_to(s.recommended_step);
   json.at("predicted_error").get_to(s.predicted_error);
   json.at("predicted_s").get_to(s.predicted_s);
   json.at("pilot_s").get_to(s.pilot_s);
   json.at("omissions").get_to(s.omissions);
   json.at("untried").get_to(s.untried);
-}
-
-double step_fitting_times(const SceneFile& scene, double largest) {
-  std::vector<double> times;
-  for (const SceneEvent& event : scene.events) times.push_back(event.from);
-  for (const SceneDrive& drive : scene.driven) {
-    times.push_back(drive.from);
-    if (drive.until) times.push_back(*drive.until);
-    if (drive.reverse_every) times.push_back(*drive.reverse_every);
-  }
-  for (const SceneForce& force : scene.forces) {
-    times.push_back(force.from);
-    if (force.until) times.push_back(*force.until);
-  }
-  for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time, scene.output.probe_time})
-    if (every && *every < scene.duration) times.push_back(*every);
-  const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));
-  // a quarter more steps, or few enough to cost nothing
-  const double most = std::max(1.25 * least, 128.0);
-  for (double n = least; n <= std::min(most, least + 1e5); ++n)
-    if (std::ranges::all_of(times, [&](double t) { return step_at(t, scene.duration / n).has_value(); }))
-      return scene.duration / n;
-  return scene.duration / least;
 }
 
 std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock& clock,
@@ -116,13 +78,14 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
           fmt::format("{}: /accuracy: is {} mean edge lengths, and no step{} was found to meet it; "
                       "expected a larger one, or 'step' in its place",
                       scene.file, *scene.accuracy, settled.integrator_named ? " of " + scene.integrator : ""));
-    scene.integrator = pick->contender;
-    scene.step = step_fitting_times(scene, std::min(pick->h, longest_undamped_step(scene, r.features)));
+    const FittedPick fitted = fit_pick(scene, *pick, r.features);
     settled.recommended_step = pick->h;
-    settled.predicted_error = pick->error_at(scene.step);
-    settled.predicted_s = pick->predicted_s * std::pow(pick->h / scene.step, 1.0 - pick->step_slope);
+    settled.predicted_error = fitted.predicted_error;
+    settled.predicted_s = fitted.predicted_s;
     settled.pilot_s = r.pilot_s;
     settled.omissions = studied.omissions;
+    if (!fitted.between.empty())
+      settled.omissions.push_back(fmt::format("{} takes effect up to a step late.", fitted.between));
     settled.untried = r.untried();
   } else {
     // nothing moves: any step will do
@@ -131,6 +94,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
   }
   settled.integrator = scene.integrator;
   settled.step = scene.step;
+  settled.exact_events = scene.exact_events && !scene.events.empty();
   scene.output = scene.output.in_steps_of(scene.step);
   return settled;
 }

@@ -18,6 +18,7 @@ struct SettledAccuracy {
   std::string integrator;
   bool integrator_named = false;       // by the scene
   double step = 0.0;                   // [s]
+  bool exact_events = false;           // some happen between steps
   double recommended_step = 0.0;       // [s] before it was fitted to the times of the scene
   double predicted_error = 0.0;        // [mean edge lengths]
   double predicted_s = 0.0;            // [s] of the run
@@ -30,12 +31,6 @@ struct SettledAccuracy {
 std::string to_string(const SettledAccuracy& settled);
 void to_json(nlohmann::json& json, const SettledAccuracy& settled);
 void from_json(const nlohmann::json& json, SettledAccuracy& settled);
-
-/// The largest step that is at most `largest` [s] and divides the duration. It divides all times of events and output
-/// too, if there is such a step that is not much shorter.
-///
-/// pre  duration > 0 and largest > 0
-double step_fitting_times(const SceneFile& scene, double largest);
 
 /// Give a scene that asks for an accuracy its step, by `recommend`, which calls `tells` after each pilot with the name
 /// of its method; does nothing to others.

@@ -240,14 +240,14 @@ void classify(std::span<WorkPoint> points, double floor, double useless_from) {
 namespace {
 
 struct Need {
-  double cost = infinity, evaluations = std::numeric_limits<double>::quiet_NaN();
+  double cost = infinity, evaluations = 0.0, h = 0.0;
 };
 
 Need need_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
   Need best;
   const auto evaluations = [](const WorkPoint& p) { return static_cast<double>(p.work.force_evaluations); };
-  const auto consider = [&best](double cost, double count) {
-    if (cost < best.cost) best = {cost, count};
+  const auto consider = [&best](double cost, double count, double h) {
+    if (cost < best.cost) best = {cost, count, h};
   };
   const WorkPoint* previous = nullptr;
   for (const WorkPoint& p : points) {
@@ -257,13 +257,14 @@ Need need_at(std::span<const WorkPoint> points, std::string_view contender, doub
       continue;
     }
     if (p.errors.x <= error) {
-      consider(p.cost, evaluations(p));
+      consider(p.cost, evaluations(p), p.h);
       if (previous != nullptr && previous->errors.x > error && p.errors.x > 0.0) {
         const double s = std::log(previous->errors.x / error) / std::log(previous->errors.x / p.errors.x);
         const double count = evaluations(*previous) > 0.0
                                  ? evaluations(*previous) * std::pow(evaluations(p) / evaluations(*previous), s)
                                  : evaluations(p);
-        consider(previous->cost * std::pow(p.cost / previous->cost, s), count);
+        consider(previous->cost * std::pow(p.cost / previous->cost, s), count,
+                 previous->h * std::pow(p.h / previous->h, s));
       }
     }
     previous = &p;
@@ -276,9 +277,6 @@ Need need_at(std::span<const WorkPoint> points, std::string_view contender, doub
 double cost_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
   return need_at(points, contender, error).cost;
 }
-double evaluations_at(std::span<const WorkPoint> points, std::string_view contender, double error) {
-  return need_at(points, contender, error).evaluations;
-}
 
 std::vector<Winner> winners(std::span<const WorkPoint> points, std::span<const double> errors) {
   std::set<std::string> contenders;
@@ -290,10 +288,12 @@ std::vector<Winner> winners(std::span<const WorkPoint> points, std::span<const d
     for (const std::string& contender : contenders)
       if (const double cost = cost_at(points, contender, error); cost < infinity) order.emplace_back(cost, contender);
     std::sort(order.begin(), order.end());
-    Winner winner{error, "", 0.0, "", 0.0, 0.0};
+    Winner winner{.error = error};
     if (!order.empty()) {
       std::tie(winner.cost, winner.contender) = order[0];
-      winner.evaluations = evaluations_at(points, winner.contender, error);
+      const Need need = need_at(points, winner.contender, error);
+      winner.evaluations = need.evaluations;
+      winner.h = need.h;
     }
     if (order.size() > 1) std::tie(winner.runner_up_cost, winner.runner_up) = order[1];
     result.push_back(std::move(winner));

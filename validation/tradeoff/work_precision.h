@@ -99,17 +99,16 @@ void classify(std::span<WorkPoint> points, double floor, double useless_from = 1
 /// are as good the cheapest, or, where two successive steps enclose the error, interpolated between them on a log-log
 /// scale. Infinite when it was not seen to reach the error.
 double cost_at(std::span<const WorkPoint> points, std::string_view contender, double error);
-/// The force evaluations counted for that; NaN where it does not reach the error.
-double evaluations_at(std::span<const WorkPoint> points, std::string_view contender, double error);
 
 /// The cheapest method for an error.
 struct Winner {
   double error = 0.0;
-  std::string contender;  // empty when no method reaches it
+  std::string contender{};  // empty when no method reaches it
   double cost = 0.0;
-  std::string runner_up;  // empty when there is none
+  std::string runner_up{};  // empty when there is none
   double runner_up_cost = 0.0;
   double evaluations = 0.0;  // of the forces, counted; between two steps interpolated as the cost is
+  double h = 0.0;            // [s] the step, interpolated likewise; the mean of those that were chosen
 };
 
 /// For each error; peers do not take part.

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <string>
 
 #include "benchmarks/cli/study_names.h"
@@ -18,7 +20,9 @@ struct RecommendOptions : StudyOptions {
 };
 
 void recommend_model(const RecommendOptions& options, Outcome& outcome) {
-  const std::string& given = options.plan.scene;
+  if (options.plan.scenes.size() > 1)
+    throw InputError(fmt::format("--against: {} scenes are given; expected one", options.plan.scenes.size()));
+  const std::string& given = options.plan.scenes.at(0);
   const ModelsPlan plan =
       models_plan(given == "cantilever" ? given : scene_file(given, std::vector<std::string>{"cantilever"}).string());
   run_study(
@@ -29,7 +33,7 @@ void recommend_model(const RecommendOptions& options, Outcome& outcome) {
 void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
   RecommendPlan plan = options.plan;
   if (options.audit) {
-    if (!plan.scene.empty() || !plan.errors.empty())
+    if (!plan.scenes.empty() || !plan.errors.empty())
       throw InputError("--audit draws its scenes and errors itself: give neither SCENE nor --error");
     run_study(
         options, {.label = "recommend", .facts = {.seeds = {{"scenes and errors", options.seed}}}},
@@ -40,9 +44,15 @@ void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
         outcome);
     return;
   }
-  if (plan.scene.empty() || plan.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
+  if (plan.scenes.empty() || plan.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");
   if (!options.against.empty()) return recommend_model(options, outcome);
-  plan.scene = study_scene_or_file(plan.scene);
+  if (!options.out.empty() && !plan.verify) throw InputError("--out: expected --verify or --audit with it");
+  for (std::string& scene : plan.scenes) scene = study_scene_or_file(scene);
+  if (!plan.write.empty() && (plan.errors.size() > 1 || plan.scenes.size() > 1))
+    throw InputError(fmt::format("--write: {} scenes and {} errors are given; expected one of each", plan.scenes.size(),
+                                 plan.errors.size()));
+  if (!plan.write.empty() && !plan.scenes[0].ends_with(".json"))
+    throw InputError(fmt::format("--write: '{}' has no scene file; expected a scene that has one", plan.scenes[0]));
   run_study(
       options, {.label = "recommend", .keeps_folder = false}, [&](StudyLog& log) { return recommend_study(plan, log); },
       outcome);
@@ -55,14 +65,16 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
       "recommend",
       "The cheapest integrator and step for an error, predicted from short runs of the scene; or, of a bar held at one "
       "end, the cheapest model and mesh, too.");
-  auto options = study_options<RecommendOptions>(*verb, {.quick = "audit a few small scenes only",
-                                                         .seed = "the audit",
-                                                         .out = "folder of the audit, new or empty "
-                                                                "[dartboard-results/recommend-TIME]"});
-  verb->add_option("SCENE", options->plan.scene,
-                   "a scene file (.json), the name of one of the gallery, or one of " + study_scene_names());
+  auto options =
+      study_options<RecommendOptions>(*verb, {.quick = "audit a few small scenes only",
+                                              .seed = "the audit",
+                                              .out = "folder of --verify or of the audit, new or empty [of the audit: "
+                                                     "dartboard-results/recommend-TIME]"});
+  verb->add_option("SCENE", options->plan.scenes,
+                   "scene files (.json), names of the gallery, or some of " + study_scene_names());
   verb->add_option("--error", options->plan.errors,
-                   "largest error of positions, in mean edge lengths; several may be given")
+                   "largest error of positions, in mean edge lengths: the root mean square over the mass, at the time "
+                   "at which it is largest; single vertices may be several times farther off. Several may be given")
       ->check(positive_number());
   auto* against =
       verb->add_option("--against", options->against,
@@ -74,15 +86,19 @@ void add_recommend(CLI::App& app, Outcome& outcome) {
       ->check(positive_number());
   verb->add_flag("--realtime", options->plan.realtime,
                  "say whether that is as fast as the motion itself, and what would be");
-  verb->add_flag("--verify", options->plan.verify, "run it, against the oracle and a sweep of all methods");
+  auto* write = verb->add_option(
+      "--write", options->plan.write,
+      "a new file for the scene with that integrator and step, which `simulate` then runs with that error");
+  verb->add_flag("--verify", options->plan.verify,
+                 "run that scene as `simulate` does, against the oracle, and a sweep of all methods");
   auto* audit = verb->add_flag(
       "--audit", options->audit,
       "follow the recommendations for scenes and errors drawn from a seed, and say what they were worth");
   verb->add_flag("--long", options->long_motions,
                  "audit long motions, of which the pilots take a twentieth of the run's time and see some thousandths");
-  for (const char* of_the_audit : {"--seed", "--quick", "--out", "--long"})
-    verb->get_option(of_the_audit)->needs(audit);
-  for (const char* of_one_model : {"--budget", "--realtime", "--verify", "--audit"})
+  for (const char* of_the_audit : {"--seed", "--quick", "--long"}) verb->get_option(of_the_audit)->needs(audit);
+  audit->excludes(write);
+  for (const char* of_one_model : {"--budget", "--realtime", "--verify", "--write", "--audit", "--out"})
     against->excludes(verb->get_option(of_one_model));
   verb->callback([options, &outcome] { recommend_verb(*options, outcome); });
 }

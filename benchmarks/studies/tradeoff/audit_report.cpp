@@ -161,6 +161,7 @@ std::vector<std::pair<Column, std::string>> row_of(AuditKind kind, const Audited
   if (!has_pick(p)) row.back().second = "none";
   add_figure("actual / asked", "{:.3f}", a.actual_error / a.error, p.is_resolved());
   add({"met"}, met_in_words(kind, p));
+  add_figure("largest of a vertex / asked", "{:.3f}", a.largest_error / a.error, p.is_resolved());
   if (is_long) {
     add_figure("actual / predicted error", "{:.3f}", a.actual_error / a.predicted_error, p.is_resolved());
   } else {
@@ -231,6 +232,7 @@ nlohmann::json json_of(const AuditedPair& p) {
           {"long_prediction", p.is_long_prediction()},
           {"resolved", p.is_resolved()},
           {"actual_error", number(a.actual_error)},
+          {"largest_error", number(a.largest_error)},
           {"predicted_error", number(a.predicted_error)},
           {"actual_evaluations", number(a.actual_evaluations)},
           {"predicted_evaluations", number(a.predicted_evaluations)},

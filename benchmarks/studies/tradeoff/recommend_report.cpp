@@ -44,12 +44,20 @@ std::string milliseconds(double s) { return s < 1.0 ? fmt::format("{:.3g} ms", 1
 
 }  // namespace
 
-nlohmann::json json_of(const Recommendation& r) {
+nlohmann::json json_of(const Recommendation& r, const RecommendedScene* scene) {
   const SceneFeatures& f = r.features;
   nlohmann::json candidates = nlohmann::json::array();
   for (const Candidate& c : r.candidates) candidates.push_back(json_of(c));
+  nlohmann::json pick;
+  if (const Candidate* c = r.pick()) pick = {{"integrator", c->contender}, {"steps", c->steps}, {"step", c->h}};
+  if (scene != nullptr)
+    pick.update({{"event_times", scene->file.exact_events ? "exact" : "steps"},
+                 {"names_cells", scene->names_cells},
+                 {"choice", scene->choice},
+                 {"trouble", scene->trouble}});
   return {{"scene", r.scene},
           {"error", r.error},
+          {"pick", pick},
           {"features",
            {{"vertices", f.vertices},
             {"springs", f.springs},
@@ -75,6 +83,7 @@ nlohmann::json json_of(const Recommendation& r) {
 nlohmann::json json_of(const Audit& a) {
   return {{"error", a.error},
           {"actual_error", number(a.actual_error)},
+          {"largest_error", number(a.largest_error)},
           {"predicted_error", number(a.predicted_error)},
           {"met", a.met()},
           {"actual_cost", number(a.actual_cost)},
@@ -112,10 +121,10 @@ Table candidates_table(const Recommendation& r) {
   return table;
 }
 
-std::string text_of(const Recommendation& r, bool realtime, double duration) {
+std::string text_of(const Recommendation& r, const RecommendedScene* scene, bool realtime, double duration) {
   const SceneFeatures& f = r.features;
   std::string text = fmt::format(
-      "{} with an error of at most {:.0e} edges\n{}, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
+      "{} with an error of at most {:.3g} edges\n{}, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
       "damping ratio there {:.2g}, T omega_max = {:.4g}; a force evaluation takes {:.3g} us here\n\n{}",
       one_line(r.scene), r.error, sizes_in_words(f.vertices, f.springs, f.pieces), f.events, f.omega_low, f.omega_high,
       f.damping_ratio, f.phase, 1e6 * f.force_s, to_text(candidates_table(r)));
@@ -135,14 +144,23 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
                               r.error, r.best_error, r.untried().empty() ? "" : " of what was tried", r.best_error_by)
                 : "\nNothing can be recommended.\n");
   text += fmt::format(
-      "\nTake {} with {}{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes {:.0f}).\n",
-      pick->contender,
-      pick->adaptive ? fmt::format("a tolerance of {:.2e} edges, about {} steps", pick->tolerance, pick->steps)
-                     : fmt::format("h = {:.4g} s, {} steps", pick->h, pick->steps),
+      "\nTake {} with a step of {} s, {} steps{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes "
+      "{:.0f}).\nAn error is the root mean square over the mass, the largest over time; single vertices are farther "
+      "off.\n",
+      pick->contender, pick->h, pick->steps,
       pick->limited_by_stability ? ", all that stability allows"
       : pick->fewest_steps       ? ", the fewest steps tried"
                                  : "",
       pick->predicted_error, milliseconds(pick->predicted_s), pick->predicted_cost, pick->predicted_evaluations);
+  if (scene != nullptr) {
+    text += fmt::format("In the scene file: {}\n", scene->setting());
+    if (pick->steps > scene->steps_for_error)
+      text += fmt::format("The error takes {} steps; the events, and the times of loads and output, make them {}.\n",
+                          scene->steps_for_error, pick->steps);
+    for (const std::string& sentence : {scene->choice, scene->trouble})
+      if (!sentence.empty()) text += sentence + "\n";
+    if (scene->names_cells) text += "The scene that --write FILE writes names the cells of the accurate run.\n";
+  }
   if (!pick->full_length && pick->seen_part < 1.0)
     text += fmt::format("Its pilots saw {:.2g} % of the motion; the rest is predicted.\n", 100.0 * pick->seen_part);
   if (pick->growth_rate > 0.0)
@@ -151,12 +169,20 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
         "this one to that of an edge it takes {:.3g} s.\n",
         1.0 / pick->growth_rate, max_or_nan(0.0, -std::log(pick->predicted_error)) / pick->growth_rate);
   if (std::isfinite(pick->limit_h)) text += fmt::format("It is stable up to h = {:.4g} s.\n", pick->limit_h);
-  if (const Candidate* second = r.runner_up())
-    text += fmt::format("Runner-up: {} with h = {:.4g} s, {:.2f} times the cost.\n", second->contender, second->h,
+  // steps of the others are not fitted to the times of the scene
+  const bool is_fitted = scene != nullptr && pick->steps > scene->steps_for_error;
+  if (const Candidate* second = r.runner_up(); second != nullptr && !is_fitted)
+    text += fmt::format("Runner-up: {} with {} steps, {:.2f} times the cost.\n", second->contender, second->steps,
                         second->predicted_cost / pick->predicted_cost);
-  text += r.one_more_digit_by.empty() ? "One more digit is beyond double precision, or takes too many steps.\n"
-                                      : fmt::format("One more digit costs {:.2f} times as much, with {}.\n",
-                                                    r.one_more_digit, r.one_more_digit_by);
+  if (const Candidate* c = r.cheaper_by_tolerance())
+    text += fmt::format(
+        "A program in which {} chooses its steps, with a tolerance of {:.2e} edges, takes {:.2f} times the cost; "
+        "scenes have one step throughout.\n",
+        c->make()->scheme().name, c->tolerance, c->predicted_cost / pick->predicted_cost);
+  if (!is_fitted)
+    text += r.one_more_digit_by.empty() ? "One more digit is beyond double precision, or takes too many steps.\n"
+                                        : fmt::format("One more digit costs {:.2f} times as much, with {}.\n",
+                                                      r.one_more_digit, r.one_more_digit_by);
   text += fmt::format("The pilots took {}, {:.3g} times the run.\n", milliseconds(r.pilot_s),
                       r.pilot_s / pick->predicted_s);
   if (realtime) {
@@ -172,24 +198,26 @@ std::string text_of(const Recommendation& r, bool realtime, double duration) {
 }
 
 Table followed_table(const std::vector<FollowedPick>& picks) {
-  Table table({{"error", Align::right},
+  Table table({{"scene"},
+               {"error", Align::right},
                {"pick"},
                {"actual", Align::right},
+               {"largest of a vertex", Align::right},
                {"predicted", Align::right},
                {"met"},
                {"cost [evaluations' time]", Align::right},
                {"predicted/actual", Align::right},
                {"best of the sweep"},
                {"regret", Align::right}});
-  for (const auto& [pick, a, is_resolved] : picks)
-    table.add_row({fmt::format("{:.0e}", a.error), pick, is_resolved ? fmt::format("{:.2e}", a.actual_error) : "-",
-                   fmt::format("{:.2e}", a.predicted_error),
-                   !is_resolved ? "not judged: below the resolution of the reference"
-                   : a.met()    ? "yes"
-                                : "NO",
-                   fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),
-                   a.best.empty() ? "-" : a.best,
-                   std::isfinite(a.best_cost) ? fmt::format("{:.2f}", a.regret()) : "-"});
+  for (const auto& [scene, pick, a, is_resolved] : picks)
+    table.add_row(
+        {scene, fmt::format("{:.3g}", a.error), pick, is_resolved ? fmt::format("{:.2e}", a.actual_error) : "-",
+         is_resolved ? fmt::format("{:.2e}", a.largest_error) : "-", fmt::format("{:.2e}", a.predicted_error),
+         !is_resolved ? "not judged: below the resolution of the reference"
+         : a.met()    ? "yes"
+                      : "NO",
+         fmt::format("{:.0f}", a.actual_cost), fmt::format("{:.3f}", a.predicted_cost / a.actual_cost),
+         a.best.empty() ? "-" : a.best, std::isfinite(a.best_cost) ? fmt::format("{:.2f}", a.regret()) : "-"});
   return table;
 }
 

@@ -7,22 +7,25 @@
 
 #include "benchmarks/harness/table.h"
 #include "validation/recommend/recommendation_audit.h"
+#include "validation/recommend/recommended_scene.h"
 
 namespace dartboard {
 
-/// Numbers that are not finite are null.
-nlohmann::json json_of(const Recommendation& recommendation);
+/// Numbers that are not finite are null. `scene` is that of the pick; null where the study has no file.
+nlohmann::json json_of(const Recommendation& recommendation, const RecommendedScene* scene);
 nlohmann::json json_of(const Audit& audit);
 
 /// A row for each usable candidate.
 Table candidates_table(const Recommendation& recommendation);
 
-/// The whole recommendation in words; also on real time where that was requested, with the `duration` [s] of the scene.
-std::string text_of(const Recommendation& recommendation, bool realtime, double duration);
+/// The whole recommendation in words, and the scene of the pick where there is one; also on real time where that was
+/// requested, with the `duration` [s] of the scene.
+std::string text_of(const Recommendation& recommendation, const RecommendedScene* scene, bool realtime,
+                    double duration);
 
 /// A pick that was run.
 struct FollowedPick {
-  std::string contender;
+  std::string scene, contender;
   Audit audit;
   bool is_resolved = true;  // can the reference resolve whether the error was met?
 

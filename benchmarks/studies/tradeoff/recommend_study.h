@@ -10,13 +10,15 @@
 namespace dartboard {
 
 struct RecommendPlan {
-  std::string scene;           // a name of the study, or a scene file
-  std::vector<double> errors;  // [edges]
-  double budget_s = 0.0;       // budget of the pilots; 0: by the rule
-  bool realtime = false;       // says whether the run is as fast as the motion, and which run would be
-  bool verify = false;         // run it, against the oracle and a sweep of all methods
+  std::vector<std::string> scenes;  // names of the study, or scene files
+  std::vector<double> errors;       // [edges]
+  double budget_s = 0.0;            // budget of the pilots; 0: by the rule
+  bool realtime = false;            // says whether the run is as fast as the motion, and which run would be
+  bool verify = false;              // run it, against the oracle and a sweep of all methods
+  std::string write{};              // the file of the scene with the pick, for one scene and error; empty: none
 };
 
+/// throws  IoError if the file to write exists or cannot be written
 Report recommend_study(const RecommendPlan& plan, StudyLog& log);
 
 }  // namespace dartboard

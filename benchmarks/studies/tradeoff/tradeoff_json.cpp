@@ -66,6 +66,7 @@ nlohmann::json summary_of(const WorkPrecision& study) {
                     {"integrator", w.contender},
                     {"cost", number(w.cost)},
                     {"force_evaluations", number(w.evaluations)},
+                    {"h", number(w.h)},
                     {"runner_up", w.runner_up},
                     {"runner_up_cost", number(w.runner_up_cost)},
                     {"cvode_adams_cost", number(cost_at(study.points, "cvode-adams", w.error))}});

@@ -14,8 +14,9 @@ std::string show(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) 
 
 constexpr std::string_view reading =
     "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
-    "with the runs; a run includes all of its factorisations and what its scene does to the body. Between two steps the "
-    "cost is interpolated on the log-log scale. The regret of a fixed choice is its cost over that of the best; '-' "
+    "with the runs; a run includes all of its factorisations and what its scene does to the body. An error is the root "
+    "mean square over the mass, the largest over time. Between two steps the cost and the step are interpolated on the "
+    "log-log scale; the step of a method that chooses its steps is their mean. The regret of a fixed choice is its cost over that of the best; '-' "
     "where it does not reach the error. A point is dominated when another is no less accurate and its slowest "
     "repetition is faster than the fastest of the point.";
 
@@ -34,6 +35,7 @@ std::vector<double> decades(const WorkPrecision& study) {
 Table winners_table(const WorkPrecision& study) {
   Table table({{"error [edges]"},
                {"cheapest"},
+               {"step [ms]", Align::right},
                {"cost [evaluations' time]", Align::right},
                {"force evaluations", Align::right},
                {"seconds", Align::right},
@@ -49,9 +51,9 @@ Table winners_table(const WorkPrecision& study) {
   for (const Winner& w : winners(study.points, decades(study))) {
     const double peer = cost_at(study.points, "cvode-adams", w.error);
     if (w.contender.empty())
-      table.add_row({fmt::format("{:.0e}", w.error), "none", "-", "-", "-", "-", "-", "-"});
+      table.add_row({fmt::format("{:.0e}", w.error), "none", "-", "-", "-", "-", "-", "-", "-"});
     else
-      table.add_row({fmt::format("{:.0e}", w.error), w.contender, fmt::format("{:.0f}", w.cost),
+      table.add_row({fmt::format("{:.0e}", w.error), w.contender, show(1e3 * w.h), fmt::format("{:.0f}", w.cost),
                      fmt::format("{:.0f}", w.evaluations), show(w.cost * force_s),
                      w.runner_up.empty() ? "-" : w.runner_up,
                      w.runner_up.empty() ? "-" : ratio(w.runner_up_cost, w.cost), ratio(peer, w.cost)});

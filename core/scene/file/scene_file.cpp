@@ -66,7 +66,9 @@ void read(const SceneValue& value, SceneFile& scene) {
   scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
                         : unstable == "substep" ? UnstableStep::substep
                                                 : UnstableStep::warn;
-  scene.exact_events = value.get<std::string>("event_times") == "exact";
+  // an accuracy needs events at their times, which loads that begin or end allow only at steps that fit them
+  const bool may_be_exact = scene.driven.empty() && std::ranges::all_of(scene.forces, &SceneForce::lasts);
+  scene.exact_events = value.get<std::string>("event_times") == "exact" || (scene.accuracy && may_be_exact);
   if (value.has("sleep")) scene.sleep = read_sleep(value.at("sleep"));
   for (const SceneValue& event : value.at("events").entries()) scene.events.push_back(read_event(event, scene));
   require_rules(scene, ReadUpTo::events);

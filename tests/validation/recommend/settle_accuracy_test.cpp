@@ -11,6 +11,7 @@
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "tests/support/moving_box.h"
+#include "validation/recommend/recommended_scene.h"
 
 namespace dartboard::settle_accuracy_test {
 namespace {
@@ -41,11 +42,15 @@ TEST(StepFittingTimes, DividesTheTimesOfEventsAndOutputToo) {
   Json json = with_events(accurate_box(1e-3), R"([{"at": 0.03, "remove": {"ids": [5]}}])");
   json["output"] = {{"frames_every", 0.02}};
   SceneFile scene = parse(json);
+  scene.exact_events = false;
   EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 10);
   EXPECT_EQ(step_fitting_times(scene, 0.0099), 0.1 / 20);
   // a time that no number of steps meets costs no steps
   scene.events[0].from = scene.events[0].until = 0.0314159265358979;
   EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 9);
+  // events that happen at their times need no step that fits
+  scene.exact_events = true;
+  EXPECT_EQ(step_fitting_times(scene, 0.012), 0.1 / 10);
 }
 
 TEST(StepFittingTimes, DividesTheTimesOfDrivesAndForces) {

@@ -66,11 +66,15 @@ TEST(Winners, SayHowOftenForcesAreEvaluatedBesideTheCost) {
   std::vector<WorkPoint> points{point("a", 1e-2, {10}), point("a", 1e-4, {1000})};
   points[0].work.force_evaluations = 4;
   points[1].work.force_evaluations = 400;
+  points[0].h = 4.0;
+  points[1].h = 1.0;
   classify(points, 0.0);
   const double errors[]{1e-3, 1e-4, 1e-6};
   const auto best = winners(points, errors);
   EXPECT_NEAR(best[0].evaluations, 40.0, 1e-11);  // as the cost, halfway on both scales
   EXPECT_EQ(best[1].evaluations, 400.0);
+  EXPECT_NEAR(best[0].h, 2.0, 1e-13);
+  EXPECT_EQ(best[1].h, 1.0);
   EXPECT_EQ(best[2].evaluations, 0.0);  // no run reaches it
 }
 

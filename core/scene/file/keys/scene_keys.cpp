@@ -76,10 +76,11 @@ std::vector<SceneKey> keys_by_hand() {
                "Without it bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
-       .help = "error of the positions at the end that is allowed; the step is chosen for it, and the integrator if "
-               "it is not named, by whole runs where there is contact or a load changes in time. The choice rests on "
-               "timings: it may differ from machine to machine and from run to run, and the hash with it; 'simulate' "
-               "prints the 'integrator' and 'step' that settle it"},
+       .help = "error of the positions that is allowed: the root mean square over the mass, at the time at which it is "
+               "largest; single vertices may be several times farther off. The step is chosen for it, and the integrator "
+               "if it is not named, by whole runs where there is contact or a load changes in time; events happen at "
+               "their exact times, unless loads begin or end. The choice rests on timings: it may differ from machine to "
+               "machine and from run to run, and the hash with it; 'simulate' prints the keys that settle it"},
       {.shape = scene, .name = "duration", .type = real, .unit = "s", .range = not_negative, .required = true,
        .help = "time to simulate; the run ends at the first multiple of the step that is not before it"},
       {.shape = scene, .name = "integrator", .type = choice, .choices = names_of(integrators()),

@@ -24,6 +24,7 @@ AuditedPair good_pair() {
   p.audit = {.error = 1e-4,
              .actual_error = 5e-5,
              .predicted_error = 6e-5,
+             .largest_error = 1.5e-4,
              .actual_cost = 440.0,
              .predicted_cost = 420.0,
              .actual_evaluations = 400.0,
@@ -220,17 +221,18 @@ TEST(AuditTable, HasARowForEachPair) {
   pairs[2].pick.clear();
   pairs[2].confidence.clear();
   const Table table = audit_table(scenes, pairs);
-  EXPECT_EQ(alignment(table), "lrlrlrrrrlrrll");
+  EXPECT_EQ(alignment(table), "lrlrlrrrrrlrrll");
   ASSERT_EQ(table.rows().size(), 3u);
-  EXPECT_EQ(labelled(table, 0), (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500",
-                                     "met: yes", "evaluations: 400", "predicted / counted: 1.025", "seconds: 6",
-                                     "predicted / measured: 0.917", "best of the sweep: verlet", "regret: 1.38",
-                                     "pilots / run: 0.10", "confidence: asymptotic", "reference: certified"}));
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500", "met: yes",
+                 "largest of a vertex / asked: 1.500", "evaluations: 400", "predicted / counted: 1.025", "seconds: 6",
+                 "predicted / measured: 0.917", "best of the sweep: verlet", "regret: 1.38", "pilots / run: 0.10",
+                 "confidence: asymptotic", "reference: certified"}));
   EXPECT_EQ(table.rows()[1][4], "NO");
-  EXPECT_EQ(table.rows()[1][9], "-");
   EXPECT_EQ(table.rows()[1][10], "-");
+  EXPECT_EQ(table.rows()[1][11], "-");
   EXPECT_EQ(table.rows()[2],
-            (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-", "certified"}));
+            (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-", "-", "certified"}));
 }
 
 TEST(AuditTable, SaysOfLongMotionsWhatWasMetMissedAndNotJudged) {
@@ -242,18 +244,19 @@ TEST(AuditTable, SaysOfLongMotionsWhatWasMetMissedAndNotJudged) {
   pairs[4].pick.clear();
   pairs[4].confidence.clear();
   const Table table = audit_table(long_motions, pairs);
-  EXPECT_EQ(alignment(table), "lrlrlrrrrrlrl");
+  EXPECT_EQ(alignment(table), "lrlrlrrrrrrlrl");
   ASSERT_EQ(table.rows().size(), 5u);
   EXPECT_EQ(labelled(table, 0),
             (Row{"scene: a scene", "error: 1.0e-04", "pick: rk4", "actual / asked: 0.500", "met: yes",
-                 "actual / predicted error: 0.833", "seconds: 2", "printed / measured: 0.950", "run / pilots: 40.0",
-                 "seen: 1.25 %", "best of the sweep: verlet", "regret: 1.10",
-                 "confidence: asymptotic, errors grow exponentially"}));
+                 "largest of a vertex / asked: 1.500", "actual / predicted error: 0.833", "seconds: 2",
+                 "printed / measured: 0.950", "run / pilots: 40.0", "seen: 1.25 %", "best of the sweep: verlet",
+                 "regret: 1.10", "confidence: asymptotic, errors grow exponentially"}));
   EXPECT_EQ(table.rows()[1][4], "NO");
   EXPECT_EQ(table.rows()[2][4], "not judged: the other codes differ by more");
   EXPECT_EQ(table.rows()[2][3], "-");
   EXPECT_EQ(table.rows()[3][4], "yes, but not counted");
-  EXPECT_EQ(table.rows()[4], (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-"}));
+  EXPECT_EQ(table.rows()[4],
+            (Row{"a scene", "1.0e-04", "none", "-", "NO", "-", "-", "-", "-", "-", "-", "-", "-", "-"}));
 }
 
 TEST(AuditScenes, HaveARowForEachScene) {
@@ -287,7 +290,7 @@ TEST(AuditSample, HoldsEveryFigureOfAPair) {
   EXPECT_EQ(json_of(p), nlohmann::json::parse(R"({"scene": "a scene", "what": "a soft box", "vertices": 27,
     "springs": 98, "omega_phase": 350.0, "reference": "certified", "floor": 1e-12, "error": 1e-4, "pick": "rk4",
     "confidence": "asymptotic", "steps": 100, "tolerance": 0.5, "seen_part": 0.0125, "warned": false, "long_prediction": true,
-    "resolved": true, "actual_error": 5e-5, "predicted_error": 6e-5, "actual_evaluations": 400.0,
+    "resolved": true, "actual_error": 5e-5, "largest_error": 1.5e-4, "predicted_error": 6e-5, "actual_evaluations": 400.0,
     "predicted_evaluations": 410.0, "actual_cost": 440.0, "predicted_cost": 420.0, "actual_s": 2.0,
     "predicted_s": 100.0, "printed_s": 1.9, "pilot_s": 0.05, "swept": true, "best": "verlet", "best_cost": 320.0})"));
 }

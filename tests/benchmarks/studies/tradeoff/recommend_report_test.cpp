@@ -101,16 +101,16 @@ TEST(RecommendTable, HasARowForEachUsableCandidate) {
 
 TEST(RecommendText, SaysWhatToTakeAndWhatElseThereIs) {
   EXPECT_EQ(
-      text_of(recommendation(), true, 16.0),
-      "box with an error of at most 1e-01 edges\n81 vertices, 82 springs, 86 tetrahedra, 83 events; omega_max 84 .. 85 1/s, "
+      text_of(recommendation(), nullptr, true, 16.0),
+      "box with an error of at most 0.1 edges\n81 vertices, 82 springs, 86 tetrahedra, 83 events; omega_max 84 .. 85 1/s, "
       "damping ratio there 0.5, T omega_max = 86; a force evaluation takes 9 us here\n\n" +
           to_text(candidates_table(recommendation())) +
           "1 of 3 methods were not tried for want of time, and another run may pick one of them (--budget "
           "SECONDS grants more): bdf2\n"
-          "\nTake rk4 with h = 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
+          "\nTake rk4 with a step of 0.25 s, 71 steps: error 6.2e-02, 125 ms here (the time of 200 force evaluations; "
           "it makes 285).\n"
+          "An error is the root mean square over the mass, the largest over time; single vertices are farther off.\n"
           "It is stable up to h = 0.5 s.\n"
-          "Runner-up: dormand-prince-54-adaptive with h = 0.25 s, 1.50 times the cost.\n"
           "One more digit costs 1.75 times as much, with blanes-moan-4.\n"
           "The pilots took 375 ms, 3 times the run.\n"
           "Real time: 16 s are simulated in 125 ms, 2.50 times real time.\n"
@@ -124,37 +124,88 @@ TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
   r.one_more_digit_by.clear();
   r.realtime_factor = 0.5;
   r.realtime_error = nan;
-  std::string text = text_of(r, true, 16.0);
+  std::string text = text_of(r, nullptr, true, 16.0);
   EXPECT_NE(text.find("71 steps, all that stability allows: error"), std::string::npos) << text;
   EXPECT_EQ(text.find("Runner-up"), std::string::npos) << text;
   EXPECT_NE(text.find("One more digit is beyond double precision, or takes too many steps.\n"), std::string::npos);
   EXPECT_NE(text.find("0.50 times real time: too slow.\nNo method is stable in real time.\n"), std::string::npos);
   r.candidates[0].limited_by_stability = false;
-  text = text_of(r, false, 16.0);
+  text = text_of(r, nullptr, false, 16.0);
   EXPECT_NE(text.find("71 steps, the fewest steps tried: error"), std::string::npos) << text;
   EXPECT_EQ(text.find("eal time"), std::string::npos) << text;
-  r.candidates = {adaptive_one()};
-  text = text_of(r, false, 16.0);
-  EXPECT_NE(text.find("with a tolerance of 1.00e-03 edges, about 71 steps: error"), std::string::npos) << text;
+  r.candidates[0].limit_h = infinity;
+  text = text_of(r, nullptr, false, 16.0);
   EXPECT_EQ(text.find("It is stable up to"), std::string::npos) << text;
+}
+
+// No scene can be run with steps that are chosen within a tolerance.
+TEST(RecommendText, HandsOverFixedSteps) {
+  Recommendation r = recommendation();
+  r.candidates = {usable("rk4", 400.0), usable("verlet", 500.0), adaptive_one()};
+  const std::string text = text_of(r, nullptr, false, 16.0);
+  EXPECT_NE(text.find("\nTake rk4 with a step of"), std::string::npos) << text;
+  EXPECT_NE(text.find("Runner-up: verlet with 71 steps, 1.25 times the cost.\n"), std::string::npos) << text;
+  EXPECT_NE(
+      text.find("A program in which dormand-prince-54 chooses its steps, with a tolerance of 1.00e-03 edges, takes "
+                "0.75 times the cost; scenes have one step throughout.\n"),
+      std::string::npos)
+      << text;
+  r.candidates = {adaptive_one()};
+  EXPECT_EQ(r.pick(), nullptr);
+}
+
+// 0.2 / 88 to four digits ends 2.4e-5 s late.
+TEST(RecommendText, HasAllDigitsOfTheStep) {
+  Recommendation r = recommendation();
+  r.candidates[0].steps = 88;
+  r.candidates[0].h = 0.2 / 88;
+  const std::string text = text_of(r, nullptr, false, 0.2), before = "with a step of ";
+  const auto at = text.find(before);
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_EQ(std::stod(text.substr(at + before.size())), 0.2 / 88);
+}
+
+TEST(RecommendText, SaysWhatItsSceneSays) {
+  RecommendedScene scene;
+  scene.file.integrator = "rk4";
+  scene.file.step = 0.1 / 3;
+  scene.json["event_times"] = "exact";
+  scene.steps_for_error = 71;
+  scene.choice = "What is chosen.";
+  scene.trouble = "What may miss.";
+  std::string text = text_of(recommendation(), &scene, false, 16.0);
+  EXPECT_NE(text.find("\nIn the scene file: \"integrator\": \"rk4\", \"step\": 0.03333333333333333, \"event_times\": "
+                      "\"exact\"\nWhat is chosen.\nWhat may miss.\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("--write"), std::string::npos) << text;
+  scene.json.clear();
+  scene.names_cells = true;
+  scene.steps_for_error = 64;
+  text = text_of(recommendation(), &scene, false, 16.0);
+  EXPECT_NE(text.find("\"step\": 0.03333333333333333\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("--write FILE writes names the cells"), std::string::npos) << text;
+  EXPECT_NE(text.find("The error takes 64 steps; the events, and the times of loads and output, make them 71.\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(RecommendText, SaysHowMuchOfTheMotionIsPredicted) {
   Recommendation r = recommendation();
   r.candidates[0].seen_part = 0.0125;
-  EXPECT_NE(text_of(r, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is predicted.\n"),
+  EXPECT_NE(text_of(r, nullptr, false, 1.0).find("Its pilots saw 1.2 % of the motion; the rest is predicted.\n"),
             std::string::npos)
-      << text_of(r, false, 1.0);
+      << text_of(r, nullptr, false, 1.0);
   r.candidates[0].full_length = true;
-  EXPECT_EQ(text_of(r, false, 1.0).find("Its pilots saw"), std::string::npos);
+  EXPECT_EQ(text_of(r, nullptr, false, 1.0).find("Its pilots saw"), std::string::npos);
 }
 
 // exp(2 t) takes an error of 1/16 to an edge in ln(16) / 2.
 TEST(RecommendText, WarnsOfErrorsThatGrowExponentially) {
   Recommendation r = recommendation();
-  EXPECT_EQ(text_of(r, false, 1.0).find("chaotic"), std::string::npos);
+  EXPECT_EQ(text_of(r, nullptr, false, 1.0).find("chaotic"), std::string::npos);
   r.candidates[0].growth_rate = 2.0;
-  const std::string text = text_of(r, false, 1.0);
+  const std::string text = text_of(r, nullptr, false, 1.0);
   EXPECT_NE(text.find("grow e-fold in 0.5 s: the motion is chaotic"), std::string::npos) << text;
   EXPECT_NE(text.find("it takes 1.39 s.\n"), std::string::npos) << text;
 }
@@ -163,14 +214,14 @@ TEST(RecommendText, SaysWhatCanBeReachedWhereNothingMeetsTheError) {
   Recommendation r = recommendation();
   r.error = 1e-15;
   r.candidates = {left_out()};
-  EXPECT_TRUE(text_of(r, false, 1.0)
+  EXPECT_TRUE(text_of(r, nullptr, false, 1.0)
                   .ends_with("\nAn error of 1e-15 edges cannot be met in double precision; about 1.0e-13 is the best "
                              "of what was tried, with "
                              "verlet-compensated.\n"));
   r.candidates[0].untried = false;
-  EXPECT_TRUE(text_of(r, false, 1.0).ends_with("about 1.0e-13 is the best, with verlet-compensated.\n"));
+  EXPECT_TRUE(text_of(r, nullptr, false, 1.0).ends_with("about 1.0e-13 is the best, with verlet-compensated.\n"));
   r.best_error = infinity;
-  EXPECT_TRUE(text_of(r, false, 1.0).ends_with("\nNothing can be recommended.\n"));
+  EXPECT_TRUE(text_of(r, nullptr, false, 1.0).ends_with("\nNothing can be recommended.\n"));
 }
 
 TEST(RecommendJson, HoldsEveryFigure) {
@@ -181,7 +232,8 @@ TEST(RecommendJson, HoldsEveryFigure) {
   r.candidates[1].fewest_steps = true;
   r.candidates[1].full_length = false;
   r.candidates[2].least_error = 0.75;
-  EXPECT_EQ(json_of(r), Json::parse(R"({"scene": "box", "error": 0.1,
+  EXPECT_EQ(json_of(r, nullptr), Json::parse(R"({"scene": "box", "error": 0.1,
+    "pick": {"integrator": "rk4", "steps": 71, "step": 0.25},
     "features": {"vertices": 81, "springs": 82, "pieces": {"tetrahedra": 86}, "events": 83, "omega_low": 84.0, "omega_high": 85.0,
       "damping_ratio": 0.5, "phase": 86.0, "motion_rate": 87.0, "motion_size": 88.0, "force_s": 9e-6,
       "implicit_step_s": 90.0},
@@ -202,12 +254,23 @@ TEST(RecommendJson, HoldsEveryFigure) {
     "realtime": {"factor": 2.5, "error": 0.011, "integrator": "verlet"}, "pilot_s": 0.375})"));
 }
 
+TEST(RecommendJson, SaysWhatItsSceneIs) {
+  RecommendedScene scene;
+  scene.file.exact_events = scene.names_cells = true;
+  scene.choice = "chosen";
+  scene.trouble = "may miss";
+  EXPECT_EQ(json_of(recommendation(), &scene).at("pick"),
+            Json::parse(R"({"integrator": "rk4", "steps": 71, "step": 0.25, "event_times": "exact", "names_cells": true,
+              "choice": "chosen", "trouble": "may miss"})"));
+}
+
 // ---- picks that were run
 
 Audit followed() {
   return {.error = 0.5,
           .actual_error = 0.25,
           .predicted_error = 0.375,
+          .largest_error = 0.875,
           .actual_cost = 400.0,
           .predicted_cost = 300.0,
           .actual_evaluations = 401.0,
@@ -224,24 +287,27 @@ TEST(RecommendFollowed, HasWhatWasPredictedBesideWhatHappened) {
   missed.actual_error = 0.75;
   unknown.best.clear();
   unknown.best_cost = infinity;
-  const std::vector<FollowedPick> picks{{"rk4", followed(), true}, {"rk4", missed, true}, {"rk4", unknown, false}};
+  const std::vector<FollowedPick> picks{
+      {"box", "rk4", followed(), true}, {"box", "rk4", missed, true}, {"box", "rk4", unknown, false}};
   EXPECT_FALSE(picks[0].misses());
   EXPECT_TRUE(picks[1].misses());
-  EXPECT_FALSE((FollowedPick{"rk4", missed, false}.misses()));
+  EXPECT_FALSE((FollowedPick{"box", "rk4", missed, false}.misses()));
   const Table table = followed_table(picks);
-  EXPECT_EQ(alignment(table), "rlrrlrrlr");
+  EXPECT_EQ(alignment(table), "lrlrrrlrrlr");
   ASSERT_EQ(table.rows().size(), 3u);
-  EXPECT_EQ(labelled(table, 0), (Row{"error: 5e-01", "pick: rk4", "actual: 2.50e-01", "predicted: 3.75e-01", "met: yes",
-                                     "cost [evaluations' time]: 400", "predicted/actual: 0.750",
-                                     "best of the sweep: verlet", "regret: 1.25"}));
-  EXPECT_EQ(table.rows()[1][4], "NO");
-  EXPECT_EQ(table.rows()[2], (Row{"5e-01", "rk4", "-", "3.75e-01", "not judged: below the resolution of the reference",
-                                  "400", "0.750", "-", "-"}));
+  EXPECT_EQ(labelled(table, 0),
+            (Row{"scene: box", "error: 0.5", "pick: rk4", "actual: 2.50e-01", "largest of a vertex: 8.75e-01",
+                 "predicted: 3.75e-01", "met: yes", "cost [evaluations' time]: 400", "predicted/actual: 0.750",
+                 "best of the sweep: verlet", "regret: 1.25"}));
+  EXPECT_EQ(table.rows()[1][6], "NO");
+  EXPECT_EQ(table.rows()[2], (Row{"box", "0.5", "rk4", "-", "-", "3.75e-01",
+                                  "not judged: below the resolution of the reference", "400", "0.750", "-", "-"}));
 }
 
 TEST(RecommendFollowed, IsInTheJsonToo) {
-  EXPECT_EQ(json_of(followed()),
-            Json::parse(R"({"error": 0.5, "actual_error": 0.25, "predicted_error": 0.375, "met": true,
+  EXPECT_EQ(
+      json_of(followed()),
+      Json::parse(R"({"error": 0.5, "actual_error": 0.25, "largest_error": 0.875, "predicted_error": 0.375, "met": true,
               "actual_cost": 400.0, "predicted_cost": 300.0, "actual_evaluations": 401.0,
               "predicted_evaluations": 301.0, "actual_s": 6.0, "best": "verlet", "best_cost": 320.0, "regret": 1.25})"));
 }

@@ -22,6 +22,7 @@ WorkPoint run_of(const std::string& contender, double error, double cost, std::u
   WorkPoint p;
   p.contender = contender;
   p.setting.steps = 10;
+  p.h = 0.0625 * error;
   p.errors.x = error;
   p.work.force_evaluations = evaluations;
   p.cost = cost;
@@ -53,16 +54,16 @@ TEST(TradeoffErrors, AreTheDecadesThatTheReferenceCanTell) {
 
 TEST(TradeoffWinners, NameTheCheapestTheNextAndThePeerForEachError) {
   const Table table = winners_table(three_runs(5e-4));
-  EXPECT_EQ(alignment(table), "llrrrlrr");
+  EXPECT_EQ(alignment(table), "llrrrrlrr");
   ASSERT_EQ(table.rows().size(), 3u);
   // seconds: of the fastest evaluation, 0.01 s
-  EXPECT_EQ(labelled(table, 0),
-            (Row{"error [edges]: 1e-01", "cheapest: verlet", "cost [evaluations' time]: 40", "force evaluations: 80",
-                 "seconds: 0.4", "runner-up: rk4", "costs: 2.50 x", "cvode-adams costs: 6.25 x"}));
+  EXPECT_EQ(labelled(table, 0), (Row{"error [edges]: 1e-01", "cheapest: verlet", "step [ms]: 3.12",
+                                     "cost [evaluations' time]: 40", "force evaluations: 80", "seconds: 0.4",
+                                     "runner-up: rk4", "costs: 2.50 x", "cvode-adams costs: 6.25 x"}));
   EXPECT_EQ(labelled(table, 1),
-            (Row{"error [edges]: 1e-02", "cheapest: rk4", "cost [evaluations' time]: 100", "force evaluations: 400",
-                 "seconds: 1", "runner-up: -", "costs: -", "cvode-adams costs: 2.50 x"}));
-  EXPECT_EQ(table.rows()[2], (Row{"1e-03", "none", "-", "-", "-", "-", "-", "-"}));
+            (Row{"error [edges]: 1e-02", "cheapest: rk4", "step [ms]: 0.312", "cost [evaluations' time]: 100",
+                 "force evaluations: 400", "seconds: 1", "runner-up: -", "costs: -", "cvode-adams costs: 2.50 x"}));
+  EXPECT_EQ(table.rows()[2], (Row{"1e-03", "none", "-", "-", "-", "-", "-", "-", "-"}));
 }
 
 TEST(TradeoffWinners, SayNothingOfAPeerThatDidNotTakePart) {
@@ -192,9 +193,9 @@ TEST(TradeoffSummary, HoldsTheWinnersAndWhatTheyRestOn) {
   for (Json& winner : summary["winners"]) winner.erase("error");
   EXPECT_EQ(summary, Json::parse(R"({"scene": "chain", "reference": "two codes agree", "floor": 0.01,
     "winners": [
-      {"integrator": "verlet", "cost": 40.0, "force_evaluations": 80.0, "runner_up": "rk4", "runner_up_cost": 100.0,
+      {"integrator": "verlet", "cost": 40.0, "force_evaluations": 80.0, "h": 0.003125, "runner_up": "rk4", "runner_up_cost": 100.0,
        "cvode_adams_cost": 250.0},
-      {"integrator": "rk4", "cost": 100.0, "force_evaluations": 400.0, "runner_up": "", "runner_up_cost": 0.0,
+      {"integrator": "rk4", "cost": 100.0, "force_evaluations": 400.0, "h": 0.0003125, "runner_up": "", "runner_up_cost": 0.0,
        "cvode_adams_cost": 250.0}],
     "omissions": ["one", "two"]})"));
 }
