@@ -122,12 +122,15 @@ void Bounces::find_samples() {
   std::vector<Start> found;
   std::ranges::sort(earlier_, {}, &Start::nodes);
   const auto look_among = [&](const std::vector<SkinSample>& samples, bool of_bodies) {
-    for (std::uint32_t k = 0; k < samples.size(); ++k)
-      for (Start start : std::ranges::equal_range(earlier_, whole_nodes(samples[k]), {}, &Start::nodes))
-        if ((start.obstacle == body) == of_bodies) {
-          start.sample = k;
-          found.push_back(start);
-        }
+    for (std::uint32_t k = 0; k < samples.size(); ++k) {
+      const auto nodes = whole_nodes(samples[k]);
+      auto old = std::ranges::lower_bound(earlier_, nodes, {}, &Start::nodes);
+      for (; old != earlier_.end() && old->nodes == nodes; ++old) {
+        if ((old->obstacle == body) != of_bodies) continue;
+        found.push_back(*old);
+        found.back().sample = k;
+      }
+    }
   };
   if (obstacles_ != nullptr) look_among(obstacles_->samples(), false);
   if (bodies_ != nullptr) look_among(bodies_->samples(), true);

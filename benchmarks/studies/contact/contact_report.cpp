@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/counted.h"
@@ -188,7 +189,7 @@ Table bounces_table(const std::vector<BounceFound>& bounces) {
                {"failed", Align::right},
                {"largest pull", Align::right}});
   struct Range {
-    double least = INFINITY, most = -INFINITY;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
     void add(double value) {
       least = std::min(least, value);
       most = std::max(most, value);
