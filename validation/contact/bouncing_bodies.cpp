@@ -81,10 +81,9 @@ double mean_speed(const Simulation& simulation) {
 std::span<const BouncingBody> bouncing_bodies() { return bodies; }
 
 BounceFound bounce_body(const BouncingBody& body, std::string_view integrator, double restitution) {
-  BounceFound found{.body = body.name,
-                    .integrator = integrator,
-                    .order = make_integrator(integrator)->scheme().order,
-                    .asked = restitution};
+  const Scheme& scheme = make_integrator(integrator)->scheme();
+  BounceFound found{
+      .body = body.name, .integrator = integrator, .order = scheme.one_step ? scheme.order : 1, .asked = restitution};
   Simulation thrown(scene_of(body, integrator, restitution, false));
   std::uint64_t touched = 0;
   while (thrown.steps_done() < thrown.step_count() && !found.ended) {

@@ -19,7 +19,7 @@ std::span<const BouncingBody> bouncing_bodies();
 
 struct BounceFound {
   std::string_view body, integrator;
-  int order = 0;                    // of the integrator
+  int order = 0;  // of the integrator; 1 if it keeps earlier steps, as it begins anew in each of a bounce
   double asked = 0.0, found = 0.0;  // restitution: of the mean speed before and after
   double pulled =
       0.0;  // the largest loss of mean speed upwards in a step in which a floor leaves, over the speed of leaving
