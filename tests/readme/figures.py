@@ -20,6 +20,7 @@ STEP = "results/2026-11-28-epyc-step/samples.jsonl"
 STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
 LARGE_BODIES = "results/2026-11-28-epyc-large/samples.jsonl"
 CONTACT = "results/2026-11-27-epyc-contact-costs/samples.jsonl"
+BOUNCES = "results/2026-11-29-epyc-bounces/samples.jsonl"
 ABLATION = "results/2026-11-28-epyc-ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
@@ -169,6 +170,17 @@ def timed_contact():
 def with_contact(situation, task="step", baseline="step without"):
     pair = situation + ": " + task, situation + ": " + baseline
     return ratio([r for r in timed_contact() if r["task"] in pair], *pair)
+
+
+def bounce(body, asked):
+    return next(r["found"] for r in lines(BOUNCES) if r.get("bounces") == body and r["asked"] == asked and r["integrator"] == "verlet")
+
+
+def worst_bounce():
+    """Of loose vertices and of bodies ten times as stiff as their contact."""
+    bodies = {r["bounces"] for r in lines(BOUNCES) if "bounces" in r and ("loose" in r["bounces"] or r["bounces"].endswith("0 MPa") or
+                                                                          r["bounces"].endswith(" 2 MPa"))}
+    return max(abs(bounce(body, asked) - asked) for body in bodies for asked in (0.9, 0.5, 0.2))
 
 
 def growth_of_contact(task):
@@ -489,6 +501,9 @@ FIGURES = [
     (RESULTS, "on a map takes at most {} bytes a tetrahedron, without events {} (targets 300 and 190: hold).", [LARGE_BODIES],
      lambda: ("%.0f" % most_bytes("bytes"), "%.0f" % most_bytes("bytes_without_events"))),
 
+    (RESULTS, "are left the restitution to within {} by Verlet", [BOUNCES], lambda: (two(worst_bounce()),)),
+    (RESULTS, "by Verlet a box of {} kPa is left {} where half is asked for, and one of {} kPa {};", [BOUNCES],
+     lambda: ("500", three(bounce("box, 500 kPa", 0.5)), "100", three(bounce("box, 100 kPa", 0.5)))),
     (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
      lambda: all_of(with_contact("elements far from a plane"), three) + all_of(with_contact("elements far from themselves"), three)
      + judged([with_contact("elements far from themselves")], 1.02, "falls short")),
