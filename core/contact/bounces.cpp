@@ -14,8 +14,9 @@ using Eigen::Vector3d;
 
 /// A rate of depth [m/s] after the time t, which changes by - a r / r0 - by no more than `most` where that pulls.
 /// units  a, most [m/s^2]
-/// pre    a, most >= 0; r0 > 0
+/// pre    a, most >= 0; r0 >= |rate|
 double damped(double rate, double first, double a, double most, double t) {
+  if (rate == 0.0) return 0.0;  // and r0 may be 0, where a depth is so small that its energy is
   if (rate < 0.0 && -a * rate > most * first) {
     // the largest pull, until the rate is as small as it fits
     const double until = -most / a * first, needed = most > 0.0 ? (until - rate) / most : t;

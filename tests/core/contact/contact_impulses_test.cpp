@@ -188,6 +188,19 @@ TEST(ContactImpulses, OnlyPushWhatAnObstacleLeaves) {
           }
 }
 
+// At rest, so little inside that its force and its energy are zero to rounding: it stays there.
+TEST(ContactImpulses, LeaveASampleAtRestWhoseForceVanishes) {
+  for (const int p : {2, 3, 4})
+    for (const double depth : {1e-100, 1e-170, 5e-324}) {
+      TouchingVertices body = one_vertex({0, 0, -depth}, {0, 0, 0});
+      ObstacleContact contact({contact_law(p, 0.5, 0.3)}, {{HalfSpace{}}}, body.samples);
+      ContactImpulses impulses(contact);
+      body.step(contact, impulses, 1e-4);
+      EXPECT_GE(body.v[0][2], 0.0) << p << ' ' << depth;
+      EXPECT_LE(body.v[0].norm(), 1e-90) << p << ' ' << depth;
+    }
+}
+
 // In a law too soft to matter, a vertex that is slowed down meets the surface within a step, at the speed that is left
 // there. The moment is that of the mean speed: off by (g h)^2 / 8 v at most.
 TEST(ContactImpulses, BeginAtTheSpeedAtWhichASampleMeetsTheSurface) {
