@@ -301,8 +301,8 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = contact, .name = "exponent", .type = integer, .range = {2, 4}, .standard = "3",
        .help = "exponent of the depth in the energy of a contact: integrators are of no higher order than it"},
       {.shape = contact, .name = "restitution", .type = real, .range = {.least = 0.0, .most = 1.0, .above = true},
-       .standard = "1", .help = "share of the normal speed of each place left after a bounce, at any speed and for any mass; vibrations "
-               "of a body that the bounce excites take their energy from it"},
+       .standard = "1", .help = "share of the normal speed of each place left after a bounce, at any speed and for any mass; a body that "
+               "is soft against its contact vibrates, and may be left more or less"},
       {.shape = contact, .name = "friction", .type = real, .range = not_negative, .standard = "0",
        .help = "Coulomb's coefficient, of sticking and of sliding"},
       {.shape = contact, .name = "obstacles", .type = objects, .of = obstacle, .standard = "[]",
