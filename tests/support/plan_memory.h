@@ -74,14 +74,15 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       std::size_t sum = n.vertices * vector;
       for (const SceneForce& force : scene.forces) {
         const std::size_t points = select_points(force.vertices, problem.mesh.points, force.path).size();
-        sum += points * number + (force.force || force.acceleration ? 1 : points) * vector +
+        sum += points * number +
+               ((force.force && force.shared_by == SharedBy::vertices) || force.acceleration ? 1 : points) * vector +
                2 * force.factor.at.size() * real;
       }
       return sum;
     }
     case Part::driven: {
-      DrivenVertices vertices(scene, problem.mesh.points, scene.step);
-      vertices.apply(0, n.point, arrays.v);
+      DrivenVertices vertices(scene, problem.mesh.points);
+      vertices.apply(0.0, scene.step, n.point, arrays.v);
       DivergenceDetector detector;
       detector.start(arrays.system(), arrays.motion(), scene.step);
       return vertices.bytes() + detector.driven_bytes();

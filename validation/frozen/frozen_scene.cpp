@@ -45,9 +45,6 @@ bool depends_on_positions(const SceneEvent& event) {
                     event.action);
 }
 
-/// The unit of the times of drives and forces, so short that they are exact; elsewhere the unit is the step.
-double tick(const SceneFile& file) { return 0x1p-40 * file.duration; }
-
 /// A time at which something may change: by an event, a drive or a force.
 struct Moment {
   double time;
@@ -236,8 +233,8 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Ei
 FrozenBody::FrozenBody(const FrozenScene& scene)
     : scene_(scene),
       body_(make_simulated_body(scene.problem, scene.needs)),
-      driven_(scene.file, scene.problem.mesh.points, tick(scene.file)),
-      forces_(scene.file, scene.problem.mesh, body_->vertices(), tick(scene.file)) {
+      driven_(scene.file, scene.problem.mesh.points),
+      forces_(scene.file, scene.problem.mesh, body_->vertices()) {
   for (const SceneEvent& event : scene.file.events) events_.push_back(body_->make_ready(event));
   for (std::size_t k = 0; k < body_->vertices().size() && !scene.initial_position.empty(); ++k)
     body_->motion().x[k] = scene.initial_position[body_->vertices().point[k]];
@@ -259,10 +256,11 @@ void FrozenBody::pass() {
 
 /// Drives and forces at a time; true where any begins, turns back or ends.
 bool FrozenBody::drive(double time) {
-  const std::uint64_t ticks = step_of_time(time, tick(scene_.file));
+  const double after = time + 0x1p-40 * scene_.file.duration;  // so soon that nothing else has changed
   const std::span<const std::uint32_t> point = body_->vertices().point;
-  const LoadChange driven = driven_.apply(ticks, point, body_->motion().v);
-  return std::max(driven, forces_.apply(ticks, point, body_->pull(), body_->pressures())) == LoadChange::begins_or_ends;
+  const LoadChange driven = driven_.apply(time, after, point, body_->motion().v);
+  const LoadChange forces = forces_.apply(time, after, point, body_->pull(), body_->pressures());
+  return std::max(driven, forces) == LoadChange::begins_or_ends;
 }
 
 bool FrozenBody::load(Integrator& integrator, double time, double h) {

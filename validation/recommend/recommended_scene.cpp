@@ -29,35 +29,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ---- the step
 
-struct NamedTime {
-  double time;  // [s]
-  std::string path;
-};
-
-/// The times at which a run changes that has to change at step boundaries.
-std::vector<NamedTime> times_of_changes(const SceneFile& scene) {
-  std::vector<NamedTime> times;
-  const auto add = [&times](const std::optional<double>& time, const std::string& path) {
-    if (time) times.push_back({*time, path});
-  };
-  if (!scene.exact_events)
-    for (const SceneEvent& event : scene.events) {
-      add(event.from, event.path);
-      add(event.every, event.path);
-    }
-  for (const SceneDrive& drive : scene.driven) {
-    add(drive.from, drive.path);
-    add(drive.until, drive.path);
-    add(drive.reverse_every, drive.path);
-  }
-  for (const SceneForce& force : scene.forces) {
-    add(force.from, force.path);
-    add(force.until, force.path);
-  }
-  std::erase_if(times, [&scene](const NamedTime& t) { return t.time >= scene.duration; });
-  return times;
-}
-
 /// [s] The longest step with which events that repeat do so at their times: they take a step that is longer for theirs.
 double longest_repeating_step(const SceneFile& scene) {
   double longest = infinity;
@@ -66,10 +37,9 @@ double longest_repeating_step(const SceneFile& scene) {
   return longest;
 }
 
-/// The first of the times that is between two steps of h [s]; null if all are on boundaries.
-const NamedTime* first_between(const std::vector<NamedTime>& times, double h) {
-  const auto found = std::ranges::find_if(times, [h](const NamedTime& t) { return !step_at(t.time, h); });
-  return found == times.end() ? nullptr : &*found;
+/// Do steps of h [s] end at all of the times?
+bool ends_at_all(const std::vector<double>& times, double h) {
+  return std::ranges::all_of(times, [h](double time) { return step_at(time, h).has_value(); });
 }
 
 /// Above its first limit a method may be stable again where damping helps, but not for long where events change the
@@ -107,7 +77,7 @@ Json with_setting(Json json, const SceneFile& scene) {
   json.erase("accuracy");
   json["integrator"] = scene.integrator;
   json["step"] = scene.step;
-  if (scene.exact_events && !scene.events.empty()) json["event_times"] = "exact";
+  if (scene.has_times()) json["event_times"] = "exact";
   return json;
 }
 
@@ -226,20 +196,18 @@ std::string in_words(const ChosenAlike& found) {
 }  // namespace
 
 double step_fitting_times(const SceneFile& scene, double largest) {
-  const std::vector<NamedTime> changes = times_of_changes(scene);
-  std::vector<NamedTime> all = changes;
+  std::vector<double> times;
   for (const auto& every : {scene.output.frame_time, scene.output.diagnostic_time, scene.output.probe_time})
-    if (every && *every < scene.duration) all.push_back({*every, "/output"});
+    if (every && *every < scene.duration) times.push_back(*every);
   const double least = std::ceil(scene.duration / largest * (1.0 - 0x1p-50));
-  const auto fewest = [&](const std::vector<NamedTime>& times, double least_n, double most, double by) {
-    for (double n = by * std::ceil(least_n / by); n <= std::min(most, least_n + 1e5); n += by)
-      if (first_between(times, scene.duration / n) == nullptr) return n;
+  const auto fewest = [&](double most, double by) {
+    for (double n = by * std::ceil(least / by); n <= std::min(most, least + 1e5); n += by)
+      if (ends_at_all(times, scene.duration / n)) return n;
     return 0.0;
   };
   // a quarter more steps, or few enough to cost nothing; the checkpoints of studies divide the duration by eight
-  double n = fewest(all, least, 1.25 * least, 8.0);
-  if (n == 0.0) n = fewest(all, least, std::max(1.25 * least, 128.0), 1.0);
-  if (n == 0.0) n = fewest(changes, least, 16.0 * least, 1.0);
+  double n = fewest(1.25 * least, 8.0);
+  if (n == 0.0) n = fewest(std::max(1.25 * least, 128.0), 1.0);
   return scene.duration / (n > 0.0 ? n : least);
 }
 
@@ -247,12 +215,9 @@ FittedPick fit_pick(SceneFile& scene, const Candidate& pick, const SceneFeatures
   scene.integrator = pick.contender;
   scene.step = step_fitting_times(
       scene, std::min({pick.h, longest_undamped_step(scene, features), longest_repeating_step(scene)}));
-  FittedPick fitted{.step = scene.step,
-                    .predicted_error = pick.error_at(scene.step),
-                    .predicted_s = pick.predicted_s * std::pow(pick.h / scene.step, 1.0 - pick.step_slope)};
-  const std::vector<NamedTime> changes = times_of_changes(scene);
-  if (const NamedTime* time = first_between(changes, scene.step)) fitted.between = time->path;
-  return fitted;
+  return {.step = scene.step,
+          .predicted_error = pick.error_at(scene.step),
+          .predicted_s = pick.predicted_s * std::pow(pick.h / scene.step, 1.0 - pick.step_slope)};
 }
 
 RecommendedScene recommended_scene(const TradeoffScene& studied, Recommendation& recommendation) {
@@ -264,10 +229,6 @@ RecommendedScene recommended_scene(const TradeoffScene& studied, Recommendation&
     RecommendedScene made;
     made.json = with_setting(std::move(asked), scene);
     made.file = read(made.json, frozen.file);
-    if (!fitted.between.empty())
-      made.trouble = fmt::format(
-          "No step of a useful length ends at all times of loads and events: {} takes effect up to a step late.",
-          fitted.between);
     return std::pair(std::move(made), fitted);
   };
   const auto take = [&](std::pair<RecommendedScene, FittedPick> made) {
@@ -300,8 +261,7 @@ RecommendedScene recommended_scene(const TradeoffScene& studied, Recommendation&
     }
   } catch (const InputError&) {  // such as numbers that no scene of several meshes may have
   }
-  made.first.trouble +=
-      fmt::format("{}No scene can name the cells of the accurate run.", made.first.trouble.empty() ? "" : " ");
+  made.first.trouble = "No scene can name the cells of the accurate run.";
   return take(std::move(made));
 }
 

@@ -13,9 +13,8 @@
 
 namespace dartboard {
 
-/// The largest step [s] that is at most `largest` and divides the duration. It divides all times of loads and output
-/// too, and those of events unless they happen at their exact times, if there is such a step that is not much shorter;
-/// up to sixteen times as many steps are taken for the times of loads and events alone.
+/// The largest step [s] that is at most `largest` and divides the duration, and the times of output too if there is
+/// such a step that is not much shorter. Loads and events divide steps where they need it.
 ///
 /// pre  duration > 0 and largest > 0
 double step_fitting_times(const SceneFile& scene, double largest);
@@ -25,7 +24,6 @@ struct FittedPick {
   double step = 0.0;             // [s]
   double predicted_error = 0.0;  // [mean edge lengths]
   double predicted_s = 0.0;      // [s] of the run
-  std::string between{};         // the path of a load or event that begins or ends between two steps; empty without one
 };
 /// Give a scene that asks for an accuracy the integrator and the step of a pick, fitted to its times.
 ///

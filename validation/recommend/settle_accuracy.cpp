@@ -84,8 +84,6 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
     settled.predicted_s = fitted.predicted_s;
     settled.pilot_s = r.pilot_s;
     settled.omissions = studied.omissions;
-    if (!fitted.between.empty())
-      settled.omissions.push_back(fmt::format("{} takes effect up to a step late.", fitted.between));
     settled.untried = r.untried();
   } else {
     // nothing moves: any step will do
@@ -94,7 +92,7 @@ std::optional<SettledAccuracy> settle_accuracy(SceneFile& scene, const CpuClock&
   }
   settled.integrator = scene.integrator;
   settled.step = scene.step;
-  settled.exact_events = scene.exact_events && !scene.events.empty();
+  settled.exact_events = scene.exact_events && scene.has_times();
   scene.output = scene.output.in_steps_of(scene.step);
   return settled;
 }

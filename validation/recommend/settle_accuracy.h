@@ -18,8 +18,8 @@ struct SettledAccuracy {
   std::string integrator;
   bool integrator_named = false;       // by the scene
   double step = 0.0;                   // [s]
-  bool exact_events = false;           // some happen between steps
-  double recommended_step = 0.0;       // [s] before it was fitted to the times of the scene
+  bool exact_events = false;           // steps are divided at the times of events and loads
+  double recommended_step = 0.0;       // [s] before it was fitted to the duration and to output
   double predicted_error = 0.0;        // [mean edge lengths]
   double predicted_s = 0.0;            // [s] of the run
   double pilot_s = 0.0;                // [s] that the choice took

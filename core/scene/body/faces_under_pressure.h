@@ -1,5 +1,5 @@
 #pragma once
-// The faces that the pressures of a scene act on.
+// The faces and edges that the pressures and tractions of a scene act on.
 
 #include <vector>
 
@@ -16,7 +16,16 @@ namespace dartboard {
 /// cost    O(n log n) for n cells
 std::vector<PressedFace> faces_under_pressure(const SceneForce& force, std::uint32_t number, const Mesh& mesh);
 
-/// The same for all pressures of the scene that follow their faces; errors name its file.
+/// The size of what shares a force, by point of the mesh: the areas [m^2] of the outer faces with all corners selected,
+/// or the lengths [m] of the edges on the border of a surface with both ends selected, each divided among its corners
+/// as its linear or bilinear shape functions are.
+///
+/// pre     the force is not shared by vertices
+/// throws  InputError "/forces/0/...: ..." if there are no such faces or edges
+/// cost    O(n log n) for n cells
+std::vector<double> loaded_sizes(const SceneForce& force, const Mesh& mesh);
+
+/// The faces of all pressures of the scene that follow their faces; errors name its file.
 std::vector<PressedFace> followed_faces(const SceneFile& scene, const Mesh& mesh);
 
 }  // namespace dartboard

@@ -48,8 +48,10 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
     if (force.pressure)
       all.push_back({force.path + "/pressure", std::abs(*force.pressure)});
     else
-      for (const auto& [key, value] :
-           {std::pair("/force", force.force), {"/acceleration", force.acceleration}, {"/torque", force.torque}})
+      for (const auto& [key, value] : {std::pair("/force", force.force),
+                                       {"/traction", force.traction},
+                                       {"/acceleration", force.acceleration},
+                                       {"/torque", force.torque}})
         if (value) all.push_back({force.path + key, value->lpNorm<Eigen::Infinity>()});
   for (const SceneAttachment& one : scene.attachments) all.push_back({one.path + "/stiffness", one.stiffness});
   for (const SceneObstacle& one : scene.obstacles)

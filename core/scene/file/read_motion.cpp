@@ -5,7 +5,6 @@
 
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/read_parts.h"
-#include "core/scene/file/step_times.h"
 
 namespace dartboard {
 namespace {
@@ -15,12 +14,10 @@ std::optional<double> read_until(const SceneValue& value, double from, const Sce
   if (from >= scene.duration)
     value.fail_at("from", fmt::format("is {} s", from),
                   fmt::format("a time before the duration of {} s", scene.duration));
-  const auto given = value.find<double>("until");
-  const double until = given.value_or(scene.duration);
-  const bool ends = given && until <= scene.duration;
-  if (until <= from || (ends && !scene.accuracy && step_of_time(until, scene.step) == step_of_time(from, scene.step)))
-    value.fail_at("until", fmt::format("leaves the time from {} to {} s", from, until), "at least one step");
-  return ends ? std::optional(until) : std::nullopt;
+  const auto until = value.find<double>("until");
+  if (until && *until <= from)
+    value.fail_at("until", fmt::format("is {} s", *until), fmt::format("more than {} s", from));
+  return until && *until <= scene.duration ? until : std::nullopt;
 }
 
 /// A table of values by ascending times, `least` of them or more.
@@ -46,6 +43,15 @@ SceneTurn read_turn(const SceneValue& value) {
                  .angle = read_table<double>(value.at("angles"), "degrees", 2)};
   for (double& angle : turn.angle.value) angle *= std::numbers::pi / 180.0;
   return turn;
+}
+
+SharedBy read_shared_by(const SceneValue& value) {
+  const auto given = value.find<std::string>("on");
+  if (!given) return value.has("traction") ? SharedBy::faces : SharedBy::vertices;
+  if (*given == "faces") return SharedBy::faces;
+  if (*given == "edges") return SharedBy::edges;
+  if (value.has("traction")) value.fail_at("on", "is \"vertices\" beside 'traction'", "\"faces\" or \"edges\"");
+  return SharedBy::vertices;
 }
 
 }  // namespace
@@ -91,6 +97,8 @@ SceneForce read_force(const SceneValue& value, const SceneFile& scene) {
                    .from = value.get<double>("from"),
                    .until = {},
                    .path = value.path(),
+                   .traction = value.find<Eigen::Vector3d>("traction"),
+                   .shared_by = read_shared_by(value),
                    .acceleration = value.find<Eigen::Vector3d>("acceleration"),
                    .torque = value.find<Eigen::Vector3d>("torque")};
   if (value.has("over_time")) force.factor = read_table<double>(value.at("over_time"), "factor", 1);

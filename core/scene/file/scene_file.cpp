@@ -66,9 +66,8 @@ void read(const SceneValue& value, SceneFile& scene) {
   scene.unstable_step = unstable == "refuse"    ? UnstableStep::refuse
                         : unstable == "substep" ? UnstableStep::substep
                                                 : UnstableStep::warn;
-  // an accuracy needs events at their times, which loads that begin or end allow only at steps that fit them
-  const bool may_be_exact = scene.driven.empty() && std::ranges::all_of(scene.forces, &SceneForce::lasts);
-  scene.exact_events = value.get<std::string>("event_times") == "exact" || (scene.accuracy && may_be_exact);
+  // an accuracy needs events at their times
+  scene.exact_events = value.get<std::string>("event_times") == "exact" || scene.accuracy;
   if (value.has("sleep")) scene.sleep = read_sleep(value.at("sleep"));
   for (const SceneValue& event : value.at("events").entries()) scene.events.push_back(read_event(event, scene));
   require_rules(scene, ReadUpTo::events);
@@ -101,6 +100,10 @@ std::vector<SceneFile::Tissue> SceneFile::tissues() const {
   for (const SceneRegion& region : regions) all.push_back({region.material, region.path + "/material", true});
   for (Tissue& tissue : all) tissue.names_model = std::ranges::find(without_model, tissue.path) == without_model.end();
   return all;
+}
+
+bool SceneFile::has_times() const {
+  return !events.empty() || !driven.empty() || !std::ranges::all_of(forces, &SceneForce::lasts);
 }
 
 bool SceneFile::has_elements() const {

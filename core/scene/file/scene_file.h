@@ -126,15 +126,21 @@ struct SceneDrive {
   double largest_speed_of(const Eigen::Vector3d& x) const;
 };
 
+/// What shares a force: vertices in proportion to their masses; faces of the boundary, or edges of the border of a
+/// surface, in proportion to their sizes, and the corners of each as linear shape functions do.
+enum class SharedBy { vertices, faces, edges };
+
 /// Vertices that an external force pulls or pushes: in a constant direction, but for a pressure that follows its faces.
 struct SceneForce {
   VertexSelection vertices;
-  // exactly one of these two, an acceleration and a torque has a value
-  std::optional<Eigen::Vector3d> force;  // [N] on all of them together, shared in proportion to their masses
+  // exactly one of these two, a traction, an acceleration and a torque has a value
+  std::optional<Eigen::Vector3d> force;  // [N] on all of them together
   std::optional<double> pressure;  // [Pa] on the faces of the boundary between them; of a surface, against normals
   double from;                     // [s]
   std::optional<double> until;     // [s] no value: to the end
   std::string path;                // "/forces/3"
+  std::optional<Eigen::Vector3d> traction{};      // [Pa] on faces, [N/m] on edges
+  SharedBy shared_by = SharedBy::vertices;        // a force, or a traction
   std::optional<Eigen::Vector3d> acceleration{};  // [m/s^2] of each
   std::optional<Eigen::Vector3d> torque{};        // [N m] about their centre of mass at rest
   TimeTable<double> factor{};                     // of any of these; empty: 1
@@ -143,7 +149,7 @@ struct SceneForce {
   /// Does the force act from the start to the end, and always alike?
   bool lasts() const { return from == 0.0 && !until && factor.empty() && !follows; }
   std::string_view kind() const {
-    return force ? "force" : pressure ? "pressure" : acceleration ? "acceleration" : "torque";
+    return force ? "force" : traction ? "traction" : pressure ? "pressure" : acceleration ? "acceleration" : "torque";
   }
 };
 
@@ -259,6 +265,7 @@ struct SceneFile {
   bool has_elements() const;  // in any tissue
   bool has_springs() const;   // in any tissue, or diagonals
   bool holds_axes() const;    // for some vertices some axes, but not all three
+  bool has_times() const;     // at which an event happens, or a load begins, changes or ends
   bool has_contact() const { return !obstacles.empty() || !touches.empty(); }
   /// The key of springs or bending that no edge stands for, which references do not support; empty without them.
   std::string_view key_beside_edges() const {

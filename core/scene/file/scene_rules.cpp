@@ -124,19 +124,11 @@ std::span<const Rule> rules_between_keys() {
        "another integrator, or only obstacles"},
 
       // ---- times and forces
-      {events, [](S s) { return breach_if(s.exact_events && !s.driven.empty(), "/event_times"); },
-       "is \"exact\" together with /driven, which turns only at steps", "\"steps\""},
       {events,
        [](S s) {
          for (const SceneForce& force : s.forces)
-           if (s.exact_events && !force.lasts()) return Breach{"/event_times", force.path};
-         return Breach();
-       },
-       "is \"exact\" together with {}, which begins, changes or ends only at steps", "\"steps\""},
-      {events,
-       [](S s) {
-         for (const SceneForce& force : s.forces)
-           if (s.is_chain() && force.pressure) return Breach{force.path + "/pressure"};
+           if (s.is_chain() && (force.pressure || force.shared_by != SharedBy::vertices))
+             return Breach{fmt::format("{}/{}", force.path, force.force ? "on" : force.kind())};
          return Breach();
        },
        "cannot be combined with /body/generate/chain, which has no faces", "'force'"},

@@ -174,9 +174,9 @@ class Planner {
       return;
     }
     // driven vertices are looked up as in the run, by the points of the mesh
-    DrivenVertices vertices(scene_, problem_.mesh.points, scene_.step);
+    DrivenVertices vertices(scene_, problem_.mesh.points);
     SystemArrays arrays(problem_, plan_.needs.body);
-    vertices.apply(0, arrays.body().vertices().point, arrays.v);
+    vertices.apply(0.0, scene_.step, arrays.body().vertices().point, arrays.v);
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
     plan_.driven_springs = detector.driven_springs();

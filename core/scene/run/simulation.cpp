@@ -113,7 +113,7 @@ Simulation::Simulation(const SceneFile& scene)
     for (const SceneEvent& event : scene.events)
       if (const auto facets = timeline_->schedule(event)) count_cut(event, problem.mesh, *facets);
     timeline_->happen(0);
-    timeline_->drive(0);
+    timeline_->drive(0.0, end_of_part(0.0, step_));
     if (timeline_->sums_work()) applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
     if (contact_) contact_->start(body_->vertices().position, expected->obstacles, expected->bodies, step_);
   } catch (const InputError& error) {
@@ -153,35 +153,26 @@ std::optional<EarlyEnd> Simulation::advance() {
     return diverged({"stress", stress ? stress->vertex : 0, body_->largest_stress()}, this->operations() == operations);
   };
   StepResult result = watch_.before();
-  if (FacePressureTerm* const pressure = body_->face_pressure()) pressure->begin_step(body_->vertices().position);
+  remember_pressed_faces();
   try {
-    if (result.ok())
-      result = exact_events_ ? step_through_events() : integrate(static_cast<double>(done_) * step_, step_);
+    if (result.ok()) result = exact_events_ ? step_in_parts() : integrate(static_cast<double>(done_) * step_, step_);
   } catch (const StressError& error) {
     ++done_;
     return stress_failure(error);
   }
   ++done_;
   const bool is_last = done_ == step_count_;
-  const double of_pressures =
-      body_->face_pressure() && result.ok() ? body_->face_pressure()->work(body_->vertices().position) : 0.0;
   const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
   if (const auto fault = watch_.after_step(result, done_, is_last, work, stepped_system(), stepped_motion()))
     return diverged(of_body(*fault));
   if (is_last) examine_coordinates();
-  add_work_of_forces(of_pressures);
-  const std::size_t before = this->operations();
+  add_work_of_forces();
   try {
+    const std::size_t before = this->operations();
     timeline_->happen(done_);
-    const LoadChange loads = timeline_->drive(done_);
-    const bool operated = this->operations() != before;
-    const bool wakes = sleeping_ && (operated                    ? sleeping_->body_changed()
-                                     : loads != LoadChange::none ? sleeping_->loads_changed()
-                                                                 : false);
-    if (timeline_->sums_work()) potential_ = pull_energy(body_->system(), body_->motion().x);
-    if (wakes) step_another_part();
-    if (loads == LoadChange::begins_or_ends || operated) examine_step();
-    if (!wakes && (loads != LoadChange::none || operated)) watch_.system_changed(stepped_system(), stepped_motion());
+    const double now = static_cast<double>(done_) * step_, end = static_cast<double>(done_ + 1) * step_;
+    const Change change = go_on(this->operations() != before, now, end_of_part(now, end));
+    if (change == Change::of_motion) watch_.system_changed(stepped_system(), stepped_motion());
     if (sleeping_ && sleeping_->after_step(done_)) step_another_part();
   } catch (const SolverError& error) {
     return stress_failure(error);
@@ -288,26 +279,44 @@ StepResult Simulation::step_with_contact(double from, double duration) {
   return result;
 }
 
-/// Takes a step in parts, from one event within it to the next.
-StepResult Simulation::step_through_events() {
+/// Takes a step in parts, from one change within it to the next.
+StepResult Simulation::step_in_parts() {
   const double end = static_cast<double>(done_ + 1) * step_;
   double now = static_cast<double>(done_) * step_;
   StepResult result;
   for (bool whole = true;; whole = false) {
     within_step_ = !whole;
-    const std::optional<double> next = timeline_->next_before(end);
+    const std::optional<double> next = timeline_->next_between(now, end);
     if (!next) return integrate(now, whole ? step_ : end - now);
     result = integrate(now, *next - now);
     if (!result.ok()) return result;
     now = *next;
+    add_work_of_forces();
     const std::size_t operations = this->operations();
     timeline_->happen_until(now);
-    if (this->operations() == operations) continue;
-    if (sleeping_ && sleeping_->body_changed()) step_another_part();
-    examine_step();
+    if (go_on(this->operations() != operations, now, end_of_part(now, end)) == Change::none) continue;
+    remember_pressed_faces();
     result = watch_.changed_within_step(stepped_system(), stepped_motion());
     if (!result.ok()) return result;
   }
+}
+
+/// [s] Until when loads are constant.
+double Simulation::end_of_part(double now, double end) const {
+  return exact_events_ ? timeline_->next_between(now, end).value_or(end) : end;
+}
+
+/// Sets the loads from now until a time, and takes up that they or, by an operation, the body have changed.
+Simulation::Change Simulation::go_on(bool operated, double now, double until) {
+  const LoadChange loads = timeline_->drive(now, until);
+  const bool wakes = sleeping_ && (operated                    ? sleeping_->body_changed()
+                                   : loads != LoadChange::none ? sleeping_->loads_changed()
+                                                               : false);
+  if (timeline_->sums_work()) potential_ = pull_energy(body_->system(), body_->vertices().position);
+  if (wakes) step_another_part();
+  if (loads == LoadChange::begins_or_ends || operated) examine_step();
+  if (wakes) return Change::of_what_is_stepped;
+  return loads != LoadChange::none || operated ? Change::of_motion : Change::none;
 }
 
 std::span<const ContactWarning> Simulation::contact_warnings() const {
@@ -320,10 +329,17 @@ std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
   return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
-// In a step forces are constant, so their work is the change of their potential; that of pressures on faces is added.
-void Simulation::add_work_of_forces(double of_pressures) {
-  if (timeline_->sums_work())
-    applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_ - of_pressures;
+void Simulation::remember_pressed_faces() {
+  if (FacePressureTerm* const pressure = body_->face_pressure()) pressure->begin_step(body_->vertices().position);
+}
+
+// In a step, or a part of one, forces are constant, so their work is the change of their potential; that of pressures
+// on faces is added.
+void Simulation::add_work_of_forces() {
+  if (!timeline_->sums_work()) return;
+  const FacePressureTerm* const pressure = body_->face_pressure();
+  const double of_pressures = pressure ? pressure->work(body_->vertices().position) : 0.0;
+  applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_ - of_pressures;
 }
 
 Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const {

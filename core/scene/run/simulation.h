@@ -47,7 +47,7 @@ class Simulation {
   /// [s] steps_done() * step; after a divergence, of the state that the body has gone back to
   double time() const { return static_cast<double>(done_ - taken_back_) * step_; }
 
-  /// One step, then the events due at its end, then the velocities of driven vertices and the forces applied.
+  /// One step, then the events due at its end, then the velocities of driven vertices and the forces of the next.
   ///
   /// The motion has diverged where MotionWatch finds a fault, or a stress that an event asks for is not finite. The
   /// body then goes back to the state kept last: `taken_back` gives the number of steps. If another event of the same
@@ -130,10 +130,15 @@ class Simulation {
   StepResult integrate(double from, double duration);
   StepResult integrate_part(double from, double duration);
   StepResult step_with_contact(double from, double duration);
-  StepResult step_through_events();
+  StepResult step_in_parts();
+  double end_of_part(double now, double end) const;
+  /// What has changed between two steps or parts: nothing, the motion, or which components are stepped.
+  enum class Change { none, of_motion, of_what_is_stepped };
+  Change go_on(bool operated, double now, double until);
   void state(Archive& archive);
   void examine_step();
-  void add_work_of_forces(double of_pressures);
+  void remember_pressed_faces();
+  void add_work_of_forces();
   void examine_coordinates();
   void examine_before_run();
   Fault of_body(Fault fault) const;
@@ -150,8 +155,8 @@ class Simulation {
   MotionWatch watch_;
   FrameFields fields_;
   bool exact_events_;
-  bool within_step_ = false;  // after the first part of a step that events divide
-  // [J] minus the work of forces that change in time up to the last step boundary, and their potential there
+  bool within_step_ = false;  // after the first part of a step that is divided
+  // [J] minus the work of forces that change in time up to the last change of them, and their potential there
   double applied_ = 0.0, potential_ = 0.0;
   std::optional<CoordinatePrecision> coarse_;
   std::vector<StepResult> warnings_;

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/faces_under_pressure.h"
-#include "core/scene/file/step_times.h"
-#include "core/scene/timeline/event_clock.h"
 
 namespace dartboard {
 namespace {
@@ -54,8 +54,8 @@ std::vector<Vector3d> turning(const SceneForce& force, std::span<const std::uint
 
 }  // namespace
 
-AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step)
-    : points_(mesh.points.size()), step_(step) {
+AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices)
+    : points_(mesh.points.size()) {
   std::vector<double> mass(points_, 0.0);
   std::vector<bool> fixed(points_, false);
   for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -66,13 +66,18 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
     Force force;
     force.points = select_points(from.vertices, mesh.points, from.path);
     require_some(force.points, from.path, mesh.points);
-    force.first = step_of_time(from.from, step);
-    force.last = from.until ? step_of_time(*from.until, step) : EventClock::never;
+    force.time.from = from.from;
+    force.time.until = from.until.value_or(force.time.until);
     force.factor = from.factor;
     if (std::ranges::all_of(force.points, [&fixed](std::uint32_t p) { return fixed[p]; }))
       throw InputError(fmt::format(
           "{}: selects fixed or driven vertices alone, which no force moves; expected one that is free", from.path));
-    if (from.force) {
+    if (from.shared_by != SharedBy::vertices) {
+      const std::vector<double> size = loaded_sizes(from, mesh);
+      const Vector3d over_size =
+          from.traction ? *from.traction : Vector3d(*from.force / std::accumulate(size.begin(), size.end(), 0.0));
+      for (const std::uint32_t p : force.points) force.pull.push_back(size[p] / mass[p] * over_size);
+    } else if (from.force) {
       double sum = 0.0;
       for (const std::uint32_t p : force.points) sum += mass[p];
       force.pull = {*from.force / sum};
@@ -107,28 +112,36 @@ AppliedForces::AppliedForces(const SceneFile& scene, const Mesh& mesh, const Ver
   }
 }
 
-LoadChange AppliedForces::apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex,
+/// The mean of the factor over a time, zero where the force does not act.
+double AppliedForces::Force::mean_factor(double begin, double end) const {
+  const auto part = time.part_of(begin, end);
+  if (!part) return 0.0;
+  return (part->end - part->begin) / (end - begin) * (factor.empty() ? 1.0 : factor.mean(part->begin, part->end));
+}
+
+LoadChange AppliedForces::apply(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
                                 std::span<Vector3d> pull, std::span<double> pressure) {
   auto change = LoadChange::none;
   for (Force& force : forces_) {
-    const bool acts = n >= force.first && n < force.last;
-    const double factor = force.factor_between(static_cast<double>(n) * step_, static_cast<double>(n + 1) * step_);
-    if (acts != force.acts) change = LoadChange::begins_or_ends;
-    if (acts && factor != force.now) change = std::max(change, LoadChange::in_value);
-    force.acts = acts;
-    force.now = factor;
+    const double share = force.time.mean_sign(begin, end), factor = force.mean_factor(begin, end);
+    if (share != std::exchange(force.share, share)) change = LoadChange::begins_or_ends;
+    if (factor != std::exchange(force.now, factor)) change = std::max(change, LoadChange::in_value);
   }
   if (change != LoadChange::none) set_values(point_of_vertex, pull, pressure);
   return change;
+}
+
+std::optional<double> AppliedForces::next_between(double begin, double end) const {
+  return first_between(forces_, begin, end);
 }
 
 bool AppliedForces::follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
                            std::span<Vector3d> pull, std::span<double> pressure) {
   bool changed = false;
   for (Force& force : forces_)
-    if (const double factor = force.factor_between(begin, end); force.acts && factor != force.now) {
-      force.now = factor;
-      changed = true;
+    if (force.share != 0.0 && !force.factor.empty()) {
+      const double factor = force.factor.mean(begin, end);
+      changed |= factor != std::exchange(force.now, factor);
     }
   if (changed) set_values(point_of_vertex, pull, pressure);
   return changed;
@@ -138,14 +151,13 @@ void AppliedForces::set_values(std::span<const std::uint32_t> point_of_vertex, s
                                std::span<double> pressure) const {
   std::vector<Vector3d> of_point(points_, Vector3d(0, 0, 0));
   for (const Force& force : forces_) {
-    if (!force.acts) continue;
+    if (force.now == 0.0) continue;
     for (std::size_t k = 0; k < force.points.size(); ++k)
       of_point[force.points[k]] += force.now * (force.pull.size() == 1 ? force.pull[0] : force.pull[k]);
   }
   for (std::size_t k = 0; k < pull.size(); ++k)
     pull[k] = point_of_vertex[k] < points_ ? of_point[point_of_vertex[k]] : Vector3d(0, 0, 0);
-  for (std::size_t f = 0; f < pressure.size(); ++f)
-    pressure[f] = forces_[f].acts ? forces_[f].now * forces_[f].followed : 0.0;
+  for (std::size_t f = 0; f < pressure.size(); ++f) pressure[f] = forces_[f].now * forces_[f].followed;
 }
 
 bool AppliedForces::sum_work() const {

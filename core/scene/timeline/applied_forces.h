@@ -3,17 +3,20 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/mesh.h"
 #include "core/scene/file/scene_file.h"
+#include "core/scene/timeline/acting_time.h"
 #include "core/scene/timeline/load_change.h"
 
 namespace dartboard {
 
-/// Applies, changes and ends forces at step boundaries. In a step each is constant: its mean over the step.
+/// Applies, changes and ends forces. In a step each is constant: its mean over the step, also where it begins or ends
+/// within.
 ///
 /// A force keeps its direction in a step, so it has a potential there. It is stored as an acceleration of each vertex,
 /// whose parts share it in proportion to their masses: no cut changes the sum. A vertex that loses cells loses their
@@ -26,50 +29,51 @@ class AppliedForces {
   /// throws  InputError "/forces/0...: ..." for a force on no vertex, or on fixed ones alone, a pressure where no facet
   ///         of the boundary is selected or there are no facets, and a torque about a line that all of its vertices are
   ///         on
-  AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices, double step);
+  AppliedForces(const SceneFile& scene, const Mesh& mesh, const VertexColumns& vertices);
 
-  /// Set the forces that are due after n steps: accelerations, and of pressures that follow their faces the values by
-  /// number of force.
+  /// Set the forces to their means over a step, from one time to another [s]: accelerations, and of pressures that
+  /// follow their faces the values by number of force.
   ///
-  /// pre      called for 0, then for ascending n, whenever something is due
   /// cost     O(forces), and O(vertices + points pulled at) where one begins, changes or ends
-  LoadChange apply(std::uint64_t n, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
-                   std::span<double> pressure = {});
+  LoadChange apply(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
+                   std::span<Eigen::Vector3d> pull, std::span<double> pressure = {});
 
-  /// Set the forces that change in time to their means from one time to another [s], whatever the step.
+  /// The same for those that act already and go on, in a time in which none begins or ends.
   ///
   /// returns  whether any has changed
   bool follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
               std::span<double> pressure);
 
+  /// [s] The first time between these two at which one begins or ends.
+  std::optional<double> next_between(double begin, double end) const;
+
   std::size_t size() const { return forces_.size(); }
   /// Is their work summed, since they have no potential that lasts?
   bool sum_work() const;
   std::size_t bytes() const;
-  /// Writes or reads which of the forces act, and their factors; the forces themselves are in the scene.
+  /// Writes or reads the present factors; the forces themselves are in the scene.
   template <class Archive>
   void state(Archive& archive) {
-    for (Force& force : forces_) archive(force.acts, force.now);
+    for (Force& force : forces_) archive(force.share, force.now);
   }
 
  private:
   struct Force {
     std::vector<std::uint32_t> points;  // of the mesh
     std::vector<Eigen::Vector3d> pull;  // [m/s^2] of each point, or one for all
-    std::uint64_t first, last;          // steps that it begins and ends after
+    ActingTime time;
     TimeTable<double> factor;
     double followed = 0.0;  // [Pa] of a pressure that follows its faces; it has no points and no pull
-    bool acts = false;
-    double now = 1.0;  // the factor in this step
+    double share = 0.0;     // of this step, in which it acts
+    double now = 0.0;       // the factor in this step
 
-    double factor_between(double begin, double end) const { return factor.empty() ? 1.0 : factor.mean(begin, end); }
+    double mean_factor(double begin, double end) const;
   };
   void set_values(std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,
                   std::span<double> pressure) const;
 
   std::vector<Force> forces_;
   std::size_t points_ = 0;  // of the mesh
-  double step_ = 0.0;       // [s]
 };
 
 }  // namespace dartboard

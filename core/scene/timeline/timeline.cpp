@@ -8,8 +8,8 @@ Timeline::Timeline(const SceneFile& scene, const Mesh& mesh, SimulatedBody& body
     : body_(body),
       integrator_(integrator),
       step_(step),
-      driven_(scene, mesh.points, step),
-      forces_(scene, mesh, body.vertices(), step) {}
+      driven_(scene, mesh.points),
+      forces_(scene, mesh, body.vertices()) {}
 
 std::optional<std::size_t> Timeline::schedule(const SceneEvent& event) {
   events_.push_back({body_.make_ready(event), EventClock(event.from, event.until, event.every, step_),
@@ -25,10 +25,15 @@ void Timeline::happen(std::uint64_t n) {
   }
 }
 
-std::optional<double> Timeline::next_before(double end) const {
+std::optional<double> Timeline::next_between(double begin, double end) const {
   std::optional<double> next;
+  const auto take = [&next](const std::optional<double>& time) {
+    if (time && (!next || *time < *next)) next = time;
+  };
   for (const Scheduled& scheduled : events_)
-    if (const auto time = scheduled.clock.time_between(); time && *time < end && (!next || *time < *next)) next = time;
+    if (const auto time = scheduled.clock.time_between(); time && *time < end) take(time);
+  take(driven_.next_between(begin, end));
+  take(forces_.next_between(begin, end));
   return next;
 }
 
@@ -52,9 +57,9 @@ void Timeline::apply(Scheduled& scheduled) {
 }
 
 // No integrator keeps anything that the values of forces are in.
-LoadChange Timeline::drive(std::uint64_t n) {
-  const LoadChange driven = driven_.apply(n, body_.vertices().point, body_.motion().v);
-  const LoadChange forces = forces_.apply(n, body_.vertices().point, body_.pull(), body_.pressures());
+LoadChange Timeline::drive(double begin, double end) {
+  const LoadChange driven = driven_.apply(begin, end, body_.vertices().point, body_.motion().v);
+  const LoadChange forces = forces_.apply(begin, end, body_.vertices().point, body_.pull(), body_.pressures());
   if (driven == LoadChange::begins_or_ends || forces == LoadChange::begins_or_ends)
     integrator_.restart();
   else if (driven == LoadChange::in_value)
@@ -88,7 +93,6 @@ void Timeline::state(Archive& archive) {
 
 void Timeline::extend() {
   for (Scheduled& scheduled : events_) scheduled.clock.extend();
-  driven_.extend();
 }
 
 }  // namespace dartboard

@@ -36,12 +36,13 @@ class Timeline {
   ///
   /// throws  StressError; the events before count
   void happen(std::uint64_t n);
-  /// [s] The first time before `end` at which an event is due between two boundaries.
-  std::optional<double> next_before(double end) const;
+  /// [s] The first time in a step, between these two, at which an event is due or a load begins, turns back or ends.
+  /// pre  the events before have been applied
+  std::optional<double> next_between(double begin, double end) const;
   /// Apply the events between two boundaries that are due until then.
   void happen_until(double time);
-  /// Set the velocities of driven vertices and the forces that are due after n steps.
-  LoadChange drive(std::uint64_t n);
+  /// Set the velocities of driven vertices and the forces to their means from one time to another [s].
+  LoadChange drive(double begin, double end);
 
   bool has_forces() const { return forces_.size() > 0; }
   bool sums_work() const { return forces_.sum_work(); }

@@ -98,8 +98,8 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "event_times", .type = choice, .choices = {"steps", "exact"}, .standard = "\"steps\"",
        .help = "when events happen: at the first multiple of the step that is not before their time, which is cheap and "
                "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "
-               "another from there, so that the integrator keeps its order through them; not with driven vertices or "
-               "forces that begin or end"},
+               "another from there, so that the integrator keeps its order through them. Steps are divided alike where "
+               "a force or a drive begins, turns back or ends, which with whole steps acts as its mean over the step"},
       {.shape = scene, .name = "sleep", .type = object, .of = sleep,
        .help = "when a component that has come to rest is no longer stepped; not with an accuracy. Without it all "
                "components are stepped to the end"},
@@ -263,8 +263,15 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "when"},
       {.shape = driven_angle, .name = "degrees", .type = real, .required = true,
        .help = "anticlockwise seen from where the axis points to"},
-      {.shape = force, .name = "force", .type = point, .unit = "N",
-       .help = "on all of them together, shared in proportion to their masses"},
+      {.shape = force, .name = "force", .type = point, .unit = "N", .help = "on all of them together"},
+      {.shape = force, .name = "traction", .type = point, .unit = "Pa",
+       .help = "in this direction, on faces whose corners are all selected: of solids those of the boundary, as the mesh "
+               "has them; 'on' edges [N/m]"},
+      {.shape = force, .name = "on", .type = choice, .choices = {"vertices", "faces", "edges"},
+       .help = "what shares a 'force': vertices, in proportion to their masses, as with weight; or the faces of the "
+               "boundary whose corners are all selected, in proportion to their areas, or likewise the edges on the "
+               "border of a surface, to their lengths, and the corners of each as its shape functions do, so that a "
+               "plane end is loaded evenly. Left out, vertices; of a 'traction', faces"},
       {.shape = force, .name = "pressure", .type = real, .unit = "Pa",
        .help = "on the faces of the boundary whose corners are all selected, inwards along their 'normals'; "
                "of a surface [N/m^2] on all such faces, against the normal that their order of corners gives them"},
@@ -567,18 +574,19 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::vertex_selection, "vertex_selection", "Some of the vertices."},
       {Shape::held, "held", "Some of the vertices, and the axes along which they are held."},
       {Shape::driven, "driven",
-       "Some of the vertices and how they move, on straight lines. Times count as for events. Driven vertices are never "
-       "free: at other times they are held still. No two drives move a vertex at one time, and none is fixed. They do "
-       "work, so energy and momentum of the body change."},
+       "Some of the vertices and how they move, in each step straight to where they should be at its end: times within "
+       "steps count. Driven vertices are never free: at other times they are held still. No two drives move a vertex at "
+       "one time, and none is fixed. They do work, so energy and momentum of the body change."},
       {Shape::driven_place, "driven_place", "A place on a path, and when."},
       {Shape::driven_turn, "driven_turn",
        "A turn about an axis. In each step vertices go straight on, so that they are on "
        "their circles at the ends of steps."},
       {Shape::driven_angle, "driven_angle", "An angle, and when."},
       {Shape::force, "force",
-       "A force from outside that keeps its direction, and when. Times count as for events. It stays with the "
-       "matter it acts on: parts of a vertex that comes apart share it in proportion to their masses, and what loses "
-       "cells loses their share. What of it acts on fixed or driven vertices is borne by what holds them."},
+       "A force from outside that keeps its direction, and when: in each step it acts as its mean over the step, also "
+       "where it begins or ends within, so that the momentum that it gives is exact. It stays with the matter it acts "
+       "on: parts of a vertex that comes apart share it in proportion to their masses, and what loses cells loses their "
+       "share. What of it acts on fixed or driven vertices is borne by what holds them."},
       {Shape::force_factor, "force_factor", "A factor of a force, and when."},
       {Shape::attachment, "attachment",
        "Springs without length and without damping, one for each of some vertices. Each is attached to the point of a "
@@ -665,7 +673,10 @@ std::span<const SceneRule> scene_rules() {
       {exactly_one, Shape::driven, {"velocity", "path", "turn"}},
       {excludes, Shape::driven, {"path", "from", "until", "reverse_every"}},
       {excludes, Shape::driven, {"turn", "from", "until", "reverse_every"}},
-      {exactly_one, Shape::force, {"force", "pressure", "acceleration", "torque"}},
+      {exactly_one, Shape::force, {"force", "traction", "pressure", "acceleration", "torque"}},
+      {excludes, Shape::force, {"pressure", "on"}},
+      {excludes, Shape::force, {"acceleration", "on"}},
+      {excludes, Shape::force, {"torque", "on"}},
       {exactly_one, Shape::attachment, {"ids", "box", "plane", "sphere", "around"}},
       {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
       {exactly_one, Shape::probe, {"vertex", "near"}},

@@ -129,5 +129,65 @@ TEST(ExactEvents, LeaveAnIntegratorItsOrder) {
   EXPECT_LT(order_through_a_removal("rk4", "steps", 0.01), 1.5);
 }
 
+// ---- loads
+
+/// A weightless box, on all of which a force of 1 N per kg acts for a time.
+Json pushed_box(const char* integrator, const char* event_times) {
+  Json scene = exact(moving_box(), 0.01, 0.1, "[]");
+  scene["integrator"] = integrator;
+  scene["event_times"] = event_times;
+  scene["gravity"] = {0, 0, 0};
+  scene["material"]["viscosity"] = 0;
+  scene["initial_velocity"] = {0, 0, 0};
+  scene["forces"] = Json::parse(R"([{"box": {"min": [-1, -1, -1], "max": [1, 1, 1]}, "acceleration": [0, 0, 1],
+                                     "from": 0.0203, "until": 0.0667}])");
+  return scene;
+}
+
+// A parabola for 0.0464 s, and a straight line for 0.0333 s. As means over whole steps, a force that acts in the share
+// s of a step moves by s (1 - s) h^2 / 2 more where it begins, and by as much less where it ends.
+TEST(ExactEvents, AreLoadsThatBeginAndEndWithinSteps) {
+  const double exact_place = 0.5 * 0.0464 * 0.0464 + 0.0464 * 0.0333;
+  for (const char* integrator : {"rk4", "verlet"}) {
+    const auto place = [integrator](const char* event_times) {
+      Simulation simulation(parse(pushed_box(integrator, event_times)));
+      const double start = simulation.body().vertices().position[0].z();
+      run(simulation);
+      return simulation.body().vertices().position[0].z() - start;
+    };
+    EXPECT_NEAR(place("exact"), exact_place, 1e-15) << integrator;
+    EXPECT_NEAR(place("steps"), exact_place + 0.5 * 1e-4 * (0.97 * 0.03 - 0.67 * 0.33), 1e-15) << integrator;
+  }
+}
+
+/// A driven vertex and the others on springs, through a start, turns and a stop.
+double order_through_drives(const char* integrator, double step) {
+  const auto end = [&](double h) {
+    Json scene = exact(moving_box(), h, 0.64, "[]");
+    scene["integrator"] = integrator;
+    scene["gravity"] = {0, 0, 0};
+    scene["driven"] = Json::parse(R"([{"ids": [0], "velocity": [1, 2, 0], "from": 0.0917, "reverse_every": 0.1331,
+                                       "until": 0.5003}])");
+    scene["forces"] = Json::parse(R"([{"ids": [26, 25], "force": [0, 0, 20], "from": 0.1213, "until": 0.4104}])");
+    Simulation simulation(parse(scene));
+    run(simulation);
+    return simulation.body().vertices().position;
+  };
+  const auto finest = end(step / 16);
+  const auto error = [&](double h) {
+    const auto x = end(h);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < x.size(); ++k) sum += (x[k] - finest[k]).squaredNorm();
+    return std::sqrt(sum);
+  };
+  return std::log2(error(step) / error(step / 4)) / 2.0;
+}
+
+TEST(ExactEvents, LeaveAnIntegratorItsOrderThroughLoadsToo) {
+  EXPECT_NEAR(order_through_drives("rk4", 0.01), 4.0, 0.25);
+  EXPECT_NEAR(order_through_drives("verlet", 0.01), 2.0, 0.25);
+  EXPECT_NEAR(order_through_drives("bdf2", 0.0025), 2.0, 0.35);
+}
+
 }  // namespace
 }  // namespace dartboard::exact_events_test

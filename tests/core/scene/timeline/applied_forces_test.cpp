@@ -208,12 +208,12 @@ TEST(AppliedForces, OfAPressurePointInwardsHoweverTheCornersOfACellAreNamed) {
     vertices.point = {0, 1, 2, 3};
     SceneFile scene;
     scene.forces.push_back({IdSelection{{0, 1, 2}}, {}, 12.0, 0.0, {}, "/forces/0"});  // the face at z = 0
-    AppliedForces forces(scene, mesh, vertices, 1.0);
+    AppliedForces forces(scene, mesh, vertices);
     std::vector<Vector3d> pull(4, Vector3d(0, 0, 0));
-    ASSERT_EQ(forces.apply(0, vertices.point, pull), LoadChange::begins_or_ends);
+    ASSERT_EQ(forces.apply(0.0, 1.0, vertices.point, pull), LoadChange::begins_or_ends);
     // 12 Pa on half a square metre, a third at each corner, over 2 kg
     EXPECT_EQ(pull, (std::vector<Vector3d>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 0}}));
-    EXPECT_EQ(forces.apply(1, vertices.point, pull), LoadChange::none);
+    EXPECT_EQ(forces.apply(1.0, 2.0, vertices.point, pull), LoadChange::none);
   }
 }
 

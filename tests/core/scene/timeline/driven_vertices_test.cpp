@@ -96,9 +96,27 @@ TEST(DrivenVertices, AreHeldStillBeforeTheyStartAndAfterTheyStop) {
             (std::vector<double>{0, 0, 0, 1, 2, 3, 3, 3, 3, 3}));
 }
 
-TEST(DrivenVertices, StartAndStopAtTheStepThatIsNotBeforeTheTime) {
-  EXPECT_EQ(path(R"([{"ids": [26], "velocity": [1, 0, 0], "from": 0.0021, "until": 0.0055}])"),
-            (std::vector<double>{0, 0, 0, 1, 2, 3, 3, 3, 3, 3}));
+TEST(DrivenVertices, StartAndStopWithinStepsAtTheirTimes) {
+  for (const char* driven : {R"([{"ids": [26], "velocity": [1, 0, 0], "from": 0.0021, "until": 0.0055}])",
+                             R"([{"ids": [26], "velocity": [1, 0, 0], "from": 0.0021, "until": 0.0033},
+            {"ids": [26], "velocity": [1, 0, 0], "from": 0.0033, "until": 0.0055}])"})
+    EXPECT_EQ(path(driven), (std::vector<double>{0, 0, 0.9, 1.9, 2.9, 3.4, 3.4, 3.4, 3.4, 3.4})) << driven;
+}
+
+// at 0.0015, 0.003, 0.0045, ...: the third step ends with a turn, the others have one within them
+TEST(DrivenVertices, TurnRoundWithinStepsWithEveryIntegrator) {
+  for (const IntegratorEntry& entry : integrators())
+    EXPECT_EQ(path(R"([{"ids": [26], "velocity": [1, 0, 0], "reverse_every": 0.0015, "until": 0.0095}])", entry.name),
+              (std::vector<double>{1, 1, 0, 1, 1, 0, 1, 1, 0, 0.5}))
+        << entry.name;
+}
+
+// a pulse of a tenth of a step, and fifty turns in each step, which lead to and fro
+TEST(DrivenVertices, MoveForTimesShorterThanAStep) {
+  EXPECT_EQ(path(R"([{"ids": [26], "velocity": [1, 0, 0], "from": 0.0022, "until": 0.0023}])"),
+            (std::vector<double>{0, 0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}));
+  EXPECT_EQ(path(R"([{"ids": [26], "velocity": [1, 0, 0], "reverse_every": 0.00002, "until": 0.00101}])"),
+            (std::vector<double>{0, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01}));
 }
 
 TEST(DrivenVertices, TurnRoundAgainAndAgain) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
@@ -47,6 +49,55 @@ TEST(LoadsOverTime, GiveTheirIntegralAsMomentumWithEveryOneStepMethod) {
     const Vector3d expected = ramped_for * Vector3d(3, -1, 2);
     EXPECT_LE((end_of(scene).momentum - expected).norm(), 1e-11 * expected.norm()) << entry.name;
   }
+}
+
+/// The momentum that loads give to a floating box whose springs carry nothing outside.
+Vector3d momentum_from(const Json& force, const Json& more, double step, std::string_view integrator) {
+  Json scene = floating_box("[]");
+  scene["forces"] = Json::array({force});
+  scene["forces"][0].update(more);
+  scene["step"] = step;
+  scene["duration"] = 0.1;
+  scene["integrator"] = integrator;
+  return end_of(scene).momentum;
+}
+
+TEST(LoadsOverTime, GiveTheirTimeAsMomentumWhereverTheyBeginAndEndInAStepWithEveryIntegrator) {
+  const Json force = Json::parse(R"({"ids": [0], "force": [1, 0, 0]})");
+  for (const IntegratorEntry& entry : integrators())
+    for (const double step : {0.01, 0.02}) {
+      const auto given = [&](double from, double until) {
+        return momentum_from(force, {{"from", from}, {"until", until}}, step, entry.name).x();
+      };
+      // implicit methods solve to 1e-10 of what a step changes
+      EXPECT_NEAR(given(0.0203, 0.0697), 0.0494, 1e-10) << entry.name << " " << step;
+      EXPECT_NEAR(given(0.0421, 0.0437), 0.0016, 1e-10) << entry.name << " " << step;
+      EXPECT_NEAR(given(0.0021, 0.0317), 0.0296, 1e-10) << entry.name << " " << step;
+    }
+}
+
+TEST(LoadsOverTime, GiveThatMomentumWhateverTheirKind) {
+  const char* kinds[] = {R"("force": [1, 0, 0])", R"("traction": [16, 0, 0])", R"("pressure": -16)",
+                         R"("pressure": -16, "normals": "current")", R"("acceleration": [0.5, 0, 0])"};
+  for (const char* kind : kinds) {
+    const Json force =
+        Json::parse(std::string(R"({"plane": {"point": [0.25, 0, 0], "normal": [1, 0, 0]}, )") + kind + "}");
+    const Json whole{{"from", 0.02}, {"until", 0.07}}, within{{"from", 0.0203}, {"until", 0.0697}};
+    const double all = momentum_from(force, whole, 0.0001, "verlet").x() / 0.05;
+    // all faces stay as they were but for what they have moved until then
+    EXPECT_NEAR(momentum_from(force, within, 0.01, "verlet").x(), 0.0494 * all, 1e-3 * 0.05) << kind;
+    EXPECT_GT(all, 0.9) << kind;
+  }
+}
+
+// The table has its values at its times, whether or not the force acts.
+TEST(LoadsOverTime, AreCutOffWithinAStepByTheirTimes) {
+  const Json force = Json::parse(R"({"ids": [0], "force": [1, 0, 0],
+                                     "over_time": [{"at": 0, "factor": 0}, {"at": 0.1, "factor": 10}]})");
+  const Json times{{"from", 0.0203}, {"until", 0.0697}};
+  const double integral = 50.0 * (0.0697 * 0.0697 - 0.0203 * 0.0203);
+  EXPECT_NEAR(momentum_from(force, times, 0.01, "rk4").x(), integral, 1e-14);
+  EXPECT_NEAR(momentum_from(force, times, 0.05, "rk4").x(), integral, 1e-14);
 }
 
 // Its formula takes the force at the end of a step alone: what it gets is half a step late.
