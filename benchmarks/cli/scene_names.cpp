@@ -40,6 +40,13 @@ std::vector<std::string> scene_names(const fs::path& folder) {
   return names;
 }
 
+std::vector<fs::path> gallery_files() {
+  std::vector<fs::path> files;
+  for (const std::string& name : scene_names()) files.push_back(gallery_folder() / (name + ".json"));
+  if (files.empty()) throw IoError(fmt::format("{}: no scenes there", gallery_folder().string()));
+  return files;
+}
+
 fs::path scene_file(const std::string& given, std::span<const std::string> others) {
   std::error_code error;
   fs::path path(given);

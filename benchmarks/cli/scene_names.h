@@ -14,6 +14,10 @@ namespace dartboard {
 
 /// benchmarks/scenes
 std::filesystem::path gallery_folder();
+/// Its scene files, in alphabetical order.
+///
+/// throws  IoError if there are none
+std::vector<std::filesystem::path> gallery_files();
 
 /// The names of the scene files in a folder, without their ending, in alphabetical order.
 std::vector<std::string> scene_names(const std::filesystem::path& folder = gallery_folder());

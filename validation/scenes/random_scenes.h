@@ -1,7 +1,8 @@
 #pragma once
-// Unseen scenes: bodies, materials, motions and cuts drawn from a seed.
+// Unseen scenes: bodies, materials, motions, loads, contacts and events drawn from a seed, as files of scenes.
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 
 #include "validation/scenes/tradeoff_scenes.h"
 
@@ -15,18 +16,22 @@ struct RandomSceneOptions {
   double damped_work = 1.0;    // factor of both for a damped scene, whose runs take longer steps
   double least_phase = 30.0;   // duration times omega_max
   double most_phase = 400.0;   // the same, as far as the work allows
-  double least_strain = 0.01;  // at the start
+  double least_strain = 0.01;  // that the motion at the start leads to
   double most_strain = 0.1;    // at this strain undamped bodies are chaotic after some hundred periods
   double least_sag = 0.02;     // [edges] about how far gravity moves a body
   double most_sag = 0.2;
-  bool cuts = true;  // may a plane cut it?
+  bool only_springs = false;  // no elements, loads, contact and events: what other codes can follow
 };
 
-/// Scene `number` of a seed; it does not depend on the others.
+/// Scene `number` of a seed, as a user would write it; it does not depend on the others.
 ///
-/// A jittered box or a Delaunay ball; free, or clamped on one side; with or without gravity;
-/// damping ratios at omega_max of 0, 0.001 to 0.1, or 0.3 to 1.5; a tenth of the cells 1 to 10^4 times as stiff, or a
-/// cut by a plane, or neither; stretched, sheared and turning at the start. `what` says which.
+/// A jittered box, a ball, a sheet, or a box of hexahedra; springs or elements; free, or one side clamped or driven to
+/// and fro; gravity, a force for some time, or a floor; damping ratios at omega_max of 0, 0.001 to 0.1, or 0.3 to 1.5;
+/// cells that are up to 10^4 times as stiff, cuts, removals, or tears under stress; stretched, sheared and turning at
+/// the start. `about` says which.
+nlohmann::ordered_json random_scene_file(std::uint64_t seed, std::uint64_t number,
+                                         const RandomSceneOptions& options = {});
+/// The same scene, read.
 TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const RandomSceneOptions& options = {});
 
 }  // namespace dartboard

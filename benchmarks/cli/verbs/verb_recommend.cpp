@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
+#include "benchmarks/cli/scene_names.h"
 #include "benchmarks/cli/study_names.h"
 #include "benchmarks/cli/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
@@ -35,13 +38,12 @@ void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
   if (options.audit) {
     if (!plan.scenes.empty() || !plan.errors.empty())
       throw InputError("--audit draws its scenes and errors itself: give neither SCENE nor --error");
+    const auto kind = options.long_motions ? AuditKind::long_motions : AuditKind::scenes;
+    const auto gallery = options.long_motions || options.quick ? std::vector<std::filesystem::path>() : gallery_files();
     run_study(
-        options, {.label = "recommend", .facts = {.seeds = {{"scenes and errors", options.seed}}}},
-        [&](StudyLog& log) {
-          return audit_study(options.long_motions ? AuditKind::long_motions : AuditKind::scenes, options.seed,
-                             options.quick, log);
-        },
-        outcome);
+        options,
+        {.label = "recommend", .facts = {.seeds = {{"scenes and errors", options.seed}}, .input_files = gallery}},
+        [&](StudyLog& log) { return audit_study(kind, options.seed, options.quick, gallery, log); }, outcome);
     return;
   }
   if (plan.scenes.empty() || plan.errors.empty()) throw InputError("give a SCENE and an --error, or --audit");

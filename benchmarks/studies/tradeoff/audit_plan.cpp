@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "validation/scenes/random_scenes.h"
+#include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
 namespace {
@@ -15,7 +17,7 @@ struct Extent {
   std::uint64_t endless_scenes;  // one error each
 };
 // by kind: in full, and quick
-constexpr Extent extents[2][2]{{{14, 3, 2, 2, 2}, {2, 2, 0, 0, 0}}, {{13, 5, 0, 0, 0}, {2, 5, 0, 0, 0}}};
+constexpr Extent extents[2][2]{{{40, 2, 2, 2, 2}, {2, 2, 0, 0, 0}}, {{13, 5, 0, 0, 0}, {2, 5, 0, 0, 0}}};
 
 const Extent& extent_of(AuditKind kind, bool quick) { return extents[kind == AuditKind::long_motions][quick]; }
 
@@ -33,18 +35,23 @@ std::vector<double> draw_errors(SplitMix64& random, std::uint64_t count, double 
 
 double longest_sweep_run(double dearest_pick_s) { return std::max(2.2 * dearest_pick_s, 0.005); }
 
-AuditCases::AuditCases(AuditKind kind, std::uint64_t seed, bool quick)
-    : kind_(kind), seed_(seed), quick_(quick), random_(seed + (kind == AuditKind::long_motions ? 177 : 77)) {}
+AuditCases::AuditCases(AuditKind kind, std::uint64_t seed, bool quick, std::vector<std::filesystem::path> gallery)
+    : kind_(kind),
+      seed_(seed),
+      quick_(quick),
+      random_(seed + (kind == AuditKind::long_motions ? 177 : 77)),
+      gallery_(std::move(gallery)) {}
 
 std::uint64_t AuditCases::size() const {
   const Extent& extent = extent_of(kind_, quick_);
-  return extent.scenes + extent.long_scenes + extent.endless_scenes;
+  return extent.scenes + extent.long_scenes + extent.endless_scenes + gallery_.size();
 }
 
 AuditCase AuditCases::next() {
   if (kind_ == AuditKind::long_motions) return next_long_motion();
   const Extent& extent = extent_of(kind_, quick_);
-  const std::uint64_t k = drawn_++;
+  const std::uint64_t k = drawn_++, unseen = size() - gallery_.size();
+  if (k >= unseen) return next_of_gallery(k - unseen);
   AuditCase drawn;
   drawn.check = k < extent.scenes                        ? AuditCheck::reference_and_sweep
                 : k < extent.scenes + extent.long_scenes ? AuditCheck::reference
@@ -60,8 +67,13 @@ AuditCase AuditCases::next() {
     drawn.errors = draw_errors(random_, 1, 1e-3, 1e-6);
   else
     drawn.errors =
-        draw_errors(random_, drawn.check == AuditCheck::reference ? extent.long_errors : extent.errors, 1e-2, 1e-8);
+        draw_errors(random_, drawn.check == AuditCheck::reference ? extent.long_errors : extent.errors, 1e-2, 1e-5);
   return drawn;
+}
+
+AuditCase AuditCases::next_of_gallery(std::uint64_t number) {
+  return {scene_of_file(read_scene(gallery_.at(number))),
+          draw_errors(random_, extent_of(kind_, quick_).errors, 1e-2, 1e-5), AuditCheck::reference};
 }
 
 AuditCase AuditCases::next_long_motion() {
@@ -78,7 +90,7 @@ AuditCase AuditCases::next_long_motion() {
                                    .most_strain = 1e-3,
                                    .least_sag = 5e-4,
                                    .most_sag = 5e-3,
-                                   .cuts = false};
+                                   .only_springs = true};
   return {random_scene(seed_, drawn_++, options), draw_errors(random_, extent_of(kind_, quick_).errors, 3e-5, 3e-7)};
 }
 

@@ -7,6 +7,7 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/tradeoff/audit_report.h"
+#include "validation/recommend/recommended_scene.h"
 #include "validation/scenes/other_codes.h"
 
 namespace dartboard {
@@ -51,7 +52,7 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
   if (is_long) log.say(fmt::format("{}: {}", scene.name, reference.what));
   std::vector<AuditedPair> pairs;
   double dearest_s = 0.0;  // of those that met their errors: only they are compared with the sweep
-  for (const Recommendation& r : all) {
+  for (Recommendation& r : all) {
     AuditedPair p;
     p.scene = scene.name;
     p.what = scene.what;
@@ -68,12 +69,18 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
       p.followed = false;
       p.confidence = fmt::format("{} for {:.0f} s: too long to follow", pick->contender, pick->predicted_s);
     } else if (pick != nullptr) {
+      const RecommendedScene made = recommended_scene(scene, r);  // which fits the pick to the scene
       p.pick = pick->contender;
       p.confidence = fmt::format("{}{}", name(pick->confidence), pick->full_length ? ", full length" : "");
       p.setting = pick->setting();
       p.seen_part = pick->seen_part;
       p.warned = pick->growth_rate > 0.0;
       p.audit = audit(scene, reference, r, {}, thread_cpu_ns, is_long ? 1 : 3);
+      if (!reference.states.empty()) {  // the errors of the scene as `simulate` runs it
+        const reference::MotionErrors found = errors_of(made, scene, reference);
+        p.audit.actual_error = found.x;
+        p.audit.largest_error = found.x_largest;
+      }
       if (p.is_resolved() && p.audit.met()) dearest_s = std::max(dearest_s, p.audit.actual_s);
     }
     pairs.push_back(std::move(p));
@@ -89,11 +96,12 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
 }
 
 constexpr std::string_view reading =
-    "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, from the reference. The seconds that "
-    "were predicted are the predicted cost in force evaluations times what one takes around the run, so that a machine "
+    "Scenes and errors are drawn from the seed. What is followed is the scene that --write writes, by the road of "
+    "`simulate`. Errors are in mean edge lengths, from the reference: root mean squares over the mass, the largest over "
+    "time. The seconds that were predicted are the predicted cost in force evaluations times what one takes around the run, so that a machine "
     "that is busier than during the pilots does not count. Regret is the cost of the pick over that of the cheapest "
     "setting of a sweep of all methods, interpolated between steps; the sweep leaves out what takes longer than 2.2 "
-    "times the dearest pick of the scene. The last scenes are followed for their costs only.";
+    "times the dearest pick of the scene. Some scenes are followed for their costs only; the last ones are those of the gallery.";
 
 constexpr std::string_view reading_of_long_motions =
     "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, the largest of eight checkpoints, "
@@ -106,9 +114,10 @@ constexpr std::string_view reading_of_long_motions =
 
 }  // namespace
 
-Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, StudyLog& log) {
+Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, const std::vector<std::filesystem::path>& gallery,
+                   StudyLog& log) {
   const bool is_long = kind == AuditKind::long_motions;
-  AuditCases cases(kind, seed, quick);
+  AuditCases cases(kind, seed, quick, gallery);
   std::vector<AuditedPair> pairs;
   Report report;
   report.numbers = {{"pairs", nlohmann::ordered_json::array()}};
