@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -61,7 +62,8 @@ BodyContact::~BodyContact() = default;
 
 std::uint64_t BodyContact::ways_searched() const { return ways_->searched(); }
 
-/// Tests one sample with some tetrahedra, in the order of their cells and parts.
+/// Tests one sample with some tetrahedra, in the order of their cells and parts. It may be inside several bodies at
+/// once, or parts of one: of tetrahedra with common nodes the first counts.
 template <class Tetrahedra, class F>
 void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways ways, const StagePlaces& at,
                           const F& found) const {
@@ -70,6 +72,14 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways wa
   const Vector3d y = mean_of(sample, place);
   BodyTouch touch{.sample = s};
   const bool in_lanes = lanes_are_on();
+  std::array<std::uint32_t, 4> within;
+  std::size_t within_count = 0;
+  const auto is_next_to_one_within = [&](const SkinTetrahedron& tetrahedron) {
+    return std::any_of(within.begin(), within.begin() + within_count, [&](std::uint32_t other) {
+      const auto& nodes = solids_.tetrahedra()[other].nodes;
+      return std::ranges::find_first_of(tetrahedron.nodes, nodes) != tetrahedron.nodes.end();
+    });
+  };
   for (std::size_t k = 0; k < tetrahedra.size(); ++k) {
     // few that are left are looked at as quickly one by one
     if (in_lanes && tetrahedra.size() - k > 2)
@@ -79,13 +89,14 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways wa
     const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
     const Side side = side_of(tetrahedron, y, place, touch.inside);
     if (side == Side::inverted) ++inverted_;
-    if (side != Side::inside) continue;
+    if (side != Side::inside || is_next_to_one_within(tetrahedron)) continue;
+    within[within_count++] = t;
     touch.tetrahedron = t;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
     const bool has_depth = ways == Ways::followed ? ways_->find(y, at, touch) : ways_->search(y, at, touch);
     if (has_depth) found(touch);
-    return;
+    if (within_count == within.size()) return;
   }
 }
 

@@ -230,6 +230,7 @@ class RandomScene {
     damped_ = true;
     const double ratio = lot < 0.75 ? draw_.logarithmic(1e-3, 0.1) : draw_.logarithmic(0.3, 1.5);
     const auto damp = [&](Json& material, double factor) {
+      if (elements_ && surface_) return;  // nothing but viscosity damps membranes
       if (elements_)
         material["damping"] = {{"ratio", written(ratio)}, {"frequency", written(rate / 6.2831853)}};
       else

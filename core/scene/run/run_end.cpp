@@ -7,6 +7,11 @@
 namespace dartboard {
 
 std::string to_string(const Divergence& d) {
+  if (d.quantity.find("NEWTON_STALLED") != std::string::npos)
+    return fmt::format(
+        "diverged at step {}, t = {:.6g} s: Newton's method found no velocities at its end (NEWTON_STALLED, with a "
+        "residual of {:.3g}); 'ros2' and 'baraff-witkin', which solve linear systems alone, go on",
+        d.step, d.time, d.value);
   return fmt::format("diverged at step {}, t = {:.6g} s: {} of {} is {:.6g}", d.step, d.time, d.quantity,
                      vertex_in_words(d.vertex), d.value);
 }

@@ -454,5 +454,48 @@ TEST(TouchingBodies, LimitTheStepByTheirStiffness) {
       some_warning_has(warnings_of(file, Simulation(file)), "is stable where contacts are as deep as is expected"));
 }
 
+// ---- places inside several bodies at once
+
+/// A cube that comes into two others, which are at the same place and do not touch each other.
+Json into_two(bool both) {
+  Json scene = small_on_large();
+  scene["gravity"] = {0, 0, 0};
+  scene["bodies"].push_back(scene["bodies"][0]);
+  scene["bodies"][1]["translate"] = {0.01, 0.012, 0.099};
+  scene["contact"]["bodies"] = "none";
+  scene["contact"]["pairs"] = Json::parse(R"([{"of": [1, 0]}])");
+  if (both) scene["contact"]["pairs"].push_back(Json::parse(R"({"of": [1, 2]})"));
+  return scene;
+}
+
+TEST(TouchingBodies, AreFeltEachWhereAPlaceIsInsideSeveral) {
+  const Simulation one(parse(into_two(false))), two(parse(into_two(true)));
+  const ContactDiagnostics in_one = *one.diagnostics().contact, in_two = *two.diagnostics().contact;
+  EXPECT_GT(in_one.contacts, 8u);
+  EXPECT_EQ(in_two.contacts, 2 * in_one.contacts);
+  EXPECT_NEAR(in_two.energy, 2.0 * in_one.energy, 1e-12 * in_one.energy);
+}
+
+// A fresh cut brings places to the boundary of the other part, which are inside another body, too: had they felt only
+// the first, the energy would jump with the rounding of their places, and no velocities would solve a step.
+TEST(TouchingBodies, MayBeCutUnderAnotherBodyWithNewtonsMethod) {
+  for (const char* integrator : {"backward-euler", "bdf2", "implicit-midpoint"}) {
+    Json scene = Json::parse(R"({"name": "slope", "step": 0.001, "duration": 0.06,
+      "bodies": [{"generate": {"box": {"cells": [3, 2, 3], "spacing": 0.05}}},
+                 {"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.05}}, "translate": [0.0483, 0.0243, 0.151]}],
+      "material": {"density": 1000, "young": 238000, "poisson": 0.3}, "gravity": [4.4366, 0, -8.7494],
+      "contact": {"pressure": 10000, "depth": 0.002, "friction": 0.5, "bodies": "all",
+                  "obstacles": [{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}]},
+      "events": [{"at": 0.05, "dissociate": {"plane": {"point": [0.06, 0, 0], "normal": [1, 0, 0.28]}}}]})");
+    scene["integrator"] = integrator;
+    Simulation simulation(parse(scene));
+    while (simulation.steps_done() < simulation.step_count()) {
+      const auto end = simulation.advance();
+      ASSERT_FALSE(end) << integrator << ": " << to_string(*end);
+    }
+    EXPECT_GT(simulation.operations(), 10u);
+  }
+}
+
 }  // namespace
 }  // namespace dartboard::touching_bodies_test
