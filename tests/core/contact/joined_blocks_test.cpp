@@ -91,7 +91,8 @@ struct Scenes {
 
 TEST(JoinedBlocks, PushUpwardsAloneWhereOneFollowsTheOther) {
   const ObstacleContact contact = contact_with({{Block{{-1, -1, -1}, {0.3, 1, 0}}}, {Block{{0.3, -1, -1}, {1, 1, 0}}}});
-  for (const double x : {0.2999, 0.3, 0.30001, 0.3 - 1e-15})
+  // next to the seam, too, where the squares of the distances from both tops are equal by rounding
+  for (const double x : {0.2999, 0.3 - 1e-10, 0.3 - 1e-16, 0.3, 0.3 + 1e-16, 0.3 + 1e-10, 0.3001})
     EXPECT_EQ(force_at(contact, {x, 0, -0.0625}), Vector3d(0, 0, 0.0625 * 0.0625)) << x;
 }
 
@@ -286,6 +287,32 @@ TEST(JoinedBlocks, HaveDiscreteForcesAndChangesOfEnergyThatAreExact) {
     if (before > 0.0) ++inside;
   }
   EXPECT_GT(inside, 4000u);
+}
+
+// To 1e-10 of curvature and some roundings; differences of depths have an error of 1e-17 over ways of 1e-11.
+TEST(JoinedBlocks, KeepTheDigitsOfEnergyOnShortWays) {
+  const ObstacleContact contact = contact_with({{Block{{-1, -1, -1}, {0, 1, 0.5}}}, {Block{{0, -1, -1}, {1, 1, 0}}}});
+  for (const Vector3d& place : {Vector3d(0.3, 0, -0.1), Vector3d(-0.3, 0.1, 0.4), Vector3d(-0.03, 0, -0.04)}) {
+    const Vector3d way(1e-11, -2e-11, 3e-11);
+    const double expected = -force_at(contact, place).dot(way);
+    ASSERT_GT(std::abs(expected), 1e-16);
+    EXPECT_NEAR(contact.energy_change({Places{place}}, Places{way}, 1.0).value, expected, 1e-8 * std::abs(expected));
+    EXPECT_LE((force_on_way(contact, place, way) - force_at(contact, place)).norm(),
+              1e-8 * std::abs(expected) / way.norm());
+  }
+}
+
+// Iterations of implicit methods try ways whose ends are on both sides of a face.
+TEST(JoinedBlocks, HaveDiscreteForcesThatDoNotJumpWhereTheWayEndsOnAFace) {
+  const ObstacleContact contact = contact_with({{Block{{-1, -1, -1}, {0, 1, 0}}}, {Block{{0, -1, -1}, {1, 1, -0.5}}}});
+  const Vector3d from(-0.1, 0, -0.05);
+  for (const Vector3d& end : {Vector3d(0, 0, -0.25), Vector3d(-0.2, 0, 0), Vector3d(0.25, 0, -0.5)}) {
+    const Vector3d across(end[0] == 0.0 ? 1e-9 : 0.0, 0, end[0] == 0.0 ? 0.0 : 1e-9);
+    const Vector3d inside = force_on_way(contact, from, end - across - from),
+                   outside = force_on_way(contact, from, end + across - from);
+    EXPECT_GT(inside.norm(), 1e-4);
+    EXPECT_LE((inside - outside).norm(), 1e-7) << end.transpose();
+  }
 }
 
 // ---- obstacles that move
