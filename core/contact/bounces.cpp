@@ -147,6 +147,17 @@ double Bounces::first_rate(const Touch& touch, Side side, const Step& step) cons
   return std::sqrt(rate * rate + 2.0 * touch.law->energy(touch.area, touch.depth) * touch.mobility);
 }
 
+/// The start of a sample that was in another of the blocks that this obstacle is joined with; null if there is no such.
+const Bounces::Start* Bounces::passed_on(const std::vector<Start>& among, std::uint32_t sample,
+                                         std::uint32_t obstacle) const {
+  if (obstacle == body) return nullptr;
+  const Start first{.sample = sample};
+  auto old = std::ranges::lower_bound(among, first.order(), {}, &Start::order);
+  for (; old != among.end() && old->sample == sample && old->obstacle != body; ++old)
+    if (obstacles_->are_joined(old->obstacle, obstacle)) return &*old;
+  return nullptr;
+}
+
 void Bounces::match_starts(Side side, const Step& step) {
   if (!starts_.empty()) find_samples();
   auto old = earlier_.begin();
@@ -155,10 +166,14 @@ void Bounces::match_starts(Side side, const Step& step) {
     const Touch& touch = touches_[k];
     start.nodes = whole_nodes(*sample_of(start));
     while (old != earlier_.end() && old->order() < start.order()) ++old;
-    if (old != earlier_.end() && old->order() == start.order())
+    if (old != earlier_.end() && old->order() == start.order()) {
       start = *old;
-    else
+    } else if (const Start* const same = passed_on(earlier_, start.sample, start.obstacle)) {
+      start.rate = same->rate;
+      start.depth = same->depth;
+    } else {
       start.rate = std::max(first_rate(touch, side, step), std::abs(touch.rate(step.v)));
+    }
   }
 }
 
@@ -198,7 +213,8 @@ double Bounces::factor(std::uint32_t sample, std::uint32_t obstacle, const Conta
   const Start named{.sample = sample, .obstacle = obstacle};
   const auto start = std::ranges::lower_bound(starts_, named.order(), {}, &Start::order);
   const bool is_known = start != starts_.end() && start->order() == named.order();
-  const double first = is_known ? std::max(start->rate, std::abs(rate)) : std::abs(rate);
+  const Start* const found = is_known ? &*start : passed_on(starts_, sample, obstacle);
+  const double first = found != nullptr ? std::max(found->rate, std::abs(rate)) : std::abs(rate);
   return first > 0.0 ? std::max(0.0, 1.0 + loss * (rate / first)) : 1.0;
 }
 

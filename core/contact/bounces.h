@@ -109,6 +109,7 @@ class Bounces {
   void find_touches(const Step& step);
   void add(Touch touch, std::uint32_t sample, std::uint32_t obstacle, const Step& step);
   double first_rate(const Touch& touch, Side side, const Step& step) const;
+  const Start* passed_on(const std::vector<Start>& among, std::uint32_t sample, std::uint32_t obstacle) const;
   void match_starts(Side side, const Step& step);
   bool damp(Side side, const Step& step, ContactLosses& losses);
   void find_samples();

@@ -156,26 +156,30 @@ bool ContactImpulses::place_at(double time, std::span<const Vector3d> x) {
 void ContactImpulses::find_rubbing_samples(double time, double h, InverseMass inverse_mass, Fixed fixed,
                                            std::span<const Vector3d> x, std::span<const Vector3d> v) {
   if (clear_ ? obstacles_->is_clear_after(*clear_, v, h / 2) : obstacles_->is_clear(x, v, h / 2)) return;
-  Penetration in;
   auto old = before_.begin();
   const auto& samples = obstacles_->samples();
   for (std::uint32_t k = 0; k < samples.size(); ++k) {
     const SkinSample& s = samples[k];
     const Vector3d y = ObstacleContact::place_of(s, x), speed = ObstacleContact::place_of(s, v),
                    half_way = y + (h / 2) * speed;
-    for (std::uint32_t o = 0; o < obstacles_->laws().size(); ++o) {
+    obstacles_->for_each_penetration(half_way, [&](std::uint32_t o, const Penetration& in) {
       const ContactLaw& law = obstacles_->laws()[o];
-      if (law.friction == 0.0 || !obstacles_->find_penetration(o, half_way, in)) continue;
+      if (law.friction == 0.0) return;
       const double mobility = mobility_of(s, inverse_mass, fixed);
-      if (mobility == 0.0) continue;
+      if (mobility == 0.0) return;
       const double approach = (obstacles_->obstacles()[o].velocity_at(time + h / 2) - speed).dot(in.normal);
       most_.push_back(most_friction(law, bounces_.factor(k, o, law, approach), s.area, mobility,
                                     obstacles_->penetration_in(o, y).depth, in.depth, approach, h));
       normal_.push_back(in.normal);
-      while (old != before_.end() && std::pair(old->sample, old->obstacle) < std::pair(k, o)) ++old;
-      const bool held = old != before_.end() && old->sample == k && old->obstacle == o;
-      now_.push_back({k, o, held ? across(old->force, in.normal) : Vector3d(0, 0, 0), y});
-    }
+      // that of before, in the same obstacle or in one that it is joined with
+      while (old != before_.end() && old->sample < k) ++old;
+      auto held = old;
+      while (held != before_.end() && held->sample == k && held->obstacle != o &&
+             !obstacles_->are_joined(held->obstacle, o))
+        ++held;
+      const bool is_held = held != before_.end() && held->sample == k;
+      now_.push_back({k, o, is_held ? across(held->force, in.normal) : Vector3d(0, 0, 0), y});
+    });
   }
 }
 

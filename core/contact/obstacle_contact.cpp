@@ -1,9 +1,12 @@
 #include "core/contact/obstacle_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
-#include "core/contact/way_inside.h"
+#include "core/base/bytes.h"
+#include "core/base/disjoint_sets.h"
 #include "core/forces/compensated_sum.h"
 #include "core/plain/error.h"
 
@@ -62,6 +65,48 @@ bool is_outside(const ObstacleShape& shape, const BoxAround& box, double by) {
   return ball != nullptr ? beyond.norm() > (1.0 + slack) * ball->radius + by : beyond.maxCoeff() > by;
 }
 
+/// Is the corner in the half-space, or on its plane to rounding?
+bool is_in(const HalfSpace& plane, const Vector3d& corner) {
+  const double size = std::max(corner.cwiseAbs().maxCoeff(), plane.point.cwiseAbs().maxCoeff());
+  return (plane.point - corner).dot(plane.normal) >= -JoinedBoxes::tolerance * size;
+}
+
+Vector3d corner_of(const Block& block, int k) {
+  return {(k & 1 ? block.high : block.low)[0], (k & 2 ? block.high : block.low)[1],
+          (k & 4 ? block.high : block.low)[2]};
+}
+
+/// Moves the faces of `spanned` to infinity that are faces of the block with all corners in the half-space. False if
+/// all of the block is in it. Other faces go no further into the half-space than these: it ends somewhere in the block.
+bool reach_into(const HalfSpace& plane, const Block& block, Block& spanned) {
+  std::array<bool, 8> in{};
+  for (int k = 0; k < 8; ++k) in[static_cast<std::size_t>(k)] = is_in(plane, corner_of(block, k));
+  if (std::ranges::all_of(in, [](bool corner) { return corner; })) return false;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    bool low = true, high = true;
+    for (std::size_t k = 0; k < 8; ++k) ((k >> axis & 1) != 0 ? high : low) &= in[k];
+    if (low) spanned.low[axis] = -infinity;
+    if (high) spanned.high[axis] = infinity;
+  }
+  return true;
+}
+
+EnergyChange& operator+=(EnergyChange& sum, const EnergyChange& change) {
+  sum.value += change.value;
+  sum.sizes += change.sizes;
+  return sum;
+}
+
+bool is_same(const JoinedBlocks& a, const JoinedBlocks& b) {
+  return a.obstacle == b.obstacle && std::ranges::equal(a.boxes.boxes(), b.boxes.boxes());
+}
+
+bool is_same(const ObstacleShape& a, const ObstacleShape& b) {
+  const auto *block = std::get_if<Block>(&a), *other = std::get_if<Block>(&b);
+  return block == nullptr || (block->low == other->low && block->high == other->high);
+}
+
 }  // namespace
 
 ObstacleContact::ObstacleContact(std::vector<ContactLaw> laws, std::vector<Obstacle> obstacles,
@@ -77,6 +122,77 @@ ObstacleContact::ObstacleContact(std::vector<ContactLaw> laws, std::vector<Obsta
     friction_ = friction_ || law.friction > 0.0;
     damping_ = damping_ || law.restitution < 1.0;
   }
+  std::size_t blocks = 0, planes = 0;
+  for (const Obstacle& obstacle : obstacles_) {
+    if (std::holds_alternative<Block>(obstacle.shape)) ++blocks;
+    if (std::holds_alternative<HalfSpace>(obstacle.shape)) ++planes;
+  }
+  may_cover_ = blocks > 0 && blocks + planes > 1;
+  now_ = arranged(moved_);
+}
+
+ObstacleContact::Arrangement ObstacleContact::arranged(std::span<const Vector3d> moved) const {
+  Arrangement found{.moved = {moved.begin(), moved.end()},
+                    .shape = {},
+                    .joined_in = std::vector<std::uint32_t>(obstacles_.size(), Arrangement::alone),
+                    .joined = {}};
+  for (const Obstacle& obstacle : obstacles_) found.shape.push_back(obstacle.shape);
+  if (!may_cover_) return found;
+  std::vector<std::uint32_t> blocks;  // with a face that is not in a half-space
+  for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
+    const auto* block = std::get_if<Block>(&obstacles_[o].shape);
+    if (block == nullptr) continue;
+    bool shown = true;
+    for (std::uint32_t p = 0; p < obstacles_.size() && shown; ++p)
+      if (const auto* plane = std::get_if<HalfSpace>(&obstacles_[p].shape))
+        shown =
+            reach_into({plane->point + (moved[p] - moved[o]), plane->normal}, *block, std::get<Block>(found.shape[o]));
+    const Block& spanned = std::get<Block>(found.shape[o]);
+    if (shown && (spanned.low.array().isFinite().any() || spanned.high.array().isFinite().any()))
+      blocks.push_back(o);
+    else
+      found.joined_in[o] = Arrangement::hidden;
+  }
+  const auto seen_from = [&](std::uint32_t o, std::uint32_t from) {
+    const Block& block = std::get<Block>(found.shape[o]);
+    const Vector3d way = moved[o] - moved[from];
+    return SpannedBox{block.low + way, block.high + way};
+  };
+  DisjointSets sets(blocks.size());
+  for (std::uint32_t a = 0; a < blocks.size(); ++a)
+    for (std::uint32_t b = a + 1; b < blocks.size(); ++b)
+      if (::dartboard::are_joined(seen_from(blocks[a], blocks[a]), seen_from(blocks[b], blocks[a]))) sets.join(a, b);
+  for (std::uint32_t first = 0; first < blocks.size(); ++first) {
+    JoinedBlocks joined;
+    std::vector<SpannedBox> boxes;
+    for (std::uint32_t k = first; k < blocks.size(); ++k) {
+      if (sets.set_of(k) != first) continue;
+      joined.obstacle.push_back(blocks[k]);
+      joined.law.push_back(laws_[blocks[k]]);
+      boxes.push_back(seen_from(blocks[k], blocks[first]));
+    }
+    if (boxes.size() < 2) continue;
+    joined.boxes = JoinedBoxes(std::move(boxes));
+    for (const std::uint32_t o : joined.obstacle) found.joined_in[o] = static_cast<std::uint32_t>(found.joined.size());
+    found.joined.push_back(std::move(joined));
+  }
+  return found;
+}
+
+template <class F>
+bool ObstacleContact::differs(const F& moved) const {
+  if (!may_cover_) return false;
+  std::size_t first = obstacles_.size();
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    if (std::holds_alternative<Ball>(obstacles_[o].shape)) continue;
+    if (first == obstacles_.size()) first = o;
+    if (moved(o) - moved(first) != now_.moved[o] - now_.moved[first]) return true;
+  }
+  return false;
+}
+
+void ObstacleContact::arrange() {
+  if (differs([this](std::size_t o) { return moved_[o]; })) now_ = arranged(moved_);
 }
 
 bool ObstacleContact::place_at(double time) {
@@ -86,6 +202,7 @@ bool ObstacleContact::place_at(double time) {
     any = any || there != moved_[o];
     moved_[o] = there;
   }
+  if (any) arrange();
   return any;
 }
 
@@ -96,30 +213,105 @@ bool ObstacleContact::is_away(std::uint32_t o, const BoxAround& box, double by) 
 EnergyChange ObstacleContact::work_of_placing(double time, std::span<const Vector3d> x) const {
   CompensatedSum sum;
   double sizes = 0.0;
-  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
-    // an obstacle that moves one way has the effect of a body that moves the other way
-    const Vector3d way = moved_[o] - obstacles_[o].moved_by(time);
-    if (way.isZero(0.0)) continue;
+  const auto add_all = [&](const auto& change_of) {
     for (const SkinSample& s : samples_) {
-      const EnergyChange change = change_on_way(laws_[o], s.area, obstacles_[o].shape, mean_of(s, x) - moved_[o], way);
+      const EnergyChange change = change_of(s.area, mean_of(s, x));
       sum.add(change.value);
       sizes += change.sizes;
     }
+  };
+  const auto there = [&](std::size_t o) { return obstacles_[o].moved_by(time); };
+  std::optional<Arrangement> other;
+  if (differs(there)) {
+    std::vector<Vector3d> moved;
+    for (std::size_t o = 0; o < obstacles_.size(); ++o) moved.push_back(there(o));
+    other = arranged(moved);
   }
+  const Arrangement& next = other ? *other : now_;
+  // where what covers an obstacle changes, what it had is taken away, and what it has is added
+  const auto add_energies_alone = [&](const Arrangement& in, std::size_t o, const Vector3d& at, double sign) {
+    if (in.joined_in[o] != Arrangement::alone) return;
+    add_all([&](double area, const Vector3d& y) {
+      if (!is_inside(in.shape[o], y - at)) return EnergyChange{};
+      const double energy = laws_[o].energy(area, penetration(in.shape[o], y - at).depth);
+      return EnergyChange{sign * energy, energy};
+    });
+  };
+  const auto add_energies = [&](const JoinedBlocks& joined, const Vector3d& at, double sign) {
+    add_all([&](double area, const Vector3d& y) {
+      Penetration in;
+      std::size_t box = 0;
+      if (!find_way_out(joined, y - at, in, box)) return EnergyChange{};
+      const double energy = joined.law[box].energy(area, in.depth);
+      return EnergyChange{sign * energy, energy};
+    });
+  };
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    const bool stays = now_.joined_in[o] == Arrangement::alone && next.joined_in[o] == Arrangement::alone &&
+                       is_same(now_.shape[o], next.shape[o]);
+    if (!stays) {
+      add_energies_alone(now_, o, moved_[o], -1.0);
+      add_energies_alone(next, o, there(o), 1.0);
+      continue;
+    }
+    // an obstacle that moves one way has the effect of a body that moves the other way
+    const Vector3d way = moved_[o] - there(o);
+    if (way.isZero(0.0)) continue;
+    add_all([&](double area, const Vector3d& y) {
+      return change_on_way(laws_[o], area, now_.shape[o], y - moved_[o], way);
+    });
+  }
+  for (const JoinedBlocks& joined : now_.joined) {
+    const std::uint32_t o = joined.obstacle[0];
+    if (std::ranges::none_of(next.joined, [&](const JoinedBlocks& later) { return is_same(joined, later); })) {
+      add_energies(joined, moved_[o], -1.0);
+      continue;
+    }
+    const Vector3d way = moved_[o] - there(o);
+    if (way.isZero(0.0)) continue;
+    add_all([&](double area, const Vector3d& y) { return change_on_way(joined, area, y - moved_[o], way); });
+  }
+  for (const JoinedBlocks& joined : next.joined)
+    if (std::ranges::none_of(now_.joined, [&](const JoinedBlocks& earlier) { return is_same(joined, earlier); }))
+      add_energies(joined, there(joined.obstacle[0]), 1.0);
   return {sum.value(), sizes};
 }
 
 Vector3d ObstacleContact::place_of(const SkinSample& sample, std::span<const Vector3d> x) { return mean_of(sample, x); }
 
+bool ObstacleContact::find_alone(std::uint32_t o, const Vector3d& y, Penetration& found) const {
+  const Vector3d place = y - moved_[o];
+  if (!is_inside(now_.shape[o], place)) return false;
+  found = penetration(now_.shape[o], place);
+  return found.depth > 0.0;
+}
+
+void ObstacleContact::find_joined(std::uint32_t j, const Vector3d& y, Penetration& found,
+                                  std::uint32_t& obstacle) const {
+  const JoinedBlocks& joined = now_.joined[j];
+  std::size_t box = 0;
+  if (find_way_out(joined, y - moved_[joined.obstacle[0]], found, box)) obstacle = joined.obstacle[box];
+}
+
 Penetration ObstacleContact::penetration_in(std::uint32_t o, const Vector3d& y) const {
-  return penetration(obstacles_[o].shape, y - moved_[o]);
+  const std::uint32_t j = now_.joined_in[o];
+  if (j == Arrangement::hidden) return {};
+  Penetration found;
+  std::uint32_t with = ContactState::none;
+  if (j != Arrangement::alone) find_joined(j, y, found, with);
+  return with != ContactState::none ? found : penetration(now_.shape[o], y - moved_[o]);
 }
 
 bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penetration& found) const {
-  const Vector3d place = y - moved_[o];
-  if (!is_inside(obstacles_[o].shape, place)) return false;
-  found = penetration(obstacles_[o].shape, place);
-  return found.depth > 0.0;
+  const std::uint32_t j = now_.joined_in[o];
+  if (j == Arrangement::alone) return find_alone(o, y, found);
+  if (j == Arrangement::hidden) return false;
+  Penetration joint;
+  std::uint32_t with = ContactState::none;
+  find_joined(j, y, joint, with);
+  if (with != o) return false;
+  found = joint;
+  return true;
 }
 
 bool ObstacleContact::passes_call() const {
@@ -161,9 +353,7 @@ bool ObstacleContact::is_clear(std::span<const Vector3d> x, std::span<const Vect
 
 template <class F>
 void ObstacleContact::for_each_contact(const Vector3d& y, F&& f) const {
-  Penetration found;
-  for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
-    if (find_penetration(o, y, found)) f(laws_[o], found, o);
+  for_each_penetration(y, [&](std::uint32_t o, const Penetration& found) { f(laws_[o], found, o); });
 }
 
 std::span<const ContactFriction> ObstacleContact::friction_at(std::size_t piece) const {
@@ -229,7 +419,12 @@ void ObstacleContact::add_discrete_forces(const StagePlaces& at, std::span<Vecto
   for (const SkinSample& s : samples_) {
     const Vector3d from = mean_of(s, at.x), way = (2.0 * at.t) * mean_of(s, at.w);
     for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
-      const Vector3d f = mean_force_on_way(laws_[o], s.area, obstacles_[o].shape, from - moved_[o], way);
+      if (now_.joined_in[o] != Arrangement::alone) continue;
+      const Vector3d f = mean_force_on_way(laws_[o], s.area, now_.shape[o], from - moved_[o], way);
+      if (!f.isZero(0.0)) share_force(s, f, force);
+    }
+    for (const JoinedBlocks& joined : now_.joined) {
+      const Vector3d f = mean_force_on_way(joined, s.area, from - moved_[joined.obstacle[0]], way);
       if (!f.isZero(0.0)) share_force(s, f, force);
     }
   }
@@ -269,18 +464,17 @@ double ObstacleContact::energy(std::span<const Vector3d> x, std::size_t first, s
 
 EnergyChange ObstacleContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
   EnergyChange sum;
-  const auto add = [&sum](const EnergyChange& change) {
-    sum.value += change.value;
-    sum.sizes += change.sizes;
-  };
   for (const SkinSample& s : samples_) {
     const Vector3d from = place_on_the_way(s, at), way = scale * mean_of(s, step);
     for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
-      add(change_on_way(laws_[o], s.area, obstacles_[o].shape, from - moved_[o], way));
+      if (now_.joined_in[o] == Arrangement::alone)
+        sum += change_on_way(laws_[o], s.area, now_.shape[o], from - moved_[o], way);
+    for (const JoinedBlocks& joined : now_.joined)
+      sum += change_on_way(joined, s.area, from - moved_[joined.obstacle[0]], way);
   }
   for (const ContactFriction& f : frozen_) {
     const Vector3d way = scale * mean_of(samples_[f.sample], step);
-    add({-f.force.dot(way), f.force.norm() * way.norm()});
+    sum += {-f.force.dot(way), f.force.norm() * way.norm()};
   }
   return sum;
 }
@@ -305,7 +499,9 @@ void ObstacleContact::for_each_tangent(const StagePlaces& at, Compression compre
     Matrix3d sum = Matrix3d::Zero();
     for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       sum += law.stiffness(s.area, in.depth) * (in.normal * in.normal.transpose());
-      if (compression == Compression::exact) sum -= law.force(s.area, in.depth) * in.curvature;
+      // a ball gives way to what slides off it, an edge between blocks does not
+      if (compression == Compression::exact || in.curvature.trace() < 0.0)
+        sum -= law.force(s.area, in.depth) * in.curvature;
     });
     visit_tangent(s, sum, visit);
   }
@@ -315,9 +511,15 @@ void ObstacleContact::for_each_constant_tangent(const VisitTangent& visit) const
   for (const SkinSample& s : samples_) visit_tangent(s, largest_stiffness(s.area, 1.0) * Matrix3d::Identity(), visit);
 }
 
+std::size_t ObstacleContact::Arrangement::bytes() const {
+  std::size_t sum = bytes_of(moved, shape, joined_in, joined);
+  for (const JoinedBlocks& j : joined) sum += j.boxes.bytes() + bytes_of(j.obstacle, j.law);
+  return sum;
+}
+
 std::size_t ObstacleContact::bytes() const {
   return laws_.capacity() * sizeof(ContactLaw) + obstacles_.capacity() * sizeof(Obstacle) +
-         moved_.capacity() * sizeof(Vector3d) + frozen_.capacity() * sizeof(ContactFriction);
+         moved_.capacity() * sizeof(Vector3d) + frozen_.capacity() * sizeof(ContactFriction) + now_.bytes();
 }
 
 }  // namespace dartboard

@@ -12,6 +12,7 @@
 #include "core/contact/contact_law.h"
 #include "core/contact/obstacle.h"
 #include "core/contact/skin_samples.h"
+#include "core/contact/way_inside.h"
 #include "core/forces/force_term.h"
 
 namespace dartboard {
@@ -45,6 +46,12 @@ struct ContactState {
 /// All obstacles act on a sample inside them, not the deepest alone, so that the energy is a sum of smooth ones and
 /// has p - 1 continuous derivatives wherever the depths are smooth (half-spaces; balls except their centre).
 ///
+/// Blocks that touch or overlap are one solid (JoinedBlocks), in which a sample is in contact with the one that has the
+/// nearest part of the surface. A block that stands on a half-space, or in it, with the whole of a face reaches on
+/// through that face without end, so that it pushes sideways alone, and next to it as the half-space does upwards; one
+/// that is all inside a half-space has no contact. A half-space that covers a part of a face changes nothing there,
+/// and balls cover nothing.
+///
 /// Pieces are the samples, whether they touch or not, so that patterns stay while contacts appear and vanish. The force
 /// at a sample is shared equally by its nodes, because its place is their mean. Obstacles are at rest between two calls
 /// of `place_at`. There is no virial: an external force is no inner tension (as for gravity and pulls), and tearing is
@@ -74,7 +81,10 @@ class ObstacleContact final : public ForceTerm {
   bool place_at(double time);
   /// Put the obstacles where those of another are.
   /// pre  they are the same obstacles
-  void place_as(const ObstacleContact& other) { moved_ = other.moved_; }
+  void place_as(const ObstacleContact& other) {
+    moved_ = other.moved_;
+    arrange();
+  }
   /// [m] The way of each from its place at the start.
   std::span<const Eigen::Vector3d> moved() const { return moved_; }
   /// Is all of the box farther than `by` [m] from an obstacle at its present place?
@@ -84,20 +94,42 @@ class ObstacleContact final : public ForceTerm {
   EnergyChange work_of_placing(double time, std::span<const Eigen::Vector3d> x) const;
   /// The place of a sample [m].
   static Eigen::Vector3d place_of(const SkinSample& sample, std::span<const Eigen::Vector3d> x);
-  /// The penetration of the place y into an obstacle at its present place.
+  /// The penetration of the place y into an obstacle at its present place, or into the blocks that it is joined with.
   Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
-  /// The same; false, and `found` is not set, if y is not inside: a few comparisons.
+  /// The same; false, and `found` is not set, if y is not in contact with it: a few comparisons.
   bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
+  /// Are both among the same joined blocks?
+  bool are_joined(std::uint32_t a, std::uint32_t b) const {
+    return now_.joined_in[a] == now_.joined_in[b] && now_.joined_in[a] < now_.joined.size();
+  }
+
+  /// Calls visit(obstacle, penetration) for each obstacle that the place y is in contact with, in their order.
+  template <class F>
+  void for_each_penetration(const Eigen::Vector3d& y, const F& visit) const {
+    Penetration found, joint;
+    if (!may_cover_) {
+      for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
+        if (find_alone(o, y, found)) visit(o, found);
+      return;
+    }
+    std::uint32_t joint_with = ContactState::none;  // y is in one of the joined solids at most
+    for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
+      const std::uint32_t j = now_.joined_in[o];
+      if (j == Arrangement::alone) {
+        if (find_alone(o, y, found)) visit(o, found);
+      } else if (j < now_.joined.size()) {
+        if (now_.joined[j].obstacle[0] == o) find_joined(j, y, joint, joint_with);
+        if (joint_with == o) visit(o, joint);
+      }
+    }
+  }
 
   /// Calls visit(sample, obstacle, penetration) for each sample inside an obstacle, in this order.
   template <class F>
   void for_each_touch(std::span<const Eigen::Vector3d> x, const F& visit) const {
-    Penetration found;
-    for (std::uint32_t k = 0; k < samples_.size(); ++k) {
-      const Eigen::Vector3d y = place_of(samples_[k], x);
-      for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
-        if (find_penetration(o, y, found)) visit(k, o, found);
-    }
+    for (std::uint32_t k = 0; k < samples_.size(); ++k)
+      for_each_penetration(place_of(samples_[k], x),
+                           [&](std::uint32_t o, const Penetration& found) { visit(k, o, found); });
   }
 
   /// Is it certain that no sample is inside, with the vertices at x + t v? False if it is not known.
@@ -131,7 +163,8 @@ class ObstacleContact final : public ForceTerm {
   Nodes nodes(std::size_t piece) const override { return samples_[piece].corners(); }
   void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
   /// For half-spaces and balls the quotient of energy and depth along the mean normal, for blocks the mean force along
-  /// the way: in each the work is the energy's change, and forces have no component along the surface of a half-space.
+  /// the way, for joined ones a discrete gradient: in each the work is the energy's change, and forces have no
+  /// component along the surface of a half-space.
   void add_discrete_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const override;
   void add_force_sizes(const StagePlaces& at, std::span<double> size) const override;
   double energy(std::span<const Eigen::Vector3d> x, std::size_t first = 0, std::size_t stride = 1) const override;
@@ -146,10 +179,32 @@ class ObstacleContact final : public ForceTerm {
   template <class Archive>
   void state(Archive& archive) {
     archive(moved_);
+    arrange();
   }
   std::size_t bytes() const;
 
  private:
+  /// The effect of obstacles on each other at their places.
+  struct Arrangement {
+    static constexpr std::uint32_t alone = std::numeric_limits<std::uint32_t>::max(), hidden = alone - 1;
+
+    std::vector<Eigen::Vector3d> moved;    // [m] by obstacle, the ways to these places
+    std::vector<ObstacleShape> shape;      // by obstacle, with the faces that are in half-spaces at infinity
+    std::vector<std::uint32_t> joined_in;  // by obstacle: the number of the joined blocks, or one of the above
+    std::vector<JoinedBlocks> joined;
+
+    std::size_t bytes() const;
+  };
+
+  /// Finds the arrangement at the present places, if obstacles have moved relative to each other.
+  void arrange();
+  Arrangement arranged(std::span<const Eigen::Vector3d> moved) const;
+  /// Have two obstacles that may cover each other moved apart, or together, since `now_` was found?
+  template <class F>
+  bool differs(const F& moved) const;
+  bool find_alone(std::uint32_t o, const Eigen::Vector3d& y, Penetration& found) const;
+  void find_joined(std::uint32_t j, const Eigen::Vector3d& y, Penetration& found, std::uint32_t& obstacle) const;
+
   /// Calls f(law, penetration, obstacle) for each obstacle that contains the place y of a sample.
   template <class F>
   void for_each_contact(const Eigen::Vector3d& y, F&& f) const;
@@ -163,6 +218,8 @@ class ObstacleContact final : public ForceTerm {
   std::vector<Obstacle> obstacles_;
   const std::vector<SkinSample>& samples_;
   std::vector<Eigen::Vector3d> moved_;  // [m] by obstacle
+  Arrangement now_;
+  bool may_cover_ = false;  // there is a block, and another or a half-space
   std::vector<ContactFriction> frozen_;
   bool friction_ = false, damping_ = false;
   mutable int calls_to_pass_ = 0;  // of `is_clear`

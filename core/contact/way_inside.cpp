@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace dartboard {
 namespace {
@@ -72,6 +73,89 @@ void for_each_part(const Block& block, const Vector3d& y, const Vector3d& way, F
   }
 }
 
+/// An end of a way in or out of joined blocks. Outside, only its place and its energy of 0 count.
+struct End {
+  Vector3d place{0, 0, 0};
+  bool inside = false;
+  std::size_t box = 0;  // whose law counts
+  WayToSurface out{};
+
+  Vector3d normal() const { return out.way / out.distance; }
+};
+
+End end_at(const JoinedBlocks& joined, const Vector3d& y) {
+  End end{.place = y};
+  if (!joined.boxes.contains(y)) return end;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t box = 0; box < joined.law.size(); ++box) {
+    if (!joined.boxes.has_surface(box)) continue;
+    const WayToSurface out = joined.boxes.nearest(box, y);
+    const double energy = joined.law[box].energy(1.0, out.distance);
+    if (energy > least || (energy == least && !out.is_before(end.out))) continue;
+    least = energy;
+    end.box = box;
+    end.out = out;
+  }
+  end.inside = end.out.distance > 0.0;
+  return end;
+}
+
+bool have_one_load(const ContactLaw& a, const ContactLaw& b) {
+  return a.pressure == b.pressure && a.depth == b.depth && a.exponent == b.exponent;
+}
+
+/// A way in joined blocks: the change of energy, a force that does most of its work, and the rest of it.
+struct JointWay {
+  EnergyChange change;
+  Vector3d force{0, 0, 0};
+  double rest = 0.0;  // [J] of the change and the work of that force, together
+};
+
+/// With the ways out a and b from both ends, |b| - |a| = (b - a) . (a + b) / (|a| + |b|), and b - a is minus the way
+/// along axes on which both lead to one coordinate: there nothing cancels, and nothing is left.
+JointWay inside_of(const JoinedBlocks& joined, double area, const End& from, const End& to, const Vector3d& way) {
+  const WayToSurface &a = from.out, &b = to.out;
+  const ContactLaw &law = joined.law[from.box], &other = joined.law[to.box];
+  if (!have_one_load(law, other)) {
+    const double before = law.energy(area, a.distance), after = other.energy(area, b.distance);
+    const Vector3d force =
+        0.5 * (law.force(area, a.distance) * from.normal() + other.force(area, b.distance) * to.normal());
+    return {{after - before, before + after}, force, after - before + force.dot(way)};
+  }
+  const double mean = law.mean_force(area, a.distance, b.distance);
+  const Vector3d normal = (a.way + b.way) / (a.distance + b.distance);
+  double deeper = 0.0, rest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double change = a.point[k] == b.point[k] ? -way[k] : b.way[k] - a.way[k];
+    deeper += change * normal[k];
+    rest += (change + way[k]) * normal[k];
+  }
+  return {{mean * deeper, mean * way.norm()}, mean * normal, mean * rest};
+}
+
+/// One end is outside: beyond the plane across the way out of the other end, as for a half-space; or else what depth
+/// that has there does not count.
+JointWay into(const JoinedBlocks& joined, double area, const End& from, const End& to, const Vector3d& way) {
+  const End &in = from.inside ? from : to, &outside = from.inside ? to : from;
+  const ContactLaw& law = joined.law[in.box];
+  const Vector3d normal = in.normal();
+  const double beyond = normal.dot(in.out.point - outside.place), deeper = -way.dot(normal);
+  if (beyond <= 0.0) {
+    const double mean =
+        from.inside ? law.mean_force(area, in.out.distance, beyond) : law.mean_force(area, beyond, in.out.distance);
+    return {{mean * deeper, mean * way.norm()}, mean * normal, 0.0};
+  }
+  const double mean = law.mean_force(area, 0.0, in.out.distance), energy = law.energy(area, in.out.distance),
+               change = from.inside ? -energy : energy;
+  return {{change, energy}, mean * normal, change - mean * deeper};
+}
+
+JointWay joint_way(const JoinedBlocks& joined, double area, const Vector3d& y, const Vector3d& way) {
+  const End from = end_at(joined, y), to = end_at(joined, y + way);
+  if (from.inside && to.inside) return inside_of(joined, area, from, to, way);
+  return from.inside || to.inside ? into(joined, area, from, to, way) : JointWay{};
+}
+
 }  // namespace
 
 EnergyChange change_on_way(const ContactLaw& law, double area, const ObstacleShape& shape, const Vector3d& y,
@@ -100,6 +184,33 @@ Vector3d mean_force_on_way(const ContactLaw& law, double area, const ObstacleSha
       },
       shape);
   return sum;
+}
+
+bool find_way_out(const JoinedBlocks& joined, const Vector3d& y, Penetration& found, std::size_t& box) {
+  const End end = end_at(joined, y);
+  if (!end.inside) return false;
+  box = end.box;
+  found.depth = end.out.distance;
+  found.normal = end.normal();
+  found.curvature.setZero();
+  if (end.out.axes > 1) {  // to an edge or a corner: the normal turns
+    found.curvature = found.normal * found.normal.transpose() / end.out.distance;
+    for (int k = 0; k < 3; ++k)
+      if (end.out.way[k] != 0.0) found.curvature(k, k) -= 1.0 / end.out.distance;
+  }
+  return true;
+}
+
+EnergyChange change_on_way(const JoinedBlocks& joined, double area, const Vector3d& y, const Vector3d& way) {
+  return joint_way(joined, area, y, way).change;
+}
+
+Vector3d mean_force_on_way(const JoinedBlocks& joined, double area, const Vector3d& y, const Vector3d& way) {
+  const JointWay on_it = joint_way(joined, area, y, way);
+  const double length = way.norm();
+  // a way of the size of a rounding has no direction
+  if (on_it.rest == 0.0 || !(length > 1e-15 * y.norm())) return on_it.force;
+  return on_it.force - (on_it.rest / length) * (way / length);
 }
 
 }  // namespace dartboard

@@ -329,7 +329,8 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "all that is behind a plane: its normal points out of the obstacle"},
       {.shape = obstacle, .name = "sphere", .type = object, .of = sphere, .help = "a ball, of a radius above 0"},
       {.shape = obstacle, .name = "box", .type = object, .of = box,
-       .help = "a box with faces across the axes; what is inside is driven out through the nearest face"},
+       .help = "a box with faces across the axes; what is inside is driven out through the nearest face. Boxes that touch "
+               "or overlap are one solid, and what stands on a plane has no face there"},
       {.shape = obstacle, .name = "velocity", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
        .help = "that it moves at, whatever it runs into; it never turns"},
       {.shape = obstacle, .name = "from", .type = real, .unit = "s", .range = not_negative, .standard = "0",
