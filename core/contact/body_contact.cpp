@@ -75,7 +75,7 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways wa
   std::array<std::uint32_t, 4> within;
   std::size_t within_count = 0;
   const auto is_next_to_one_within = [&](const SkinTetrahedron& tetrahedron) {
-    return std::any_of(within.begin(), within.begin() + within_count, [&](std::uint32_t other) {
+    return std::ranges::any_of(std::span(within).first(within_count), [&](std::uint32_t other) {
       const auto& nodes = solids_.tetrahedra()[other].nodes;
       return std::ranges::find_first_of(tetrahedron.nodes, nodes) != tetrahedron.nodes.end();
     });
