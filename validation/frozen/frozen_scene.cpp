@@ -12,6 +12,7 @@
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
 #include "core/scene/file/step_times.h"
+#include "core/scene/timeline/table_times.h"
 #include "core/time/explicit/dormand_prince_54.h"
 #include "core/time/watch/stable_step.h"
 #include "validation/frozen/frozen_motion.h"
@@ -79,11 +80,13 @@ std::vector<Moment> moments_of(const SceneFile& file) {
     const double until = drive.until.value_or(file.duration);
     add_change(drive.from);
     add_change(until);
+    std::ranges::for_each(times_of(drive), add_change);
     if (drive.reverse_every) add_times(drive.from, until, *drive.reverse_every, file.duration, {}, moments);
   }
   for (const SceneForce& force : file.forces) {
     add_change(force.from);
     if (force.until) add_change(*force.until);
+    std::ranges::for_each(force.factor.at, add_change);
   }
   std::ranges::stable_sort(moments, [](const Moment& a, const Moment& b) {
     return a.time != b.time ? a.time < b.time : a.event.has_value() && !b.event.has_value();
@@ -120,11 +123,16 @@ class FrozenBody::Scout {
       const double time = moment->time;
       if (moment < last) go_to(time);
       FrozenChange change{.time = time};
-      for (; moment != moments.end() && moment->time == time; ++moment)
-        if (moment->event) operate(*moment->event, change);
-      const bool driven = at_.drive(time);
+      bool has_load = false;
+      for (; moment != moments.end() && moment->time == time; ++moment) {
+        if (moment->event)
+          operate(*moment->event, change);
+        else
+          has_load = true;
+      }
+      at_.drive(time);
       at_.look_at_contact();
-      if (change.operations.empty() && !driven) continue;
+      if (change.operations.empty() && !has_load) continue;
       integrator_.restart();
       found.push_back(std::move(change));
     }

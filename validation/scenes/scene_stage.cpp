@@ -107,9 +107,18 @@ TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const Run
       const double before = std::exchange(done, std::max(done, steps_to(end, run.h)));
       take(done - before, before * run.h, run.h);
     } else {
-      const double count = parts * std::max(1.0, steps_to(end - t, parts * run.h)), h = (end - t) / count;
-      // the same bits throughout a run, for methods that keep data for a step size
-      take(count, t, std::abs(h - run.h) < 0x1p-40 * run.h ? run.h : h);
+      // as a simulation does: steps end at multiples of their length, and are divided where something changes
+      const double length = parts * run.h;
+      const auto take_part = [&](double to) {
+        if (to - t > 0x1p-30 * length) take(parts, t, (to - t) / parts);
+        t = to;
+      };
+      if (const double boundary = steps_to(t, length) * length; boundary > t) take_part(std::min(boundary, end));
+      if (const double whole = std::floor((end - t) / length + 0x1p-30); whole > 0.0) {
+        take(parts * whole, t, run.h);
+        t += whole * length;
+      }
+      take_part(end);
     }
     t = end;
   };

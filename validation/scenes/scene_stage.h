@@ -51,13 +51,13 @@ class SceneStage {
 inline std::int64_t no_clock() { return 0; }
 
 enum class EventTiming {
-  split_step,   // steps end at every event: the steps of an interval are equal, and at most h
+  split_step,   // as a simulation with exact event times: steps that an event is within are divided there
   end_of_step,  // all steps are h, and an event takes place at the end of the first step that reaches it
 };
 
 /// The steps of a run: equal ones or, for an AdaptiveIntegrator, those within a tolerance.
 struct RunSetting {
-  std::uint64_t steps = 0;  // over the whole duration; steps end at events and checkpoints, so there may be more
+  std::uint64_t steps = 0;  // over the whole duration; those that end at events or checkpoints are divided
   double tolerance = 0.0;   // [edges] per step, when steps is 0
   std::uint64_t parts = 1;  // of each step: with twice as many, every interval has exactly twice as many steps
   EventTiming timing = EventTiming::split_step;  // end_of_step only with steps, a multiple of the checkpoints

@@ -13,6 +13,7 @@
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/body/faces_under_pressure.h"
+#include "core/scene/timeline/table_times.h"
 
 namespace dartboard {
 namespace {
@@ -132,7 +133,10 @@ LoadChange AppliedForces::apply(double begin, double end, std::span<const std::u
 }
 
 std::optional<double> AppliedForces::next_between(double begin, double end) const {
-  return first_between(forces_, begin, end);
+  std::optional<double> next = first_between(forces_, begin, end);
+  for (const Force& force : forces_)
+    if (const auto at = first_between(force.factor.at, begin, next.value_or(end))) next = at;
+  return next;
 }
 
 bool AppliedForces::follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,

@@ -8,6 +8,7 @@
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
+#include "core/scene/timeline/table_times.h"
 
 namespace dartboard {
 
@@ -85,7 +86,11 @@ LoadChange DrivenVertices::apply(double begin, double end, std::span<const std::
 }
 
 std::optional<double> DrivenVertices::next_between(double begin, double end) const {
-  return first_between(drives_, begin, end);
+  std::optional<double> next = first_between(drives_, begin, end);
+  for (const Drive& drive : drives_)
+    if (drive.table)
+      if (const auto at = first_between(times_of(*drive.table), begin, next.value_or(end))) next = at;
+  return next;
 }
 
 bool DrivenVertices::follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,

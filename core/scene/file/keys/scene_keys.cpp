@@ -99,7 +99,8 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "when events happen: at the first multiple of the step that is not before their time, which is cheap and "
                "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "
                "another from there, so that the integrator keeps its order through them. Steps are divided alike where "
-               "a force or a drive begins, turns back or ends, which with whole steps acts as its mean over the step"},
+               "a force or a drive begins, turns back or ends, or its table has a time; with whole steps it acts as its "
+               "mean over the step"},
       {.shape = scene, .name = "sleep", .type = object, .of = sleep,
        .help = "when a component that has come to rest is no longer stepped; not with an accuracy. Without it all "
                "components are stepped to the end"},
