@@ -142,15 +142,14 @@ TEST(RunTimed, MakesStepsOfOneLengthWhereTheyFit) {
   EXPECT_EQ(integrator.lengths, std::vector<double>(10, 0.1));
 }
 
-TEST(RunTimed, MakesShorterStepsWhereTheyDoNotFit) {
+TEST(RunTimed, DividesTheStepThatACheckpointIsWithin) {
   TradeoffScene scene = chain_scene(4, 8.0, 2);
   scene.duration = 1.0;
   scene.motion.checkpoints = {0.125, 0.3125, 1.0};
   RemembersItsSteps integrator;
   const TimedRun run = run_timed(scene, integrator, {.steps = 8}, ticking());
-  // 3/16 are two steps, and 11/16 are six
-  std::vector<double> expected{0.125, 0.09375, 0.09375};
-  expected.insert(expected.end(), 6, 0.6875 / 6);
+  std::vector<double> expected{0.125, 0.125, 0.0625, 0.0625};
+  expected.insert(expected.end(), 5, 0.125);
   EXPECT_EQ(integrator.lengths, expected);
   for (std::size_t c = 0; c < 3; ++c)
     EXPECT_NEAR(run.states[c].x[1].x(),

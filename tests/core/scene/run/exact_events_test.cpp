@@ -183,6 +183,22 @@ double order_through_drives(const char* integrator, double step) {
   return std::log2(error(step) / error(step / 4)) / 2.0;
 }
 
+// Between the times of its table a force is linear: with its mean over each part, every velocity is exact.
+TEST(ExactEvents, AreTheTimesOfTablesToo) {
+  Json scene = pushed_box("rk4", "exact");
+  scene["forces"][0].erase("from");
+  scene["forces"][0].erase("until");
+  scene["forces"][0]["over_time"] = Json::parse(R"([{"at": 0.013, "factor": 0}, {"at": 0.027, "factor": 1}])");
+  Simulation simulation(parse(scene));
+  const double start = simulation.body().vertices().position[0].z();
+  for (int n = 0; n < 3; ++n) ASSERT_FALSE(simulation.advance());
+  // at 0.03 s: half of 14 ms, and 3 ms; parts from 0.013 to 0.02, to 0.027, to 0.03 with means of 1/4, 3/4 and 1
+  EXPECT_NEAR(simulation.body().vertices().velocity[0].z(), 0.01, 1e-15);
+  const double first = 0.25 * 0.007, second = first + 0.75 * 0.007;
+  EXPECT_NEAR(simulation.body().vertices().position[0].z() - start,
+              0.5 * first * 0.007 + 0.5 * (first + second) * 0.007 + 0.5 * (second + 0.01) * 0.003, 1e-15);
+}
+
 TEST(ExactEvents, LeaveAnIntegratorItsOrderThroughLoadsToo) {
   EXPECT_NEAR(order_through_drives("rk4", 0.01), 4.0, 0.25);
   EXPECT_NEAR(order_through_drives("verlet", 0.01), 2.0, 0.25);
