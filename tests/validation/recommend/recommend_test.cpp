@@ -108,9 +108,10 @@ TEST(SolveForError, StepsThatEndAtEventsAreCounted) {
   Candidate c = fourth_order();
   c.step_evaluations = 6.0;
   solve_for_error(c, 1e-6, motion, 2e-6, {});
-  // 108 steps a second: 81.1 before the event and 26.9 after it make 82 and 27
-  EXPECT_EQ(c.steps, 8u * 108u);
-  EXPECT_DOUBLE_EQ(c.predicted_evaluations, 6.0 * (864.0 + 1.0));
+  // 108 steps a second would do for the error, and 2^(1/4) times as many for half of it, which is aimed at where an
+  // event divides a step
+  EXPECT_EQ(c.steps, 8u * 128u);
+  EXPECT_DOUBLE_EQ(c.predicted_evaluations, 6.0 * (1024.0 + 1.0));
 }
 
 // The rounding error goes with the mean step, 8 s / 100 with the tolerance of the pilot, and 100^0.2 as short with a
