@@ -59,9 +59,11 @@ AuditCase AuditCases::next() {
   RandomSceneOptions options;
   if (quick_) options = {.most_points = 400, .most_work = 5e4};
   if (drawn.check == AuditCheck::reference)
-    options = {.least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0};
+    options = {
+        .least_points = 1500, .most_work = 1e9, .least_phase = 1200.0, .most_phase = 2000.0, .only_springs = true};
   if (drawn.check == AuditCheck::costs_only)
-    options = {.least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0};
+    options = {
+        .least_points = 2000, .most_work = 1e9, .least_phase = 12000.0, .most_phase = 15000.0, .only_springs = true};
   drawn.scene = random_scene(seed_, k, options);
   if (drawn.check == AuditCheck::costs_only)
     drawn.errors = draw_errors(random_, 1, 1e-3, 1e-6);
