@@ -23,6 +23,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// Gaps between bodies below this share of the depth of a law are none.
+constexpr double narrow = 0x1p-7;
+
 /// The place of a vertex, as a function.
 struct PlaceNow {
   const StagePlaces& at;
@@ -32,7 +35,7 @@ struct PlaceNow {
 }  // namespace
 
 BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids,
-                         const std::vector<ContactPair>& pairs)
+                         const std::vector<ContactPair>& pairs, std::span<const std::uint8_t> still)
     : samples_(samples),
       solids_(solids),
       candidates_(samples, solids, groups_),
@@ -44,6 +47,7 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
     friction_ = friction_ || pair.law.friction > 0.0;
     damping_ = damping_ || pair.law.restitution < 1.0;
   }
+  ways_->set_still(still);
 }
 
 BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const BodyContact& other)
@@ -56,6 +60,7 @@ BodyContact::BodyContact(const std::vector<SkinSample>& samples, const SkinSolid
       candidates_(samples, solids, groups_),
       ways_(std::make_unique<WaysOut>(samples, solids, candidates_)) {
   set_margin(other.candidates_.margin_share());
+  ways_->set_still(other.ways_->still());
 }
 
 BodyContact::~BodyContact() = default;
@@ -65,51 +70,76 @@ std::uint64_t BodyContact::ways_searched() const { return ways_->searched(); }
 /// Tests one sample with some tetrahedra, in the order of their cells and parts. It may be inside several bodies at
 /// once, or parts of one: of tetrahedra with common nodes the first counts.
 template <class Tetrahedra, class F>
-void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, Ways ways, const StagePlaces& at,
+void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const Nearby& nearby, const StagePlaces& at,
                           const F& found) const {
   const SkinSample& sample = samples_[s];
   const PlaceNow place{at};
   const Vector3d y = mean_of(sample, place);
-  BodyTouch touch{.sample = s};
   const bool in_lanes = lanes_are_on();
-  std::array<std::uint32_t, 4> within;
-  std::size_t within_count = 0;
-  const auto is_next_to_one_within = [&](const SkinTetrahedron& tetrahedron) {
-    return std::ranges::any_of(std::span(within).first(within_count), [&](std::uint32_t other) {
-      const auto& nodes = solids_.tetrahedra()[other].nodes;
+  const bool may_be_covered = ways_->may_be_covered();
+  auto& within = ways_->within();
+  std::array<double, 4> weights{};
+  std::size_t count = 0;
+  const auto is_next_to_one_within = [&](const SkinTetrahedron& tetrahedron, Side side) {
+    return std::ranges::any_of(std::span(within).first(count), [&](const WaysOut::Within& w) {
+      if (w.on_border && side == Side::inside) return false;
+      const auto& nodes = solids_.tetrahedra()[w.touch.tetrahedron].nodes;
       return std::ranges::find_first_of(tetrahedron.nodes, nodes) != tetrahedron.nodes.end();
     });
   };
-  for (std::size_t k = 0; k < tetrahedra.size(); ++k) {
+  for (std::size_t k = 0; k < tetrahedra.size() && count < WaysOut::most_within; ++k) {
     // few that are left are looked at as quickly one by one
     if (in_lanes && tetrahedra.size() - k > 2)
       k = skip_outside({solids_.tetrahedra().data(), tetrahedra}, k, at, y, inverted_);
-    if (k == tetrahedra.size()) return;
+    if (k == tetrahedra.size()) break;
     const std::uint32_t t = tetrahedra[k];
     const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
-    const Side side = side_of(tetrahedron, y, place, touch.inside);
+    const Side side = side_of(tetrahedron, y, place, weights);
     if (side == Side::inverted) ++inverted_;
-    if (side != Side::inside || is_next_to_one_within(tetrahedron)) continue;
-    within[within_count++] = t;
+    if (side != Side::inside && !(side == Side::border && may_be_covered)) continue;
+    if (is_next_to_one_within(tetrahedron, side)) continue;
+    WaysOut::Within& one = within[count++];
+    BodyTouch& touch = one.touch;
+    touch.sample = s;
     touch.tetrahedron = t;
+    touch.inside = weights;
+    touch.depth = 0.0;
+    one.cover = BodyTouch::none;
+    one.on_border = side == Side::border;
     touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
     touch.area = 0.5 * sample.area;
-    const bool has_depth = ways == Ways::followed ? ways_->find(y, at, touch) : ways_->search(y, at, touch);
-    if (has_depth) found(touch);
-    if (within_count == within.size()) return;
+    if (may_be_covered) one.border = narrow * laws_[touch.law].depth;
+    const bool is_followed = nearby.ways == Ways::followed && !one.on_border;
+    one.has_depth = is_followed ? ways_->find(y, at, touch) : ways_->search(y, at, touch);
   }
+  if (may_be_covered && count > 0)
+    short_of_reach_ =
+        !ways_->pass_covered(y, at, nearby.tetrahedra, nearby.reach, std::span(within).first(count)) || short_of_reach_;
+  for (const WaysOut::Within& one : std::span(within).first(count))
+    if (one.has_depth && !(one.on_border && one.cover == BodyTouch::none)) found(one.touch);
 }
 
 void BodyContact::find_touching(const StagePlaces& at) const {
   candidates_.make_sure(at, follows_);
+  find_among_candidates(at);
+  // what may cover a way need not be in a list that is nearly used up
+  if (short_of_reach_ && candidates_.make_fresh(at)) find_among_candidates(at);
+}
+
+void BodyContact::find_among_candidates(const StagePlaces& at) const {
   touching_.clear();
   lost_.clear();
   inverted_ = 0;
+  short_of_reach_ = false;
+  ways_->move();
   if (candidates_.none_can_have_met()) {
     follows_ = false;
     return;
   }
   const auto list = candidates_.tetrahedra();
+  const auto add = [this](const BodyTouch& touch) {
+    (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
+  };
   for (const CandidatePairs::Row row : candidates_.rows()) {
     // without a branch: which of them are near is not foreseen
     std::size_t count = 0;
@@ -120,11 +150,29 @@ void BodyContact::find_touching(const StagePlaces& at) const {
       count += candidates_.can_have_met(pair) ? 1 : 0;
     }
     if (count == 0) continue;
-    look_at(row.sample, std::span(near, count), Ways::followed, at, [this](const BodyTouch& touch) {
-      (touch.triangle == BodyTouch::none ? lost_ : touching_).push_back(touch);
-    });
+    const std::size_t touches = touching_.size(), lost = lost_.size(), inverted = inverted_;
+    Nearby nearby{Ways::followed, list.subspan(row.first, row.count), candidates_.reach()};
+    for (;;) {
+      look_at(row.sample, std::span(near, count), nearby, at, add);
+      if (!short_of_reach_ || !candidates_.is_fresh()) break;
+      // deeper than the list reaches
+      short_of_reach_ = false;
+      touching_.resize(touches);
+      lost_.resize(lost);
+      inverted_ = inverted;
+      find_partners(row.sample);
+      nearby = {Ways::searched, partners_};
+    }
   }
   follows_ = !touching_.empty();
+}
+
+/// All tetrahedra of groups that the sample may touch.
+void BodyContact::find_partners(std::uint32_t sample) const {
+  const std::uint32_t group = solids_.group_at(samples_[sample].nodes[0]);
+  partners_.clear();
+  for (std::uint32_t t = 0; t < solids_.tetrahedra().size(); ++t)
+    if (groups_.law(group, solids_.tetrahedra()[t].group) != ContactGroups::none) partners_.push_back(t);
 }
 
 void BodyContact::exchange_with_aside() const {
@@ -170,12 +218,13 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
   MayTouch may_touch(solids_, groups_);
   std::vector<BodyTouch> touches;
   const std::size_t inverted = inverted_;  // among the candidates
+  ways_->move();
   for (std::uint32_t s = 0; s < samples_.size(); ++s) {
     may_touch.look_at(samples_[s]);
     may.clear();
     for (const std::uint32_t t : order)
       if (may_touch(tetrahedra[t])) may.push_back(t);
-    look_at(s, may, Ways::searched, at, [&](const BodyTouch& touch) {
+    look_at(s, may, {Ways::searched, may}, at, [&](const BodyTouch& touch) {
       if (touch.triangle != BodyTouch::none) touches.push_back(touch);
       if (touch.triangle == BodyTouch::none && out_of_reach != nullptr) out_of_reach->push_back(touch);
     });
@@ -486,8 +535,8 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 
 std::size_t BodyContact::bytes() const {
   return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
-         bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, asked_, by_triangle_) + groups_.bytes() +
-         candidates_.bytes() + ways_->bytes();
+         bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, partners_, asked_, by_triangle_) +
+         groups_.bytes() + candidates_.bytes() + ways_->bytes();
 }
 
 }  // namespace dartboard

@@ -99,8 +99,11 @@ class WaysOut;
 ///         been as many candidates and contacts before
 class BodyContact final : public ForceTerm {
  public:
+  /// `still` has a 1 for each group that does not move. Where two of them touch, what slides over both does not feel
+  /// their sides (way_out.h); among groups that move it does.
   /// throws  InputError where a law is not valid, or a pair is named twice
-  BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const std::vector<ContactPair>& pairs);
+  BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const std::vector<ContactPair>& pairs,
+              std::span<const std::uint8_t> still = {});
   /// The laws and the margin of another, between other samples and solids.
   BodyContact(const std::vector<SkinSample>& samples, const SkinSolids& solids, const BodyContact& other);
   ~BodyContact() override;
@@ -192,9 +195,17 @@ class BodyContact final : public ForceTerm {
 
  private:
   enum class Ways { followed, searched };
+  /// Those that may cover ways: all that the sample may touch within the reach [m].
+  struct Nearby {
+    Ways ways;
+    std::span<const std::uint32_t> tetrahedra;
+    double reach = std::numeric_limits<double>::infinity();
+  };
   template <class Tetrahedra, class F>
-  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, Ways ways, const StagePlaces& at,
+  void look_at(std::uint32_t sample, const Tetrahedra& tetrahedra, const Nearby& nearby, const StagePlaces& at,
                const F& found) const;
+  void find_among_candidates(const StagePlaces& at) const;
+  void find_partners(std::uint32_t sample) const;
   void find_touching(const StagePlaces& at) const;
   void find_touching_now(const StagePlaces& at) const;
   void exchange_with_aside() const;
@@ -219,7 +230,8 @@ class BodyContact final : public ForceTerm {
   mutable bool put_aside_ = false;
   mutable std::vector<BodyTouch> touching_aside_, lost_aside_;
   mutable std::size_t inverted_aside_ = 0;
-  mutable std::vector<std::uint32_t> near_;  // tetrahedra
+  mutable std::vector<std::uint32_t> near_, partners_;  // tetrahedra
+  mutable bool short_of_reach_ = false;
   std::unique_ptr<WaysOut> ways_;            // which follow the candidates
   mutable bool follows_ = false;             // something has touched at the last places
   mutable std::vector<std::uint8_t> asked_;  // by piece

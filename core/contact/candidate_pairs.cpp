@@ -135,11 +135,18 @@ double CandidatePairs::room_at(const StagePlaces& at) {
   return holds(at) ? std::max(0.0, std::min(least_gap_, margin_) - moved_together_) : 0.0;
 }
 
+bool CandidatePairs::make_fresh(const StagePlaces& at) {
+  if (is_fresh()) return false;
+  watch();
+  copy_places(at, where_);
+  make();
+  return true;
+}
+
 void CandidatePairs::make_sure(const StagePlaces& at, bool follows) {
   if (!holds(at)) {
-    watch();
-    copy_places(at, where_);
-    make();
+    moved_together_ = BoxAround::infinity;
+    make_fresh(at);
   }
   if (follows) {
     follow(at);

@@ -91,6 +91,12 @@ class CandidatePairs {
   /// Whether the sample and the tetrahedron of a pair can have come together at the places of the last `make_sure`:
   /// they have not moved by as much as they were apart.
   bool can_have_met(std::size_t pair) const { return gaps_[pair] <= moved_together_; }
+  /// [m] All tetrahedra that a sample may touch are listed if they are this near to it.
+  double reach() const { return margin_ - moved_together_; }
+  /// Was the list made for the places of the last call?
+  bool is_fresh() const { return moved_together_ == 0.0; }
+  /// Make the list anew, unless it is fresh. False if it is.
+  bool make_fresh(const StagePlaces& at);
   bool none_can_have_met() const { return moved_together_ < least_gap_; }
   std::size_t pair_count() const { return tetrahedra_.size(); }
   /// The number of times a list has been made.

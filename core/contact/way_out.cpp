@@ -34,12 +34,7 @@ DARTBOARD_AVX2_INLINE FourVectors places_at(const StagePlaces& at, const Cells& 
   return at.w.empty() ? x : x + four(at.t) * rows_at(at.w.data(), t, corner);
 }
 
-/// Whether parts are below what they may be at a face: zero on the boundary, a little less within the body.
-template <int face>
-DARTBOARD_AVX2_INLINE Four is_beyond(Four part, Four within, __m128i outer) {
-  const Four on_boundary = _mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm_slli_epi32(outer, 31 - face)));
-  return _mm256_cmp_pd(part, _mm256_blendv_pd(within, four(0.0), on_boundary), _CMP_LT_OQ);
-}
+DARTBOARD_AVX2_INLINE Four is_less(Four a, Four b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
 
 DARTBOARD_AVX2 std::size_t skip(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
                                 const Eigen::Vector3d& place, std::size_t& inverted) {
@@ -52,13 +47,11 @@ DARTBOARD_AVX2 std::size_t skip(const TetrahedraToTest& tetrahedra, std::size_t 
     for (std::size_t lane = 0; lane < 4; ++lane) t[lane] = tetrahedra.all + number[std::min(k + lane, count - 1)];
     const FourVectors p = places_at(at, t, 0), a = places_at(at, t, 1) - p, b = places_at(at, t, 2) - p,
                       c = places_at(at, t, 3) - p, r = y - p, normal = cross(b, c);
-    const Four volume = dot(a, normal), within = four(-2.0 * seam_of_sides) * volume;
-    const __m128i outer = _mm_set_epi32(t[3]->outer, t[2]->outer, t[1]->outer, t[0]->outer);
+    const Four volume = dot(a, normal), least = four(-2.0 * seam_of_sides) * volume;
     const Four part1 = dot(r, normal), part2 = dot(r, cross(c, a)), part3 = dot(r, cross(a, b));
     const Four beyond_first = _mm256_cmp_pd(part1 + part2 + part3, four(beyond_the_first) * volume, _CMP_GT_OQ);
-    const Four outside =
-        _mm256_or_pd(_mm256_or_pd(is_beyond<1>(part1, within, outer), is_beyond<2>(part2, within, outer)),
-                     _mm256_or_pd(is_beyond<3>(part3, within, outer), beyond_first));
+    const Four outside = _mm256_or_pd(_mm256_or_pd(is_less(part1, least), is_less(part2, least)),
+                                      _mm256_or_pd(is_less(part3, least), beyond_first));
     const auto right = static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(volume, zero, _CMP_GT_OQ)));
     const unsigned wrong = ~right & 15u;
     const unsigned skipped = wrong | static_cast<unsigned>(_mm256_movemask_pd(outside));
@@ -68,8 +61,6 @@ DARTBOARD_AVX2 std::size_t skip(const TetrahedraToTest& tetrahedra, std::size_t 
   }
   return count;
 }
-
-DARTBOARD_AVX2_INLINE Four is_less(Four a, Four b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
 
 /// The squared length of the way to the lines from p to q, as nearest_on_triangle computes it.
 DARTBOARD_AVX2_INLINE Four square_to_line(const FourVectors& p, const FourVectors& q) {
@@ -298,17 +289,163 @@ bool WaysOut::search(const Vector3d& y, const StagePlaces& at, BodyTouch& touch,
 
 /// Fills a touch whose nearest triangle is known.
 bool WaysOut::take(const Vector3d& y, const StagePlaces& at, std::uint32_t triangle, BodyTouch& touch) const {
-  const SkinTriangle& t = solids_.triangles()[triangle];
-  const NearestOnTriangle best =
-      nearest_on_triangle(at.place(t.nodes[0]) - y, at.place(t.nodes[1]) - y, at.place(t.nodes[2]) - y);
+  const auto& n = solids_.triangles()[triangle].nodes;
+  return take(y, at, triangle, nearest_on_triangle(at.place(n[0]) - y, at.place(n[1]) - y, at.place(n[2]) - y), touch);
+}
+bool WaysOut::take(const Vector3d& y, const StagePlaces& at, std::uint32_t triangle, const NearestOnTriangle& best,
+                   BodyTouch& touch) const {
   touch.triangle = triangle;
-  touch.depth = best.way.norm();
-  if (!(touch.depth > rounding * coordinates_of(t, at, y))) return false;
-  touch.normal = best.way / touch.depth;
   touch.nearest = best.weight;
+  touch.depth = best.way.norm();
+  if (!(touch.depth > rounding * coordinates_of(solids_.triangles()[triangle], at, y))) return false;
+  touch.normal = best.way / touch.depth;
   return true;
 }
 
-std::size_t WaysOut::bytes() const { return bytes_of(known_, places_, numbers_); }
+void WaysOut::set_still(std::span<const std::uint8_t> groups) {
+  still_.assign(groups.begin(), groups.end());
+  if (std::ranges::count(still_, std::uint8_t{1}) < 2) still_.clear();
+}
+
+/// May what covers the way be beyond the reach?
+bool WaysOut::is_short(const Vector3d& y, const StagePlaces& at, const Covers& covers, const BodyTouch& touch) {
+  const double by = certainly_more * (touch.depth + covers.border);
+  if (by <= covers.reach) return false;
+  if (boxes_.empty()) {
+    boxes_.resize(still_.size());
+    for (const SkinTetrahedron& t : solids_.tetrahedra()) {
+      if (!is_still(t.group)) continue;
+      BoxAround& box = boxes_[t.group];
+      for (const std::uint32_t i : t.nodes) {
+        const Vector3d place = at.place(i);
+        box.low = box.low.cwiseMin(place);
+        box.high = box.high.cwiseMax(place);
+      }
+    }
+  }
+  const std::uint32_t from = solids_.tetrahedra()[touch.tetrahedron].group;
+  for (std::uint32_t c = 0; c < boxes_.size(); ++c)
+    if (is_still(c) && c != from && (boxes_[c].low - y).cwiseMax(y - boxes_[c].high).maxCoeff() <= by) return true;
+  return false;
+}
+
+Vector3d WaysOut::normal_of(std::uint32_t triangle, const StagePlaces& at) const {
+  const auto& n = solids_.triangles()[triangle].nodes;
+  return (at.place(n[1]) - at.place(n[0])).cross(at.place(n[2]) - at.place(n[0])).normalized();
+}
+
+/// The tetrahedron that the way of a touch leads into, a little beyond its end, where the surface is left in this
+/// direction: of another body than the one that it leads out of, or of that through whose triangle it would come in.
+std::uint32_t WaysOut::cover_of(const Vector3d& y, const StagePlaces& at, const Covers& covers, const BodyTouch& touch,
+                                const Vector3d& direction) {
+  const TriangleCorners corner = corners_from(y, at, touch.triangle);
+  const Vector3d end =
+      y + (corner[0] + touch.nearest[1] * (corner[1] - corner[0]) + touch.nearest[2] * (corner[2] - corner[0]));
+  const Vector3d beyond = end + covers.border * direction;
+  const auto place = [&at](std::uint32_t i) { return at.place(i); };
+  const auto& tetrahedra = solids_.tetrahedra();
+  const std::uint32_t from = tetrahedra[touch.tetrahedron].group,
+                      left = group_of(touch.triangle) == from ? from : BodyTouch::none;
+  std::uint32_t cover = BodyTouch::none;
+  for (const std::uint32_t k : covers.near) {
+    const SkinTetrahedron& t = tetrahedra[k];
+    std::array<double, 4> weights{};
+    if (!is_still(t.group) || t.group == left || side_of(t, beyond, place, weights) != Side::inside) continue;
+    if (cover == BodyTouch::none || std::tie(t.cell, t.part) < std::tie(tetrahedra[cover].cell, tetrahedra[cover].part))
+      cover = k;
+  }
+  return cover;
+}
+
+TriangleCorners WaysOut::corners_from(const Vector3d& y, const StagePlaces& at, std::uint32_t triangle) const {
+  const auto& n = solids_.triangles()[triangle].nodes;
+  return {at.place(n[0]) - y, at.place(n[1]) - y, at.place(n[2]) - y};
+}
+
+/// The ways through the triangles at a tetrahedron, and those to the lines where these cross the triangle of a way that
+/// it covers.
+void WaysOut::add_ways(const Vector3d& y, const StagePlaces& at, std::uint32_t tetrahedron, const BodyTouch& covered) {
+  const auto corners = samples_[covered.sample].corners();
+  const auto add = [this](std::uint32_t triangle, std::uint32_t across, const NearestOnTriangle& nearest) {
+    if (!std::isnan(nearest.way.squaredNorm())) all_ways_.push_back({nearest, triangle, across, false});
+  };
+  for (const std::uint32_t k : around(tetrahedron).triangles) {
+    if (has_one_of(solids_.triangles()[k], corners)) continue;
+    const auto is_way = [this](std::uint32_t triangle, std::uint32_t across) {
+      return std::ranges::any_of(all_ways_,
+                                 [=](const Way& way) { return way.triangle == triangle && way.across == across; });
+    };
+    const TriangleCorners other = corners_from(y, at, k);
+    if (!is_way(k, BodyTouch::none)) add(k, BodyTouch::none, nearest_on_triangle(other[0], other[1], other[2]));
+    if (k == covered.triangle || is_way(covered.triangle, k)) continue;
+    if (const auto nearest = nearest_on_both(corners_from(y, at, covered.triangle), other))
+      add(covered.triangle, k, *nearest);
+  }
+}
+
+bool WaysOut::pass_covered(const Vector3d& y, const StagePlaces& at, std::span<const std::uint32_t> near, double reach,
+                           std::span<Within> within) {
+  const auto group = [this](std::uint32_t tetrahedron) { return solids_.tetrahedra()[tetrahedron].group; };
+  bool is_within_reach = true;
+  for (Within& one : within) {
+    // what is inside of one cell of a body is on the border of others there
+    const bool is_known = std::ranges::any_of(within, [&](const Within& other) {
+      return &other != &one && group(other.touch.tetrahedron) == group(one.touch.tetrahedron) &&
+             (!other.on_border || &other < &one);
+    });
+    if (one.on_border && is_known)
+      one.has_depth = false;
+    else if (one.touch.triangle != BodyTouch::none && is_still(group(one.touch.tetrahedron)))
+      is_within_reach = pass_covered(y, at, {near, reach, one.border}, one) && is_within_reach;
+  }
+  // of two that lead into each other the shorter counts, of equal ones the first
+  const auto leads_into = [&](const Within& one, const Within& other) {
+    return one.cover != BodyTouch::none && group(one.cover) == group(other.touch.tetrahedron);
+  };
+  for (std::size_t k = 0; k < within.size(); ++k)
+    for (std::size_t j = k + 1; j < within.size(); ++j) {
+      Within &one = within[k], &other = within[j];
+      if (one.has_depth && other.has_depth && (leads_into(one, other) || leads_into(other, one)))
+        (one.touch.depth <= other.touch.depth ? other : one).has_depth = false;
+    }
+  return is_within_reach;
+}
+
+/// False if what may cover a way is beyond the reach.
+bool WaysOut::pass_covered(const Vector3d& y, const StagePlaces& at, const Covers& covers, Within& one) {
+  bool is_within_reach = !is_short(y, at, covers, one.touch);
+  const std::uint32_t first = cover_of(y, at, covers, one.touch, normal_of(one.touch.triangle, at));
+  if (first == BodyTouch::none) return is_within_reach;
+  ++searched_;
+  one.cover = first;
+  all_ways_.clear();
+  add_ways(y, at, one.touch.tetrahedron, one.touch);
+  BodyTouch next = one.touch;
+  std::size_t tried = 0;
+  while (tried < all_ways_.size() && all_ways_[tried].triangle != next.triangle) ++tried;
+  for (std::uint32_t cover = first; cover != BodyTouch::none;) {
+    if (tried < all_ways_.size()) all_ways_[tried].is_covered = true;
+    add_ways(y, at, cover, next);
+    const auto order = [this](const Way& way) {
+      const SkinTriangle& t = solids_.triangles()[way.triangle];
+      const std::uint32_t face = way.across == BodyTouch::none ? 0 : solids_.triangles()[way.across].face + 1;
+      return std::tuple(way.is_covered, way.nearest.way.squaredNorm(), t.face, t.part, face);
+    };
+    const auto best = std::ranges::min_element(all_ways_, {}, order);
+    if (best == all_ways_.end() || best->is_covered) return is_within_reach;
+    tried = static_cast<std::size_t>(best - all_ways_.begin());
+    const bool has_depth = take(y, at, best->triangle, best->nearest, next);
+    is_within_reach = !is_short(y, at, covers, next) && is_within_reach;
+    Vector3d outwards = normal_of(best->triangle, at);
+    if (best->across != BodyTouch::none) outwards = (outwards + normal_of(best->across, at)).normalized();
+    cover = cover_of(y, at, covers, next, outwards);
+    if (cover != BodyTouch::none) continue;
+    one.touch = next;
+    one.has_depth = has_depth;
+  }
+  return is_within_reach;
+}
+
+std::size_t WaysOut::bytes() const { return bytes_of(known_, places_, numbers_, all_ways_, still_, boxes_); }
 
 }  // namespace dartboard

@@ -170,7 +170,7 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
           [this, &needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, mesh_cell(cell)); });
       solids.rebuild(body);
       skin_solids_ = solids.solids();
-      body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches);
+      body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches, needs.still);
     }
     body.vertices.rest = {};
   }

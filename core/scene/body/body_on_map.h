@@ -95,7 +95,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       terms_.push_back(contact_.get());
     }
     if (!needs.touches.empty()) {
-      body_contact_ = std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches);
+      body_contact_ = std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches, needs.still);
       terms_.push_back(body_contact_.get());
     }
     fit_columns();

@@ -35,6 +35,23 @@ BodyNeeds body_needs(const Problem& problem, bool topology_changes) {
           .fixed = !problem.fixed.empty()};
 }
 
+namespace {
+
+/// By body: 1 if all of its points are fixed.
+std::vector<std::uint8_t> bodies_held_still(const Problem& problem, std::span<const std::size_t> first_cell) {
+  std::vector<std::uint8_t> still(first_cell.size(), 1);
+  for (std::size_t body = 0; body < first_cell.size(); ++body) {
+    const std::size_t end = std::min(body + 1 < first_cell.size() ? first_cell[body + 1] : problem.mesh.cell_count(),
+                                     problem.mesh.cell_count());
+    for (std::size_t c = first_cell[body]; c < end; ++c)
+      for (const std::uint32_t point : problem.mesh.cell(c))
+        if (!std::ranges::binary_search(problem.fixed, point)) still[body] = 0;
+  }
+  return still;
+}
+
+}  // namespace
+
 Needs needs_of(const SceneFile& scene, const Problem& problem) {
   BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
   body.diagonals = scene.diagonals;
@@ -48,7 +65,10 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
   body.pressed = followed_faces(scene, problem.mesh);
   body.obstacles = scene.obstacles;
   for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
-  if (!body.touches.empty()) body.first_cell = first_cells(scene);
+  if (!body.touches.empty()) {
+    body.first_cell = first_cells(scene);
+    if (scene.driven.empty() && !has<Release>(scene.events)) body.still = bodies_held_still(problem, body.first_cell);
+  }
   return {.body = body,
           .damping =
               std::ranges::any_of(problem.cell_materials().all(), [](const Material& m) { return m.damping != 0.0; }),

@@ -2,6 +2,7 @@
 // The needs of a scene: the one place that decides what is assembled, and what a plan explains.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ struct BodyNeeds {
   std::vector<SceneObstacle> obstacles{};  // that its boundary may touch
   std::vector<ContactPair> touches{};      // the pairs of its parts that touch: groups are bodies of the scene
   std::vector<std::size_t> first_cell{};   // of each of these bodies, where some touch
+  std::vector<std::uint8_t> still{};       // by body: 1 if all of it is held still for the whole run
 
   /// Does its boundary have any contact?
   bool contact() const { return !obstacles.empty() || !touches.empty(); }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,6 +43,47 @@ double farthest_on_face(const SkinSample& sample, std::span<const Vector3d> x) {
     }
   }
   return farthest;
+}
+
+/// [m] A load that is let go where surfaces touch works on the way down: law.energy(1, d) = load d. Together with an
+/// impact the depth is at most the sum of both.
+double deepest_of(const ContactForecast& expected, const ContactLaw& law) {
+  const double load = law.force(1.0, expected.depth_at_rest);
+  return law.depth_at_rest(law.exponent * load) + expected.depth_at_impact;
+}
+
+/// [m] Half of the least extent of a body along its principal axes: in a convex one nothing is deeper inside.
+double half_thickness(const SkinSolids& solids, std::uint32_t body, std::span<const Vector3d> x) {
+  std::vector<std::uint8_t> is_its(x.size(), 0);
+  for (const SkinTetrahedron& t : solids.tetrahedra())
+    if (t.group == body)
+      for (const std::uint32_t i : t.nodes) is_its[i] = 1;
+  Vector3d mean(0, 0, 0);
+  double count = 0.0;
+  const auto for_each = [&](const auto& f) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (is_its[i] != 0) f(x[i]);
+  };
+  for_each([&](const Vector3d& place) {
+    mean += place;
+    count += 1.0;
+  });
+  if (count == 0.0) return std::numeric_limits<double>::infinity();
+  mean /= count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for_each([&](const Vector3d& place) { spread += (place - mean) * (place - mean).transpose(); });
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for_each([&](const Vector3d& place) {
+      const double along = (place - mean).dot(axes.eigenvectors().col(k));
+      low = std::min(low, along);
+      high = std::max(high, along);
+    });
+    least = std::min(least, high - low);
+  }
+  return 0.5 * least;
 }
 
 HeldVertices held_in(const SpringSystem& system) { return {system.fixed.span(), system.held_axes.span()}; }
@@ -95,6 +137,11 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
           "the restitution {:.4g} at {} is that of places, and a body will bounce otherwise: it is {:.2g} times as stiff as "
           "the contact, and vibrates; a lower 'pressure' or a larger 'depth' makes the contact softer",
           w.limit, other, w.value);
+    case ContactWarning::Kind::comes_through:
+      return fmt::format(
+          "at t = {:.6g} s: {} comes through {}: {:.4g} m inside, it is driven out on the other side than a step before; "
+          "take a larger 'pressure', a smaller 'depth', or something thicker",
+          w.time, place_in_words(w.nodes), other, w.value);
     case ContactWarning::Kind::too_fast: break;
   }
   if (w.of_bodies)
@@ -153,10 +200,7 @@ void SceneContact::look_at_sizes(std::span<const Vector3d> x, std::span<const Co
   for (std::uint32_t o = 0; o < expected.size(); ++o) {
     const Obstacle& obstacle = obstacles_->obstacles()[o];
     const ContactLaw& law = obstacles_->laws()[o];
-    // A load that is let go where surfaces touch works on the way down: law.energy(1, d) = load d. Together with an
-    // impact the depth is at most the sum of both.
-    const double load = law.force(1.0, expected[o].depth_at_rest),
-                 deepest = law.depth_at_rest(law.exponent * load) + expected[o].depth_at_impact;
+    const double deepest = deepest_of(expected[o], law);
     if (deepest > obstacle.half_thickness() && !has_warned(ContactWarning::Kind::too_thin))
       warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
                            .obstacle = o,
@@ -199,6 +243,18 @@ void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const Tou
                          .nodes = {},
                          .value = soft->contact.stiffness_ratio,
                          .limit = soft->law.restitution});
+  for (const TouchForecast& f : expected)
+    for (const std::uint32_t body : {f.first, f.second}) {
+      const double thin = half_thickness(bodies_->solids(), body, x), deepest = deepest_of(f.contact, f.law);
+      if (!(deepest > thin) || has_warned(ContactWarning::Kind::too_thin, true)) continue;
+      warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
+                           .of_bodies = true,
+                           .from = body == f.first ? f.second : f.first,
+                           .into = body,
+                           .nodes = {},
+                           .value = deepest,
+                           .limit = thin});
+    }
   const BodyContactState found = bodies_->state_at(x);
   if (found.contacts > 0)
     warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
@@ -222,12 +278,14 @@ void SceneContact::change_part(ObstacleContact* obstacles, BodyContact* bodies, 
 
 void SceneContact::resume(std::span<const Vector3d> x) {
   if (bodies_ != nullptr) bodies_->find_lost(x);
+  look_at_ways(x);
 }
 
 void SceneContact::system_changed(const SpringSystem& system, std::span<const Vector3d> x) {
   impulses_.forget_places();
   terms_ = terms_of(system);
   if (bodies_ != nullptr) least_altitude_ = bodies_->least_altitude(x);
+  look_at_ways(x);
 }
 
 bool SceneContact::begin(double time, double h, const SpringSystem& system, Motion motion) {
@@ -242,10 +300,12 @@ bool SceneContact::end(double time, double h, const SpringSystem& system, Motion
   if (obstacles_ != nullptr) {
     if (!has_warned(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
     if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
+    look_for_passages(false, time + h, motion.x);
   }
   if (bodies_ != nullptr) {
     look_for_lost(time + h, motion.x);
     look_for_depth_of_bodies(time + h, motion.x);
+    look_for_passages(true, time + h, motion.x);
     if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
   }
   return changed;
@@ -336,6 +396,54 @@ void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3
   if (worst) warnings_.push_back(std::move(*worst));
 }
 
+/// The next step is compared with these.
+void SceneContact::look_at_ways(std::span<const Vector3d> x) {
+  ways_ = {};
+  if (obstacles_ != nullptr) look_for_passages(false, 0.0, x);
+  if (bodies_ != nullptr) look_for_passages(true, 0.0, x);
+  impulses_.forget_places();
+}
+
+/// Warns of a sample whose way out of something has turned round: it has come beyond its middle.
+void SceneContact::look_for_passages(bool of_bodies, double time, std::span<const Vector3d> x) {
+  constexpr double turned = -0.5;      // the cosine of the angle
+  constexpr double least_depth = 0.1;  // over that of the law: less is no passage, where two surfaces just meet
+  const auto has_middle = [](const Obstacle& o) { return std::isfinite(o.half_thickness()); };
+  if (has_warned(ContactWarning::Kind::comes_through, of_bodies)) return;
+  if (!of_bodies && std::ranges::none_of(obstacles_->obstacles(), has_middle)) return;
+  auto& [now, before] = ways_[of_bodies ? 1 : 0];
+  now.swap(before);
+  now.clear();
+  if (of_bodies) {
+    if (impulses_.are_apart(x)) return;
+    for (const BodyTouch& t : bodies_->touching({x}))
+      if (t.depth > least_depth * bodies_->laws()[t.law].depth)
+        now.push_back({t.sample, bodies_->solids().tetrahedra()[t.tetrahedron].group, t.depth, t.normal});
+  } else {
+    if (impulses_.is_clear(x)) return;
+    obstacles_->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t o, const Penetration& in) {
+      if (in.depth > least_depth * obstacles_->laws()[o].depth) now.push_back({sample, o, in.depth, in.normal});
+    });
+  }
+  auto old = before.begin();
+  for (const Way& way : now) {
+    while (old != before.end() && old->sample < way.sample) ++old;
+    for (auto same = old; same != before.end() && same->sample == way.sample; ++same) {
+      if (same->other != way.other || !(same->normal.dot(way.normal) < turned)) continue;
+      const SkinSample& sample = of_bodies ? bodies_->samples()[way.sample] : obstacles_->samples()[way.sample];
+      warnings_.push_back({.kind = ContactWarning::Kind::comes_through,
+                           .of_bodies = of_bodies,
+                           .time = time,
+                           .obstacle = of_bodies ? 0 : way.other,
+                           .from = of_bodies ? bodies_->solids().group_at(sample.nodes[0]) : 0,
+                           .into = of_bodies ? way.other : 0,
+                           .nodes = nodes_of(sample),
+                           .value = way.depth});
+      return;
+    }
+  }
+}
+
 // The relative speed of two places is at most that between opposite corners of a box around all velocities.
 void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<const Vector3d> v) {
   if (v.empty()) return;
@@ -374,6 +482,8 @@ ContactDiagnostics SceneContact::diagnostics(const SimulatedBody& body) const {
   return d;
 }
 
-std::size_t SceneContact::bytes() const { return impulses_.bytes() + bytes_of(kept_v_); }
+std::size_t SceneContact::bytes() const {
+  return impulses_.bytes() + bytes_of(kept_v_, ways_[0].now, ways_[0].before, ways_[1].now, ways_[1].before);
+}
 
 }  // namespace dartboard

@@ -3,6 +3,7 @@
 // way.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -26,12 +27,14 @@ struct ContactWarning {
     too_deep,       // value: the depth [m]; limit: that of the law
     too_fast,       // value: the way in one step relative to the obstacle [m]; limit: half of the least thickness
     will_be_fast,   // the same for the expected speeds, before the run; without a sample
-    too_thin,       // value: the depth expected [m], before the run; limit: half of the obstacle's least thickness
-    too_small,      // an obstacle may come in between samples; value: how far [m], perhaps infinite; limit: the largest
-                    // distance [m] of a place on the boundary from a sample
-    soft_body,      // before the run; value: ContactForecast::stiffness_ratio; limit: the restitution that is not kept
+    too_thin,   // value: the depth expected [m], before the run; limit: half of the least thickness of an obstacle or
+                // body
+    too_small,  // an obstacle may come in between samples; value: how far [m], perhaps infinite; limit: the largest
+                // distance [m] of a place on the boundary from a sample
+    soft_body,  // before the run; value: ContactForecast::stiffness_ratio; limit: the restitution that is not kept
     out_of_reach,   // a sample is so deep in a body that no way out is found: it has no contact; value: a depth [m]
                     // that it had before, or 0; `samples` places are so deep
+    comes_through,  // a sample is driven out on the other side than in the step before; value: its depth [m]
   };
   Kind kind{};
   bool of_bodies = false;      // not with an obstacle
@@ -111,6 +114,8 @@ class SceneContact {
   void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);
   void look_for_lost(double time, std::span<const Eigen::Vector3d> x);
   void look_for_depth_of_bodies(double time, std::span<const Eigen::Vector3d> x);
+  void look_at_ways(std::span<const Eigen::Vector3d> x);
+  void look_for_passages(bool of_bodies, double time, std::span<const Eigen::Vector3d> x);
   void look_for_speed_of_bodies(double time, double h, std::span<const Eigen::Vector3d> v);
   ContactWarning inside_body(ContactWarning::Kind kind, double time, const BodyTouch& touch) const;
 
@@ -122,6 +127,17 @@ class SceneContact {
   bool undoes_;
   std::vector<Eigen::Vector3d> kept_v_;
   std::vector<ContactWarning> warnings_;
+  /// The way out of a sample, from an obstacle or from a body.
+  struct Way {
+    std::uint32_t sample, other;
+    double depth;
+    Eigen::Vector3d normal;
+  };
+  /// After the last two steps: from obstacles, and from bodies.
+  struct Ways {
+    std::vector<Way> now, before;
+  };
+  std::array<Ways, 2> ways_;
   double work_reported_ = 0.0;   // [J]
   double least_altitude_ = 0.0;  // [m] of the tetrahedra along the boundary, as the system last changed
 };

@@ -75,5 +75,27 @@ TEST(NearestOnTriangle, OfOneWithoutAreaIsOnItsEdges) {
   expect_near(nearest_on_triangle({1, 1, 0}, {1, 1, 0}, {1, 1, 0}), {1, 1, 0}, {1, 0, 0});
 }
 
+// A floor, and a wall on it along x from 0 to 2, at y = 3.
+TEST(NearestOnTriangle, OfTwoIsOnTheLineWhereTheyCross) {
+  const TriangleCorners floor{{{-9, -9, 1}, {9, -9, 1}, {0, 18, 1}}}, wall{{{0, 3, 0}, {2, 3, 0}, {1, 3, 2}}};
+  const auto seen_from = [](TriangleCorners t, const Vector3d& y) {
+    for (Vector3d& corner : t) corner -= y;
+    return t;
+  };
+  for (const auto& [y, nearest] : {std::pair<Vector3d, Vector3d>{{1, 0, 0}, {1, 3, 1}},
+                                   {{1.2, 5, 7}, {1.2, 3, 1}},
+                                   {{8, 0, 0}, {1.5, 3, 1}},
+                                   {{-8, 3, 1}, {0.5, 3, 1}}}) {
+    const auto found = nearest_on_both(seen_from(wall, y), seen_from(floor, y));
+    ASSERT_TRUE(found);
+    EXPECT_LE((found->way - (nearest - y)).norm(), 1e-14);
+    Vector3d there(0, 0, 0);
+    for (std::size_t k = 0; k < 3; ++k) there += found->weight[k] * wall[k];
+    EXPECT_LE((there - nearest).norm(), 1e-14);
+  }
+  EXPECT_FALSE(nearest_on_both(wall, seen_from(floor, {0, 0, -2})));  // above the wall
+  EXPECT_FALSE(nearest_on_both(floor, seen_from(floor, {1, 0, 0})));  // in one plane
+}
+
 }  // namespace
 }  // namespace dartboard::nearest_on_triangle_test

@@ -2,6 +2,7 @@
 // Bodies of elements that touch each other: one mesh of several bodies, with samples and solids by its own points.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -37,7 +38,7 @@ struct MeshSkin {
   SkinSolids solids;
 };
 template <class Map>
-MeshSkin skin_of_mesh(const Mesh& mesh, std::uint32_t cells_of_first) {
+MeshSkin skin_of_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& first_cell) {
   Problem problem;
   problem.mesh = mesh;
   problem.material = {.density = 1000.0, .stiffness = 4.0};
@@ -46,7 +47,10 @@ MeshSkin skin_of_mesh(const Mesh& mesh, std::uint32_t cells_of_first) {
   const auto& point = body.vertices.point;
   Skin samples;
   samples.rebuild(body);
-  SkinSolidsView solids([=](std::uint32_t cell) { return cell < cells_of_first ? 0u : 1u; });
+  SkinSolidsView solids([&first_cell](std::uint32_t cell) {
+    const auto next = std::ranges::upper_bound(first_cell, cell);
+    return static_cast<std::uint32_t>(next - first_cell.begin() - 1);
+  });
   solids.rebuild(body);
   MeshSkin skin;
   skin.samples = samples.samples();
@@ -62,6 +66,11 @@ MeshSkin skin_of_mesh(const Mesh& mesh, std::uint32_t cells_of_first) {
     skin.solids.add(t);
   }
   return skin;
+}
+
+template <class Map>
+MeshSkin skin_of_mesh(const Mesh& mesh, std::uint32_t cells_of_first) {
+  return skin_of_mesh<Map>(mesh, std::vector<std::uint32_t>{0, cells_of_first});
 }
 
 inline ContactLaw law_between(int exponent, double pressure, double depth) {
