@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/plain/random.h"
+#include "validation/scenes/draw.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
@@ -16,32 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
-
-/// Random draws, one after another.
-class Draw {
- public:
-  Draw(std::uint64_t seed, std::uint64_t number) : random_(seed * 1000003 + number) { random_.next(); }
-
-  double uniform(double low, double high) { return low + (high - low) * 0.5 * (random_.next_signed() + 1.0); }
-  double logarithmic(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
-  bool happens(double probability) { return uniform(0.0, 1.0) < probability; }
-  std::uint32_t below(std::size_t n) { return random_.below(n); }
-  Vector3d direction() {
-    Vector3d d(0, 0, 0);
-    while (!(d.norm() > 0.1)) d = random_.next_in_ball();
-    return d.normalized();
-  }
-
- private:
-  SplitMix64 random_;
-};
-
-/// As in a file: with six digits, which are all that anybody writes.
-double written(double x) { return std::stod(fmt::format("{:.6g}", x)); }
-Json json_of(const Vector3d& v) { return {written(v.x()), written(v.y()), written(v.z())}; }
-Json plane_of(const Vector3d& point, const Vector3d& normal) {
-  return {{"point", json_of(point)}, {"normal", json_of(normal)}};
-}
 
 TradeoffScene read(const Json& json) {
   return scene_of_file(parse_scene(json.dump(), json.at("name").get<std::string>(), ""));

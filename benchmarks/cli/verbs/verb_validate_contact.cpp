@@ -16,9 +16,10 @@ void add_validate_contact(CLI::App& validate, Outcome& outcome) {
   auto* verb = validate.add_subcommand(
       "contact",
       "Whether bodies feel what overlaps of them, placed at random and in motion: CGAL and separating axes; and whether "
-      "contact carries what closed forms say, and holds in a pressed stack that is cut, torn and eroded.");
-  auto options = study_options<Options>(*verb, {.quick = "fewer placements, inspections and operations",
-                                                .seed = "the random placements and operations",
+      "contact carries what closed forms say, pulls, catches and loses nothing in scenes drawn at random, and holds in a "
+      "pressed stack that is cut, torn and eroded.");
+  auto options = study_options<Options>(*verb, {.quick = "fewer placements, inspections, scenes and operations",
+                                                .seed = "the random placements, scenes and operations",
                                                 .keeps_folder = false});
   verb->add_option("--placements", options->placements, "of bodies in each other [100000; 400 with --quick]");
   verb->add_option("--with", options->with,
@@ -29,6 +30,7 @@ void add_validate_contact(CLI::App& validate, Outcome& outcome) {
                           .looks = options->quick ? 10u : 100u,
                           .seed = options->seed,
                           .operations = options->quick ? 200u : 10'000u,
+                          .drawn = options->quick ? 60u : 1000u,
                           .every_integrator = !options->quick,
                           .one_ball = options->quick,
                           .certified = options->quick ? 200u : 2000u,

@@ -34,6 +34,11 @@ constexpr double most_kinetic = 1e-10, most_creep = 1e-6;
 constexpr double most_bounce = 0.02, least_asked = 0.2, least_stiffness = 10.0;
 // What Newton's method leaves of its equations.
 constexpr double most_pulled = 1e-9;
+// A slide is over some hundred steps in each of which forces across it are rounded, or solved for to 1e-10 of the
+// others.
+constexpr double most_caught = 1e-6;
+// A soft body that is drawn off turns the normals along which it is pushed.
+constexpr double most_pulled_of_bodies = 2e-3;
 // Sums of some thousand terms that an operation leaves or takes whole, and those of steps over what was added to them:
 // some dozens of roundings of each term at most.
 constexpr double most_rounding = 1e-14;
@@ -89,6 +94,42 @@ Claim claim_on_operations(const std::optional<PressedOperations>& found) {
   if (found)
     made.bound_or_interval = fmt::format("in {} operations, {} of them removals", found->operations(), found->removed);
   return made;
+}
+
+/// The worst of the drawn scenes; NaN where none of a kind has ended and touched something.
+struct WorstOfDrawn {
+  std::size_t scenes = 0, ended = 0, touched = 0, lost = 0, silent = 0;
+  double pulled = NAN, caught = NAN;
+  void add(const ContactResults::Drawn& one) {
+    const DrawnContactFound& found = one.found;
+    ++scenes;
+    ended += found.ended ? 1 : 0;
+    touched += found.touched ? 1 : 0;
+    lost += found.lost ? 1 : 0;
+    silent += found.lost && !found.warned ? 1 : 0;
+    if (!found.touched) return;
+    if (one.scene.kind == DrawnKind::leaves)
+      pulled = std::isnan(pulled) ? found.pulled : max_or_nan(pulled, found.pulled);
+    if (one.scene.kind == DrawnKind::slides)
+      caught = std::isnan(caught) ? found.caught : max_or_nan(caught, found.caught);
+  }
+};
+
+std::vector<Claim> claims_on(const std::vector<ContactResults::Drawn>& drawn) {
+  WorstOfDrawn all, obstacles, bodies;
+  for (const ContactResults::Drawn& one : drawn) {
+    all.add(one);
+    (one.scene.with_bodies ? bodies : obstacles).add(one);
+  }
+  std::vector<Claim> claims{
+      claim("contact-drawn-pulls", "an obstacle that leaves, drawn at random, does not pull, of its speed", most_pulled,
+            obstacles.pulled, ""),
+      claim("contact-drawn-pulls-bodies", "nor does a body, of its speed", most_pulled_of_bodies, bodies.pulled, ""),
+      claim("contact-drawn-seams", "what slides over seams is pushed upwards alone", most_caught, all.caught, ""),
+      claim("contact-drawn-silence", "scenes in which a body comes through a plate without a warning", 0.0,
+            drawn.empty() ? NAN : static_cast<double>(all.silent), "")};
+  for (Claim& one : claims) one.bound_or_interval = fmt::format("in {}", counted(drawn.size(), "drawn scene"));
+  return claims;
 }
 
 }  // namespace
@@ -161,6 +202,7 @@ std::vector<Claim> claims_of(const ContactResults& results) {
   if (rests)
     for (std::size_t k = claims.size() - 2; k < claims.size(); ++k)
       claims[k].bound_or_interval = fmt::format("in {} steps", results.stack->steps);
+  for (const Claim& of_drawn : claims_on(results.drawn)) claims.push_back(of_drawn);
   claims.push_back(claim_on_operations(results.operations));
   return claims;
 }
@@ -217,6 +259,29 @@ Table bounces_table(const std::vector<BounceFound>& bounces) {
                    fmt::format("{:g}", first.asked), exact.text(), rough.text(), failed,
                    fmt::format("{:.1e}", pulled)});
   }
+  return table;
+}
+
+Table drawn_table(const std::vector<ContactResults::Drawn>& drawn) {
+  Table table({{"scenes"},
+               {"of", Align::right},
+               {"ended", Align::right},
+               {"touched", Align::right},
+               {"largest pull", Align::right},
+               {"largest push sideways", Align::right},
+               {"through a plate", Align::right},
+               {"without a warning", Align::right}});
+  const auto figure = [](double value) { return std::isnan(value) ? "" : fmt::format("{:.1e}", value); };
+  for (const DrawnKind kind : {DrawnKind::leaves, DrawnKind::slides, DrawnKind::drops})
+    for (const bool with_bodies : {false, true}) {
+      WorstOfDrawn of;
+      for (const ContactResults::Drawn& one : drawn)
+        if (one.scene.kind == kind && one.scene.with_bodies == with_bodies) of.add(one);
+      const bool drops = kind == DrawnKind::drops;
+      table.add_row({fmt::format("{}, {}", name_of(kind), with_bodies ? "bodies" : "obstacles"),
+                     std::to_string(of.scenes), std::to_string(of.ended), std::to_string(of.touched), figure(of.pulled),
+                     figure(of.caught), drops ? std::to_string(of.lost) : "", drops ? std::to_string(of.silent) : ""});
+    }
   return table;
 }
 

@@ -9,6 +9,7 @@
 #include "benchmarks/harness/table.h"
 #include "validation/contact/bouncing_bodies.h"
 #include "validation/contact/contact_run.h"
+#include "validation/contact/drawn_contacts.h"
 #include "validation/contact/hertz.h"
 #include "validation/contact/pressed_operations.h"
 #include "validation/contact/random_placements.h"
@@ -34,6 +35,11 @@ struct ContactResults {
   };
   std::vector<Pressed> balls;
   std::vector<BounceFound> bounces;
+  struct Drawn {
+    DrawnContact scene;
+    DrawnContactFound found;
+  };
+  std::vector<Drawn> drawn;
   std::optional<StackAtRest> stack;
   std::optional<PressedOperations> operations;
 };
@@ -49,6 +55,8 @@ Table runs_table(const std::vector<ContactRun>& runs);
 Table carried_table(const ContactResults& results);
 /// A row for each body and restitution, over all integrators.
 Table bounces_table(const std::vector<BounceFound>& bounces);
+/// A row for each kind of scene, over obstacles and over bodies.
+Table drawn_table(const std::vector<ContactResults::Drawn>& drawn);
 /// The figures of the operations in a pressed stack, with their limits.
 Table operations_table(const PressedOperations& found);
 

@@ -137,6 +137,14 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
     results.balls.push_back({ball, found});
     log.advance("a ball in a half-space");
   }
+  results.stack = watch_stack();
+  log.sample({{"stack_of", results.stack->boxes},
+              {"steps", results.stack->steps},
+              {"drop", results.stack->drop},
+              {"kinetic", results.stack->kinetic},
+              {"moved", results.stack->moved},
+              {"ended", results.stack->ended}});
+  log.advance("a stack");
   std::vector<std::string_view> methods{"verlet", "backward-euler"};
   if (plan.every_integrator) {
     methods.clear();
@@ -156,14 +164,24 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
       }
     log.advance(std::string(body.name));
   }
-  results.stack = watch_stack();
-  log.sample({{"stack_of", results.stack->boxes},
-              {"steps", results.stack->steps},
-              {"drop", results.stack->drop},
-              {"kinetic", results.stack->kinetic},
-              {"moved", results.stack->moved},
-              {"ended", results.stack->ended}});
-  log.advance("a stack");
+  log.begin("validate contact: drawn scenes", plan.drawn);
+  for (std::size_t k = 0; k < plan.drawn; ++k) {
+    const DrawnContact drawn = draw_contact(plan.seed, k);
+    const auto& [scene, found] = results.drawn.emplace_back(drawn, run_drawn_contact(drawn));
+    log.sample({{"drawn", k},
+                {"seed", plan.seed},
+                {"kind", name_of(scene.kind)},
+                {"bodies", scene.with_bodies},
+                {"integrator", scene.integrator},
+                {"about", scene.about},
+                {"ended", found.ended},
+                {"touched", found.touched},
+                {"pulled", found.pulled},
+                {"caught", found.caught},
+                {"lost", found.lost},
+                {"warned", found.warned}});
+    log.advance(scene.about);
+  }
   constexpr std::size_t look_every = 100;
   log.begin("validate contact: operations", (plan.operations + look_every - 1) / look_every);
   const PressedOperations found =
@@ -201,6 +219,9 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
                  {"carried", "What contact carries, and where it stands still", carried_table(results)},
                  {"bounces", "Bodies that fall flat on a floor, and one that leaves them",
                   bounces_table(results.bounces)},
+                 {"drawn",
+                  "Scenes drawn at random: what leaves, slides over seams, or drops on plates of all thicknesses",
+                  drawn_table(results.drawn)},
                  {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
       .claims = claims_of(results)};
   if (by_ipctk) {

@@ -15,8 +15,9 @@ namespace dartboard {
 struct ContactStudyPlan {
   std::size_t placements = 100'000;  // in all
   std::size_t looks = 100;           // in each run
-  std::uint64_t seed = 1;            // seeds the placements and the operations
+  std::uint64_t seed = 1;            // seeds the placements, the drawn scenes and the operations
   std::size_t operations = 10'000;   // in a pressed stack
+  std::size_t drawn = 1000;          // scenes
   bool every_integrator = true;      // for bounces; false: one explicit and one implicit method
   bool one_ball = false;             // pressed into a half-space; otherwise by every law, and into other cells
   // Makes the answers to questions, as run_ipctk does; empty: ipctk is not asked.

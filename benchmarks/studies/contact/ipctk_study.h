@@ -11,8 +11,8 @@
 #include "benchmarks/harness/table.h"
 #include "benchmarks/report/study_log.h"
 #include "core/plain/mesh.h"
-#include "validation/contact/ipctk_placements.h"
-#include "validation/contact/ipctk_shots.h"
+#include "validation/contact/ipctk/ipctk_placements.h"
+#include "validation/contact/ipctk/ipctk_shots.h"
 
 namespace dartboard {
 
@@ -26,7 +26,7 @@ std::vector<Claim> claims_of(const IpctkResults& results);
 Table ipctk_table(const IpctkResults& results);
 Table ipctk_shots_table(const IpctkShotsFound& shots);
 
-/// Makes answers from questions (validation/contact/ipctk_questions.h).
+/// Makes answers from questions (validation/contact/ipctk/ipctk_questions.h).
 using AskIpctk = std::function<std::string(const std::string& questions)>;
 /// throws  IoError where an answer is missing or no number
 IpctkPlacementsFound certified(const IpctkPlacements& placements, const AskIpctk& ask);

@@ -38,6 +38,15 @@ ContactResults good_results() {
   r.bounces = {{.body = "box, 10 MPa", .integrator = "verlet", .order = 2, .asked = 0.5, .found = 0.501, .ended = true},
                {.body = "box, 10 MPa", .integrator = "explicit-euler", .order = 1, .asked = 0.5},
                {.body = "box, 20 kPa", .integrator = "verlet", .order = 2, .asked = 0.5, .found = 0.8, .ended = true}};
+  const auto drawn = [&r](DrawnKind kind, bool with_bodies, const DrawnContactFound& found) {
+    r.drawn.push_back({{.kind = kind, .with_bodies = with_bodies}, found});
+  };
+  drawn(DrawnKind::leaves, false, {.ended = true, .touched = true, .pulled = 1e-13});
+  drawn(DrawnKind::leaves, true, {.ended = true, .touched = true, .pulled = 1e-4});
+  drawn(DrawnKind::slides, false, {.ended = true, .touched = true, .caught = 1e-14});
+  drawn(DrawnKind::slides, true, {.ended = true, .touched = true, .caught = 1e-9});
+  drawn(DrawnKind::drops, false, {.ended = true, .touched = true, .lost = true, .warned = true});
+  drawn(DrawnKind::drops, true, {.ended = true, .touched = true});
   PressedOperations& p =
       r.operations.emplace(PressedOperations{.stacks = 2, .dissociated = 60, .torn = 20, .removed = 20});
   p.ended = true;
@@ -62,7 +71,7 @@ const Ids moving{"contact-moving-pairs", "contact-depth", "contact-energy", "con
 
 TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   const auto claims = claims_of(good_results());
-  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 13u);
+  EXPECT_EQ(ids_of(claims, Verdict::holds).size(), 17u);
   expect_words(claims, "contact-placed", "<= 0.75 altitudes", "0.2 altitudes", "of 170 placements that overlap");
   const Claim& pairs = find_claim(claims, "contact-placed-pairs");
   EXPECT_EQ(pairs.paper_value, ">= 95 %");
@@ -76,6 +85,8 @@ TEST(ContactClaims, HoldWhenEverythingIsAsPromised) {
   expect_words(claims, "contact-pushes", "<= 1e-09", "0", "in 3 runs");
   expect_words(claims, "contact-stack-rests", "<= 1e-10", "2e-12", "in 100 steps");
   expect_words(claims, "contact-stack-still", "<= 1e-06 cell edges", "1e-08 cell edges", "in 100 steps");
+  expect_words(claims, "contact-drawn-pulls", "<= 1e-09", "1e-13", "in 6 drawn scenes");
+  expect_words(claims, "contact-drawn-silence", "<= 0", "0", "in 6 drawn scenes");
   expect_words(claims, "contact-pressed-operations", "<= 1 of each limit", "0.4 of each limit",
                "in 100 operations, 20 of them removals");
 }
@@ -101,6 +112,11 @@ TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
   EXPECT_EQ(short_with([](auto& r) { r.runs[1].angular = 2e-12; }), Ids{"contact-angular-momentum"});
   for (const double force : {8.9, 11.1})
     EXPECT_EQ(short_with([force](auto& r) { r.balls[1].found.force = force; }), Ids{"contact-hertz"});
+  EXPECT_EQ(short_with([](auto& r) { r.drawn[0].found.pulled = 2e-9; }), Ids{"contact-drawn-pulls"});
+  EXPECT_EQ(short_with([](auto& r) { r.drawn[1].found.pulled = 3e-3; }), Ids{"contact-drawn-pulls-bodies"});
+  for (const std::size_t k : {2u, 3u})
+    EXPECT_EQ(short_with([k](auto& r) { r.drawn[k].found.caught = 2e-6; }), Ids{"contact-drawn-seams"});
+  EXPECT_EQ(short_with([](auto& r) { r.drawn[4].found.warned = false; }), Ids{"contact-drawn-silence"});
   EXPECT_EQ(short_with([](auto& r) { r.stack->kinetic = 6e-11; }), Ids{"contact-stack-rests"});
   EXPECT_EQ(short_with([](auto& r) { r.stack->moved = 1.1e-6; }), Ids{"contact-stack-still"});
   const std::function<void(PressedOperations&)> wrong[]{[](auto& p) { p.strangers = 1; },
@@ -120,6 +136,9 @@ TEST(ContactClaims, FallShortOfTheOneThingThatIsWrong) {
 }
 
 TEST(ContactClaims, FallShortOfWhatWasNotLookedAtOrIsNoNumber) {
+  EXPECT_EQ(short_with([](auto& r) { r.drawn.clear(); }),
+            (Ids{"contact-drawn-pulls", "contact-drawn-pulls-bodies", "contact-drawn-seams", "contact-drawn-silence"}));
+  EXPECT_EQ(short_with([](auto& r) { r.drawn[1].found.touched = false; }), Ids{"contact-drawn-pulls-bodies"});
   EXPECT_EQ(short_with([](auto& r) { r.placements.clear(); }), Ids{"contact-placed"});
   EXPECT_EQ(short_with([](auto& r) { r.placements[0].found.overlapping = 0; }), Ids{"contact-placed"});
   EXPECT_EQ(short_with([](auto& r) { r.runs.clear(); }), moving);
@@ -189,6 +208,15 @@ TEST(ContactTables, HaveTheFiguresOfOperationsAndWhatIsNearTips) {
   EXPECT_EQ(table.rows()[15], (std::vector<std::string>{"deepest of these", "0.2", ""}));
 }
 
+TEST(ContactTables, HaveARowForEachKindOfDrawnScenes) {
+  const Table table = drawn_table(good_results().drawn);
+  ASSERT_EQ(table.rows().size(), 6u);
+  using Row = std::vector<std::string>;
+  EXPECT_EQ(table.rows()[0], (Row{"leaves, obstacles", "1", "1", "1", "1.0e-13", "", "", ""}));
+  EXPECT_EQ(table.rows()[3], (Row{"slides, bodies", "1", "1", "1", "", "1.0e-09", "", ""}));
+  EXPECT_EQ(table.rows()[4], (Row{"drops, obstacles", "1", "1", "1", "", "", "1", "0"}));
+}
+
 /// Answers in the name of ipctk that are of the right form, and wrong: surfaces cross everywhere.
 std::string wrong_answers_to(const std::string& questions) {
   nlohmann::json all = nlohmann::json::object();
@@ -211,6 +239,7 @@ TEST(ContactStudy, HoldsButWhereIpctkSaysOtherwise) {
                                        .looks = 6,
                                        .seed = 2,
                                        .operations = 60,
+                                       .drawn = 12,
                                        .every_integrator = false,
                                        .one_ball = true,
                                        .ipctk = wrong_answers_to,
@@ -218,15 +247,15 @@ TEST(ContactStudy, HoldsButWhereIpctkSaysOtherwise) {
                                        .certified = 20,
                                        .shots = 3},
                                       log);
-  EXPECT_EQ(ids_of(report.claims, Verdict::holds).size(), 13u);
+  EXPECT_EQ(ids_of(report.claims, Verdict::holds).size(), 17u);
   EXPECT_EQ(ids_of(report.claims, Verdict::falls_short),
             (Ids{"contact-ipctk-depths", "contact-ipctk-crossings", "contact-ipctk-steps"}));
   EXPECT_EQ(exit_code(report), 1);
-  ASSERT_EQ(report.tables.size(), 8u);
-  EXPECT_EQ(report.tables[6].name, "ipctk");
-  ASSERT_EQ(report.tables[6].table.rows().size(), 4u);
-  EXPECT_EQ(report.tables[6].table.rows()[0][1], "5");
-  EXPECT_EQ(report.tables[7].table.rows()[0][1], "1");
+  ASSERT_EQ(report.tables.size(), 9u);
+  EXPECT_EQ(report.tables[7].name, "ipctk");
+  ASSERT_EQ(report.tables[7].table.rows().size(), 4u);
+  EXPECT_EQ(report.tables[7].table.rows()[0][1], "5");
+  EXPECT_EQ(report.tables[8].table.rows()[0][1], "1");
   EXPECT_EQ(report.facts.at("ipctk"), "0.1");
 }
 

@@ -1,4 +1,4 @@
-#include "validation/contact/ipctk_questions.h"
+#include "validation/contact/ipctk/ipctk_questions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/contact/ipctk_shots.h"
+#include "validation/contact/ipctk/ipctk_shots.h"
 
 #include <gtest/gtest.h>
 

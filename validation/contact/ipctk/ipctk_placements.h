@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/plain/mesh.h"
-#include "validation/contact/ipctk_questions.h"
+#include "validation/contact/ipctk/ipctk_questions.h"
 #include "validation/contact/random_placements.h"
 
 namespace dartboard {

@@ -1,4 +1,4 @@
-#include "validation/contact/ipctk_placements.h"
+#include "validation/contact/ipctk/ipctk_placements.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

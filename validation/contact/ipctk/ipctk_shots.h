@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "validation/contact/ipctk_questions.h"
+#include "validation/contact/ipctk/ipctk_questions.h"
 
 namespace dartboard {
 
