@@ -27,10 +27,11 @@ bool has_met(const AuditedPair& p) { return p.is_resolved() && p.audit.met(); }
 
 bool within_margin(double ratio) { return std::abs(ratio - 1.0) <= cost_margin; }
 
-/// The pairs that count in claims. A long motion without a pick counts: it should have had a prediction.
+/// The pairs that count in claims: those without a pick, too, as there should have been one.
 std::vector<AuditedPair> those_that_count(AuditKind kind, std::vector<AuditedPair> pairs) {
-  if (kind == AuditKind::long_motions)
-    std::erase_if(pairs, [](const AuditedPair& p) { return !p.followed || (has_pick(p) && !p.is_long_prediction()); });
+  std::erase_if(pairs, [kind](const AuditedPair& p) {
+    return !p.followed || (kind == AuditKind::long_motions && has_pick(p) && !p.is_long_prediction());
+  });
   return pairs;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 // The largest difference between the other codes, as a part of the smallest requested error.
 constexpr double resolved = 0.1;
-// [s] Longer runs of long motions are not followed.
+// [s] Longer runs are not followed.
 constexpr double longest_run_s = 15.0;
 
 SceneReference reference_for(AuditKind kind, const AuditCase& drawn) {
@@ -65,7 +65,7 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
     p.audit.error = r.error;
     p.audit.pilot_s = r.pilot_s;
     const Candidate* pick = r.pick();
-    if (pick != nullptr && is_long && pick->predicted_s > longest_run_s) {
+    if (pick != nullptr && pick->predicted_s > longest_run_s) {
       p.followed = false;
       p.confidence = fmt::format("{} for {:.0f} s: too long to follow", pick->contender, pick->predicted_s);
     } else if (pick != nullptr) {
