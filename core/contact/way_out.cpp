@@ -422,7 +422,9 @@ bool WaysOut::pass_covered(const Vector3d& y, const StagePlaces& at, const Cover
   add_ways(y, at, one.touch.tetrahedron, one.touch);
   BodyTouch next = one.touch;
   std::size_t tried = 0;
-  while (tried < all_ways_.size() && all_ways_[tried].triangle != next.triangle) ++tried;
+  while (tried < all_ways_.size() &&
+         (all_ways_[tried].triangle != next.triangle || all_ways_[tried].across != BodyTouch::none))
+    ++tried;
   for (std::uint32_t cover = first; cover != BodyTouch::none;) {
     if (tried < all_ways_.size()) all_ways_[tried].is_covered = true;
     add_ways(y, at, cover, next);

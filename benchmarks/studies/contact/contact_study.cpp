@@ -166,8 +166,9 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
   }
   log.begin("validate contact: drawn scenes", plan.drawn);
   for (std::size_t k = 0; k < plan.drawn; ++k) {
-    const DrawnContact drawn = draw_contact(plan.seed, k);
-    const auto& [scene, found] = results.drawn.emplace_back(drawn, run_drawn_contact(drawn));
+    const DrawnContact scene = draw_contact(plan.seed, k);
+    const DrawnContactFound found = run_drawn_contact(scene);
+    results.drawn.push_back({scene, found});
     log.sample({{"drawn", k},
                 {"seed", plan.seed},
                 {"kind", name_of(scene.kind)},

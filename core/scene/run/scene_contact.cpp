@@ -411,7 +411,7 @@ void SceneContact::look_for_passages(bool of_bodies, double time, std::span<cons
   const auto has_middle = [](const Obstacle& o) { return std::isfinite(o.half_thickness()); };
   if (has_warned(ContactWarning::Kind::comes_through, of_bodies)) return;
   if (!of_bodies && std::ranges::none_of(obstacles_->obstacles(), has_middle)) return;
-  auto& [now, before] = ways_[of_bodies ? 1 : 0];
+  std::vector<Way>&now = ways_[of_bodies ? 1 : 0].now, &before = ways_[of_bodies ? 1 : 0].before;
   now.swap(before);
   now.clear();
   if (of_bodies) {
