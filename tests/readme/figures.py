@@ -20,7 +20,7 @@ STEP = "results/2026-11-28-epyc-step/samples.jsonl"
 STEP_MESHES = "results/2026-11-27-xeon-step-meshes/samples.jsonl"
 LARGE_BODIES = "results/2026-11-28-epyc-large/samples.jsonl"
 CONTACT = "results/2026-11-27-epyc-contact-costs/samples.jsonl"
-BOUNCES = "results/2026-11-29-epyc-bounces/samples.jsonl"
+BOUNCES = "results/2026-11-29-xeon-bounces/samples.jsonl"
 ABLATION = "results/2026-11-28-epyc-ablation/samples.jsonl"
 SOLVERS = RUN + "solvers/samples.jsonl"
 AUDIT = RUN + "audit/samples.jsonl"
@@ -329,6 +329,14 @@ def regrets():
     return [a["actual_cost"] / a["best_cost"] for a in met() if a["swept"] and a["best_cost"]]
 
 
+def drawn():
+    return [r for r in lines(BOUNCES) if "drawn" in r]
+
+
+def small(number):
+    return ("%.1e" % number).replace("e-0", "e-")
+
+
 def operated():
     return [o for path in OPERATED for o in lines(path)]
 
@@ -504,6 +512,16 @@ FIGURES = [
     (RESULTS, "are left the restitution to within {} by Verlet", [BOUNCES], lambda: (two(worst_bounce()),)),
     (RESULTS, "by Verlet a box of {} kPa is left {} where half is asked for, and one of {} kPa {};", [BOUNCES],
      lambda: ("500", three(bounce("box, 500 kPa", 0.5)), "100", three(bounce("box, 100 kPa", 0.5)))),
+    (RESULTS, "in [{} scenes drawn at random]", [BOUNCES], lambda: ("{:,}".format(len(drawn())),)),
+    (RESULTS, "Of {} [scenes of contact drawn at random], by all integrators, {} ended regularly", [BOUNCES],
+     lambda: ("{:,}".format(len(drawn())), str(len([r for r in drawn() if r["ended"]])))),
+    (RESULTS, "all but {} of these by explicit Euler", [BOUNCES],
+     lambda: (str(len([r for r in drawn() if not r["ended"] and r["integrator"] != "explicit-euler"])),)),
+    (RESULTS, "pulled it, to {} of its speed, and no body another one by more than {}", [BOUNCES],
+     lambda: (small(max(r["pulled"] for r in drawn() if not r["bodies"])), two(max(r["pulled"] for r in drawn() if r["bodies"])))),
+    (RESULTS, "pushed upwards alone, to {} of the depth", [BOUNCES], lambda: (small(max(r["caught"] for r in drawn())),)),
+    (RESULTS, "{} times something came through a plate", [BOUNCES],
+     lambda: (str(len([r for r in drawn() if r["lost"]])) if all(r["warned"] for r in drawn() if r["lost"]) else "not all of them",)),
     (RESULTS, "Far from a plane a step over elements takes {} [{}, {}] of one without contact and far from the body itself {} [{}, {}]", [CONTACT],
      lambda: all_of(with_contact("elements far from a plane"), three) + all_of(with_contact("elements far from themselves"), three)
      + judged([with_contact("elements far from themselves")], 1.02, "falls short")),
