@@ -12,10 +12,11 @@
 
 namespace dartboard {
 
-/// A place on the boundary, the mean of its nodes: a vertex, or the middle of a face of three or four corners.
+/// A place on the boundary, the mean of its nodes: a vertex, or the middle of a face of three or four corners or of a
+/// link.
 struct SkinSample {
   std::array<std::uint32_t, 4> nodes{};  // vertex numbers; those from `count` on are 0
-  std::uint32_t count = 0;               // 1, 3 or 4
+  std::uint32_t count = 0;               // 1 to 4
   double area = 0.0;                     // [m^2] of the boundary at rest that it stands for, above 0
 
   std::span<const std::uint32_t> corners() const { return {nodes.data(), count}; }
@@ -32,6 +33,7 @@ Eigen::Vector3d mean_of(const SkinSample& sample, const Of& of) {
   const auto& n = sample.nodes;
   if (sample.count == 1) return of(n[0]);
   if (sample.count == 3) return (of(n[0]) + of(n[1]) + of(n[2])) / 3.0;
+  if (sample.count == 2) return 0.5 * (of(n[0]) + of(n[1]));
   return 0.25 * ((of(n[0]) + of(n[1])) + (of(n[2]) + of(n[3])));
 }
 

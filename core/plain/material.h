@@ -33,6 +33,7 @@ struct Material {
   double poisson = 0.25;    // of elements
   Model model = Model::springs;
   double damping_time = 0.0;  // s, of elements: their stress is that of the strain plus this times its rate
+  double width = 0.0;         // m, of a chain: its links touch obstacles as strips of this width
 };
 
 /// The damping time [s] that gives elements this damping ratio at this frequency [Hz]. An oscillation of omega [1/s]

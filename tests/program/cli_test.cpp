@@ -515,7 +515,13 @@ TEST(Recommend, WritesASceneThatSimulateRuns) {
   EXPECT_EQ(again.status, 3) << again.out;
   EXPECT_NE(again.out.find(written + ": exists; expected the name of a new file"), std::string::npos) << again.out;
   fs::remove(written);
-  EXPECT_EQ(run(recommend + " --error 1e-2").status, 2);
+  const Answer nowhere = run("recommend " + beam.path.string() + " --error 1e-3 --write " + written + ".d/beam.json");
+  EXPECT_EQ(nowhere.status, 3) << nowhere.out;
+  EXPECT_NE(nowhere.out.find(": there is no folder "), std::string::npos) << nowhere.out;
+  EXPECT_EQ(nowhere.out.find("pilots"), std::string::npos) << nowhere.out;
+  const Answer two_errors = run(recommend + " --error 1e-2");
+  EXPECT_EQ(two_errors.status, 2);
+  EXPECT_NE(two_errors.out.find("1 scene and 2 errors are given"), std::string::npos) << two_errors.out;
   EXPECT_EQ(run("recommend chain --error 1e-2 --write " + written).status, 2);
   EXPECT_EQ(run("recommend --audit --quick --write " + written).status, 2);
   EXPECT_FALSE(fs::exists(written));

@@ -274,6 +274,8 @@ void require_new(const fs::path& file) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(file, error)))
     throw IoError(fmt::format("{}: exists; expected the name of a new file", file.string()));
+  if (const fs::path folder = fs::absolute(file).parent_path(); !fs::is_directory(folder, error))
+    throw IoError(fmt::format("{}: there is no folder {}; expected one that exists", file.string(), folder.string()));
 }
 
 void write_scene(const RecommendedScene& scene, const fs::path& file) {

@@ -54,7 +54,7 @@ RecommendedScene recommended_scene(const TradeoffScene& studied, Recommendation&
 ///
 /// throws  IoError as require_new, and if the file cannot be written
 void write_scene(const RecommendedScene& scene, const std::filesystem::path& file);
-/// throws  IoError if there is something of that name
+/// throws  IoError if there is something of that name, or no folder for it
 void require_new(const std::filesystem::path& file);
 
 /// The errors of a Simulation of the scene, at those checkpoints of the study that are step boundaries: the last one at

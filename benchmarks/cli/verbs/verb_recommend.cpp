@@ -11,6 +11,7 @@
 #include "benchmarks/studies/models/model_advice_study.h"
 #include "benchmarks/studies/tradeoff/audit_study.h"
 #include "benchmarks/studies/tradeoff/recommend_study.h"
+#include "core/base/counted.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -51,8 +52,8 @@ void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
   if (!options.out.empty() && !plan.verify) throw InputError("--out: expected --verify or --audit with it");
   for (std::string& scene : plan.scenes) scene = study_scene_or_file(scene);
   if (!plan.write.empty() && (plan.errors.size() > 1 || plan.scenes.size() > 1))
-    throw InputError(fmt::format("--write: {} scenes and {} errors are given; expected one of each", plan.scenes.size(),
-                                 plan.errors.size()));
+    throw InputError(fmt::format("--write: {} and {} are given; expected one of each",
+                                 counted(plan.scenes.size(), "scene"), counted(plan.errors.size(), "error")));
   if (!plan.write.empty() && !plan.scenes[0].ends_with(".json"))
     throw InputError(fmt::format("--write: '{}' has no scene file; expected a scene that has one", plan.scenes[0]));
   run_study(

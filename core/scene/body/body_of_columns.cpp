@@ -25,6 +25,24 @@
 #include "core/views/skin_solids_view.h"
 
 namespace dartboard {
+namespace {
+
+/// The ends and the middles of links, by the areas of strips of these widths [m]: a sixth of a strip at each of its ends
+/// and the rest in its middle, which integrates cubic functions exactly.
+std::vector<SkinSample> samples_of_links(const std::vector<SpringEnds>& ends, const Springs& springs,
+                                         const CellMaterials& materials, std::size_t points) {
+  std::vector<SkinSample> samples(points), middles;
+  for (std::uint32_t p = 0; p < points; ++p) samples[p] = {{p}, 1, 0.0};
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double area = materials[k].width * springs[k].rest_length;
+    for (const std::uint32_t end : ends[k]) samples[end].area += area / 6.0;
+    middles.push_back({{ends[k][0], ends[k][1]}, 2, area / 1.5});
+  }
+  samples.insert(samples.end(), middles.begin(), middles.end());
+  return samples;
+}
+
+}  // namespace
 
 BodyOfColumns::BodyOfColumns(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell)
     : mesh_cell_(std::move(mesh_cell)) {
@@ -88,12 +106,18 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
   }
   vertices_.hold(problem.held_axes);
   if (needs.pull) vertices_.pull.assign(points.size(), Eigen::Vector3d(0, 0, 0));
-  if (needs.attached.empty()) return;
-  for (const Attachment& one : shared_by_mass(needs.attached, vertices_))
-    attached_.push_back(dartboard::attached(one, one.point));
-  attached_.shrink_to_fit();
-  attachment_ = make_attachments(attached_, vertices_.mass);
-  terms_.push_back(attachment_.get());
+  if (!needs.attached.empty()) {
+    for (const Attachment& one : shared_by_mass(needs.attached, vertices_))
+      attached_.push_back(dartboard::attached(one, one.point));
+    attached_.shrink_to_fit();
+    attachment_ = make_attachments(attached_, vertices_.mass);
+    terms_.push_back(attachment_.get());
+  }
+  if (!needs.obstacles.empty()) {
+    samples_ = samples_of_links(ends_, springs_, materials, points.size());
+    contact_ = make_contact(needs.obstacles, samples_);
+    terms_.push_back(contact_.get());
+  }
 }
 
 template <class Map>

@@ -40,7 +40,6 @@ BodyNeeds needs_of_part(const ProblemPart& part, const BodyNeeds& whole) {
     for (std::uint32_t k = 0; k < face.count; ++k) face.corner[k] = place_in(part.point, face.corner[k]);
     needs.pressed.push_back(face);
   }
-  if (!has_cells) needs.obstacles.clear();
   if (part.dimension != 3) needs.touches.clear();
   return needs;
 }

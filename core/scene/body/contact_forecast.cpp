@@ -23,13 +23,26 @@ double extent(std::span<const Vector3d> points, const Vector3d& along) {
   return points.empty() ? 0.0 : high - low;
 }
 
-/// [Pa] The least Young's modulus; infinite where a material has none, or the mesh is a surface.
-double least_young(const Problem& problem) {
-  double least = std::numeric_limits<double>::infinity();
-  if (problem.mesh.highest_dimension() == 2) return least;
-  for (const Material& material : problem.cell_materials().all())
-    if (material.young > 0.0) least = std::min(least, material.young);
-  return least;
+/// What is behind the boundary of the bodies.
+struct Behind {
+  double density = 0.0;  // [kg/m^3] the largest of solids
+  double surface = 0.0;  // [kg/m^2] the largest of surfaces, and of chains over their width
+  double young = std::numeric_limits<double>::infinity();  // [Pa] the least of solids that have one
+};
+
+Behind behind_boundaries(const Problem& problem) {
+  Behind behind;
+  const Mesh& mesh = problem.mesh;
+  const CellMaterials materials = problem.cell_materials();
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const Material& material = materials[c];
+    double& density = dimension(mesh.kinds[c]) == 3 ? behind.density : behind.surface;
+    density = std::max(density, material.density);
+    if (dimension(mesh.kinds[c]) == 3 && material.young > 0.0) behind.young = std::min(behind.young, material.young);
+  }
+  for (std::size_t k = mesh.cell_count(); k < mesh.cell_count() + mesh.links.size(); ++k)
+    if (materials[k].width > 0.0) behind.surface = std::max(behind.surface, materials[k].density / materials[k].width);
+  return behind;
 }
 
 /// Fills the share and the stiffness ratio of a forecast that has its depths.
@@ -45,9 +58,7 @@ class Forecaster {
       : scene_(scene),
         points_(problem.mesh.points),
         gravity_(problem.surroundings.gravity.norm()),
-        young_(least_young(problem)) {
-    surface_ = problem.mesh.highest_dimension() == 2;
-    for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
+        behind_(behind_boundaries(problem)) {
     if (gravity_ > 0.0) up_ = -problem.surroundings.gravity / gravity_;
     velocities_ = problem.initial_velocity;
     if (velocities_.empty()) velocities_.emplace_back(0, 0, 0);
@@ -60,14 +71,14 @@ class Forecaster {
   ContactForecast at(const SceneObstacle& one) const {
     const ContactLaw& law = one.law;
     ContactForecast f;
-    f.mass_behind = surface_ ? density_ : density_ * height(one);
+    f.mass_behind = std::max(behind_.density * height(one), behind_.surface);
     const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape);
     const double weight = plane == nullptr ? gravity_ : gravity_ * std::max(0.0, up_.dot(plane->normal));
     f.depth_at_rest = law.depth_at_rest(f.mass_behind * weight);
     const double own = own_speed(one), fall = fall_onto(one);
     f.speed = std::min(std::sqrt(own * own + 2.0 * gravity_ * fall), own + gravity_ * scene_.duration);
     f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    compare_with_law(f, law, young_, height(one));
+    compare_with_law(f, law, behind_.young, height(one));
     return f;
   }
 
@@ -122,9 +133,8 @@ class Forecaster {
 
   const SceneFile& scene_;
   std::span<const Vector3d> points_;
-  double gravity_, young_;
-  double density_ = 0.0;
-  bool surface_ = false;
+  double gravity_;
+  Behind behind_;
   Vector3d up_{0, 0, 0};
   std::vector<Vector3d> velocities_;  // initial and driven velocities of vertices
 };
@@ -132,8 +142,7 @@ class Forecaster {
 /// The forecast of contacts between bodies.
 class TouchForecaster {
  public:
-  TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene), young_(least_young(problem)) {
-    for (const Material& material : problem.cell_materials().all()) density_ = std::max(density_, material.density);
+  TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene), behind_(behind_boundaries(problem)) {
     const Vector3d& g = problem.surroundings.gravity;
     gravity_ = g.norm();
     const std::vector<std::size_t> first_cell = first_cells(scene);
@@ -178,13 +187,13 @@ class TouchForecaster {
     const bool itself = touch.first == touch.second;
     const double column = itself ? a.height() : std::min(heights_ - std::min(a.height(), b.height()), extent_);
     ContactForecast f;
-    f.mass_behind = density_ * column;
+    f.mass_behind = behind_.density * column;
     f.depth_at_rest = law.depth_at_rest(f.mass_behind * gravity_);
     const double both = a.speed + b.speed;
     const double fall = itself ? (changes_ ? a.height() : 0.0) : std::abs(a.high[0] - b.high[0]);
     f.speed = std::min(std::sqrt(both * both + 2.0 * gravity_ * fall), both + gravity_ * scene_.duration);
     f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    compare_with_law(f, law, young_, column);
+    compare_with_law(f, law, behind_.young, column);
     return f;
   }
 
@@ -196,8 +205,8 @@ class TouchForecaster {
   };
 
   const SceneFile& scene_;
-  double young_;
-  double density_ = 0.0, gravity_ = 0.0, heights_ = 0.0, extent_ = 0.0;
+  Behind behind_;
+  double gravity_ = 0.0, heights_ = 0.0, extent_ = 0.0;
   bool changes_ = false;  // the topology
   std::vector<Body> bodies_;
 };

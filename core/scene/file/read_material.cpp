@@ -44,7 +44,8 @@ Material read_material(const SceneValue& value) {
                     .viscosity = value.find<double>("viscosity").value_or(0.0),
                     .young = value.find<double>("young").value_or(0.0),
                     .poisson = value.find<double>("poisson").value_or(Material{}.poisson),
-                    .model = read_model(value)};
+                    .model = read_model(value),
+                    .width = value.find<double>("width").value_or(0.0)};
   if (material.model != Model::springs) material.stiffness = material.damping = 0.0;
   if (damping.json().is_object()) material.damping_time = read_damping_time(damping, material.model);
   return material;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -73,6 +74,19 @@ double stiffness_of_young(const SceneFile& scene, const Mesh& mesh, const SceneF
   return mean;
 }
 
+/// Chains beside obstacles have a width, and nothing else has one.
+void require_widths(const SceneFile& scene, std::span<const SceneFile::Tissue> tissues,
+                    const std::function<bool(std::size_t)>& is_of_a_chain) {
+  for (std::size_t k = 0; k < tissues.size(); ++k) {
+    const bool has_width = tissues[k].material.width > 0.0;
+    if (has_width && !is_of_a_chain(k))
+      scene.fail(tissues[k].path + "/width", "is given, and no chain is made of this material", "no such key");
+    if (!has_width && is_of_a_chain(k) && !scene.obstacles.empty())
+      scene.fail(tissues[k].path, "has no 'width', and a chain of it is beside /contact/obstacles",
+                 "the width of its links [m], as that of a strip that touches them");
+  }
+}
+
 }  // namespace
 
 Model model_of(const SceneFile::Tissue& tissue, int dimension) {
@@ -140,6 +154,7 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
     problem.materials.push_back(material);
     problem.materials.back().viscosity = scene.material.viscosity;
   }
+  require_widths(scene, tissues, [&](std::size_t tissue) { return cells_of_material.contains({tissue, -1}); });
   problem.material = problem.materials.front();
   if (problem.materials.size() == 1) {
     problem.materials.clear();

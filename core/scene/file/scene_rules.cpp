@@ -111,8 +111,6 @@ std::span<const Rule> rules_between_keys() {
        "cannot be combined with /body/generate/chain", "cells"},
       {events, [](S s) { return breach_if(s.is_chain(), s.key_beside_edges()); },
        "cannot be combined with /body/generate/chain, which has no cells", "cells"},
-      {events, [](S s) { return breach_if(s.is_chain() && s.has_contact(), "/contact"); },
-       "cannot be combined with /body/generate/chain, which has no surface", "cells"},
 
       // ---- contact
       {events,

@@ -308,7 +308,6 @@ class Planner {
                     : damps ? "; restitution around each step"
                             : ""),
         why);
-    if (!problem_.mesh.links.empty()) leave_out("contact of chains", source_of(scene_) + ": links have no surface");
     if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
     ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));

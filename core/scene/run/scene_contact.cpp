@@ -23,11 +23,11 @@ using Eigen::Vector3d;
 std::string place_in_words(std::span<const std::uint32_t> nodes) {
   if (nodes.size() == 1) return vertex_in_words(nodes[0]);
   if (std::ranges::find(nodes, no_point) != nodes.end()) return "the middle of a face that refinement made";
-  return fmt::format("the middle of the face of vertices {} and {}", fmt::join(nodes.first(nodes.size() - 1), ", "),
+  return fmt::format("the middle of the {} of vertices {} and {}", nodes.size() == 2 ? "link" : "face", fmt::join(nodes.first(nodes.size() - 1), ", "),
                      nodes.back());
 }
 
-/// [m] The largest distance of a place on an edge of the sample's face from the nearest of the face's corners and its
+/// [m] The largest distance of a place on an edge of the sample's face, or on its link, from the nearest of the face's corners and its
 /// middle, which are all sampled; 0 for a vertex. Places inside are nearer.
 double farthest_on_face(const SkinSample& sample, std::span<const Vector3d> x) {
   if (sample.count == 1) return 0.0;

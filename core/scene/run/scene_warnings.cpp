@@ -42,9 +42,6 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
     for (std::uint32_t& vertex : warning.nodes) vertex = simulation.file_number(vertex);
     said.push_back(to_string(warning, obstacles, bodies));
   }
-  for (const BodySource& one : scene.bodies())
-    if (scene.has_contact() && std::holds_alternative<ChainMesh>(one.mesh))
-      said.push_back(one.path + " is a chain, which has no surface: it touches neither obstacles nor bodies");
   for (const StiffBody& body : simulation.stiff_bodies()) said.push_back(to_string(body));
   for (const SelectionCount& count : simulation.selections())
     if (count.just_outside > 0) said.push_back(near_miss(count));

@@ -72,7 +72,7 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = scene, .name = "attachments", .type = objects, .of = attachment, .standard = "[]",
        .help = "vertices that springs hold to a body or to the places where they are at rest"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
-       .help = "contact of bodies with obstacles, with each other and with themselves; not of chains. "
+       .help = "contact of bodies with obstacles, with each other and with themselves; of chains with obstacles. "
                "Without it bodies pass through each other and through themselves"},
       {.shape = scene, .name = "step", .type = real, .unit = "s", .range = positive, .help = "time step"},
       {.shape = scene, .name = "accuracy", .type = real, .unit = "mean edge lengths", .range = positive,
@@ -206,6 +206,8 @@ std::vector<SceneKey> keys_by_hand() {
                "zeta^2)) in a period. Of others it is in proportion to their frequency"},
       {.shape = damping, .name = "frequency", .type = real, .unit = "Hz", .range = positive, .required = true,
        .help = "where the ratio is that"},
+      {.shape = material, .name = "width", .type = real, .unit = "m", .range = positive,
+       .help = "of a chain beside /contact/obstacles: its links touch them as strips of this width do"},
       {.shape = material, .name = "viscosity", .type = real, .unit = "1/s", .range = not_negative, .standard = "0.1",
        .help = "ambient drag over mass and velocity"},
       {.shape = region, .name = "cells", .type = object, .of = cell_selection, .required = true,
@@ -561,7 +563,8 @@ std::span<const ShapeHelp> scene_shapes() {
        "A ball: the octahedral layers of a lattice, each pushed out to a sphere. All cells are well shaped."},
       {Shape::chain_mesh, "chain_mesh",
        "A chain has links and no cells, so nothing can happen to it except that fixed points are released. In place of "
-       "the largest principal stress it has the largest tension [N]. Its ends can be attached to other bodies."},
+       "the largest principal stress it has the largest tension [N]. Its ends can be attached to other bodies, and it touches "
+       "obstacles, but no bodies."},
       {Shape::material, "material", "A homogeneous mass/spring material."},
       {Shape::tissue, "tissue",
        "The material of some of the cells: what a 'material' has, except the viscosity, which is that of what "

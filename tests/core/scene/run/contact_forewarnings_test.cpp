@@ -102,16 +102,5 @@ TEST(ContactForewarnings, NameARestitutionThatABodyDoesNotKeep) {
   EXPECT_TRUE(between[0].starts_with("the restitution 0.5 at /bodies/1 is that of places")) << between[0];
 }
 
-TEST(ContactForewarnings, NameChainsBesideBodiesThatTouch) {
-  Json scene = box_on(R"({"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}})", 2000, 0.002);
-  scene["bodies"] = {scene["body"], {{"generate", {{"chain", {{"links", 4}, {"spacing", 0.01}}}}}}};
-  scene["bodies"][1]["material"] = {{"density", 0.1}, {"stiffness", 100}};
-  scene["bodies"][1]["translate"] = {0.1, 0, 0.01};
-  scene.erase("body");
-  const auto warnings = warnings_before(scene);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0], "/bodies/1 is a chain, which has no surface: it touches neither obstacles nor bodies");
-}
-
 }  // namespace
 }  // namespace dartboard::contact_forewarnings_test
