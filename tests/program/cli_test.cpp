@@ -444,13 +444,13 @@ TEST(Explain, SaysWhatEveryPartOfASceneTakes) {
   EXPECT_EQ(json.at("map"), "2-g-map");
   EXPECT_FALSE(json.contains("unplanned"));
   EXPECT_GT(json.at("measured").at("ns_per_step"), 0.0);
+  EXPECT_EQ(json.at("measured").at("steps"), json.at("steps"));
   std::size_t bytes = 0;
   for (const auto& item : json.at("plan")) {
     bytes += item.at("bytes").get<std::size_t>();
     EXPECT_FALSE(item.at("why").get<std::string>().empty()) << item;
   }
   EXPECT_EQ(json.at("bytes"), bytes);
-  EXPECT_GT(json.at("ns_per_step"), 0.0);
 }
 
 TEST(Explain, SaysWhatIsLeftOutAndWhy) {

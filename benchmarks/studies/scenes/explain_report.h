@@ -1,6 +1,7 @@
 #pragma once
-// The report of `dartboard explain` on a plan, and on the time that was measured to compare with.
+// The report of `dartboard explain` on a plan, and on the time that its first steps took.
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -10,9 +11,14 @@
 
 namespace dartboard {
 
-/// With --measure, `measured_ns` is the time of a step: events and output included, at the pace of the estimate;
-/// nothing is written.
-std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<double>& measured_ns);
-nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan, const std::optional<double>& measured_ns);
+/// With --measure: the processor time of the first steps of the run, with their events and output; nothing is written.
+struct MeasuredSteps {
+  std::uint64_t steps = 0;
+  double ns = 0.0;  // of one
+};
+
+std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<MeasuredSteps>& measured);
+nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
+                               const std::optional<MeasuredSteps>& measured);
 
 }  // namespace dartboard

@@ -82,79 +82,25 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
     const auto of_cells = [&](const CellSelection& cells, double most) {
       const double each = std::min(selected(cells, mesh), most);
       f.operations = std::min(repeats(cells) ? times * each : each, most);
-      f.with_operations = each > 0.0 ? std::min(times, std::ceil(f.operations / each)) : 0.0;
     };
     std::visit(
         Overloads{[&](const Dissociate& dissociate) {
                     f.operations = facets_of(dissociate, mesh, counts);
-                    f.with_operations = f.operations > 0.0 ? std::min(times, 1.0) : 0.0;
                   },
                   [&](const Remove& remove) {
                     of_cells(remove.cells, left);
                     left -= f.operations;
                   },
-                  [&](const Tear&) { f.operations = f.with_operations = times; },
+                  [&](const Tear&) { f.operations = times; },
                   [](const TearWhereStressed&) {},  // the motion decides
                   [&](const Refine& refine) { of_cells(refine.cells, static_cast<double>(counts.cells) * times); },
                   [&](const Release& release) {
                     f.operations = static_cast<double>(select_points(release.vertices, mesh.points, event.path).size());
-                    f.with_operations = std::min(times, 1.0);
                   }},
         event.action);
     forecasts.push_back(f);
   }
   return forecasts;
-}
-
-MeanSizes mean_sizes(const SceneFile& scene, const Mesh& mesh, const MeshTally& counts) {
-  std::map<std::uint64_t, double> removed;  // by step: cells
-  for (const SceneEvent& event : scene.events)
-    if (const auto* remove = std::get_if<Remove>(&event.action)) {
-      const double each = selected(remove->cells, mesh);
-      double sum = 0.0;
-      for_each_time(event, scene, [&](std::uint64_t step) {
-        removed[step] += each;
-        sum += each;
-        return repeats(remove->cells) && sum < static_cast<double>(counts.cells);
-      });
-    }
-  MeanSizes mean;
-  const auto steps = static_cast<double>(step_count(scene));
-  if (removed.empty() || steps == 0.0 || counts.cells == 0) return mean;
-
-  std::map<std::pair<std::uint32_t, bool>, double> edges;  // how many edges have (number of cells, on the boundary)
-  for (std::size_t e = 0; e < counts.edges; ++e)
-    edges[{counts.cells_of_edge[e], counts.edge_on_boundary[e] != 0}] += 1.0;
-  const double around_vertex = static_cast<double>(mesh.nodes.size()) / static_cast<double>(counts.vertices);
-  // with a share p of the cells left: runs of cells around an edge, parts of a vertex
-  const auto springs_at = [&](double p) {
-    double sum = 0.0;
-    for (const auto& [kind, count] : edges) {
-      const double n = kind.first;
-      sum += count * (kind.second ? p + (n - 1.0) * p * (1.0 - p) : n * p * (1.0 - p) + std::pow(p, n));
-    }
-    return sum / static_cast<double>(counts.edges);
-  };
-  const auto vertices_at = [around_vertex](double p) {
-    const double alone = std::pow(1.0 - p, 3.0);  // a cell without a neighbour at the vertex
-    return around_vertex * p * alone + 1.0 - std::pow(1.0 - p * (1.0 - alone), around_vertex);
-  };
-
-  mean = {0.0, 0.0, 0.0};
-  double left = 1.0, since = 0.0;
-  const auto go_to = [&](double step) {
-    const double share = (step - since) / steps;
-    mean.springs += share * springs_at(left);
-    mean.vertices += share * vertices_at(left);
-    mean.cells += share * left;
-    since = step;
-  };
-  for (const auto& [step, cells] : removed) {
-    go_to(static_cast<double>(step));
-    left = std::max(0.0, left - cells / static_cast<double>(counts.cells));
-  }
-  go_to(steps);
-  return mean;
 }
 
 }  // namespace dartboard

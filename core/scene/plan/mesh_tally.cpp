@@ -21,15 +21,14 @@ class FirstMet {
   using Key = std::array<std::uint32_t, n>;
   explicit FirstMet(std::size_t points) : head_(points, none) {}
 
-  /// The number of the tuple, and whether it is new.
-  std::pair<std::uint32_t, bool> number(Key key) {
+  std::uint32_t number(Key key) {
     std::sort(key.begin(), key.end());
     for (std::uint32_t k = head_[key[0]]; k != none; k = met_[k].next)
-      if (met_[k].key == key) return {k, false};
+      if (met_[k].key == key) return k;
     met_.push_back({key, head_[key[0]]});
-    head_[key[0]] = static_cast<std::uint32_t>(met_.size() - 1);
-    return {head_[key[0]], true};
+    return head_[key[0]] = static_cast<std::uint32_t>(met_.size() - 1);
   }
+  std::size_t count() const { return met_.size(); }
 
  private:
   struct Met {
@@ -47,26 +46,16 @@ MeshTally tally_of_chains(const Mesh& mesh) {
   DisjointSets together(t.vertices);
   t.point.resize(t.vertices);
   std::iota(t.point.begin(), t.point.end(), 0u);
-  for (const auto& [a, b] : mesh.links) {
-    t.ends.push_back({a, b});
-    together.join(a, b);
-  }
+  for (const auto& [a, b] : mesh.links) together.join(a, b);
   t.components = together.count();
-  t.cells_of_edge.assign(t.edges, 1);  // a link is a cell of its own
-  t.edge_on_boundary.assign(t.edges, 0);
   return t;
 }
 
 /// Add the counts of another part of a mesh, whose points and cells have these numbers in it.
 void append(MeshTally& t, const MeshTally& part, std::span<const std::uint32_t> point,
             std::span<const std::uint32_t> cell) {
-  const auto first = static_cast<std::uint32_t>(t.vertices);
   for (const std::uint32_t p : part.point) t.point.push_back(point[p]);
-  for (const auto& [a, b] : part.ends) t.ends.push_back({first + a, first + b});
   for (const auto& [a, b] : part.cells_of_facet) t.cells_of_facet.push_back({cell[a], cell[b]});
-  const auto add_column = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  add_column(t.cells_of_edge, part.cells_of_edge);
-  add_column(t.edge_on_boundary, part.edge_on_boundary);
   for (const auto count :
        {&MeshTally::vertices, &MeshTally::edges, &MeshTally::faces, &MeshTally::cells, &MeshTally::darts,
         &MeshTally::components, &MeshTally::boundary_facets, &MeshTally::boundary_corners})
@@ -85,7 +74,7 @@ MeshTally tally_of(const Mesh& mesh) {
   }
   if (!mesh.links.empty()) return tally_of_chains(mesh);
   t.cells = mesh.cell_count();
-  std::vector<std::uint32_t> vertex_of(mesh.points.size(), none), last_cell;  // last_cell: by edge
+  std::vector<bool> has_point(mesh.points.size(), false);
   FirstMet<2> edges(mesh.points.size());
   FirstMet<4> faces(mesh.points.size());
   DisjointSets together(t.cells);  // by facets
@@ -94,8 +83,7 @@ MeshTally tally_of(const Mesh& mesh) {
   struct Facet {
     std::uint32_t cell, cells, corners;
   };
-  std::vector<Facet> facets;               // by face of a solid, edge of a surface
-  std::vector<std::uint32_t> facet_edges;  // by face of a solid: its edges, 4 places each
+  std::vector<Facet> facets;  // by face of a solid, edge of a surface
   const auto meet_facet = [&t, &facets, &together](std::uint32_t number, std::uint32_t cell, std::size_t corners) {
     if (number == facets.size()) {
       facets.push_back({cell, 1, static_cast<std::uint32_t>(corners)});
@@ -110,47 +98,30 @@ MeshTally tally_of(const Mesh& mesh) {
     const auto node = mesh.cell(c);
     for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
       const std::size_t corners = cycle.size();
-      std::array<std::uint32_t, 4> face{none, none, none, none}, around{none, none, none, none};
+      std::array<std::uint32_t, 4> face{none, none, none, none};
       for (std::size_t k = 0; k < corners; ++k) {
         const std::uint32_t a = node[static_cast<std::size_t>(cycle[k])],
                             b = node[static_cast<std::size_t>(cycle[(k + 1) % corners])];
         face[k] = a;
-        for (const std::uint32_t p : {a, b})
-          if (vertex_of[p] == none) {
-            vertex_of[p] = static_cast<std::uint32_t>(t.point.size());
-            t.point.push_back(p);
-          }
-        const auto [edge, is_new] = edges.number({a, b});
-        if (is_new) {
-          t.ends.push_back({vertex_of[a], vertex_of[b]});
-          t.cells_of_edge.push_back(0);
-          last_cell.push_back(none);
+        for (const std::uint32_t p : {a, b}) {
+          if (!has_point[p]) t.point.push_back(p);
+          has_point[p] = true;
         }
-        if (last_cell[edge] != c) ++t.cells_of_edge[edge];
-        last_cell[edge] = c;
-        around[k] = edge;
+        const std::uint32_t edge = edges.number({a, b});
         if (!solid) meet_facet(edge, c, 2);
       }
       t.darts += 2 * corners;
-      if (!solid) continue;
-      const auto [number, is_new] = faces.number(face);
-      meet_facet(number, c, corners);
-      if (is_new) facet_edges.insert(facet_edges.end(), around.begin(), around.end());
+      if (solid) meet_facet(faces.number(face), c, corners);
     }
   }
   t.vertices = t.point.size();
-  t.edges = t.ends.size();
+  t.edges = edges.count();
   t.faces = solid ? facets.size() : t.cells;
   t.components = together.count();
-  t.edge_on_boundary.assign(t.edges, 0);
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    if (facets[f].cells != 1) continue;
+  for (const Facet& facet : facets) {
+    if (facet.cells != 1) continue;
     ++t.boundary_facets;
-    t.boundary_corners += facets[f].corners;
-    const std::span<const std::uint32_t> around =
-        solid ? std::span(facet_edges).subspan(4 * f, facets[f].corners) : std::span<const std::uint32_t>();
-    for (const std::uint32_t edge : around) t.edge_on_boundary[edge] = 1;
-    if (!solid) t.edge_on_boundary[f] = 1;
+    t.boundary_corners += facet.corners;
   }
   return t;
 }

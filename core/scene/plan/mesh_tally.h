@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "core/plain/mesh.h"
-#include "core/views/spring_ends.h"
 
 namespace dartboard {
 
-/// The counts of the map of a mesh, and its edges by the numbers that a body will give them.
+/// The counts of the map of a mesh, and its vertices by the numbers that a body will give them.
 ///
-/// Bodies number vertices and edges by their lowest dart (`build_body`), and darts are made cell by cell in the order
+/// Bodies number vertices by their lowest dart (`build_body`), and darts are made cell by cell in the order
 /// of `faces_of`: so numbers follow the order of first appearance. Points and pairs of points are counted:
 /// the mesh of a body has a point for each vertex (split_touching_points), and two edges between the same two points
 /// are one here.
@@ -24,9 +23,6 @@ struct MeshTally {
   std::size_t boundary_facets = 0, boundary_corners = 0;  // faces of a solid, edges of a surface, with one cell
 
   std::vector<std::uint32_t> point;                          // by vertex: its point of the mesh
-  std::vector<SpringEnds> ends;                              // by edge
-  std::vector<std::uint32_t> cells_of_edge;                  // by edge: the number of cells around it
-  std::vector<std::uint8_t> edge_on_boundary;                // by edge
   std::vector<std::array<std::uint32_t, 2>> cells_of_facet;  // of those between two cells
 };
 

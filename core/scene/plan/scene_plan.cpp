@@ -57,7 +57,6 @@ class Planner {
     plan_.map = plan_.needs.body.topology_changes ? map_name(plan_.needs.body.storage) : "no map";
     plan_.steps = step_of_time(scene.duration, scene.step);
     plan_.events = forecast_events(scene, problem.mesh, plan_.counts);
-    plan_.mean = mean_sizes(scene, problem.mesh, plan_.counts);
     selections();
     for (const StiffBody& body : find_stiff_bodies(scene, problem)) plan_.remarks.push_back(to_string(body));
     if (const std::string direction = direction_in_words(scene, problem.mesh); !direction.empty())
@@ -179,9 +178,9 @@ class Planner {
     vertices.apply(0.0, scene_.step, arrays.body().vertices().point, arrays.v);
     DivergenceDetector detector;
     detector.start(arrays.system(), arrays.motion(), scene_.step);
-    plan_.driven_springs = detector.driven_springs();
     add(Part::driven,
-        fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(), plan_.driven_springs),
+        fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(),
+                    detector.driven_springs()),
         fmt::format("/driven: {} selections", scene_.driven.size()));
   }
 
@@ -354,7 +353,6 @@ class Planner {
     what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
                                                                 : fmt::format(", some {:.0f} operations", f.operations);
     add(Part::event, std::move(what), e.action_path());
-    plan_.items.back().event = k;
   }
 
   void output() {
@@ -449,12 +447,6 @@ std::size_t ScenePlan::bytes() const {
   std::size_t sum = 0;
   for (const PlanItem& item : items) sum += item.bytes;
   for (const MemoryItem& item : unplanned) sum += item.bytes;
-  return sum;
-}
-
-double ScenePlan::ns() const {
-  double sum = 0.0;
-  for (const PlanItem& item : items) sum += item.ns;
   return sum;
 }
 

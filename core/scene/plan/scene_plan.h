@@ -1,5 +1,5 @@
 #pragma once
-// The plan of a scene before anything runs: what will be built, which key requires it, what it costs, and what no key
+// The plan of a scene before anything runs: what will be built, which key requires it, its bytes, and what no key
 // requires.
 
 #include <cstdint>
@@ -22,9 +22,6 @@ struct PlanItem {
   std::string what;       // "48 bytes of mass, position ... by vertex"
   std::string why;        // "/material/damping: 0.05"
   std::size_t bytes = 0;  // as Part says; of the built body (add_bytes)
-  double ns = 0.0;        // per step, averaged over the run; an estimate (unit_costs.h)
-  double ns_below = 0.0;  // if the time was too short to be measured: it is less than this, and ns is 0
-  std::size_t event = 0;  // of Part::event: which one
 };
 
 /// One part that will not be built, because no key requires it.
@@ -36,13 +33,7 @@ struct LeftOut {
 /// region at rest, faces named or across a plane at rest. The effect of tearing by stress is not known.
 struct EventForecast {
   std::uint64_t times = 0;
-  double operations = 0.0;       // in all
-  double with_operations = 0.0;  // number of times with an operation
-};
-
-/// Sizes of the body over those at the start, averaged over the steps of the run.
-struct MeanSizes {
-  double springs = 1.0, vertices = 1.0, cells = 1.0;
+  double operations = 0.0;  // in all
 };
 
 /// The contact expected before anything moves.
@@ -62,8 +53,6 @@ struct ScenePlan {
   MeshTally counts;
   std::uint64_t steps = 0;
   std::vector<EventForecast> events;
-  MeanSizes mean;
-  std::size_t driven_springs = 0;  // at driven vertices that move at the start
   std::optional<ContactPlan> contact;
   std::vector<PlanItem> items;
   std::vector<LeftOut> left_out;
@@ -72,10 +61,9 @@ struct ScenePlan {
   MemoryReport unplanned;                  // parts with bytes that no item names: empty, if the plan is right
 
   std::size_t bytes() const;
-  double ns() const;
 };
 
-/// Everything but the bytes (measured_plan.h) and the times (unit_costs.h).
+/// Everything but the bytes (measured_plan.h).
 ///
 /// throws  InputError as make_problem does
 /// cost    a pass over the mesh; with driven vertices a body is built
