@@ -2,6 +2,7 @@
 // One mass/spring problem: all the input of a contender, and the mechanics that all of them must agree on.
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,19 @@ struct HeldPoint {
   std::uint32_t point;
   HeldAxes axes;
   friend bool operator==(const HeldPoint&, const HeldPoint&) = default;
+};
+
+/// Where the points, cells and links of each of several bodies begin in a mesh, and after the last of them their
+/// number.
+struct BodyRanges {
+  std::vector<std::size_t> point{0}, cell{0}, link{0};
+
+  std::size_t count() const { return cell.size() - 1; }
+  void end_body_at(std::size_t points, std::size_t cells, std::size_t links) {
+    point.push_back(points);
+    cell.push_back(cells);
+    link.push_back(links);
+  }
 };
 
 /// A body at rest in `mesh`, with initial velocities, some vertices held still.
@@ -44,6 +58,7 @@ struct Problem {
   std::vector<Eigen::Vector3d> initial_velocity;  // [m/s] per point; empty for rest
   double h = 1e-3;                                // time step [s]
   std::vector<HeldPoint> held_axes{};             // by ascending point; not for fixed points
+  BodyRanges bodies{};                            // of a scene; none where the problem comes from elsewhere
 
   CellMaterials cell_materials() const { return {material, materials, cell_material}; }
 };

@@ -49,7 +49,7 @@ void look_at_overlaps(const SceneFile& scene, const std::vector<std::size_t>& fi
 
 ContactRun judge_run(const SceneFile& scene, std::size_t looks, const std::function<void(Simulation&)>& meddles) {
   Simulation simulation(scene);
-  const std::vector<std::size_t> first_cell = first_cells(scene);
+  const std::vector<std::size_t> first_cell = make_problem(scene).bodies.cell;
   ContactRun run{.scene = scene.name,
                  .allowed = scene.touches.front().law.depth,
                  .alone = scene.obstacles.empty() && scene.gravity.isZero(0.0) && scene.fixed.empty() &&

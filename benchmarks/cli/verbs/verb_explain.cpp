@@ -74,8 +74,7 @@ void explain(const ExplainOptions& options, Outcome& outcome) {
 void add_explain(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<ExplainOptions>();
   auto* verb = app.add_subcommand(
-      "explain",
-      "The plan of a scene before it runs: what will be there and why, its bytes, what is left out.");
+      "explain", "The plan of a scene before it runs: what will be there and why, its bytes, what is left out.");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
       ->required();
   verb->add_flag("--measure", options->measure, "run it for up to a second, three times, and print the time of a step");

@@ -97,11 +97,12 @@ std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::op
       "Bytes are those of the elements of all containers that live as long as the run, asked of the body as it was "
       "built; of a factor, its numbers.\n";
   if (!measured) return text;
-  return text + fmt::format(
-                    "\nMeasured: {:.0f} ns of processor time per step, with events and output, over {} of {} steps; the "
-                    "median of three runs.\n",
-                    measured->ns, measured->steps == plan.steps ? "all" : fmt::format("the first {}", measured->steps),
-                    plan.steps);
+  return text +
+         fmt::format(
+             "\nMeasured: {:.0f} ns of processor time per step, with events and output, over {} of {} steps; the "
+             "median of three runs.\n",
+             measured->ns, measured->steps == plan.steps ? "all" : fmt::format("the first {}", measured->steps),
+             plan.steps);
 }
 
 nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
@@ -121,8 +122,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
   json["remarks"] = plan.remarks;
   json["plan"] = json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)
-    json["plan"].push_back(
-        {{"part", name(item.part)}, {"what", item.what}, {"why", item.why}, {"bytes", item.bytes}});
+    json["plan"].push_back({{"part", name(item.part)}, {"what", item.what}, {"why", item.why}, {"bytes", item.bytes}});
   if (plan.contact) {
     const auto or_null = [](double x) {
       return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json();

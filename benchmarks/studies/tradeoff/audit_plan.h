@@ -26,6 +26,7 @@ struct AuditCase {
   TradeoffScene scene;
   std::vector<double> errors;  // [edges]
   AuditCheck check = AuditCheck::reference_and_sweep;
+  double budget_s = 0.0;  // [s] of the pilots of a recommendation; 0: by its rule
 };
 
 /// [s] The longest time allowed for a run of the sweep, if the dearest pick takes that long. A run that takes longer
@@ -39,8 +40,6 @@ class AuditCases {
   AuditCases(AuditKind kind, std::uint64_t seed, bool quick, std::vector<std::filesystem::path> gallery = {});
 
   std::uint64_t size() const;
-  /// [s] The budget of the pilots of a recommendation; 0: by its rule.
-  double budget_s() const { return kind_ == AuditKind::long_motions ? 0.03 : 0.0; }
   /// pre     fewer than size() were drawn
   AuditCase next();
 

@@ -18,7 +18,7 @@ struct AuditedPair {
   std::string reference;     // name(ReferenceKind)
   double floor = 0.0;        // [edges] smaller errors cannot be resolved
   std::string pick;          // empty when nothing was recommended, or nothing followed
-  bool followed = true;      // else the run recommended takes longer than an audit can
+  bool followed = true;      // else its pilots or its run take longer than an audit can
   std::string confidence;    // of the pick
   RunSetting setting;        // of the pick
   double seen_part = 1.0;    // of the duration, by the pilots of the pick

@@ -43,8 +43,8 @@ WorkPrecision sweep_for(AuditKind kind, const AuditCase& drawn, const SceneRefer
   return work_precision(drawn.scene, reference, all, thread_cpu_ns, how);
 }
 
-std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double budget_s, StudyLog& log) {
-  const auto& [scene, errors, check] = drawn;
+std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, StudyLog& log) {
+  const auto& [scene, errors, check, budget_s] = drawn;
   const bool is_long = kind == AuditKind::long_motions;
   std::vector<Recommendation> all;
   for (const double error : errors) all.push_back(recommend(scene, error, thread_cpu_ns, {.budget_s = budget_s}));
@@ -65,7 +65,10 @@ std::vector<AuditedPair> follow(AuditKind kind, const AuditCase& drawn, double b
     p.audit.error = r.error;
     p.audit.pilot_s = r.pilot_s;
     const Candidate* pick = r.pick();
-    if (pick != nullptr && pick->predicted_s > longest_run_s) {
+    if (pick == nullptr && !is_long && budget_s > 0.0) {
+      p.followed = false;
+      p.confidence = fmt::format("no pilots within {:.0f} s", budget_s);
+    } else if (pick != nullptr && pick->predicted_s > longest_run_s) {
       p.followed = false;
       p.confidence = fmt::format("{} for {:.0f} s: too long to follow", pick->contender, pick->predicted_s);
     } else if (pick != nullptr) {
@@ -101,7 +104,8 @@ constexpr std::string_view reading =
     "time. The seconds that were predicted are the predicted cost in force evaluations times what one takes around the run, so that a machine "
     "that is busier than during the pilots does not count. Regret is the cost of the pick over that of the cheapest "
     "setting of a sweep of all methods, interpolated between steps; the sweep leaves out what takes longer than 2.2 "
-    "times the dearest pick of the scene. Some scenes are followed for their costs only; the last ones are those of the gallery.";
+    "times the dearest pick of the scene. Some scenes are followed for their costs only; the last ones are those of the gallery, of which those "
+    "whose pilots are whole runs have 40 s for the pilots of each error. Runs predicted to take longer than 15 s are not followed.";
 
 constexpr std::string_view reading_of_long_motions =
     "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, the largest of eight checkpoints, "
@@ -125,7 +129,7 @@ Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, const std::ve
   log.begin(is_long ? "audit of long motions" : "audit", cases.size());
   for (std::uint64_t k = 0; k < cases.size(); ++k) {
     const AuditCase drawn = cases.next();
-    for (const AuditedPair& p : follow(kind, drawn, cases.budget_s(), log)) {
+    for (const AuditedPair& p : follow(kind, drawn, log)) {
       log.sample(json_of(p));
       report.numbers["pairs"].push_back(nlohmann::ordered_json(json_of(p)));
       pairs.push_back(p);

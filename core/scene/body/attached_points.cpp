@@ -202,11 +202,9 @@ void attach(const SceneFile& scene, const SceneAttachment& to, const Mesh& mesh,
 
 }  // namespace
 
-std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Mesh& mesh) {
+std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
   std::vector<AttachedPoints> all;
-  if (scene.attachments.empty()) return all;
-  const bool to_bodies = std::ranges::any_of(scene.attachments, [](const auto& one) { return one.to.has_value(); });
-  const std::vector<std::size_t> first_cell = to_bodies ? first_cells(scene) : std::vector<std::size_t>{};
   for (const SceneAttachment& one : scene.attachments) {
     AttachedPoints held{.stiffness = one.stiffness};
     const std::vector<std::uint32_t> selected = [&] {
@@ -219,10 +217,7 @@ std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Mesh&
       }
     }();
     for (const std::uint32_t p : selected) held.points.push_back({.point = p, .place = mesh.points[p]});
-    if (one.to) {
-      const std::size_t last = *one.to + 1 < first_cell.size() ? first_cell[*one.to + 1] : mesh.cell_count();
-      attach(scene, one, mesh, first_cell[*one.to], last, held.points);
-    }
+    if (one.to) attach(scene, one, mesh, problem.bodies.cell[*one.to], problem.bodies.cell[*one.to + 1], held.points);
     all.push_back(std::move(held));
   }
   return all;

@@ -5,7 +5,7 @@
 
 #include "core/elements/attachments.h"
 #include "core/mechanics/vertex_columns.h"
-#include "core/plain/mesh.h"
+#include "core/plain/problem.h"
 #include "core/scene/file/scene_file.h"
 
 namespace dartboard {
@@ -25,7 +25,7 @@ struct AttachedPoints {
 ///         for a point farther away than the longest edge of that cell, or out of the plane of the triangle by more
 ///         than a millionth of that edge: its spring would have a force at rest
 /// cost    O(cells of targets + attached points times their 64th part)
-std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Mesh& mesh);
+std::vector<AttachedPoints> find_attachments(const SceneFile& scene, const Problem& problem);
 
 /// All of them with the shares of their stiffness, in proportion to the masses of the vertices.
 ///

@@ -27,8 +27,8 @@
 namespace dartboard {
 namespace {
 
-/// The ends and the middles of links, by the areas of strips of these widths [m]: a sixth of a strip at each of its ends
-/// and the rest in its middle, which integrates cubic functions exactly.
+/// The ends and the middles of links, by the areas of strips of these widths [m]: a sixth of a strip at each of its
+/// ends and the rest in its middle, which integrates cubic functions exactly.
 std::vector<SkinSample> samples_of_links(const std::vector<SpringEnds>& ends, const Springs& springs,
                                          const CellMaterials& materials, std::size_t points) {
   std::vector<SkinSample> samples(points), middles;

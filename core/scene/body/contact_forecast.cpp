@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/file/scene_problem.h"
 #include "core/scene/file/selections/selection.h"
 
 namespace dartboard {
@@ -145,15 +144,12 @@ class TouchForecaster {
   TouchForecaster(const SceneFile& scene, const Problem& problem) : scene_(scene), behind_(behind_boundaries(problem)) {
     const Vector3d& g = problem.surroundings.gravity;
     gravity_ = g.norm();
-    const std::vector<std::size_t> first_cell = first_cells(scene);
-    bodies_.resize(first_cell.size());
+    bodies_.resize(problem.bodies.count());
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();  // for points of chains
     std::vector<std::uint32_t> body_of(problem.mesh.points.size(), none);
-    for (std::uint32_t b = 0; b < bodies_.size(); ++b) {
-      const std::size_t end = b + 1 < bodies_.size() ? first_cell[b + 1] : problem.mesh.cell_count();
-      for (std::size_t c = first_cell[b]; c < end; ++c)
+    for (std::uint32_t b = 0; b < bodies_.size(); ++b)
+      for (std::size_t c = problem.bodies.cell[b]; c < problem.bodies.cell[b + 1]; ++c)
         for (const std::uint32_t p : problem.mesh.cell(c)) body_of[p] = b;
-    }
     // without gravity, along the axis that a body is longest along
     for (std::uint32_t p = 0; p < body_of.size(); ++p) {
       if (body_of[p] == none) continue;

@@ -39,7 +39,8 @@ struct ContactForecast {
 /// fall of the body from its highest place onto the highest of the obstacle (of a half-space, along gravity to its
 /// surface), or for the duration of the run. The mass behind each part of the surface is the largest density times the
 /// height of the body: along the normal of a half-space, otherwise along gravity or, without gravity, its longest side;
-/// of a surface it is the density, of a chain the density over the width. An edge or a corner that touches first goes deeper.
+/// of a surface it is the density, of a chain the density over the width. An edge or a corner that touches first goes
+/// deeper.
 ///
 /// cost  O(vertices) for each obstacle
 std::vector<ContactForecast> forecast_contacts(const SceneFile& scene, const Problem& problem);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/scene/body/faces_under_pressure.h"
-#include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -38,15 +37,13 @@ BodyNeeds body_needs(const Problem& problem, bool topology_changes) {
 namespace {
 
 /// By body: 1 if all of its points are fixed.
-std::vector<std::uint8_t> bodies_held_still(const Problem& problem, std::span<const std::size_t> first_cell) {
-  std::vector<std::uint8_t> still(first_cell.size(), 1);
-  for (std::size_t body = 0; body < first_cell.size(); ++body) {
-    const std::size_t end = std::min(body + 1 < first_cell.size() ? first_cell[body + 1] : problem.mesh.cell_count(),
-                                     problem.mesh.cell_count());
-    for (std::size_t c = first_cell[body]; c < end; ++c)
+std::vector<std::uint8_t> bodies_held_still(const Problem& problem) {
+  const std::vector<std::size_t>& first = problem.bodies.cell;
+  std::vector<std::uint8_t> still(problem.bodies.count(), 1);
+  for (std::size_t body = 0; body < still.size(); ++body)
+    for (std::size_t c = first[body]; c < first[body + 1]; ++c)
       for (const std::uint32_t point : problem.mesh.cell(c))
         if (!std::ranges::binary_search(problem.fixed, point)) still[body] = 0;
-  }
   return still;
 }
 
@@ -61,13 +58,13 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
       scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
   body.pull = !std::ranges::all_of(scene.forces, &SceneForce::follows);
   body.forces = scene.forces.size();
-  body.attached = find_attachments(scene, problem.mesh);
+  body.attached = find_attachments(scene, problem);
   body.pressed = followed_faces(scene, problem.mesh);
   body.obstacles = scene.obstacles;
   for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
   if (!body.touches.empty()) {
-    body.first_cell = first_cells(scene);
-    if (scene.driven.empty() && !has<Release>(scene.events)) body.still = bodies_held_still(problem, body.first_cell);
+    body.first_cell = problem.bodies.cell;
+    if (scene.driven.empty() && !has<Release>(scene.events)) body.still = bodies_held_still(problem);
   }
   return {.body = body,
           .damping =

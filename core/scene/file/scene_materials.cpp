@@ -107,8 +107,7 @@ std::vector<Eigen::Vector3d> centroids(const Mesh& mesh) {
   return all;
 }
 
-void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell,
-                      std::span<const std::size_t> first_link, Problem& problem) {
+void assign_materials(const SceneFile& scene, Problem& problem) {
   const Mesh& mesh = problem.mesh;
   const std::size_t cells = mesh.cell_count(), count = cells + mesh.links.size();
   std::vector<SceneFile::Tissue> tissues = scene.tissues();
@@ -124,9 +123,8 @@ void assign_materials(const SceneFile& scene, std::span<const std::size_t> first
   const auto bodies = scene.bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!bodies[b].material) continue;
-    const bool is_last = b + 1 == bodies.size();
-    give(first_cell[b], is_last ? cells : first_cell[b + 1], next);
-    give(cells + first_link[b], is_last ? count : cells + first_link[b + 1], next);
+    give(problem.bodies.cell[b], problem.bodies.cell[b + 1], next);
+    give(cells + problem.bodies.link[b], cells + problem.bodies.link[b + 1], next);
     ++next;
   }
   for (const SceneRegion& region : scene.regions) {

@@ -22,10 +22,9 @@ Model model_of(const SceneFile::Tissue& tissue, int dimension);
 /// without a cell are left out, and if one is left the body is homogeneous. For springs with a Young's modulus the mean
 /// stiffness is taken over their cells (core/base/young.h). Links are cells, too, numbered after the others.
 ///
-/// units   first_cell, first_link: of each body, the numbers of its first cell and its first link
+/// pre     the problem has its mesh and its bodies
 /// throws  InputError "FILE: /regions/0/cells: ..." for a region without a cell, for a model that surfaces do not have,
 ///         for cells whose edges do not hold their shape
-void assign_materials(const SceneFile& scene, std::span<const std::size_t> first_cell,
-                      std::span<const std::size_t> first_link, Problem& problem);
+void assign_materials(const SceneFile& scene, Problem& problem);
 
 }  // namespace dartboard

@@ -58,10 +58,10 @@ void require_not_released(const SceneFile& scene, std::span<const std::uint32_t>
 }
 
 /// Refuses the touch of a body without an inside.
-void require_solids_that_touch(const SceneFile& scene, std::span<const std::size_t> first_cell, const Mesh& mesh) {
-  const auto is_solid = [&](std::uint32_t body) {
-    const std::size_t end = body + 1 < first_cell.size() ? first_cell[body + 1] : mesh.cell_count();
-    return first_cell[body] < end && dimension(mesh.kinds[first_cell[body]]) == 3;
+void require_solids_that_touch(const SceneFile& scene, const Problem& problem) {
+  const auto is_solid = [&problem](std::uint32_t body) {
+    const std::size_t first = problem.bodies.cell[body];
+    return first < problem.bodies.cell[body + 1] && dimension(problem.mesh.kinds[first]) == 3;
   };
   for (const SceneTouch& touch : scene.touches)
     for (const std::uint32_t body : {touch.first, touch.second})
@@ -75,16 +75,13 @@ void require_solids_that_touch(const SceneFile& scene, std::span<const std::size
 /// Several bodies as one mesh.
 struct Assembled {
   Mesh mesh;
-  std::vector<std::size_t> first_point, first_cell, first_link;  // of each body
+  BodyRanges bodies;
 };
 Assembled assembled(const std::string& scene, std::span<const BodySource> bodies) {
   Assembled all;
   for (const BodySource& body : bodies) {
-    const Mesh mesh = make_mesh(scene, body);
-    all.first_point.push_back(all.mesh.points.size());
-    all.first_cell.push_back(all.mesh.cell_count());
-    all.first_link.push_back(all.mesh.links.size());
-    append(all.mesh, mesh);
+    append(all.mesh, make_mesh(scene, body));
+    all.bodies.end_body_at(all.mesh.points.size(), all.mesh.cell_count(), all.mesh.links.size());
   }
   return all;
 }
@@ -128,14 +125,16 @@ Mesh make_mesh(const SceneFile& scene) { return make_mesh(scene.file, scene.body
 
 Problem make_problem(const SceneFile& scene) {
   Problem problem;
-  Assembled body;
-  if (const auto* list = std::get_if<BodyList>(&scene.body.mesh))
-    body = assembled(scene.file, list->all);
-  else
-    body = {make_mesh(scene), {0}, {0}, {0}};
-  problem.mesh = std::move(body.mesh);
-  require_solids_that_touch(scene, body.first_cell, problem.mesh);
-  assign_materials(scene, body.first_cell, body.first_link, problem);
+  if (const auto* list = std::get_if<BodyList>(&scene.body.mesh)) {
+    Assembled all = assembled(scene.file, list->all);
+    problem.mesh = std::move(all.mesh);
+    problem.bodies = std::move(all.bodies);
+  } else {
+    problem.mesh = make_mesh(scene);
+    problem.bodies.end_body_at(problem.mesh.points.size(), problem.mesh.cell_count(), problem.mesh.links.size());
+  }
+  require_solids_that_touch(scene, problem);
+  assign_materials(scene, problem);
   require_springs_beside_edges(scene, problem);
   problem.surroundings.gravity = scene.gravity;
   problem.h = scene.step;
@@ -159,7 +158,7 @@ Problem make_problem(const SceneFile& scene) {
     problem.fixed.erase(std::unique(problem.fixed.begin(), problem.fixed.end()), problem.fixed.end());
     const auto bodies = scene.bodies();
     for (std::size_t p = 0, b = 0; p < problem.mesh.points.size(); ++p) {
-      while (b + 1 < bodies.size() && body.first_point[b + 1] <= p) ++b;
+      while (problem.bodies.point[b + 1] <= p) ++b;
       const InitialVelocity& velocity = bodies[b].velocity ? *bodies[b].velocity : scene.initial_velocity;
       problem.initial_velocity.push_back(velocity.at(problem.mesh.points[p]));
       require_slower_than_light((bodies[b].velocity ? bodies[b].path : "") + "/initial_velocity",
@@ -171,24 +170,13 @@ Problem make_problem(const SceneFile& scene) {
   return problem;
 }
 
-std::vector<std::uint32_t> body_of_cells(const SceneFile& scene) {
-  const auto* list = std::get_if<BodyList>(&scene.body.mesh);
-  if (list == nullptr) return {};
-  const Assembled all = assembled(scene.file, list->all);
+std::vector<std::uint32_t> body_of_cells(const BodyRanges& bodies) {
   std::vector<std::uint32_t> body;
-  const auto add = [&body](const std::vector<std::size_t>& first, std::size_t count) {
+  for (const auto* first : {&bodies.cell, &bodies.link}) {
     const std::size_t before = body.size();
-    for (std::uint32_t b = 0; b < first.size(); ++b)
-      body.resize(before + (b + 1 < first.size() ? first[b + 1] : count), b);
-  };
-  add(all.first_cell, all.mesh.cell_count());
-  add(all.first_link, all.mesh.links.size());
+    for (std::uint32_t b = 0; b < bodies.count(); ++b) body.resize(before + (*first)[b + 1], b);
+  }
   return body;
-}
-
-std::vector<std::size_t> first_cells(const SceneFile& scene) {
-  const auto* list = std::get_if<BodyList>(&scene.body.mesh);
-  return list == nullptr ? std::vector<std::size_t>{0} : assembled(scene.file, list->all).first_cell;
 }
 
 }  // namespace dartboard

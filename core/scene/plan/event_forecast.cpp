@@ -84,15 +84,12 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
       f.operations = std::min(repeats(cells) ? times * each : each, most);
     };
     std::visit(
-        Overloads{[&](const Dissociate& dissociate) {
-                    f.operations = facets_of(dissociate, mesh, counts);
-                  },
+        Overloads{[&](const Dissociate& dissociate) { f.operations = facets_of(dissociate, mesh, counts); },
                   [&](const Remove& remove) {
                     of_cells(remove.cells, left);
                     left -= f.operations;
                   },
-                  [&](const Tear&) { f.operations = times; },
-                  [](const TearWhereStressed&) {},  // the motion decides
+                  [&](const Tear&) { f.operations = times; }, [](const TearWhereStressed&) {},  // the motion decides
                   [&](const Refine& refine) { of_cells(refine.cells, static_cast<double>(counts.cells) * times); },
                   [&](const Release& release) {
                     f.operations = static_cast<double>(select_points(release.vertices, mesh.points, event.path).size());

@@ -353,6 +353,7 @@ class Planner {
     what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
                                                                 : fmt::format(", some {:.0f} operations", f.operations);
     add(Part::event, std::move(what), e.action_path());
+    plan_.items.back().event = k;
   }
 
   void output() {
@@ -394,8 +395,8 @@ class Planner {
     const Mesh& mesh = problem_.mesh;
     for (std::size_t b = 0; b < bodies.size() && is_mixed(mesh); ++b)
       if (bodies[b].path + "/material" == tissue.path) {
-        const std::size_t first = first_cells(scene_)[b];
-        return first < mesh.cell_count() ? dimension(mesh.kinds[first]) : 1;
+        const std::size_t first = problem_.bodies.cell[b];
+        return first < problem_.bodies.cell[b + 1] ? dimension(mesh.kinds[first]) : 1;
       }
     return mesh.highest_dimension();
   }

@@ -23,12 +23,12 @@ using Eigen::Vector3d;
 std::string place_in_words(std::span<const std::uint32_t> nodes) {
   if (nodes.size() == 1) return vertex_in_words(nodes[0]);
   if (std::ranges::find(nodes, no_point) != nodes.end()) return "the middle of a face that refinement made";
-  return fmt::format("the middle of the {} of vertices {} and {}", nodes.size() == 2 ? "link" : "face", fmt::join(nodes.first(nodes.size() - 1), ", "),
-                     nodes.back());
+  return fmt::format("the middle of the {} of vertices {} and {}", nodes.size() == 2 ? "link" : "face",
+                     fmt::join(nodes.first(nodes.size() - 1), ", "), nodes.back());
 }
 
-/// [m] The largest distance of a place on an edge of the sample's face, or on its link, from the nearest of the face's corners and its
-/// middle, which are all sampled; 0 for a vertex. Places inside are nearer.
+/// [m] The largest distance of a place on an edge of the sample's face, or on its link, from the nearest of the face's
+/// corners and its middle, which are all sampled; 0 for a vertex. Places inside are nearer.
 double farthest_on_face(const SkinSample& sample, std::span<const Vector3d> x) {
   if (sample.count == 1) return 0.0;
   const Vector3d middle = ObstacleContact::place_of(sample, x);
@@ -245,8 +245,9 @@ void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const Tou
                          .limit = soft->law.restitution});
   for (const TouchForecast& f : expected)
     for (const std::uint32_t body : {f.first, f.second}) {
+      if (has_warned(ContactWarning::Kind::too_thin, true)) continue;
       const double thin = half_thickness(bodies_->solids(), body, x), deepest = deepest_of(f.contact, f.law);
-      if (!(deepest > thin) || has_warned(ContactWarning::Kind::too_thin, true)) continue;
+      if (!(deepest > thin)) continue;
       warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
                            .of_bodies = true,
                            .from = body == f.first ? f.second : f.first,
@@ -278,14 +279,14 @@ void SceneContact::change_part(ObstacleContact* obstacles, BodyContact* bodies, 
 
 void SceneContact::resume(std::span<const Vector3d> x) {
   if (bodies_ != nullptr) bodies_->find_lost(x);
-  look_at_ways(x);
+  start_ways(x);
 }
 
 void SceneContact::system_changed(const SpringSystem& system, std::span<const Vector3d> x) {
   impulses_.forget_places();
   terms_ = terms_of(system);
   if (bodies_ != nullptr) least_altitude_ = bodies_->least_altitude(x);
-  look_at_ways(x);
+  start_ways(x);
 }
 
 bool SceneContact::begin(double time, double h, const SpringSystem& system, Motion motion) {
@@ -298,14 +299,14 @@ bool SceneContact::begin(double time, double h, const SpringSystem& system, Moti
 bool SceneContact::end(double time, double h, const SpringSystem& system, Motion motion) {
   const bool changed = impulses_.end(time, h, system.inverse_mass, held_in(system), motion.x, motion.v);
   if (obstacles_ != nullptr) {
-    if (!has_warned(ContactWarning::Kind::too_deep)) look_for_depth(time + h, motion.x);
+    find_ways(false, motion.x);
+    look_at_ways(false, time + h);
     if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
-    look_for_passages(false, time + h, motion.x);
   }
   if (bodies_ != nullptr) {
-    look_for_lost(time + h, motion.x);
-    look_for_depth_of_bodies(time + h, motion.x);
-    look_for_passages(true, time + h, motion.x);
+    const bool has_found_touches = look_for_lost(time + h, motion.x);
+    find_ways(true, motion.x, has_found_touches);
+    look_at_ways(true, time + h);
     if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
   }
   return changed;
@@ -315,23 +316,6 @@ void SceneContact::undo(double time, Motion motion) {
   impulses_.take_back();
   go_to(time);
   if (undoes_) std::ranges::copy(kept_v_, motion.v.begin());
-}
-
-/// Warns of the sample that is deepest, relative to its law.
-void SceneContact::look_for_depth(double time, std::span<const Vector3d> x) {
-  if (impulses_.is_clear(x)) return;
-  ContactWarning worst{.kind = ContactWarning::Kind::too_deep, .time = time, .nodes = {}};
-  double most = 1.0;
-  obstacles_->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t obstacle, const Penetration& in) {
-    const double allowed = obstacles_->laws()[obstacle].depth;
-    if (!(in.depth > most * allowed)) return;
-    most = in.depth / allowed;
-    worst.obstacle = obstacle;
-    worst.nodes = nodes_of(obstacles_->samples()[sample]);
-    worst.value = in.depth;
-    worst.limit = allowed;
-  });
-  if (!worst.nodes.empty()) warnings_.push_back(std::move(worst));
 }
 
 void SceneContact::look_for_speed(double time, double h, std::span<const Vector3d> v) {
@@ -358,90 +342,90 @@ void SceneContact::look_for_speed(double time, double h, std::span<const Vector3
   }
 }
 
-ContactWarning SceneContact::inside_body(ContactWarning::Kind kind, double time, const BodyTouch& touch) const {
-  const SkinSample& sample = bodies_->samples()[touch.sample];
+ContactWarning SceneContact::warning_of(ContactWarning::Kind kind, bool of_bodies, double time, const Way& way) const {
+  const SkinSample& sample = of_bodies ? bodies_->samples()[way.sample] : obstacles_->samples()[way.sample];
   return {.kind = kind,
-          .of_bodies = true,
+          .of_bodies = of_bodies,
           .time = time,
-          .from = bodies_->solids().group_at(sample.nodes[0]),
-          .into = bodies_->solids().tetrahedra()[touch.tetrahedron].group,
+          .obstacle = of_bodies ? 0 : way.other,
+          .from = of_bodies ? bodies_->solids().group_at(sample.nodes[0]) : 0,
+          .into = of_bodies ? way.other : 0,
           .nodes = nodes_of(sample),
-          .value = touch.depth};
+          .value = way.depth};
 }
 
-void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
-  using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::out_of_reach, true) || (bodies_->has_none_to_lose() && impulses_.are_apart(x))) return;
-  const auto lost = bodies_->find_lost(x);
-  if (lost.empty()) return;
-  warnings_.push_back(inside_body(Kind::out_of_reach, time, lost.front()));
-  warnings_.back().samples = lost.size();
+SceneContact::Way SceneContact::way_of(const BodyTouch& touch) const {
+  return {touch.sample, bodies_->solids().tetrahedra()[touch.tetrahedron].group, touch.depth,
+          bodies_->laws()[touch.law].depth, touch.normal};
 }
 
-/// Warns of the sample that is deepest, relative to its law.
-void SceneContact::look_for_depth_of_bodies(double time, std::span<const Vector3d> x) {
+/// Returns whether the touches at these places are those that were found last.
+bool SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::too_deep, true) || impulses_.are_apart(x)) return;
-  double most = 1.0;
-  std::optional<ContactWarning> worst;
-  // the search for samples out of reach has found them already
-  for (const BodyTouch& touch :
-       has_warned(Kind::out_of_reach, true) ? bodies_->touching({x}) : bodies_->found_touching()) {
-    const double allowed = bodies_->laws()[touch.law].depth;
-    if (!(touch.depth > most * allowed)) continue;
-    most = touch.depth / allowed;
-    worst = inside_body(Kind::too_deep, time, touch);
-    worst->limit = allowed;
+  if (has_warned(Kind::out_of_reach, true) || (bodies_->has_none_to_lose() && impulses_.are_apart(x))) return false;
+  if (const auto lost = bodies_->find_lost(x); !lost.empty()) {
+    warnings_.push_back(warning_of(Kind::out_of_reach, true, time, way_of(lost.front())));
+    warnings_.back().samples = lost.size();
   }
-  if (worst) warnings_.push_back(std::move(*worst));
+  return true;
 }
 
-/// The next step is compared with these.
-void SceneContact::look_at_ways(std::span<const Vector3d> x) {
-  ways_ = {};
-  if (obstacles_ != nullptr) look_for_passages(false, 0.0, x);
-  if (bodies_ != nullptr) look_for_passages(true, 0.0, x);
-  impulses_.forget_places();
-}
-
-/// Warns of a sample whose way out of something has turned round: it has come beyond its middle.
-void SceneContact::look_for_passages(bool of_bodies, double time, std::span<const Vector3d> x) {
-  constexpr double turned = -0.5;      // the cosine of the angle
-  constexpr double least_depth = 0.1;  // over that of the law: less is no passage, where two surfaces just meet
-  const auto has_middle = [](const Obstacle& o) { return std::isfinite(o.half_thickness()); };
-  if (has_warned(ContactWarning::Kind::comes_through, of_bodies)) return;
-  if (!of_bodies && std::ranges::none_of(obstacles_->obstacles(), has_middle)) return;
-  std::vector<Way>&now = ways_[of_bodies ? 1 : 0].now, &before = ways_[of_bodies ? 1 : 0].before;
-  now.swap(before);
-  now.clear();
-  if (of_bodies) {
-    if (impulses_.are_apart(x)) return;
-    for (const BodyTouch& t : bodies_->touching({x}))
-      if (t.depth > least_depth * bodies_->laws()[t.law].depth)
-        now.push_back({t.sample, bodies_->solids().tetrahedra()[t.tetrahedron].group, t.depth, t.normal});
-  } else {
-    if (impulses_.is_clear(x)) return;
+/// Finds the ways out after a step, where something has not been warned of; a way of less than a tenth of the depth of
+/// its law is none, where two surfaces just meet.
+void SceneContact::find_ways(bool of_bodies, std::span<const Vector3d> x, bool has_found_touches) {
+  Ways& ways = ways_[of_bodies ? 1 : 0];
+  ways.now.swap(ways.before);
+  ways.now.clear();
+  if (has_warned(ContactWarning::Kind::too_deep, of_bodies) && !may_warn_of_passages(of_bodies)) return;
+  if (of_bodies ? impulses_.are_apart(x) : impulses_.is_clear(x)) return;
+  const auto add = [&ways](const Way& way) {
+    if (way.depth > 0.1 * way.allowed) ways.now.push_back(way);
+  };
+  if (of_bodies)
+    for (const BodyTouch& touch : has_found_touches ? bodies_->found_touching() : bodies_->touching({x}))
+      add(way_of(touch));
+  else
     obstacles_->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t o, const Penetration& in) {
-      if (in.depth > least_depth * obstacles_->laws()[o].depth) now.push_back({sample, o, in.depth, in.normal});
+      add({sample, o, in.depth, obstacles_->laws()[o].depth, in.normal});
     });
+}
+
+/// Has anything a middle to come through, and has none been warned of?
+bool SceneContact::may_warn_of_passages(bool of_bodies) const {
+  if (has_warned(ContactWarning::Kind::comes_through, of_bodies)) return false;
+  return of_bodies || std::ranges::any_of(obstacles_->obstacles(),
+                                          [](const Obstacle& o) { return std::isfinite(o.half_thickness()); });
+}
+
+/// Warns of the sample that is deepest, relative to its law, and of one whose way out of something has turned round
+/// since the last step: it has come beyond its middle.
+void SceneContact::look_at_ways(bool of_bodies, double time) {
+  using Kind = ContactWarning::Kind;
+  const auto& [now, before] = ways_[of_bodies ? 1 : 0];
+  if (now.empty()) return;
+  const auto share = [](const Way& way) { return way.depth / way.allowed; };
+  if (const Way& deepest = *std::ranges::max_element(now, {}, share);
+      share(deepest) > 1.0 && !has_warned(Kind::too_deep, of_bodies)) {
+    warnings_.push_back(warning_of(Kind::too_deep, of_bodies, time, deepest));
+    warnings_.back().limit = deepest.allowed;
   }
+  if (!may_warn_of_passages(of_bodies)) return;
+  constexpr double turned = -0.5;  // the cosine of the angle
   auto old = before.begin();
   for (const Way& way : now) {
     while (old != before.end() && old->sample < way.sample) ++old;
-    for (auto same = old; same != before.end() && same->sample == way.sample; ++same) {
-      if (same->other != way.other || !(same->normal.dot(way.normal) < turned)) continue;
-      const SkinSample& sample = of_bodies ? bodies_->samples()[way.sample] : obstacles_->samples()[way.sample];
-      warnings_.push_back({.kind = ContactWarning::Kind::comes_through,
-                           .of_bodies = of_bodies,
-                           .time = time,
-                           .obstacle = of_bodies ? 0 : way.other,
-                           .from = of_bodies ? bodies_->solids().group_at(sample.nodes[0]) : 0,
-                           .into = of_bodies ? way.other : 0,
-                           .nodes = nodes_of(sample),
-                           .value = way.depth});
-      return;
-    }
+    for (auto same = old; same != before.end() && same->sample == way.sample; ++same)
+      if (same->other == way.other && same->normal.dot(way.normal) < turned)
+        return warnings_.push_back(warning_of(Kind::comes_through, of_bodies, time, way));
   }
+}
+
+/// The next step is compared with the ways out of these places.
+void SceneContact::start_ways(std::span<const Vector3d> x) {
+  ways_ = {};
+  if (obstacles_ != nullptr) find_ways(false, x);
+  if (bodies_ != nullptr) find_ways(true, x);
+  impulses_.forget_places();
 }
 
 // The relative speed of two places is at most that between opposite corners of a box around all velocities.

@@ -105,19 +105,27 @@ class SceneContact {
   }
 
  private:
+  /// The way out of a sample, from an obstacle or from a body.
+  struct Way {
+    std::uint32_t sample, other;
+    double depth, allowed;  // [m] by its law
+    Eigen::Vector3d normal;
+  };
+
   bool has_warned(ContactWarning::Kind kind, bool of_bodies = false) const;
   std::vector<std::uint32_t> nodes_of(const SkinSample& sample) const;
   std::uint32_t whole(std::uint32_t vertex) const { return vertices_.empty() ? vertex : vertices_[vertex]; }
   void look_at_sizes(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected);
-  void look_for_depth(double time, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
   void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);
-  void look_for_lost(double time, std::span<const Eigen::Vector3d> x);
-  void look_for_depth_of_bodies(double time, std::span<const Eigen::Vector3d> x);
-  void look_at_ways(std::span<const Eigen::Vector3d> x);
-  void look_for_passages(bool of_bodies, double time, std::span<const Eigen::Vector3d> x);
+  bool look_for_lost(double time, std::span<const Eigen::Vector3d> x);
+  void start_ways(std::span<const Eigen::Vector3d> x);
+  void find_ways(bool of_bodies, std::span<const Eigen::Vector3d> x, bool has_found_touches = false);
+  bool may_warn_of_passages(bool of_bodies) const;
+  void look_at_ways(bool of_bodies, double time);
   void look_for_speed_of_bodies(double time, double h, std::span<const Eigen::Vector3d> v);
-  ContactWarning inside_body(ContactWarning::Kind kind, double time, const BodyTouch& touch) const;
+  ContactWarning warning_of(ContactWarning::Kind kind, bool of_bodies, double time, const Way& way) const;
+  Way way_of(const BodyTouch& touch) const;
 
   ObstacleContact* obstacles_;
   BodyContact* bodies_;
@@ -127,12 +135,6 @@ class SceneContact {
   bool undoes_;
   std::vector<Eigen::Vector3d> kept_v_;
   std::vector<ContactWarning> warnings_;
-  /// The way out of a sample, from an obstacle or from a body.
-  struct Way {
-    std::uint32_t sample, other;
-    double depth;
-    Eigen::Vector3d normal;
-  };
   /// After the last two steps: from obstacles, and from bodies.
   struct Ways {
     std::vector<Way> now, before;

@@ -82,7 +82,7 @@ Simulation::Simulation(const SceneFile& scene)
   const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.highest_dimension();
   file_number_ = numbers_in_file(scene);
-  body_of_cell_ = body_of_cells(scene);
+  if (std::holds_alternative<BodyList>(scene.body.mesh)) body_of_cell_ = body_of_cells(problem.bodies);
   const CellMaterials materials = problem.cell_materials();
   for (std::size_t m = model_names.size(); m-- > 0;)
     if (materials.any(static_cast<Model>(m))) models_.push_back(static_cast<Model>(m));

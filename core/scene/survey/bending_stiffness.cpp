@@ -105,9 +105,9 @@ std::vector<StiffBody> find_stiff_bodies(const SceneFile& scene, const Problem& 
   std::vector<StiffBody> found;
   if (mesh.highest_dimension() != 3 || !materials.has_elements()) return found;
   const auto bodies = scene.bodies();
-  const std::vector<std::size_t> first = first_cells(scene);
+  const std::vector<std::size_t>& first = problem.bodies.cell;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const std::size_t end = b + 1 < bodies.size() ? first[b + 1] : mesh.cell_count();
+    const std::size_t end = first[b + 1];
     if (first[b] == end || dimension(mesh.kinds[first[b]]) != 3) continue;
     const auto* box = std::get_if<BoxMesh>(&bodies[b].mesh);
     const bool mirrored = box != nullptr && box->pattern == "mirrored" && box->jitter == 0.0;

@@ -111,7 +111,7 @@ Json above_floor(int links, double height) {
   scene["gravity"] = {0, 0, -8};
   scene["material"] = {{"density", 0.2}, {"stiffness", 1000}, {"damping", 0}, {"viscosity", 0}, {"width", 0.01}};
   scene["body"]["translate"] = {0, 0, height};
-  scene["contact"] = {{"pressure", 2000}, {"depth", 0.002}};
+  scene["contact"] = {{"pressure", 2000}, {"depth", 0.002}, {"exponent", 2}};
   scene["contact"]["obstacles"] = Json::parse(R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}])");
   return scene;
 }
@@ -157,7 +157,7 @@ TEST(Chain, SlidesAsFarAsItsFrictionLets) {
 
 TEST(Chain, FeelsAnObstacleUnderTheMiddleOfALink) {
   Json scene = above_floor(1, 0.0);
-  scene["contact"]["obstacles"] = Json::parse(R"([{"ball": {"centre": [0.125, 0, -0.049], "radius": 0.05}}])");
+  scene["contact"]["obstacles"] = Json::parse(R"([{"sphere": {"centre": [0.125, 0, -0.049], "radius": 0.05}}])");
   const Simulation simulation(parse(scene));
   const ContactDiagnostics contact = *simulation.diagnostics().contact;
   EXPECT_EQ(contact.contacts, 1u);

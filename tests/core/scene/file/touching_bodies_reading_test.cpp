@@ -96,14 +96,17 @@ TEST(TouchingBodiesRead, AreRefusedWhereTheyAreMoreThanATableHolds) {
 }
 
 // For bodies of 6, 12 and 18 tetrahedra.
-TEST(FirstCells, AreWhereEachBodyBegins) {
-  const SceneFile scene = parse(with_contact(3, R"({"bodies": "all"})"));
-  const std::vector<std::size_t> first = first_cells(scene);
-  EXPECT_EQ(first, (std::vector<std::size_t>{0, 6, 18}));
-  EXPECT_EQ(make_problem(scene).mesh.cell_count(), 36u);
+TEST(BodyRanges, AreWhereEachBodyBegins) {
+  const Problem problem = make_problem(parse(with_contact(3, R"({"bodies": "all"})")));
+  EXPECT_EQ(problem.bodies.cell, (std::vector<std::size_t>{0, 6, 18, 36}));
+  EXPECT_EQ(problem.bodies.link, (std::vector<std::size_t>{0, 0, 0, 0}));
+  EXPECT_EQ(problem.bodies.point.back(), problem.mesh.points.size());
   const std::pair<std::size_t, std::uint32_t> bodies[] = {{0, 0}, {5, 0}, {6, 1}, {17, 1}, {18, 2}, {35, 2}};
-  for (const auto& [cell, body] : bodies) EXPECT_EQ(body_of_cell(first, cell), body) << cell;
-  EXPECT_EQ(first_cells(parse(moving_box())), std::vector<std::size_t>{0});
+  for (const auto& [cell, body] : bodies) {
+    EXPECT_EQ(body_of_cell(problem.bodies.cell, cell), body) << cell;
+    EXPECT_EQ(body_of_cells(problem.bodies).at(cell), body) << cell;
+  }
+  EXPECT_EQ(make_problem(parse(moving_box())).bodies.cell, (std::vector<std::size_t>{0, 48}));
 }
 
 }  // namespace

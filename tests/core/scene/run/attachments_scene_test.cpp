@@ -93,7 +93,7 @@ TEST(SceneAttachments, AreToTheFirstCellThatAVertexIsIn) {
     const SceneFile scene = parse(json);
     const Problem problem = make_problem(scene);
     const Mesh& mesh = problem.mesh;
-    const std::vector<AttachedPoints> found = find_attachments(scene, mesh);
+    const std::vector<AttachedPoints> found = find_attachments(scene, problem);
     ASSERT_EQ(found.at(0).points.size(), 64u);
     for (const Attachment& one : found[0].points) {
       const Vector3d& x = mesh.points[one.point];
@@ -122,7 +122,7 @@ TEST(SceneAttachments, AreToTheNearestCellOfTheBody) {
   json["attachments"][0]["box"]["max"] = {1, 1, 0.35};
   const SceneFile scene = parse(json);
   const Problem problem = make_problem(scene);
-  const std::vector<AttachedPoints> found = find_attachments(scene, problem.mesh);
+  const std::vector<AttachedPoints> found = find_attachments(scene, problem);
   ASSERT_EQ(found.size(), 1u);
   ASSERT_EQ(found[0].points.size(), 6u);
   for (const Attachment& one : found[0].points) {

@@ -188,7 +188,7 @@ TEST(SceneRegions, NameTheKeyThatIsWrong) {
   EXPECT_EQ(
       refusal(with_region(left_half, R"({"viscosity": 1})")),
       "file: /regions/0/material/viscosity: unknown key; the valid keys are 'density', 'stiffness', 'young', 'poisson', "
-      "'model', 'damping'");
+      "'model', 'damping', 'width'");
   Json scene = with_region(left_half, rubber);
   scene["regions"][0]["material"]["model"] = "neo-hookean";
   scene["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.1}}})");
