@@ -326,34 +326,43 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
   std::optional<TradeoffScene> shorter;
   if (part < 1.0) shorter = first_part(pilots.scene(), part, pilots.scene().motion.checkpoints.size());
   const TradeoffScene& scene = shorter ? *shorter : pilots.scene();
-  const auto steps = whole_steps(scene, h);
-  const PilotRun coarse = pilots.run(c, scene, {.steps = steps});
-  const PilotRun fine = pilots.run(c, scene, {.steps = 2 * steps});
-  for (const PilotRun* pilot : {&fine, &coarse}) {
-    if (pilot->run.result.code == StepCode::budget) return Longer::skipped;
-    const double away = distance_from_start(scene, pilot->run);
-    if (pilot->run.result.ok() && away < farthest_flight(scene)) continue;
-    c.limit_h = pilot->run.h;
+  auto steps = whole_steps(scene, h);
+  std::vector<PilotRun> runs{pilots.run(c, scene, {.steps = steps})};
+  runs.push_back(pilots.run(c, scene, {.steps = steps *= 2}));
+  for (const std::size_t k : {1, 0}) {
+    const TimedRun& run = runs[k].run;
+    if (run.result.code == StepCode::budget) return Longer::skipped;
+    if (run.result.ok() && distance_from_start(scene, runs[k].run) < farthest_flight(scene)) continue;
+    c.limit_h = run.h;
     return Longer::unstable;
   }
-  const std::vector<double> change = differences(scene, coarse.run, fine.run);
-  if (!(max_or_nan(change) > 0.0) || saturated(scene, change, fine.run)) return Longer::skipped;
-  // a third pilot, where there is time for it, shows whether the order is reached
-  const PilotRun* finest = &fine;
-  PilotRun third;
-  if (2.0 * fine.cpu_s <= pilots.left_s()) {
-    third = pilots.run(c, scene, {.steps = 4 * steps});
-    if (third.run.result.ok()) {
-      const std::vector<double> left = differences(scene, fine.run, third.run);
-      if (!(max_or_nan(left) > 0.0) || !std::isfinite(max_or_nan(left))) return Longer::skipped;
-      c.observed_order = std::log2(max_or_nan(change) / max_or_nan(left));
-      c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
-      c.slope = slope_of(c);
-      finest = &third;
-    }
+  std::vector<double> change = differences(scene, runs[0].run, runs[1].run);
+  if (!(max_or_nan(change) > 0.0) || saturated(scene, change, runs[1].run)) return Longer::skipped;
+  // A third pilot, where there is time for it, shows whether the order is reached. What is far off from the prefix is
+  // so by late effects, which do not fall by the order of the prefix: pilots go on until an order shows.
+  constexpr double far_off = 10.0;
+  constexpr std::size_t most_pilots = 7;
+  const bool surprises = max_or_nan(change) > far_off * c.error_at(runs[0].run.h);
+  while (runs.size() < (surprises ? most_pilots : 3) &&
+         2.0 * runs.back().cpu_s <= std::max(pilots.left_s(), surprises ? always_s : 0.0)) {
+    PilotRun finer = pilots.run(c, scene, {.steps = steps *= 2});
+    if (!finer.run.result.ok()) break;
+    const std::vector<double> left = differences(scene, runs.back().run, finer.run);
+    if (!(max_or_nan(left) > 0.0) || !std::isfinite(max_or_nan(left))) return Longer::skipped;
+    c.observed_order = std::log2(max_or_nan(change) / max_or_nan(left));
+    change = left;
+    runs.push_back(std::move(finer));
+    if (shows_its_order(c)) break;
   }
-  take_errors(c, scene, finest == &third ? std::vector{&coarse, &fine, finest} : std::vector{&coarse, finest}, part);
-  take_cost(c, *finest);
+  if (runs.size() == 2 && surprises) c.observed_order = 0.5 * c.order;
+  if (runs.size() > 2 || surprises) {
+    c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
+    c.slope = slope_of(c);
+  }
+  std::vector<const PilotRun*> all;
+  for (const PilotRun& run : runs) all.push_back(&run);
+  take_errors(c, scene, all, part);
+  take_cost(c, runs.back());
   c.full_length = part == 1.0;
   c.seen_part = part;
   return Longer::confirmed;

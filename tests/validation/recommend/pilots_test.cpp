@@ -6,10 +6,14 @@
 
 #include <cmath>
 
+#include "benchmarks/checkout/source_folder.h"
+#include "core/plain/nan_maximum.h"
+#include "core/scene/file/scene_file.h"
 #include "core/time/integrators.h"
 #include "reference/error_norms.h"
 #include "tests/support/ticking_clock_for_tests.h"
 #include "validation/recommend/candidate_pilots.h"
+#include "validation/scenes/scene_of_file.h"
 
 namespace dartboard::pilots_test {
 namespace {
@@ -288,6 +292,32 @@ TEST(PilotLonger, SeesTheWholeOfAShortRunThoughTheTimeIsUp) {
   EXPECT_TRUE(c.full_length);
   c.predicted_s = 1.0;  // of a long run it cannot
   EXPECT_EQ(pilot_longer(c, pilots), Longer::skipped);
+}
+
+// A sheet that crumples after its last cut: errors there are a thousand times those of the prefix, and do not fall by
+// any
+// order before steps are ten times shorter than the prefix asks for.
+TEST(PilotLonger, GoesOnWhereLateErrorsAreFarFromThoseOfThePrefix) {
+  const TradeoffScene scene = scene_of_file(read_scene(source_folder() / "benchmarks/scenes/sheet_cut.json"));
+  // faster than `ticking`, so that runs are repeated less often
+  const CpuClock clock = [t = std::int64_t{0}]() mutable { return t += 100'000; };
+  const RecommendOptions options;
+  Pilots pilots(scene, clock, options, clock());
+  Candidate c = candidate("rk4", false);
+  c.order = 4;
+  pilot_prefix(c, pilots, 1e-3, 1e-9, 1e-4);
+  ASSERT_TRUE(c.usable()) << c.pruned;
+  c.limit_h = 1.7e-3;
+  c.h = c.pilot_h;
+  c.predicted_s = 1e-3;
+  pilots.predicted(c.predicted_s);
+  const auto rk4 = make_integrator("rk4");
+  const TimedRun run = run_timed(scene, *rk4, {.steps = 4000}, clock);
+  const double actual = max_or_nan(differences(scene, run, run_timed(scene, *rk4, {.steps = 8000}, clock)));
+  ASSERT_LT(100.0 * c.error_at(run.h), actual);
+  EXPECT_EQ(pilot_longer(c, pilots), Longer::confirmed);
+  EXPECT_GT(c.error_at(run.h), 0.5 * actual);
+  EXPECT_LT(c.error_at(run.h), 4.0 * actual);
 }
 
 TEST(PilotCheckpoints, AreAQuarterOrUpToTheOneAfterTheFirstEvent) {
