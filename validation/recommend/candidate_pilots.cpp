@@ -51,9 +51,9 @@ bool lasts(const TradeoffScene& scene) {
 
 /// Set the errors of the pilots, the last of them the finest: Richardson's estimate for it, and for the coarser ones
 /// their distance from it in addition; extrapolated from the part that was run to the whole.
-void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<const PilotRun*>& runs, double part) {
-  const TimedRun& finest = runs.back()->run;
-  std::vector<double> left = differences(scene, runs[runs.size() - 2]->run, finest);
+void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<PilotRun>& runs, double part) {
+  const TimedRun& finest = runs.back().run;
+  std::vector<double> left = differences(scene, runs[runs.size() - 2].run, finest);
   for (double& e : left) e = richardson(c, e);
   const double growth = part < short_part ? beyond(left, 1.0 / part, lasts(scene))
                                           : std::pow(1.0 / part, growth_with_time(left, scene.motion.checkpoints));
@@ -61,9 +61,9 @@ void take_errors(Candidate& c, const TradeoffScene& scene, const std::vector<con
   c.error_at_pilot = growth * max_or_nan(left);
   c.coarser.clear();
   for (std::size_t k = runs.size() - 1; k-- > 0;) {
-    const double error = c.error_at_pilot + growth * max_or_nan(differences(scene, runs[k]->run, finest));
+    const double error = c.error_at_pilot + growth * max_or_nan(differences(scene, runs[k].run, finest));
     const double before = c.coarser.empty() ? c.error_at_pilot : c.coarser.back().error;
-    if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k]->run.h, error});
+    if (std::isfinite(error) && error > before) c.coarser.push_back({runs[k].run.h, error});
   }
 }
 
@@ -75,9 +75,7 @@ void take_pilots(Candidate& c, const TradeoffScene& scene, const std::vector<Pil
                  : shows_its_order(c) ? Confidence::asymptotic
                                       : Confidence::pre_asymptotic;
   c.slope = at_once ? 1.0 : slope_of(c);
-  std::vector<const PilotRun*> all;
-  for (const PilotRun& run : runs) all.push_back(&run);
-  take_errors(c, scene, all, part);
+  take_errors(c, scene, runs, part);
   take_cost(c, runs.back());
   if (c.implicit)
     c.step_slope = std::clamp(std::log2(runs[runs.size() - 2].step_cost / runs.back().step_cost), 0.0, 1.0);
@@ -359,9 +357,7 @@ Longer pilot_longer(Candidate& c, Pilots& pilots) {
     c.confidence = shows_its_order(c) ? Confidence::asymptotic : Confidence::pre_asymptotic;
     c.slope = slope_of(c);
   }
-  std::vector<const PilotRun*> all;
-  for (const PilotRun& run : runs) all.push_back(&run);
-  take_errors(c, scene, all, part);
+  take_errors(c, scene, runs, part);
   take_cost(c, runs.back());
   c.full_length = part == 1.0;
   c.seen_part = part;

@@ -13,7 +13,6 @@
 #include "core/places/nearest_on_triangle.h"
 #include "core/plain/error.h"
 #include "core/scene/file/load_mesh.h"
-#include "core/scene/file/scene_problem.h"
 
 namespace dartboard {
 namespace {

@@ -1,8 +1,6 @@
 #include "core/scene/plan/event_forecast.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include "core/base/overloads.h"
 #include "core/mechanics/fracture/seam.h"
@@ -48,17 +46,16 @@ double facets_of(const Dissociate& cut, const Mesh& mesh, const MeshTally& count
   return count;
 }
 
-std::uint64_t step_count(const SceneFile& scene) { return step_of_time(scene.duration, scene.step); }
-
-/// f(step) for every time an event is due, until it returns false.
-template <class F>
-void for_each_time(const SceneEvent& event, const SceneFile& scene, F&& f) {
+/// The number of steps at which an event is due: several times within one step are one.
+std::uint64_t count_times(const SceneEvent& event, const SceneFile& scene) {
+  const std::uint64_t end = step_of_time(scene.duration, scene.step);
   EventClock clock(event.from, event.until, event.every, scene.step);
-  std::uint64_t last = EventClock::never;
-  for (; clock.next() <= step_count(scene); clock.advance()) {
-    if (clock.next() != last && !f(clock.next())) return;  // several times within one step are one
+  std::uint64_t count = 0, last = EventClock::never;
+  for (; clock.next() <= end; clock.advance()) {
+    if (clock.next() != last) ++count;
     last = clock.next();
   }
+  return count;
 }
 
 /// Does a selection find cells each time? A region is empty after the first time.
@@ -77,7 +74,7 @@ std::vector<EventForecast> forecast_events(const SceneFile& scene, const Mesh& m
     if (const double times = (event.until - event.from) / every; times > many)
       f.times = static_cast<std::uint64_t>(times * (1 + 0x1p-50)) + 1;
     else
-      for_each_time(event, scene, [&f](std::uint64_t) { return ++f.times > 0; });
+      f.times = count_times(event, scene);
     const auto times = static_cast<double>(f.times);
     const auto of_cells = [&](const CellSelection& cells, double most) {
       const double each = std::min(selected(cells, mesh), most);

@@ -10,7 +10,6 @@
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/scene_problem.h"
 #include "core/scene/file/step_times.h"
 #include "core/scene/plan/event_forecast.h"
 #include "core/scene/survey/bending_stiffness.h"
@@ -286,6 +285,7 @@ class Planner {
     const ObstacleContact* obstacles = arrays.body().contact();
     const BodyContact* bodies = arrays.body().body_contact();
     const std::size_t places = (obstacles != nullptr ? obstacles->samples() : bodies->samples()).size();
+    ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     std::string against, why;
     if (obstacles != nullptr) {
       against = counted(scene_.obstacles.size(), "obstacle");
@@ -294,8 +294,7 @@ class Planner {
     if (bodies != nullptr) {
       against += fmt::format("{}{} tetrahedra along the surface", against.empty() ? "" : " and ",
                              bodies->solids().tetrahedra().size());
-      for (const TouchForecast& touch : forecast_touches(scene_, problem_))
-        why += (why.empty() ? "" : "; ") + touch.path;
+      for (const TouchForecast& touch : plan.touches) why += (why.empty() ? "" : "; ") + touch.path;
     }
     const bool rubs =
                    (obstacles != nullptr && obstacles->has_friction()) || (bodies != nullptr && bodies->has_friction()),
@@ -308,7 +307,6 @@ class Planner {
                             : ""),
         why);
     if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
-    ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
     // the body without contacts, which may exist at the start
     SpringSystem alone = arrays.system();

@@ -1,5 +1,5 @@
 #pragma once
-// The spring system of a problem with a motion of its own, which plans calibrate and analyse.
+// The spring system of a problem with a motion of its own, which plans analyse.
 
 #include <Eigen/Core>
 #include <memory>
@@ -13,9 +13,9 @@ namespace dartboard {
 /// A body that stays unchanged, and positions and velocities that may move without it.
 class SystemArrays {
  public:
+  /// With the needs of a scene, except for changes of topology.
+  ///
   /// throws  InputError as make_simulated_body does
-  explicit SystemArrays(const Problem& problem) : SystemArrays(problem, body_needs(problem, false)) {}
-  /// With the needs of a scene in addition to those of the problem, except for changes of topology.
   SystemArrays(const Problem& problem, BodyNeeds needs) {
     needs.topology_changes = false;
     body_ = make_simulated_body(problem, needs);

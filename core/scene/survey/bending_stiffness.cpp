@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/scene_problem.h"
 
 namespace dartboard {
 namespace {
