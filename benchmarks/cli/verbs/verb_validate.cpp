@@ -56,6 +56,7 @@ void add_validate(CLI::App& app, Outcome& outcome) {
   add_validate_order(*verb, outcome);
   add_validate_solvers(*verb, outcome);
   add_validate_judges(*verb, outcome);
+  add_validate_drawn(*verb, outcome);
   add_validate_elements(*verb, app, outcome);
 }
 

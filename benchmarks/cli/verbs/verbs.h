@@ -28,6 +28,7 @@ void add_validate_conservation(CLI::App& validate, Outcome& outcome);
 void add_validate_contact(CLI::App& validate, Outcome& outcome);
 void add_validate_order(CLI::App& validate, Outcome& outcome);
 void add_validate_judges(CLI::App& validate, Outcome& outcome);
+void add_validate_drawn(CLI::App& validate, Outcome& outcome);
 void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome);
 void add_validate_solvers(CLI::App& validate, Outcome& outcome);
 

@@ -48,7 +48,8 @@ class TargetCells {
     const Simplex* simplex = nullptr;
     double distance = std::numeric_limits<double>::infinity();  // [m]
   };
-  /// The first of the nearest; distances within the thickness of borders count as 0.
+  /// The first of the nearest, so that a body that is turned is attached alike: distances that differ by no more than
+  /// the thickness of borders are equal, and those within it are 0.
   Found nearest(const Vector3d& x) const {
     Found found;
     // no nearest one is farther away than that of the block whose box is nearest
@@ -62,7 +63,8 @@ class TargetCells {
         if (is_farther(simplices_[k].box)) continue;
         double distance = distance_to(simplices_[k], x);
         if (distance <= thickness_) distance = 0.0;
-        if (distance < found.distance) found = {&simplices_[k], distance};
+        if (distance < found.distance - thickness_ || (distance == 0.0 && found.distance > 0.0))
+          found = {&simplices_[k], distance};
       }
     };
     const auto to_box = [&x](const AlignedBox3d& box) { return box.squaredExteriorDistance(x); };

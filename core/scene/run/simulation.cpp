@@ -74,7 +74,8 @@ struct ExpectedContacts {
 }  // namespace
 
 Simulation::Simulation(const SceneFile& scene)
-    : step_(settled_step(scene)),
+    : file_(scene.file),
+      step_(settled_step(scene)),
       step_count_(step_of_time(scene.duration, step_)),
       guard_(scene, step_),
       fields_(scene.output.fields),
@@ -145,6 +146,14 @@ void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh, std::size_
 Simulation::~Simulation() = default;
 
 std::optional<EarlyEnd> Simulation::advance() {
+  try {
+    return take_step();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file_, error.what()));
+  }
+}
+
+std::optional<EarlyEnd> Simulation::take_step() {
   if (auto refusal = guard_.refusal(integrator_->scheme(), done_, time())) return refusal;
   const std::size_t operations = this->operations();
   const auto stress_failure = [&](const SolverError& error) {

@@ -53,6 +53,8 @@ class Simulation {
   /// body then goes back to the state kept last: `taken_back` gives the number of steps. If another event of the same
   /// step has changed the body already, or the state at the start is not valid, there is no state to go back to. A step
   /// that the scene refuses (StepGuard) is not taken.
+  /// throws  InputError naming the key of an event that cannot happen to the body as it is then; the simulation must not
+  ///         be used any more
   std::optional<EarlyEnd> advance();
   /// The failure of the state at the start, which `advance` reports too: for a scene without steps.
   std::optional<Divergence> start_failure();
@@ -123,6 +125,7 @@ class Simulation {
   bool undo_stopped_step() { return !within_step_ && integrator_->undo_stopped_step(); }
 
  private:
+  std::optional<EarlyEnd> take_step();
   void count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets);
   SpringSystem stepped_system() const;
   Motion stepped_motion();
@@ -144,6 +147,7 @@ class Simulation {
   Fault of_body(Fault fault) const;
   Divergence diverged(const Fault& fault, bool goes_back = true);
 
+  std::string file_;  // of the scene, for errors
   double step_;
   std::uint64_t step_count_, done_ = 0, taken_back_ = 0;
   std::unique_ptr<SimulatedBody> body_;

@@ -57,14 +57,17 @@ class ReadyRefinement : public OnDarts<Map> {
     return count;
   }
 
-  /// The longest edge at rest; among equal ones, that of the lowest dart.
+  /// The longest edge at rest; among those that are equal but for rounding, that of the lowest dart.
   Edge longest_edge(Dart cell) const {
+    // a billionth, as at borders: so that a body that is turned is refined alike
+    constexpr double rounding = 1e-9;
     const auto& body = on_.body();
     Edge best{cell};
     for (const Edge e : incident_cells<1>(body.map, Volume{cell})) {
       const std::uint32_t k = body.edge(body.map, e.dart), longest = body.edge(body.map, best.dart);
-      const double excess = body.springs[k].rest_length - body.springs[longest].rest_length;
-      if (excess > 0.0 || (excess == 0.0 && body.edge_dart[k] < body.edge_dart[longest])) best = e;
+      const double length = body.springs[longest].rest_length, excess = body.springs[k].rest_length - length;
+      if (excess > rounding * length || (excess >= -rounding * length && body.edge_dart[k] < body.edge_dart[longest]))
+        best = e;
     }
     return best;
   }

@@ -1,0 +1,154 @@
+#include "validation/drawn/relations.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "core/plain/error.h"
+#include "tests/support/folder_for_tests.h"
+#include "validation/drawn/changed_scene.h"
+#include "validation/drawn/drawn_scene.h"
+#include "validation/drawn/drawn_trial.h"
+
+namespace dartboard::relations_test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A part of the scenes, so that parts run side by side.
+struct DrawnRelations : FolderTest, testing::WithParamInterface<int> {};
+
+TEST_P(DrawnRelations, Hold) {
+  constexpr int each = 50;
+  for (int number = each * GetParam(); number < each * (GetParam() + 1); ++number)
+    for (const auto& [relation, found] : try_relations(drawn_scene(1, static_cast<std::uint64_t>(number)), "", folder_))
+      EXPECT_NE(found.outcome, RelationOutcome::breaks)
+          << "dartboard validate drawn --seed 1 --first " << number << " --count 1 --relation " << relation->name
+          << ": " << found.words;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, DrawnRelations, testing::Range(0, 8));
+
+/// A sheet that falls on a floor and is cut.
+Json falling_sheet() {
+  return Json::parse(R"({"name": "sheet", "body": {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.1}}},
+    "material": {"density": 1, "stiffness": 100, "damping": 0, "viscosity": 0}, "step": 0.001, "duration": 0.03,
+    "integrator": "rk4", "initial_velocity": [0.1, 0, -1],
+    "contact": {"pressure": 100, "depth": 0.01, "obstacles": [{"plane": {"point": [0, 0, -0.005], "normal": [0, 0, 1]}}]},
+    "events": [{"at": 0.012, "dissociate": {"plane": {"point": [0.17, 0, 0], "normal": [1, 0.1, 0]}}}]})");
+}
+
+std::set<std::string> outcomes_of(const Json& scene, RelationOutcome outcome) {
+  std::set<std::string> names;
+  for (const RelationTrial& trial : try_relations(scene, "", ""))
+    if (trial.found.outcome == outcome) names.insert(std::string(trial.relation->name));
+  return names;
+}
+
+TEST(Relations, ApplyWhereTheyHaveAMeaning) {
+  EXPECT_EQ(outcomes_of(falling_sheet(), RelationOutcome::breaks), std::set<std::string>{});
+  EXPECT_EQ(outcomes_of(falling_sheet(), RelationOutcome::does_not_apply),
+            (std::set<std::string>{"files", "limit", "momentum"}));
+  Json free = falling_sheet();
+  free.erase("contact");
+  free.erase("events");
+  free["integrator"] = "verlet";
+  EXPECT_EQ(outcomes_of(free, RelationOutcome::does_not_apply), (std::set<std::string>{"files"}));
+}
+
+TEST(Relations, AreFoundByName) {
+  EXPECT_EQ(find_relation("units").name, "units");
+  EXPECT_THROW((void)find_relation("unity"), InputError);
+}
+
+TEST(Relations, RefuseASceneWithoutAStep) {
+  Json scene = falling_sheet();
+  scene.erase("step");
+  scene["accuracy"] = 0.01;
+  EXPECT_THROW((void)try_relations(scene, "", ""), InputError);
+}
+
+// ---- what a wrong program would do: the scene changes where only its form should
+
+DrawnMotion motion_of(const Json& scene) { return run_drawn(scene, ""); }
+
+TEST(Relations, SeeOneDigitOfOneNumber) {
+  Json other = falling_sheet();
+  other["initial_velocity"][0] = 0.1 + 0x1p-56;
+  const auto difference = different_bits(motion_of(falling_sheet()), motion_of(other));
+  ASSERT_TRUE(difference);
+  EXPECT_NE(difference->find("positions at step 10: "), std::string::npos) << *difference;
+}
+
+TEST(Relations, SeeALengthThatIsNotChangedWithItsUnit) {
+  const Dimensions powers{2, -2, 4};
+  Json other = in_units(falling_sheet(), powers, 2);
+  EXPECT_FALSE(different_bits(in_units(motion_of(falling_sheet()), powers), motion_of(other)));
+  other["contact"]["depth"] = 0.01;
+  EXPECT_TRUE(different_bits(in_units(motion_of(falling_sheet()), powers), motion_of(other)));
+}
+
+TEST(Relations, SeeAnAxisThatIsNotTurned) {
+  const DrawnMotion expected = in_turned_axes(motion_of(falling_sheet()));
+  const MotionScales scales{.length = 0.3, .time = 0.001, .mass = 0.06};
+  Json other = in_turned_axes(falling_sheet());
+  const auto allowed =
+      allowances(motion_of(falling_sheet()), motion_of(with_disturbance(falling_sheet(), 0x1p-34)), scales);
+  ASSERT_TRUE(allowed);
+  EXPECT_FALSE(differs_by_more(expected, motion_of(other), *allowed));
+  other["gravity"] = {0, 0, -9.81};
+  EXPECT_TRUE(differs_by_more(expected, motion_of(other), *allowed));
+}
+
+TEST(Relations, LeaveOpenWhatRoundingDecides) {
+  const DrawnMotion one = motion_of(falling_sheet());
+  Json other = falling_sheet();
+  other.erase("events");
+  EXPECT_FALSE(allowances(one, motion_of(other), {.length = 0.3, .time = 0.001, .mass = 0.06}));
+}
+
+TEST(Relations, CompareWithAnotherBodyOnlyWhatBothHave) {
+  const Json scene = falling_sheet();
+  const auto with = with_body_far_away(scene, 0.3, 0.06, 2);
+  ASSERT_TRUE(with);
+  const DrawnMotion found = motion_of(*with), expected = first_of(motion_of(scene), found);
+  ASSERT_FALSE(expected.quantities.empty());
+  EXPECT_EQ(first_of(found, expected).quantities.size(), expected.quantities.size());
+  EXPECT_EQ(expected.quantities[0].values.size(), motion_of(scene).quantities[0].values.size());
+}
+
+TEST(Relations, GoOnFromAStateThatIsRead) {
+  EXPECT_FALSE(different_bits(motion_of(falling_sheet()), run_drawn(falling_sheet(), "", {.continued = true})));
+}
+
+TEST(FirstSteps, LeaveOutWhatBeginsLaterAndHoldWhatIsDrivenLater) {
+  Json scene = falling_sheet();
+  scene["driven"] = Json::array({{{"ids", {0}}, {"velocity", {1, 0, 0}}, {"from", 0.02}}});
+  scene["forces"] = Json::array({{{"ids", {1}}, {"force", {1, 0, 0}}, {"from", 0.02}}});
+  scene["contact"]["obstacles"][0].update({{"velocity", {0, 0, 1}}, {"from", 0.02}});
+  const Json first = first_steps(scene, 10);
+  EXPECT_EQ(first["duration"], 0.01);
+  EXPECT_EQ(first["fixed"], Json::array({{{"ids", {0}}}}));
+  for (const char* key : {"driven", "forces", "events"}) EXPECT_TRUE(first[key].empty()) << key;
+  EXPECT_FALSE(first["contact"]["obstacles"][0].contains("velocity"));
+  EXPECT_EQ(first_steps(scene, 100), scene);
+}
+
+TEST(SmallestBreaking, KeepsWhatTheFaultNeeds) {
+  // gravity is what a scene has that is not turned
+  static constexpr Relation wrong{"wrong", "", "", [](const JudgedScene& s) {
+                                    const bool falls = s.json().contains("gravity") && s.json()["gravity"][1] != 0.0;
+                                    return RelationFound{falls ? RelationOutcome::breaks : RelationOutcome::holds, ""};
+                                  }};
+  Json scene = falling_sheet();
+  scene["gravity"] = {0.3, 2.5, -9.81};
+  const Json smallest = smallest_breaking(scene, wrong, "", "");
+  EXPECT_EQ(smallest,
+            Json::parse(R"({"name": "sheet", "body": {"generate": {"sheet": {"cells": [1, 1], "spacing": 0.1}}},
+                                      "step": 0.001, "duration": 0.0, "gravity": [0.0, 2.0, 0.0]})"))
+      << smallest.dump();
+}
+
+}  // namespace
+}  // namespace dartboard::relations_test

@@ -1,0 +1,218 @@
+#include "validation/drawn/changed_scene.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace dartboard {
+namespace {
+
+using Eigen::Vector3d;
+using Json = nlohmann::ordered_json;
+
+Vector3d vector_of(const Json& value) {
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+Json json_of_bits(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+void scale(Json& value, int power) {
+  if (value.is_array())
+    for (Json& part : value) scale(part, power);
+  else if (value.is_number())
+    value = std::ldexp(value.get<double>(), power);
+}
+
+/// The dimensions of a key, where those of the table are those for solids.
+Dimensions dimensions_among(const SceneKey& key, std::optional<int> dimension) {
+  Dimensions unit = dimensions_of(key.unit);
+  const bool is_of_material = key.shape == Shape::material || key.shape == Shape::tissue;
+  const int d = dimension.value_or(3);
+  if (is_of_material && key.name == "density") unit.length = -d;
+  if ((is_of_material && key.name == "young") || (key.shape == Shape::stress && key.name == "threshold"))
+    unit.length = 2 - d;
+  return unit;
+}
+
+Json turned(const Json& point) { return {point[1], point[2], point[0]}; }
+
+void turn_body(Json& body) {
+  Eigen::Matrix3d axes;
+  axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  Eigen::Matrix3d turn = axes;
+  if (body.contains("rotate"))
+    turn = axes * Eigen::AngleAxisd(body["rotate"]["degrees"].get<double>() * (std::numbers::pi / 180.0),
+                                    vector_of(body["rotate"]["axis"]).normalized());
+  const Eigen::AngleAxisd about(turn);
+  body["rotate"] = {{"axis", json_of_bits(about.axis())}, {"degrees", about.angle() * (180.0 / std::numbers::pi)}};
+}
+
+template <class F>
+void for_each_body(Json& scene, F&& f) {
+  if (scene.contains("body")) f(scene["body"]);
+  if (scene.contains("bodies"))
+    for (Json& body : scene["bodies"]) f(body);
+}
+
+}  // namespace
+
+Json in_units(Json scene, const Dimensions& powers, std::optional<int> dimension) {
+  scene = with_standards(std::move(scene));
+  for_each_key(scene, Shape::scene, "", [&](const SceneKey& key, Json& value, const std::string&) {
+    if (value.is_object() || key.type == ValueType::objects) {
+      // a traction on edges is a force per length
+      if (key.name == "forces")
+        for (Json& force : value)
+          if (force.contains("traction") && force.value("on", "") == "edges") scale(force["traction"], powers.length);
+      return;
+    }
+    const Dimensions unit = dimensions_among(key, dimension);
+    const int power = unit.length * powers.length + unit.time * powers.time + unit.mass * powers.mass;
+    if (power != 0) scale(value, power);
+  });
+  for_each_body(scene, [&](Json& body) {
+    if (body.contains("mesh")) body["scale"] = std::ldexp(body.value("scale", 1.0), powers.length);
+  });
+  return scene;
+}
+
+Json in_turned_axes(Json scene) {
+  scene = with_standards(std::move(scene));
+  for_each_key(scene, Shape::scene, "", [](const SceneKey& key, Json& value, const std::string&) {
+    if (key.shape == Shape::rotation) return;  // of bodies: below
+    const bool is_point = key.type == ValueType::point || (key.type == ValueType::point_or_object && value.is_array());
+    if (is_point) value = turned(value);
+    if (key.type == ValueType::points)
+      for (Json& point : value) point = turned(point);
+    if (key.type == ValueType::matrix) value = Json{turned(value[1]), turned(value[2]), turned(value[0])};
+    if (key.shape == Shape::held && key.name == "axes")
+      for (Json& axis : value) axis = axis == "x" ? "z" : axis == "y" ? "x" : "y";
+  });
+  for_each_body(scene, turn_body);
+  return scene;
+}
+
+Json with_disturbance(Json scene, double share) {
+  const double duration = scene["duration"].get<double>();
+  const auto disturb = [rate = duration > 0.0 ? share / duration : 0.0](Json& object) {
+    Json velocity = object.value("initial_velocity", Json{0, 0, 0});
+    if (velocity.is_array()) velocity = {{"constant", velocity}};
+    Json rows = velocity.value("linear", Json{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    // no motion has this symmetry
+    double part = 0.3;
+    for (Json& row : rows)
+      for (Json& x : row) {
+        x = x.get<double>() + rate * part;
+        part = std::fmod(part * 2.7 + 0.9, 2.0) - 1.0;
+      }
+    velocity["linear"] = rows;
+    object["initial_velocity"] = velocity;
+  };
+  disturb(scene);
+  for_each_body(scene, [&](Json& body) {
+    body["scale"] = body.value("scale", 1.0) * (1.0 + share);
+    if (body.contains("initial_velocity")) disturb(body);
+  });
+  return scene;
+}
+
+Json with_idle_event(Json scene) {
+  const double step = scene["step"].get<double>(), duration = scene["duration"].get<double>();
+  const double steps = std::floor(0.5 * duration / step);
+  const Json nowhere{{"sphere", {{"centre", {1e9, 1e9, 1e9}}, {"radius", 0}}}};
+  if (!scene.contains("events")) scene["events"] = Json::array();
+  scene["events"].push_back({{"at", steps * step}, {"remove", nowhere}});
+  return scene;
+}
+
+Json with_list_of_bodies(Json scene) {
+  Json body = scene["body"];
+  scene.erase("body");
+  scene["bodies"] = Json::array({body});
+  return scene;
+}
+
+std::optional<Json> with_body_far_away(Json scene, double size, double mass, int dimension) {
+  // sides of planes on which the body must be
+  std::vector<Vector3d> sides;
+  for_each_key(scene, Shape::scene, "", [&](const SceneKey& key, Json& value, const std::string&) {
+    if (key.name != "plane" || key.of != Shape::plane) return;
+    const Vector3d normal = vector_of(value["normal"]).normalized();
+    sides.emplace_back(key.shape == Shape::obstacle ? normal : Vector3d(-normal));
+  });
+  std::optional<Vector3d> way;
+  double margin = 0.2;
+  for (int k = 0; k < 27; ++k) {
+    const Vector3d direction = Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (k == 13) continue;
+    double least = 1.0;
+    for (const Vector3d& side : sides) least = std::min(least, side.dot(direction.normalized()));
+    if (least <= margin) continue;
+    margin = least;
+    way = direction.normalized();
+  }
+  if (!way) return std::nullopt;
+  if (scene.contains("body")) scene = with_list_of_bodies(std::move(scene));
+  const double edge = 0.1 * size;
+  const Json generate = dimension == 3   ? Json{{"box", {{"cells", {1, 1, 1}}, {"spacing", edge}}}}
+                        : dimension == 2 ? Json{{"sheet", {{"cells", {1, 1}}, {"spacing", edge}}}}
+                                         : Json{{"chain", {{"links", 1}, {"spacing", edge}}}};
+  const double step = scene["step"].get<double>();
+  const double density = mass / std::pow(size, dimension),
+               stiffness = 1e-6 * density * std::pow(edge, dimension) / (step * step);
+  Json material{{"density", density}, {"stiffness", stiffness}, {"damping", 0}};
+  if (dimension == 1) material["width"] = edge;
+  scene["bodies"].push_back({{"generate", generate},
+                             {"translate", json_of_bits(1000.0 * size * *way)},
+                             {"material", material},
+                             {"initial_velocity", {0, 0, 0}}});
+  return scene;
+}
+
+Json with_late_start(Json scene, int steps) {
+  const double later = steps * scene["step"].get<double>();
+  const auto delay = [later](Json& object, const char* key) { object[key] = object.value(key, 0.0) + later; };
+  scene["gravity"] = {0, 0, 0};
+  scene.erase("initial_velocity");
+  for_each_body(scene, [](Json& body) { body.erase("initial_velocity"); });
+  delay(scene, "duration");
+  if (scene.contains("driven"))
+    for (Json& drive : scene["driven"]) {
+      if (drive.contains("path"))
+        for (Json& place : drive["path"]) delay(place, "at");
+      if (drive.contains("turn"))
+        for (Json& angle : drive["turn"]["angles"]) delay(angle, "at");
+      if (drive.contains("velocity")) delay(drive, "from");
+      if (drive.contains("until")) delay(drive, "until");
+    }
+  if (scene.contains("forces"))
+    for (Json& force : scene["forces"]) {
+      delay(force, "from");
+      if (force.contains("until")) delay(force, "until");
+      if (force.contains("over_time"))
+        for (Json& factor : force["over_time"]) delay(factor, "at");
+    }
+  if (scene.contains("contact") && scene["contact"].contains("obstacles"))
+    for (Json& obstacle : scene["contact"]["obstacles"]) {
+      delay(obstacle, "from");
+      if (obstacle.contains("until")) delay(obstacle, "until");
+    }
+  if (scene.contains("events"))
+    for (Json& event : scene["events"]) {
+      delay(event, event.contains("at") ? "at" : "from");
+      if (event.contains("until")) delay(event, "until");
+    }
+  return scene;
+}
+
+bool names_numbers(const Json& scene) {
+  bool names = false;
+  Json copy = scene;
+  for_each_key(copy, Shape::scene, "", [&names](const SceneKey& key, Json&, const std::string&) {
+    names =
+        names || key.name == "ids" || key.name == "vertex" || (key.shape == Shape::dissociate && key.name == "points");
+  });
+  return names;
+}
+
+}  // namespace dartboard

@@ -1,0 +1,78 @@
+#pragma once
+// The motion of a scene as numbers with units, so that two runs can be compared after a change of units or of axes.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/run/simulation.h"
+#include "validation/drawn/scene_walk.h"
+
+namespace dartboard {
+
+/// Numbers of one kind at one time.
+struct Quantity {
+  enum class Kind { numbers, scalars, vectors, tensors };  // numbers of things: rounding changes none
+
+  std::string name;  // "positions at step 12"
+  Dimensions unit;
+  Kind kind = Kind::numbers;
+  std::vector<double> values;  // of vectors by components, of tensors by columns
+};
+
+/// The quantities of frames and diagnostics at three times of a run.
+struct DrawnMotion {
+  std::string end;  // empty for a run that came to its end; "speed at step 12": a divergence; or a refused step
+  std::vector<Quantity> quantities;
+};
+
+struct DrawnRunOptions {
+  unsigned threads = 1;
+  bool lanes = true;
+  std::uint64_t parts = 1;  // that each step of the scene has been divided into: quantities are those of the same times
+  bool continued = false;   // halfway the state is written, and read by another simulation that goes on
+};
+
+/// All of the run, in memory.
+///
+/// throws  InputError for a scene that is wrong
+DrawnMotion run_drawn(const nlohmann::ordered_json& scene, const std::filesystem::path& folder,
+                      const DrawnRunOptions& options = {});
+
+/// The same, of a run in other units: lengths, times and masses are 2^length, 2^time and 2^mass times as large.
+DrawnMotion in_units(DrawnMotion motion, const Dimensions& powers);
+/// The same, of a run in other axes: the old y, z and x are the new x, y and z.
+DrawnMotion in_turned_axes(DrawnMotion motion);
+
+/// The first difference of bits, in words; none where all are equal. NaN equals NaN.
+std::optional<std::string> different_bits(const DrawnMotion& expected, const DrawnMotion& found);
+/// Of these quantities as many values as the other run has, without those of all bodies together: what a run with
+/// another body has of the first ones.
+DrawnMotion first_of(const DrawnMotion& motion, const DrawnMotion& other);
+
+/// What is small for the quantities of a run: one for each of these.
+struct MotionScales {
+  double length = 1.0, time = 1.0, mass = 1.0;  // [m] its size; [s] its step; [kg]
+
+  double of(const Dimensions& unit) const;
+};
+
+/// By quantity, the largest absolute differences that are allowed.
+using Allowances = std::vector<double>;
+/// The differences of two runs that only rounding tells apart: 64 times those of `disturbed`, which begins elsewhere by
+/// far more than rounding, and at least 1e-12 in units of `scales`. None where that one differs in numbers of things:
+/// then rounding decides what happens.
+std::optional<Allowances> allowances(const DrawnMotion& motion, const DrawnMotion& disturbed,
+                                     const MotionScales& scales);
+/// Allows for each quantity a multiple of the difference of two more runs, too.
+void add_differences(Allowances& allowed, const DrawnMotion& one, const DrawnMotion& other, double factor);
+/// The first quantity that differs by more, in words.
+std::optional<std::string> differs_by_more(const DrawnMotion& expected, const DrawnMotion& found,
+                                           const Allowances& allowed);
+
+}  // namespace dartboard
